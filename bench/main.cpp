@@ -265,6 +265,14 @@ void add_studies(CLI::App& app, Program& program) {
                                        detail, study_detail);
     add_count(command, "--looks", detail->looks, "Photographs of independent phases that are averaged");
 
+    const auto eye = std::make_shared<EyeStudy>();
+    command = add_command<EyeStudy>(app, program, "eye", "Eye camera: pictures and times beside those from samples", 0,
+                                    eye, study_eye);
+    command->add_option("--scene", eye->scene, "A built-in scene")->type_name("NAME")->capture_default_str();
+    add_count(command, "--hogels", eye->hogels, "Hogels along a side");
+    add_count(command, "--looks", eye->looks, "Photographs of independent phases that are averaged");
+    add_count(command, "--rounds", eye->rounds, "Rounds of which medians are taken");
+
     const auto pattern = std::make_shared<PatternStudy>();
     command = add_command<PatternStudy>(app, program, "pattern",
                                         "Encodings for modulators: quality of photographs, light and time", 0, pattern,

@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "arguments.h"
 #include "concerns.h"
 #include "hogel/error.h"
 #include "hogel/units.h"
@@ -87,6 +89,50 @@ std::vector<Camera> make_cameras(const CameraOptions& options, double width, dou
             make_camera(options, width, height,
                         options.frames > 1 ? static_cast<double>(i) / static_cast<double>(options.frames - 1) : 0));
     return cameras;
+}
+
+void add_wave_camera_option(Command& command, std::string& camera, std::vector<std::string> names) {
+    const bool full = std::ranges::count(names, "full") > 0;
+    std::string type;
+    for (const std::string& name : names) type += (type.empty() ? "" : "|") + name;
+    command.choice("--camera", camera, std::move(names), type,
+                   std::string("How waves are photographed:"
+                               "\nauto: eye where the hogels are known and that is cheaper, otherwise narrow"
+                               "\neye: the few numbers of each hogel that enter the lens"
+                               "\nnarrow: the band that enters the lens, from all samples, tile by tile") +
+                       (full ? "\nfull: plane waves to the lens and back, exact and slow" : ""));
+}
+
+PhotographOptions photograph_options(const std::string& camera, bool expected) {
+    return {.from = camera == "eye"      ? LightFrom::hogels
+                    : camera == "narrow" ? LightFrom::samples
+                                         : LightFrom::cheaper,
+            .expected = expected};
+}
+
+void say_camera(const Session& session, std::span<const LightFieldGrid> faces, const HologramRequest& request,
+                std::span<const Camera> cameras, const PhotographOptions& options) {
+    const LightChoice choice = choose_light(faces, request, cameras, options);
+    if (options.from == LightFrom::hogels && choice.from != LightFrom::hogels)
+        throw Error(ErrorCode::usage, fmt::format("--camera eye: {}; --camera narrow would do", choice.reason));
+    session.detail(
+        fmt::format("camera: {}, because {}", choice.from == LightFrom::hogels ? "eye" : "narrow", choice.reason));
+}
+
+Option add_looks_option(Command& command, const std::string& names, std::string& text, const std::string& help) {
+    return command.text(names, text, "NUMBER|expected",
+                        help + "\nexpected: the mean of infinitely many, without speckle");
+}
+
+Looks parse_looks(const std::string& text) {
+    if (text == "expected") return {1, true};
+    constexpr double max_looks = 1 << 24;
+    const std::optional<double> number = parse_number(text);
+    if (!number || !(*number >= 1 && *number <= max_looks) || *number != std::floor(*number))
+        throw Error(ErrorCode::usage, fmt::format("--looks: '{}' is neither a number of pictures from 1 to {:.0f} nor "
+                                                  "expected",
+                                                  text, max_looks));
+    return {static_cast<std::size_t>(*number), false};
 }
 
 }  // namespace hogel::cli

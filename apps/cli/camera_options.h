@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+#include <string>
 #include <vector>
 
 #include "command_line.h"
 #include "hogel/camera.h"
 #include "hogel/pipeline.h"
+#include "session.h"
 
 namespace hogel::cli {
 
@@ -28,5 +31,24 @@ void add_camera_options(Command& command, CameraOptions& options);
 
 /// The cameras of all frames, for a hologram of this size. Throws Error(usage).
 std::vector<Camera> make_cameras(const CameraOptions& options, double width, double height);
+
+/// --camera, the way in which waves are photographed.
+void add_wave_camera_option(Command& command, std::string& camera, std::vector<std::string> names);
+/// What photograph() is asked for by --camera auto, eye or narrow, and --looks.
+PhotographOptions photograph_options(const std::string& camera, bool expected);
+/// Says with -v from what photographs are computed, and why. Throws Error(usage) for --camera eye where there are no
+/// waves of hogels, or so many of them enter the eye that samples are cheaper.
+void say_camera(const Session& session, std::span<const LightFieldGrid> faces, const HologramRequest& request,
+                std::span<const Camera> cameras, const PhotographOptions& options);
+
+/// --looks: a number of looks, or the mean of infinitely many.
+struct Looks {
+    std::size_t count = 0;
+    bool expected = false;
+};
+/// Adds --looks, whose text is parsed by parse_looks().
+Option add_looks_option(Command& command, const std::string& names, std::string& text, const std::string& help);
+/// Throws Error(usage).
+Looks parse_looks(const std::string& text);
 
 }  // namespace hogel::cli

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "camera_options.h"
 #include "commands.h"
 #include "concerns.h"
 #include "hogel/pipeline.h"
@@ -24,9 +25,10 @@ struct Options {
     double eye_distance = defaults.eye_distance;
     double pupil = defaults.pupil;
     std::size_t resolution = defaults.resolution;
-    std::size_t looks = 0;  // 0: enough_looks()
+    std::string looks;  // empty: enough_looks()
     std::size_t pupil_samples = defaults.pupil_samples;
-    bool store_hologram = false, force = false;
+    std::string camera = "auto";
+    bool store_hologram = false, keep_light_field = false, force = false;
 };
 
 struct Focus {
@@ -71,6 +73,7 @@ std::vector<PhotographPair> plan_photographs(const Options& options, const Scene
                          [&] { validate(pair.camera); });
             pair.wave_file = fmt::format("photo_{}_{}", eye_name, focus.name);
             pair.geometric_file = pair.wave_file + "_geometric";
+            pair.expected_file = pair.wave_file + "_expected";
             pairs.push_back(pair);
         }
     return pairs;
@@ -90,7 +93,9 @@ void write_pictures(const std::filesystem::path& folder, const Report& report) {
         Metadata metadata = report.run;
         metadata.emplace_back("exposure", fmt::format("{:.9g}", report.exposure));
         for (const char* extension : {".png", ".exr"}) {
-            write_image(folder / (pair.wave_file + extension), pair.wave, report.exposure, metadata);
+            if (report.looks > 0)
+                write_image(folder / (pair.wave_file + extension), pair.wave, report.exposure, metadata);
+            write_image(folder / (pair.expected_file + extension), pair.expected, report.exposure, metadata);
             write_image(folder / (pair.geometric_file + extension), pair.geometric, report.exposure, metadata);
         }
     }
@@ -98,19 +103,55 @@ void write_pictures(const std::filesystem::path& folder, const Report& report) {
 
 // Prints the resources that the work needs. Throws if they are not available.
 void state_plan(const LightFieldGrid& grid, const HologramRequest& request, std::span<const Camera> cameras,
-                const Session& session) {
-    const Plan plan = plan_photographs(std::span(&grid, 1), request, cameras);
-    state_plan(session, plan, "photographing the hologram");
+                const PhotographOptions& options, const Session& session) {
+    const std::span<const LightFieldGrid> faces(&grid, 1);
+    say_camera(session, faces, request, cameras, options);
+    state_plan(session, plan_photographs(faces, request, cameras, options), "photographing the hologram");
 }
+
+// The command that renders the light field again, from the options that describe the run.
+std::string render_command(const Metadata& run, const std::string& scene) {
+    constexpr std::array<std::string_view, 14> names{
+        "algorithm", "shading", "shadow-map", "cache-spacing", "cull-back-faces", "hogels", "directions",
+        "samples",   "size",    "fov",        "toward",        "front",           "as-is",  "fit"};
+    std::string command = "hogel render " + scene + " -o lightfield.h5";
+    for (const auto& [key, value] : run)
+        for (const std::string_view name : names) {
+            if (key != fmt::format("option {}", name) || value == "no") continue;
+            command += fmt::format(" --{}", name);
+            if (value != "yes") command += " " + value;
+        }
+    return command;
+}
+
+// A file that is removed in the end, unless it is to be kept.
+class PassingFile {
+  public:
+    PassingFile(std::filesystem::path path, bool keep) : path_(std::move(path)), keep_(keep) {}
+    PassingFile(const PassingFile&) = delete;
+    PassingFile& operator=(const PassingFile&) = delete;
+    ~PassingFile() {
+        std::error_code none;
+        if (!keep_) std::filesystem::remove(path_, none);
+    }
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+    bool keep_;
+};
 
 // The most important facts of report.json.
 Result result_of(const Report& report, const std::string& folder, const Session& session) {
     ResultList photographs;
-    for (const PhotographPair& pair : report.pairs)
-        photographs.push_back(Result{{"file", pair.wave_file + ".png"},
+    for (const PhotographPair& pair : report.pairs) {
+        const ImageComparison& seen = report.looks > 0 ? pair.comparison : pair.expected_comparison;
+        photographs.push_back(Result{{"file", (report.looks > 0 ? pair.wave_file : pair.expected_file) + ".png"},
+                                     {"expected_file", pair.expected_file + ".png"},
                                      {"geometric_file", pair.geometric_file + ".png"},
-                                     {"psnr", pair.comparison.psnr},
-                                     {"ssim", pair.comparison.ssim}});
+                                     {"psnr", seen.psnr},
+                                     {"ssim", seen.ssim}});
+    }
     const Grid& picture = report.pairs.front().camera.picture;
     return {{"folder", folder},
             {"report", "report.html"},
@@ -141,24 +182,29 @@ int make(const Options& options, const Session& session) {
     const Scene scene = load_scene(session, options.scene, options.render);
     report.triangles = triangle_count(scene);
     report.pairs = plan_photographs(options, scene, report.light_field);
-    report.looks = options.looks > 0 ? options.looks : enough_looks(report.pairs.front().camera);
+    const Looks looks =
+        options.looks.empty() ? Looks{enough_looks(report.pairs.front().camera)} : parse_looks(options.looks);
+    report.looks = looks.expected ? 0 : looks.count;
     std::vector<Camera> cameras;
     for (const PhotographPair& pair : report.pairs) cameras.push_back(pair.camera);
-    const HologramRequest request = options.hologram.request(session, report.looks);
+    const HologramRequest request = options.hologram.request(session, looks.count);
     with_options({{"pupil", "--pupil, --pitch"}, {"the eye", "--eye-distance, --pitch"}, {"", "--pitch, --fov"}},
                  [&] { require_holograms(std::span(&report.light_field, 1), request, cameras); });
-    state_plan(report.light_field, request, cameras, session);
+    const PhotographOptions with = photograph_options(options.camera, looks.expected);
+    state_plan(report.light_field, request, cameras, with, session);
 
     const OutputFolder folder(options.output, options.force);
-    const std::filesystem::path light_field_file = folder.path() / "lightfield.h5";
+    const PassingFile light_field_file(folder.path() / "lightfield.h5", options.keep_light_field);
+    report.render_command = render_command(report.run, options.scene);
+    report.scene_input = describe_input(options.scene, scene);
 
     timed(session, report, "light field", [&](Stage& stage) {
         const LightField rendered = render_light_field(session, scene, options.render);
         require_memory(session, rendered, options.render, scene);
-        write_light_field(light_field_file, rendered, {.metadata = report.run}, stage.progress());
+        write_light_field(light_field_file.path(), rendered, {.metadata = report.run}, stage.progress());
     });
-    report.light_field_bytes = std::filesystem::file_size(light_field_file);
-    const LightField light_field = open_light_field(light_field_file);
+    if (options.keep_light_field) report.light_field_bytes = std::filesystem::file_size(light_field_file.path());
+    const LightField light_field = open_light_field(light_field_file.path());
     const auto holograms = make_holograms(light_field, request);
     for (const auto& hologram : holograms) report.holograms.push_back(hologram->grid());
 
@@ -170,14 +216,23 @@ int make(const Options& options, const Session& session) {
         timed(session, report, "hologram file", [&](Stage& stage) {
             write_holograms(folder.path() / "hologram.h5", holograms, {.metadata = report.run}, stage.progress());
         });
-    timed(session, report, "photographs by waves", [&](Stage& stage) {
-        std::vector<Image> pictures = photograph_colours(holograms, cameras, PhotographOptions(), stage.progress());
-        for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].wave = std::move(pictures[i]);
+    if (!looks.expected)
+        timed(session, report, "photographs by waves", [&](Stage& stage) {
+            std::vector<Image> pictures = photograph_colours(holograms, cameras, with, stage.progress());
+            for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].wave = std::move(pictures[i]);
+        });
+    timed(session, report, "expected photographs", [&](Stage& stage) {
+        std::vector<Image> pictures =
+            photograph_colours(holograms, cameras, PhotographOptions{.expected = true}, stage.progress());
+        for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].expected = std::move(pictures[i]);
     });
 
     // One exposure for all pictures, from the view from above.
     report.exposure = automatic_exposure(report.pairs[1].geometric);
-    for (PhotographPair& pair : report.pairs) pair.comparison = compare(pair.geometric, pair.wave, report.exposure);
+    for (PhotographPair& pair : report.pairs) {
+        if (report.looks > 0) pair.comparison = compare(pair.geometric, pair.wave, report.exposure);
+        pair.expected_comparison = compare(pair.geometric, pair.expected, report.exposure);
+    }
     write_pictures(folder.path(), report);
     write_text(folder.path() / "report.json", report_json(report));
     write_text(folder.path() / "report.html", report_html(report));
@@ -199,15 +254,17 @@ void add_make(Command& command, Session& session) {
     add_force_flag(command, options->force);
     command.flag("--store-hologram", options->store_hologram,
                  "Keep hologram.h5 too; otherwise it streams through and is never stored");
+    command.flag("--keep-light-field", options->keep_light_field,
+                 "Keep lightfield.h5 too; the report has the command that renders it again");
     command.group("Hologram");
     command.positive_length("--pitch", options->hologram.pitch, "Distance of samples, rounded to divide a hogel");
     command.group("Camera");
     command.positive_length("--eye-distance", options->eye_distance, "Of the lens from the hologram's plane");
     command.positive_length("--pupil", options->pupil, "Diameter of the lens");
+    add_wave_camera_option(command, options->camera, {"auto", "eye", "narrow"});
     command.count("--resolution", options->resolution, "Pixels across a photograph");
-    command
-        .count("--looks", options->looks,
-               "Photographs averaged against speckle; fewer are enough where a pixel holds much of it")
+    add_looks_option(command, "--looks", options->looks,
+                     "Photographs averaged against speckle; fewer are enough where a pixel holds much of it")
         .default_text(fmt::format("up to {}", defaults.looks));
     command.count("--pupil-samples", options->pupil_samples, "Points of the pupil in a photograph by rays");
     add_render_options(command, options->render);

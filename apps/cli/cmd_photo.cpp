@@ -23,7 +23,7 @@ struct Options {
     HologramChoices hologram;
     FieldOptions field;
     CameraOptions view;
-    std::size_t looks = defaults.looks;
+    std::string looks = std::to_string(defaults.looks);
     std::size_t pupil_samples = defaults.pupil_samples;
     std::string exposure = "auto", display = "intensity";
     std::string camera = "auto";
@@ -37,9 +37,7 @@ struct Options {
             return PlaneWaveCameraOptions{
                 {.memory = ScratchOptions().memory, .folder = std::filesystem::absolute(output).parent_path()},
                 film_distance};
-        return PhotographOptions{.from = camera == "eye"      ? LightFrom::hogels
-                                         : camera == "narrow" ? LightFrom::samples
-                                                              : LightFrom::cheaper};
+        return photograph_options(camera, parse_looks(looks).expected);
     }
 };
 
@@ -55,7 +53,11 @@ std::vector<Image> develop(Stage& stage, const Fields& fields, std::span<const C
                            const Options& options) {
     if (options.display != "phase")
         return with_options(
-            {{"tilted", "--focus-tilt"}, {"film", "--film-distance"}, {"pupil", "--pupil"}, {"", "--camera"}},
+            {{"tilted", "--focus-tilt"},
+             {"film", "--film-distance"},
+             {"pupil", "--pupil"},
+             {"infinitely", "--looks expected"},
+             {"", "--camera"}},
             [&] { return photograph_colours(fields, cameras, options.wave_camera(), stage.progress()); });
     if (fields.size() != 1)
         throw Error(ErrorCode::usage,
@@ -110,9 +112,15 @@ std::vector<Image> photographs_of_light_field(const Options& options, const Sess
             return photograph(light_field, cameras, {options.pupil_samples}, stage.progress());
         });
     }
-    const HologramRequest request = options.hologram.request(session, options.looks);
+    const HologramRequest request = options.hologram.request(session, parse_looks(options.looks).count);
     check_holograms(light_field.grids(), request, kind == InputKind::scene, cameras);
-    state_plan(session, plan_photographs(light_field.grids(), request, cameras), "photographing the hologram");
+    const WaveCamera with = options.wave_camera();
+    const auto* const narrow = std::get_if<PhotographOptions>(&with);
+    if (narrow != nullptr) say_camera(session, light_field.grids(), request, cameras, *narrow);
+    state_plan(
+        session,
+        plan_photographs(light_field.grids(), request, cameras, narrow != nullptr ? *narrow : PhotographOptions()),
+        "photographing the hologram");
     if (kind == InputKind::scene)
         light_field = prepare_for_reading(session, light_field, request.channels.size(), needs_depth(request.method));
     const auto holograms = make_holograms(light_field, request);
@@ -130,6 +138,17 @@ void require_sense(const Options& options, InputKind kind, bool geometric) {
     if (kind == InputKind::hologram && options.camera == "eye")
         throw Error(ErrorCode::usage,
                     "--camera eye: needs the hogels of a light field or a scene; of a hologram only samples are known");
+    const bool expected = parse_looks(options.looks).expected;
+    if (expected && kind == InputKind::hologram)
+        throw Error(ErrorCode::usage,
+                    "--looks expected: needs the hogels of a light field or a scene; of a hologram only samples are "
+                    "known");
+    if (expected && geometric)
+        throw Error(ErrorCode::usage, "--looks expected: is of waves, and rays have no speckle; give --wave");
+    if (expected && (options.camera == "narrow" || options.camera == "full"))
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("--looks expected: needs the hogels, not samples; leave out --camera {}", options.camera));
     if (options.film_distance != 0 && options.camera != "full")
         throw Error(ErrorCode::usage, "--film-distance: the thin lens belongs to the full camera; add --camera full");
     if (options.display == "phase" && (options.camera != "full" || options.film_distance != 0))
@@ -197,20 +216,15 @@ int photo(const Options& options, const Session& session) {
 
 void add_photo_options(Command& command, Options& options) {
     command.group("Camera");
-    command.count("--looks,--average", options.looks,
-                  "Photographs averaged against speckle, unless of a hologram file");
+    add_looks_option(command, "--looks,--average", options.looks,
+                     "Photographs averaged against speckle, unless of a hologram file");
     command.text("--exposure", options.exposure, "NUMBER|auto", "What linear values are multiplied by in PNG, or auto");
     command.choice("--display", options.display, {"intensity", "log", "phase"}, "intensity|log|phase",
                    "What a photograph by waves shows:"
                    "\nintensity: linear light"
                    "\nlog: four decades of it from black to white"
                    "\nphase: its phase beside that of light through the middle of the lens, from -pi to pi");
-    command.choice("--camera", options.camera, {"auto", "eye", "narrow", "full"}, "auto|eye|narrow|full",
-                   "How waves are photographed:"
-                   "\nauto: eye where the hogels are known and that is cheaper, otherwise narrow"
-                   "\neye: the few numbers of each hogel that enter the lens"
-                   "\nnarrow: the band that enters the lens, from all samples, tile by tile"
-                   "\nfull: plane waves to the lens and back, exact and slow");
+    add_wave_camera_option(command, options.camera, {"auto", "eye", "narrow", "full"});
     command.length("--film-distance", options.film_distance,
                    "From a thin lens to its film, for the full camera, with its aberrations; 0mm: a perfect lens");
     const Option geometric =

@@ -94,7 +94,7 @@ std::string eye_title(const Vec3& eye) {
     return "From " + x + (x.empty() || y.empty() ? "" : ", ") + y;
 }
 
-std::string picture(const Image& image, const std::string& file, const char* label, const std::string& alt,
+std::string picture(const Image& image, const std::string& file, const std::string& label, const std::string& alt,
                     double exposure) {
     return fmt::format(
         "<a href=\"{}.png\"><img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">"
@@ -112,12 +112,27 @@ std::string pictures_html(const Report& report) {
             open_focus = pair.focus_name;
         }
         const std::string eye = eye_title(pair.camera.eye);
+        std::string pictures, numbers;
+        const auto add = [&](const Image& image, const std::string& file, const std::string& label,
+                             const std::string& by) {
+            pictures += picture(image, file, label, eye + ", photographed by " + by, report.exposure);
+        };
+        const auto compare = [&](const std::string& name, const ImageComparison& comparison) {
+            numbers += fmt::format("<span class=\"soft num\">{}: PSNR {} · SSIM {:.3f}</span>", name,
+                                   decibel_text(comparison.psnr), comparison.ssim);
+        };
+        if (report.looks > 0) {
+            const std::string looks = fmt::format("{} look{}", report.looks, report.looks == 1 ? "" : "s");
+            add(pair.wave, pair.wave_file, "waves, " + looks, "waves");
+            compare(looks, pair.comparison);
+        }
+        add(pair.expected, pair.expected_file, "waves, infinitely many looks",
+            "waves, the mean of infinitely many looks");
+        compare("infinitely many looks", pair.expected_comparison);
+        add(pair.geometric, pair.geometric_file, "rays", "rays");
         html += fmt::format(
-            "<figure class=\"pair\"><div class=\"two\">{}{}</div>\n<figcaption><span>{}</span>"
-            "<span class=\"soft num\">PSNR {} · SSIM {:.3f}</span></figcaption></figure>\n",
-            picture(pair.wave, pair.wave_file, "waves", eye + ", photographed by waves", report.exposure),
-            picture(pair.geometric, pair.geometric_file, "rays", eye + ", photographed by rays", report.exposure), eye,
-            decibel_text(pair.comparison.psnr), pair.comparison.ssim);
+            "<figure class=\"pair\"><div class=\"row\">{}</div>\n<figcaption><span>{}</span>{}</figcaption></figure>\n",
+            pictures, eye, numbers);
     }
     return html + "</div>";
 }
@@ -156,14 +171,18 @@ std::string tables_html(const Report& report) {
                 {"Field of view", fmt::format("{:.4g}° × {:.4g}°", 2 * std::atan(grid.half_u()) / degree,
                                               2 * std::atan(grid.half_v()) / degree)},
                 {"Rays", fmt::format("{:.4g} million", 1e-6 * grid.samples() / static_cast<double>(grid.channels))},
-                {"Light field file", format_bytes(static_cast<double>(report.light_field_bytes))}};
-    Rows hologram{{"Samples", samples_text(report)},
-                  {"Pitch", fmt::format("{:.4g} µm", plane.pitch_x * 1e6)},
-                  {"Wavelengths", wavelengths_text(report)},
-                  {"Size if it were stored", format_bytes(field_bytes)},
-                  {"Lens", fmt::format("{} wide, {} away", format_length(camera.pupil), format_length(camera.eye.z))},
-                  {"Looks averaged", fmt::format("{}", report.looks)},
-                  {"Exposure", fmt::format("{:.4g}", report.exposure)}};
+                {"Light field file", report.light_field_bytes > 0
+                                         ? format_bytes(static_cast<double>(report.light_field_bytes))
+                                         : "not kept; scene and options are, from which it can be rendered again: " +
+                                               report.render_command}};
+    Rows hologram{
+        {"Samples", samples_text(report)},
+        {"Pitch", fmt::format("{:.4g} µm", plane.pitch_x * 1e6)},
+        {"Wavelengths", wavelengths_text(report)},
+        {"Size if it were stored", format_bytes(field_bytes)},
+        {"Lens", fmt::format("{} wide, {} away", format_length(camera.pupil), format_length(camera.eye.z))},
+        {"Looks averaged", report.looks > 0 ? fmt::format("{}; and infinitely many", report.looks) : "infinitely many"},
+        {"Exposure", fmt::format("{:.4g}", report.exposure)}};
     Rows times;
     for (const auto& [name, seconds] : report.stages) {
         std::string title = name;
@@ -205,14 +224,15 @@ std::string report_json(const Report& report) {
     const LightFieldGrid& grid = report.light_field;
     Json json;
     for (const auto& [name, value] : report.run) json["run"][name] = value;
-    json["scene"] = {{"name", report.scene}, {"triangles", report.triangles}};
+    json["scene"] = {{"name", report.scene}, {"input", report.scene_input}, {"triangles", report.triangles}};
     json["light_field"] = {{"algorithm", report.algorithm},
                            {"hogels", {grid.hogels_s, grid.hogels_t}},
                            {"directions", {grid.directions_u, grid.directions_v}},
                            {"pitch", grid.pitch},
                            {"tan_half", {grid.half_u(), grid.half_v()}},
-                           {"file", "lightfield.h5"},
-                           {"bytes", report.light_field_bytes}};
+                           {"render", report.render_command}};
+    if (report.light_field_bytes > 0)
+        json["light_field"].update({{"file", "lightfield.h5"}, {"bytes", report.light_field_bytes}});
     for (const FieldGrid& hologram : report.holograms)
         json["holograms"].push_back({{"wavelength", hologram.wavelength},
                                      {"samples", {hologram.plane.width, hologram.plane.height}},
@@ -228,12 +248,16 @@ std::string report_json(const Report& report) {
                                        {"focus_depth", camera.focus_depth},
                                        {"pupil", camera.pupil},
                                        {"pixels", {camera.picture.width, camera.picture.height}},
-                                       {"wave", pair.wave_file + ".png"},
+                                       {"expected", pair.expected_file + ".png"},
                                        {"geometric", pair.geometric_file + ".png"},
-                                       {"psnr", number(pair.comparison.psnr)},
-                                       {"ssim", number(pair.comparison.ssim)},
-                                       {"max_error", number(pair.comparison.max_error)},
-                                       {"linear_psnr", number(pair.comparison.linear_psnr)}});
+                                       {"expected_psnr", number(pair.expected_comparison.psnr)},
+                                       {"expected_ssim", number(pair.expected_comparison.ssim)}});
+        if (report.looks == 0) continue;
+        json["photographs"].back().update({{"wave", pair.wave_file + ".png"},
+                                           {"psnr", number(pair.comparison.psnr)},
+                                           {"ssim", number(pair.comparison.ssim)},
+                                           {"max_error", number(pair.comparison.max_error)},
+                                           {"linear_psnr", number(pair.comparison.linear_psnr)}});
     }
     for (const auto& [name, seconds] : report.stages) json["stages"].push_back({{"name", name}, {"seconds", seconds}});
     json["seconds"] = seconds_in_all(report);

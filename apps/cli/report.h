@@ -17,9 +17,11 @@ namespace hogel::cli {
 struct PhotographPair {
     std::string eye_name, focus_name;  ///< "left", "plane": parts of the file names
     Camera camera;
-    Image wave, geometric;
-    std::string wave_file, geometric_file;  ///< names in the report's folder, without extension
-    ImageComparison comparison;
+    Image wave;      ///< the mean of the looks; empty without looks
+    Image expected;  ///< the mean of infinitely many looks
+    Image geometric;
+    std::string wave_file, expected_file, geometric_file;  ///< names in the report's folder, without extension
+    ImageComparison comparison, expected_comparison;       ///< of the waves with the rays
 };
 
 /// All facts that `hogel make` reports about its run.
@@ -28,9 +30,11 @@ struct Report {
     std::size_t triangles = 0;
     std::string algorithm;
     LightFieldGrid light_field;
-    std::uintmax_t light_field_bytes = 0;  ///< of the file
+    std::uintmax_t light_field_bytes = 0;  ///< of the file; 0: it is not kept
+    std::string render_command;            ///< which renders the light field again
+    std::string scene_input;               ///< what identifies the scene: see describe_input()
     std::vector<FieldGrid> holograms;
-    std::size_t looks = 0;
+    std::size_t looks = 0;  ///< 0: only the mean of infinitely many
     std::size_t pupil_samples = 0;
     double exposure = 1;  ///< of all pictures
     std::vector<PhotographPair> pairs;

@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <complex>
 #include <cstdio>
+#include <memory>
 #include <random>
 
 #include "bench/measure.h"
 #include "bench/studies/studies.h"
 #include "hogel/math/fft.h"
-#include "hogel/optics/capture.h"
 #include "hogel/optics/narrow_band/narrow_band.h"
 #include "hogel/optics/spectrum.h"
 #include "hogel/photograph.h"
@@ -40,16 +40,17 @@ void narrow_band(std::size_t across, std::size_t rounds) {
 }
 
 void new_focus(std::size_t rounds) {
-    const Field field = noise(4608);  // 7.2 mm, 228 resolution cells
+    const auto field = std::make_shared<const Field>(noise(4608));  // 7.2 mm, 228 resolution cells
+    EyePhotographer photographer({field});
     Camera camera;
     camera.pupil = 6_mm;
     camera.focus_depth = 6_mm;
-    camera.picture = {1024, 1024, field.grid().plane.size_x() / 1024, field.grid().plane.size_y() / 1024, 0, 0};
-    const auto eyes = optics::capture(field, {&camera, 1});
-    const Times first = best_time_of([&] { eyes.front().photograph(camera); }, 3 * rounds);
+    camera.picture = {1024, 1024, field->grid().plane.size_x() / 1024, field->grid().plane.size_y() / 1024, 0, 0};
+    photographer.photograph(camera);
+    const Times first = best_time_of([&] { photographer.photograph(camera); }, 3 * rounds);
     camera.pupil = 4_mm;
     camera.focus_depth = -5_mm;
-    const Times second = best_time_of([&] { eyes.front().photograph(camera); }, 3 * rounds);
+    const Times second = best_time_of([&] { photographer.photograph(camera); }, 3 * rounds);
     std::printf("new focus: %.1f ms (%.1f), new pupil and focus: %.1f ms (%.1f) at 1024 x 1024 pixels\n",
                 1e3 * first.wall, 1e3 * first.processor, 1e3 * second.wall, 1e3 * second.processor);
 }

@@ -40,6 +40,18 @@ struct DetailStudy {
 /// 256 samples of 3 µm at 633 nm, the camera a pupil of 4 mm, 100 mm away, and pixels of 12.5 µm.
 void study_detail(const DetailStudy& study);
 
+struct EyeStudy {
+    std::string scene = "pumpkin";  ///< a name in scenes()
+    std::size_t hogels = 400;       ///< along a side; the hologram and its directions are the defaults of hogel make
+    std::size_t looks = 1;
+    std::size_t rounds = 3;
+};
+/// The eye camera beside the narrow-band camera, which computes all samples, with the same phases: one colour, 532 nm,
+/// from a light field in memory, for eyes over the cone that the field of view covers, focuses and pupils. Prints PSNR
+/// and maximum error of display values, and processor seconds of both, medians of rounds in turns; then those of the
+/// mean of infinitely many looks, of a new eye of EyePhotographer, and of another focus of the same eye.
+void study_eye(const EyeStudy& study);
+
 struct PatternStudy {
     std::size_t samples = 512;  ///< along a side of the hologram
     std::size_t iterations = 40;

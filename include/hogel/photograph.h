@@ -3,6 +3,8 @@
 
 #include <complex>
 #include <cstddef>
+#include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -26,6 +28,10 @@ enum class LightFrom {
 struct PhotographOptions {
     std::size_t memory = std::size_t{2} << 30;  ///< bytes that a photograph may use, without the pictures
     LightFrom from = LightFrom::cheaper;
+    /// The mean of infinitely many looks, without speckle, instead of that of the source's looks: the sum of the
+    /// intensities of all waves, what ideal time multiplexing shows. For stereograms that are made on demand and whose
+    /// waves have independent random phases, Fourier with Phases::random; photograph() throws Error(usage) for others.
+    bool expected = false;
 };
 
 /// Photographs a hologram by wave optics with the narrow-band camera (docs/notation.md, section 4): the field is
@@ -96,6 +102,35 @@ HOGEL_API std::vector<Array<std::complex<float>, 2>> waves_in_focus(const FieldS
 /// @param subpixels            points across a pixel, by Gauss' quadrature
 HOGEL_API Image photograph_directly(const FieldSource& hologram, const Camera& camera, std::size_t pupil_points_across,
                                     std::size_t subpixels = 1);
+
+/// Photographs of holograms of one or three wavelengths from one eye after the other, for interactive use. It keeps
+/// what all eyes share, the amplitudes of the waves of a stereogram, and the light in the pupil of the last eye, so
+/// that a new eye costs only that eye, and a new focus or picture of the same eye, or a slightly narrower pupil, only
+/// the films. Pictures are those of photograph().
+///
+/// A photograph can be stopped at any time: the looks of its eye that were drawn before are kept, and asking for the
+/// same eye again continues with the others. For one thread at a time.
+class HOGEL_API EyePhotographer {
+  public:
+    /// Computes what all eyes share, as far as options.memory allows; half of that is for the light of the last eye.
+    /// Throws Error(usage) for other numbers of holograms, and as photograph() does if options.expected.
+    explicit EyePhotographer(std::vector<std::shared_ptr<const FieldSource>> holograms,
+                             const PhotographOptions& options = {}, const Progress& progress = {});
+    ~EyePhotographer();
+    EyePhotographer(EyePhotographer&&) noexcept;
+    EyePhotographer& operator=(EyePhotographer&&) noexcept;
+
+    /// Receives the mean of the first `looks` looks, in all colours.
+    using Shown = std::function<void(const Image& picture, std::size_t looks)>;
+
+    /// The mean of all looks. Calls `shown` after each of them, so that the first is seen at once and speckle fades.
+    /// Throws Error(usage) as photograph() does, and Error(cancelled).
+    Image photograph(const Camera& camera, const Shown& shown = {}, const Progress& progress = {});
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 /// Width λR/A of the smallest detail on the hologram that a camera resolves, metres.
 HOGEL_API double resolution_cell(const Camera& camera, double wavelength);

@@ -228,7 +228,18 @@ HOGEL_API Plan plan_light_field(const LightField& rendered, const LightFieldRequ
 /// Resources to make holograms of an existing light field and write them to a file.
 HOGEL_API Plan plan_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                               const HologramFileOptions& file = {});
-/// Resources to photograph holograms that are computed on demand, by the narrow-band camera.
+/// From what photograph() computes the light towards eyes, and a clause that says why.
+struct LightChoice {
+    LightFrom from = LightFrom::samples;  ///< hogels or samples
+    std::string reason;
+};
+/// The choice of photograph() for holograms of a light field with these faces. From hogels, whose waves the methods
+/// Fourier and PhaseAdded know, if an eye's band has at most half as many samples as a hogel along an axis, for the
+/// widest band of all cameras and colours; otherwise from samples.
+HOGEL_API LightChoice choose_light(std::span<const LightFieldGrid> faces, const HologramRequest& request,
+                                   std::span<const Camera> cameras, const PhotographOptions& options = {});
+
+/// Resources to photograph holograms that are computed on demand, from what choose_light() says.
 HOGEL_API Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                                 std::span<const Camera> cameras, const PhotographOptions& options = {});
 

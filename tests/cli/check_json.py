@@ -40,7 +40,7 @@ SLM = FILE | {"width": COUNT, "height": COUNT, "pixel_pitch_m": REAL, "levels": 
 PATTERN = {"wavelength_m": REAL, "efficiency": REAL}
 MADE = {"folder": WORD, "report": WORD, "triangles": COUNT, "wavelengths_m": [REAL], "looks": COUNT, "width": COUNT,
         "height": COUNT, "exposure": REAL, "seconds": REAL,
-        "photographs": [{"file": WORD, "geometric_file": WORD, "psnr": DECIBELS, "ssim": REAL}]}
+        "photographs": [{"file": WORD, "expected_file": WORD, "geometric_file": WORD, "psnr": DECIBELS, "ssim": REAL}]}
 SMALL = "--hogels 6x4 --directions 8x6 --size 1mm"
 EYE = "--eye 0,0,40mm --pupil 4mm --resolution 8"
 

@@ -61,15 +61,24 @@ class FourierSynthesis final : public HogelSynthesis, public HogelWaves {
         thread_local Array<Complex, 2> plain;
         if (plain.shape() != Shape<2>{n, n}) plain = Array<Complex, 2>({n, n});
         spread_phases(moduli, place, plain);
-        if (n % rows_together != 0) std::fill_n(waves, size(n), 0.0f);
-        for (std::size_t row = 0; row < n; ++row) {
-            float* to = waves + 2 * (row / rows_together * rows_together * n) + row % rows_together;
-            for (std::size_t column = 0; column < n; ++column, to += 2 * rows_together) {
-                to[0] = plain(row, column).real();
-                to[rows_together] = plain(row, column).imag();
-            }
-        }
+        store_waves(plain, waves);
     }
+
+    void powers(std::span<const float> moduli, float* powers) const override {
+        const std::size_t n = frequencies_.columns();
+        if (fast_) {  // moduli are in the same order
+            for (std::size_t i = 0; i < moduli.size(); ++i) powers[i] = moduli[i] * moduli[i];
+            return;
+        }
+        if (n % rows_together != 0) std::fill_n(powers, powers_size(n), 0.0f);
+        for (std::size_t row = 0; row < n; ++row)
+            for (std::size_t column = 0; column < n; ++column) {
+                const float modulus = moduli[row * n + column];
+                powers[(row / rows_together * n + column) * rows_together + row % rows_together] = modulus * modulus;
+            }
+    }
+
+    bool independent() const override { return directions_.empty(); }
 
   private:
     void prepare(View<const float, 2> values, bool of_roots, View<float, 2> moduli) const {

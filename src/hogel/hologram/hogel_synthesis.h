@@ -26,11 +26,31 @@ class HogelWaves {
     /// @param prepared  by HogelSynthesis::prepare()
     /// @param waves     aligned to a cache line
     virtual void waves(std::span<const float> prepared, const HogelPlace& place, float* waves) const = 0;
+    /// |waves|² in blocks of sixteen rows [row / 16][column][row mod 16], zero in rows beyond n: powers_size() values.
+    /// Only if the waves are independent.
+    virtual void powers(std::span<const float> prepared, float* powers) const = 0;
+    /// Whether the phases of all waves of all hogels are random and independent.
+    virtual bool independent() const = 0;
     static constexpr std::size_t rows_together = 16;
+    static std::size_t powers_size(std::size_t samples) { return size(samples) / 2; }
     static std::size_t size(std::size_t samples) {
         return (samples + rows_together - 1) / rows_together * rows_together * samples * 2;
     }
 };
+
+/// Stores n×n waves, [row][column] of frequencies 0 … n−1, in the layout of HogelWaves::waves().
+inline void store_waves(View<const std::complex<float>, 2> plain, float* waves) {
+    constexpr std::size_t together = HogelWaves::rows_together;
+    const std::size_t n = plain.extent(0);
+    if (n % together != 0) std::fill_n(waves, HogelWaves::size(n), 0.0f);
+    for (std::size_t row = 0; row < n; ++row) {
+        float* to = waves + 2 * (row / together * together * n) + row % together;
+        for (std::size_t column = 0; column < n; ++column, to += 2 * together) {
+            to[0] = plain(row, column).real();
+            to[together] = plain(row, column).imag();
+        }
+    }
+}
 
 /// Computes the n×n samples of a hogel from its rays in two steps, the first of which is shared by all looks. Each
 /// synthesis defines whether phases are counted from the hogel's centre or from its first sample.

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "hogel/core/object_pool.h"
+#include "hogel/core/parallel.h"
 #include "hogel/hologram/eye/stereogram_eyes.h"
 #include "hogel/hologram/hogel_synthesis.h"
 #include "hogel/hologram/windows/overlap_add.h"
@@ -37,7 +38,7 @@ std::unique_ptr<HogelSynthesis> make_synthesis(std::span<const LightFieldGrid> f
 }
 
 // A stereogram of hogels side by side.
-class Stereogram final : public FieldSource, public optics::EyeLight {
+class Stereogram final : public FieldSource, public optics::EyeLight, public optics::WavePowers {
   public:
     Stereogram(const LightField& light_field, const FieldGrid& grid, const HologramOptions& options, RayValues values)
         : light_field_(light_field),
@@ -96,6 +97,39 @@ class Stereogram final : public FieldSource, public optics::EyeLight {
         };
         return eye::make_stereogram_eyes({grid_, columns_, waves, synthesis_->prepared_size(), prepare_hogels},
                                          hogels_of(part), eyes);
+    }
+
+    std::size_t keep_amplitudes(std::size_t memory) const override {
+        const Shape<2> shape{front().hogels(), synthesis_->prepared_size()};
+        const std::size_t bytes = shape[0] * shape[1] * sizeof(float);
+        if (synthesis_->hogel_waves() == nullptr || bytes > memory) return 0;
+        if (kept_.size() > 0) return bytes;
+        Array<float, 2> amplitudes(shape);
+        core::parallel_for(front().hogels_t, [&](std::size_t t) {
+            auto scratch = scratch_pool_.take();
+            const HogelRange row{0, t, front().hogels_s, 1};
+            prepare(row, scratch->rays, {&amplitudes(t * row.ns, 0), {row.ns, shape[1]}});
+        });
+        kept_ = std::move(amplitudes);
+        return bytes;
+    }
+
+    const optics::WavePowers* wave_powers() const override {
+        const HogelWaves* waves = synthesis_->hogel_waves();
+        return waves != nullptr && waves->independent() ? this : nullptr;
+    }
+
+    Counts counts() const override { return {front().hogels_s, front().hogels_t, columns_}; }
+
+    void read_powers(const Region& part, View<float, 2> out) const override {
+        const HogelRange hogels{part.x0, part.y0, part.width, part.height};
+        auto scratch = scratch_pool_.take();
+        const Shape<2> shape{hogels.hogels(), synthesis_->prepared_size()};
+        if (scratch->prepared.size() < shape[0] * shape[1]) scratch->prepared = Array<float, 2>(shape);
+        const View<float, 2> prepared(scratch->prepared.data(), shape);
+        prepare(hogels, scratch->rays, prepared);
+        for (std::size_t h = 0; h < hogels.hogels(); ++h)
+            synthesis_->hogel_waves()->powers(prepared[h].elements(), &out(h, 0));
     }
 
   private:
@@ -192,6 +226,19 @@ class Stereogram final : public FieldSource, public optics::EyeLight {
     }
 
     void prepare(const HogelRange& hogels, std::vector<LightFieldTile>& rays, View<float, 2> prepared) const {
+        if (kept_.size() > 0) {
+            for (std::size_t row = 0; row < hogels.nt; ++row)
+                std::copy_n(&kept_((hogels.t0 + row) * front().hogels_s + hogels.s0, 0), hogels.ns * kept_.extent(1),
+                            &prepared(row * hogels.ns, 0));
+            return;
+        }
+        if (faces().size() == 1 && !with_depth_)
+            if (const View<const float, 5> whole = light_field_.front().in_memory(); whole.size() > 0) {
+                for (std::size_t row = 0; row < hogels.nt; ++row)
+                    synthesis_->prepare({&whole(channel_, hogels.t0 + row, hogels.s0, 0, 0), {hogels.ns, rays_}}, {},
+                                        {&prepared(row * hogels.ns, 0), {hogels.ns, prepared.extent(1)}});
+                return;
+            }
         for_each_band(hogels, [&](const HogelRange& band) {
             read_rays(band, rays);
             prepare(rays, 0, {&prepared((band.t0 - hogels.t0) * band.ns, 0), {band.hogels(), prepared.extent(1)}});
@@ -226,6 +273,7 @@ class Stereogram final : public FieldSource, public optics::EyeLight {
     std::size_t columns_, rows_;  // samples of a hogel
     std::size_t rays_ = 0;        // of a hogel, over all faces
     std::unique_ptr<HogelSynthesis> synthesis_;
+    mutable Array<float, 2> kept_;  // amplitudes of all hogels, if they are kept
     mutable core::ObjectPool<Scratch> scratch_pool_;
     mutable std::mutex recent_mutex_;
     mutable std::list<std::shared_ptr<const Prepared>> recent_;

@@ -17,7 +17,7 @@ using Complex = std::complex<float>;
 // wave from Q, and its direction is that from Q to the centre. If it meets nothing, it keeps its own direction and has
 // a random phase. The amplitude follows from the ray's solid angle: |a|² = L ΔU ΔV cos³θ, whose sum over rays equals
 // the sum over the lobes of a frequency grid (docs/notation.md, section 3).
-class PhaseAddedSynthesis final : public HogelSynthesis {
+class PhaseAddedSynthesis final : public HogelSynthesis, public HogelWaves {
   public:
     PhaseAddedSynthesis(const LightFieldGrid& light_field, std::size_t samples, const HologramOptions& options,
                         bool exact)
@@ -53,29 +53,30 @@ class PhaseAddedSynthesis final : public HogelSynthesis {
     }
 
     void synthesise(std::span<const float> prepared, const HogelPlace& place, View<Complex, 2> hogel) const override {
-        const float* amplitudes = prepared.data();
-        const float* depths = amplitudes + light_field_.directions();
-        Array<Complex, 2> spectrum;
-        if (waves_)
-            spectrum = waves_->make_spectrum();
-        else
-            std::ranges::fill(hogel.elements(), Complex(0));
-        const double s = light_field_.s(static_cast<double>(place.s)), t = light_field_.t(static_cast<double>(place.t));
-        for (std::size_t l = 0; l < light_field_.directions_v; ++l)
-            for (std::size_t k = 0; k < light_field_.directions_u; ++k, ++amplitudes, ++depths) {
-                if (*amplitudes == 0) continue;
-                const Wave wave = wave_of(k, l, *depths, s, t, place.look);
-                const auto amplitude = static_cast<float>(*amplitudes * wave.share);
-                if (waves_)
-                    add_exactly(amplitude, wave, spectrum);
-                else
-                    add(amplitude, wave, hogel);
-            }
-        if (waves_)
+        if (waves_) {
+            Array<Complex, 2> spectrum = waves_->make_spectrum();
+            for_each_wave(prepared, place,
+                          [&](float amplitude, const Wave& wave) { add_exactly(amplitude, wave, spectrum); });
             waves_->transform(spectrum, hogel);
-        else
-            fft_.backward(hogel);
+            return;
+        }
+        spread(prepared, place, hogel);
+        fft_.backward(hogel);
     }
+
+    // Of rays with exact frequencies a hogel is no sum of as many waves as it has samples.
+    const HogelWaves* hogel_waves() const override { return waves_ ? nullptr : this; }
+
+    void waves(std::span<const float> prepared, const HogelPlace& place, float* waves) const override {
+        thread_local Array<Complex, 2> spectrum;
+        if (spectrum.shape() != Shape<2>{samples_, samples_}) spectrum = Array<Complex, 2>({samples_, samples_});
+        spread(prepared, place, spectrum);
+        store_waves(spectrum, waves);
+    }
+
+    // Phases of one surface point are the same for all hogels that see it.
+    void powers(std::span<const float>, float*) const override {}
+    bool independent() const override { return false; }
 
   private:
     struct Wave {
@@ -83,6 +84,25 @@ class PhaseAddedSynthesis final : public HogelSynthesis {
         double cycles;         // phase at the hogel's centre
         double share;          // of the ray's amplitude
     };
+
+    // The waves on the frequencies of the hogel's transform.
+    void spread(std::span<const float> prepared, const HogelPlace& place, View<Complex, 2> spectrum) const {
+        std::ranges::fill(spectrum.elements(), Complex(0));
+        for_each_wave(prepared, place, [&](float amplitude, const Wave& wave) { add(amplitude, wave, spectrum); });
+    }
+
+    template <class Use>
+    void for_each_wave(std::span<const float> prepared, const HogelPlace& place, const Use& use) const {
+        const float* amplitudes = prepared.data();
+        const float* depths = amplitudes + light_field_.directions();
+        const double s = light_field_.s(static_cast<double>(place.s)), t = light_field_.t(static_cast<double>(place.t));
+        for (std::size_t l = 0; l < light_field_.directions_v; ++l)
+            for (std::size_t k = 0; k < light_field_.directions_u; ++k, ++amplitudes, ++depths) {
+                if (*amplitudes == 0) continue;
+                const Wave wave = wave_of(k, l, *depths, s, t, place.look);
+                use(static_cast<float>(*amplitudes * wave.share), wave);
+            }
+    }
 
     Wave wave_of(std::size_t k, std::size_t l, double depth, double s, double t, std::size_t look) const {
         double U = light_field_.u(static_cast<double>(k)), V = light_field_.v(static_cast<double>(l));

@@ -31,6 +31,21 @@ class EyeDrawing {
                                                                          const Progress& progress) const = 0;
 };
 
+/// The powers |wave|² of the waves of hogels side by side.
+class WavePowers {
+  public:
+    virtual ~WavePowers() = default;
+    /// Hogels across and down, and the samples along a side of one, which are as many as its waves.
+    struct Counts {
+        std::size_t across = 0, down = 0, samples = 0;
+    };
+    virtual Counts counts() const = 0;
+    /// The powers of a part of the hogels, row by row: [hogel][row / 16][column][row mod 16] with frequencies 0 … n−1,
+    /// zero in rows beyond n.
+    /// @param part  counted in hogels
+    virtual void read_powers(const Region& part, View<float, 2> out) const = 0;
+};
+
 /// A source of fields that knows the light towards an eye without computing its samples: a stereogram, of whose hogels
 /// each sends an eye no more than a few numbers.
 class EyeLight {
@@ -39,6 +54,12 @@ class EyeLight {
     /// The light of a part of the hologram; null where computing the samples costs less. Hogels that the part cuts
     /// belong to it.
     virtual std::unique_ptr<EyeDrawing> eye_drawing(const Region& part, std::span<const Eye> eyes) const = 0;
+    /// Computes what all eyes and looks share, the amplitudes of the waves, and keeps it, if that takes at most
+    /// `memory` bytes. Not to be called while the field is read. Returns the bytes that are kept.
+    virtual std::size_t keep_amplitudes(std::size_t memory) const = 0;
+    /// Of the waves of all hogels, if their phases are random and independent, otherwise null: the mean of infinitely
+    /// many looks is then a sum of their intensities.
+    virtual const WavePowers* wave_powers() const { return nullptr; }
 };
 
 }  // namespace hogel::optics

@@ -9,7 +9,8 @@
 
 #include "hogel/core/parallel.h"
 #include "hogel/image/film.h"
-#include "hogel/optics/eye_light.h"
+#include "hogel/optics/expected/expected.h"
+#include "hogel/optics/eye_drawings.h"
 #include "hogel/optics/narrow_band/narrow_band.h"
 #include "hogel/optics/photograph_plan.h"
 #include "hogel/optics/spectrum.h"
@@ -40,34 +41,14 @@ class Window final : public FieldSource {
     FieldGrid grid_;
 };
 
-// Eyes whose bands are computed from the samples of a field.
-class SampledEyes final : public EyeDrawing {
-  public:
-    SampledEyes(const FieldSource& field, std::span<const Eye> eyes) : field_(field) {
-        for (const Eye& eye : eyes) bands_.emplace_back(field.grid(), eye.position, eye.pupil);
-    }
-    const narrow_band::BandGrid& band(std::size_t eye) const override { return bands_[eye]; }
-    std::vector<std::vector<Array<std::complex<float>, 2>>> draw(std::size_t first_look, std::size_t looks,
-                                                                 const Progress& progress) const override {
-        return narrow_band::draw_narrow_bands(field_, bands_, first_look, looks, progress);
-    }
-
-  private:
-    const FieldSource& field_;
-    std::vector<narrow_band::NarrowBand> bands_;
-};
-
-// The drawing of a window by the hogels that the whole field knows; null where the samples are to be used.
-std::unique_ptr<EyeDrawing> draw_hogels(const FieldSource& whole, const Region& region, std::span<const Eye> eyes,
-                                        LightFrom from) {
-    if (from == LightFrom::samples) return nullptr;
-    std::unique_ptr<EyeDrawing> drawing;
-    if (const auto* hogels = dynamic_cast<const EyeLight*>(&whole)) drawing = hogels->eye_drawing(region, eyes);
-    if (!drawing && from == LightFrom::hogels)
+const WavePowers& powers_of(const FieldSource& hologram) {
+    const auto* eyes = dynamic_cast<const EyeLight*>(&hologram);
+    const WavePowers* waves = eyes != nullptr ? eyes->wave_powers() : nullptr;
+    if (waves == nullptr)
         throw Error(ErrorCode::usage,
-                    "a photograph from hogels needs a stereogram that is made on demand, by Fourier transforms of "
-                    "hogels with at least twice as many samples as the eye takes in; from samples would do");
-    return drawing;
+                    "the mean of infinitely many looks needs a stereogram that is made on demand and whose waves have "
+                    "independent random phases: the method fourier with random phases; a number of looks would do");
+    return *waves;
 }
 
 // One pass of cameras over one window: adds the window's light to their pictures.
@@ -77,8 +58,7 @@ void photograph_window(const FieldSource& whole, const PhotographPlan::Window& p
     const Window window(whole, part.region);
     std::vector<Eye> looking;
     for (const SharedEye& eye : eyes) looking.push_back({cameras[eye.members.front()].eye, eye.pupil});
-    std::unique_ptr<EyeDrawing> drawing = draw_hogels(whole, part.region, looking, from);
-    if (!drawing) drawing = std::make_unique<SampledEyes>(window, looking);
+    const std::unique_ptr<EyeDrawing> drawing = draw_eyes(whole, part.region, window, looking, from);
     std::vector<film::Film> films;
     std::vector<std::vector<Array<float, 2>>> intensities(eyes.size());  // [eye][camera of the eye], summed over looks
     for (std::size_t e = 0; e < eyes.size(); ++e) {
@@ -96,15 +76,17 @@ void photograph_window(const FieldSource& whole, const PhotographPlan::Window& p
             report(0.9 * fraction);
             return true;
         });
-        for (std::size_t e = 0; e < eyes.size(); ++e)
-            for (std::size_t look = 0; look < count; ++look) {
-                const Array<std::complex<float>, 2> wave = films[e].pupil_wave(drawn[e][look]);
-                drawn[e][look] = {};
-                for (std::size_t c = 0; c < eyes[e].members.size(); ++c)
-                    films[e].expose(wave, cameras[eyes[e].members[c]], intensities[e][c]);
-                report(0.9 +
-                       0.1 * static_cast<double>(e * count + look + 1) / static_cast<double>(eyes.size() * count));
+        for (std::size_t e = 0; e < eyes.size(); ++e) {
+            // Waves of a pupil take less memory than the bands from which they come.
+            std::vector<Array<std::complex<float>, 2>> waves;
+            for (Array<std::complex<float>, 2>& band : drawn[e]) {
+                waves.push_back(films[e].pupil_wave(band));
+                band = {};
             }
+            for (std::size_t c = 0; c < eyes[e].members.size(); ++c)
+                films[e].expose(waves, cameras[eyes[e].members[c]], intensities[e][c]);
+            report(0.9 + 0.1 * static_cast<double>(e + 1) / static_cast<double>(eyes.size()));
+        }
     }
     for (std::size_t e = 0; e < eyes.size(); ++e)
         for (std::size_t c = 0; c < eyes[e].members.size(); ++c) {
@@ -153,6 +135,11 @@ void photograph_into(const FieldSource& hologram, std::span<const Camera> camera
                      std::span<Image> pictures, const Progress& progress) {
     const core::StopScope scope(progress);
     image::require_a_picture_for_each(cameras, pictures);
+    if (options.expected) {
+        const WavePowers& waves = powers_of(hologram);
+        image::load_film(cameras, 1, hologram.provenance(), pictures);
+        return expected::photograph(hologram, waves, cameras, options, pictures, progress);
+    }
     const auto memory = static_cast<double>(options.memory);
     const PhotographPlan plan = plan_photographs(hologram.grid(), cameras, memory);
     image::load_film(cameras, 1, hologram.provenance(), pictures);

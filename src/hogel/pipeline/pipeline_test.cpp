@@ -186,5 +186,32 @@ TEST(Plan, of_oblique_projections_does_not_shrink_with_the_hogels) {
               100 * plan_light_field(rendered, request, 10'000).seconds);
 }
 
+TEST(Plan, of_photographs_counts_what_they_are_computed_from) {
+    const LightFieldGrid grid{100, 100, 50e-6, 32, 32, Perspective{0.14, 0.14}, 3};
+    const std::span<const LightFieldGrid> faces(&grid, 1);
+    HologramRequest request;
+    request.looks = 16;
+    Camera camera = camera_for(5e-3, 5e-3, 100);
+    const auto from = [&](const PhotographOptions& options) {
+        return choose_light(faces, request, {&camera, 1}, options).from;
+    };
+    const auto seconds = [&](const PhotographOptions& options) {
+        return plan_photographs(faces, request, {&camera, 1}, options).seconds;
+    };
+    EXPECT_EQ(from({}), LightFrom::hogels);
+    EXPECT_EQ(from({.from = LightFrom::samples}), LightFrom::samples);
+    EXPECT_LT(1.5 * seconds({}), seconds({.from = LightFrom::samples}));
+    EXPECT_LT(4 * seconds({.expected = true}), seconds({}));
+    // Seen from so near, an eye takes in more than half of a hogel's samples.
+    camera.eye.z = 60e-3;
+    EXPECT_EQ(from({}), LightFrom::samples);
+    EXPECT_EQ(from({.expected = true}), LightFrom::hogels);
+    camera.eye.z = 300e-3;
+    request.method = PhaseAdded();
+    EXPECT_EQ(from({}), LightFrom::hogels);
+    request.method = PhaseAdded{true};
+    EXPECT_EQ(from({}), LightFrom::samples);
+}
+
 }  // namespace
 }  // namespace hogel::pipeline

@@ -7,14 +7,12 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <set>
 #include <string>
-#include <tuple>
 #include <variant>
 
 #include "hogel/error.h"
-#include "hogel/optics/photograph_plan.h"
 #include "hogel/pipeline.h"
+#include "hogel/pipeline/plan_rates.h"
 #include "hogel/units.h"
 
 namespace hogel {
@@ -24,8 +22,6 @@ namespace {
 // Seconds per ray with epi: a constant, and an addition per million triangles; other renderers take about ten times as
 // long.
 constexpr double seconds_a_ray = 1.9e-9, seconds_a_ray_and_million_triangles = 2.0e-9, other_renderers = 10;
-// Seconds per sample of a hologram for its synthesis, and for the narrow band of one eye.
-constexpr double seconds_a_sample = 5e-9, seconds_a_sample_and_eye = 1.8e-9;
 // Seconds per sample to compress a light field with the coder hogel to 40 dB, including the search for the step: 126e-9
 // for the pumpkin and 251e-9 for the church, at 48 x 48 directions. Other coders were not measured.
 constexpr double seconds_a_coded_sample = 190e-9;
@@ -43,10 +39,6 @@ constexpr double seconds_a_projected_triangle = 40e-9;
 // of the result, while it is computed and in a file.
 constexpr double seconds_a_gathered_ray = 450e-9, bytes_a_baked_triangle = 310, file_bytes_a_baked_triangle = 31;
 
-double on_all_threads(double processor_seconds) {
-    return processor_seconds / static_cast<double>(std::max<std::size_t>(thread_count(), 1));
-}
-
 // Bytes that the system can give to programs without swapping; infinity if it does not say.
 double memory_available() {
     std::ifstream file("/proc/meminfo");
@@ -57,13 +49,6 @@ double memory_available() {
             return 1024 * kilobytes;
         }
     return std::numeric_limits<double>::infinity();
-}
-
-double hologram_samples(std::span<const LightFieldGrid> faces, const HologramRequest& request) {
-    double samples = 0;
-    for (const Channel& channel : request.channels)
-        samples += static_cast<double>(hologram_grid(faces, request.options(channel)).plane.samples());
-    return samples;
 }
 
 // Bytes for one region of a renderer: its values, its depth buffer and, with several samples per ray, a block of the
@@ -110,6 +95,13 @@ Plan plan_light_field(const LightField& rendered, const LightFieldRequest& reque
     return plan;
 }
 
+double hologram_samples(std::span<const LightFieldGrid> faces, const HologramRequest& request) {
+    double samples = 0;
+    for (const Channel& channel : request.channels)
+        samples += static_cast<double>(hologram_grid(faces, request.options(channel)).plane.samples());
+    return samples;
+}
+
 Plan plan_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                     const HologramFileOptions& file) {
     const double samples = hologram_samples(faces, request);
@@ -124,25 +116,6 @@ Plan plan_holograms(std::span<const LightFieldGrid> faces, const HologramRequest
         static_cast<double>(hologram_grid(faces, request.options(request.channels.front())).plane.samples()) / hogels;
     const auto threads = static_cast<double>(thread_count());
     plan.memory = threads * tiles + hogel * (table + std::min(threads, hogels) * transform);
-    return plan;
-}
-
-Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramRequest& request,
-                      std::span<const Camera> cameras, const PhotographOptions& options) {
-    Plan plan = plan_holograms(faces, request);
-    plan.disk = 0;
-    std::set<std::tuple<double, double, double>> eyes;
-    for (const Camera& camera : cameras) eyes.insert({camera.eye.x, camera.eye.y, camera.eye.z});
-    const double samples = hologram_samples(faces, request) * static_cast<double>(request.looks);
-    plan.seconds =
-        on_all_threads(samples * (seconds_a_sample + static_cast<double>(eyes.size()) * seconds_a_sample_and_eye));
-    double camera_bytes = 0;
-    for (const Channel& channel : request.channels) {
-        const FieldGrid grid = hologram_grid(faces, request.options(channel));
-        camera_bytes =
-            std::max(camera_bytes, optics::plan_photographs(grid, cameras, static_cast<double>(options.memory)).bytes);
-    }
-    plan.memory += camera_bytes;
     return plan;
 }
 

@@ -7,11 +7,13 @@
 
 #include "hogel/hologram/eye/symmetric_matrix.h"
 #include "hogel/math/quadrature.h"
+#include "hogel/optics/dirichlet.h"
 
 namespace hogel::hologram::eye {
 namespace {
 
 using math::Quadrature;
+using optics::dirichlet;
 
 constexpr double pi = std::numbers::pi;
 
@@ -21,15 +23,6 @@ constexpr double tolerance = 3e-4;
 
 // Nodes beyond either end of a hogel, at most.
 constexpr std::size_t max_beyond = 8;
-
-// Σ_j e^{2πiy(j−c)/n}.
-double dirichlet(double y, std::size_t samples) {
-    const auto n = static_cast<double>(samples);
-    const double below = std::sin(pi * y / n);
-    if (std::abs(below) > 1e-9) return std::sin(pi * y) / below;
-    const double turns = std::round(y / n);  // the limit there is ±n
-    return std::fmod(std::abs(turns) * (n - 1), 2) == 0 ? n : -n;
-}
 
 // The samples a(b), real, for which Σ_b a(b) cos 2πκx_b (or sin) is closest to f(κ) for |κ| ≤ κ_m.
 class Fit {

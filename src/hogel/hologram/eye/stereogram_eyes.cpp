@@ -228,6 +228,10 @@ class StereogramEyes final : public optics::EyeDrawing {
 
 }  // namespace
 
+std::size_t band_samples_per_hogel(const FieldGrid& hologram, std::size_t samples, const optics::Eye& eye) {
+    return bands_of(hologram, samples, eye).per_hogel();
+}
+
 std::unique_ptr<optics::EyeDrawing> make_stereogram_eyes(const Hogels& hogels, const HogelRange& range,
                                                          std::span<const optics::Eye> eyes) {
     const std::size_t n = hogels.samples;
@@ -239,8 +243,7 @@ std::unique_ptr<optics::EyeDrawing> make_stereogram_eyes(const Hogels& hogels, c
         const Bands band = bands_of(whole, n, eye);
         const std::size_t per_hogel = band.per_hogel();
         const double half = band.held(per_hogel);
-        // A band that is nearly as dense as the samples saves nothing.
-        if (2 * per_hogel > n) return nullptr;
+        if (!band_is_cheaper(per_hogel, n)) return nullptr;
         auto& basis = bases[{per_hogel, half}];
         if (!basis) basis = std::make_shared<HogelBasis>(n, per_hogel, half);
         const auto samples = [&](std::size_t count) { return count * per_hogel + 2 * basis->before(); };

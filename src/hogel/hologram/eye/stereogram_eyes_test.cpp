@@ -28,6 +28,20 @@ double stripes(Vec3 hogel, Vec3 direction) {
     return 0.6 + 0.4 * std::sin(2 * std::numbers::pi * (x / 90e-6 + y / 140e-6));
 }
 
+// The same with the depth of every ray.
+LightField striped_with_depth(const LightFieldGrid& grid) {
+    const LightFieldBuffer stripes_alone = light_field_of(grid, stripes);
+    auto light_field = std::make_shared<LightFieldBuffer>(grid, true);
+    for (std::size_t t = 0; t < grid.hogels_t; ++t)
+        for (std::size_t s = 0; s < grid.hogels_s; ++s)
+            for (std::size_t l = 0; l < grid.directions_v; ++l)
+                for (std::size_t k = 0; k < grid.directions_u; ++k) {
+                    light_field->radiance(0, t, s, l, k) = stripes_alone.radiance(0, t, s, l, k);
+                    light_field->depth(t, s, l, k) = -0.4e-3f;
+                }
+    return LightField(LightField::Source(std::move(light_field)));
+}
+
 LightField striped(const LightFieldGrid& grid) { return light_field_of_faces({&grid, 1}, stripes); }
 
 const optics::EyeLight& eye_light(const FieldSource& hologram) {
@@ -77,6 +91,11 @@ std::vector<Case> cases() {
          {{1_mm, 2_mm, 30_mm}, 1_mm}},
         {"hogels that are no power of two", striped(grid_of(7, 45_um)), Fourier{}, 1.5_um, {{2_mm, 1_mm, 30_mm}, 1_mm}},
         {"odd hogels", striped(grid_of(7, 40.5_um)), Fourier{}, 1.5_um, {{-2_mm, 1_mm, 30_mm}, 1_mm}},
+        {"phases of points",
+         striped_with_depth({8, 6, 48_um, 32, 32, Perspective{0.15, 0.15}, 1}),
+         PhaseAdded{},
+         1.5_um,
+         {{1_mm, 2_mm, 30_mm}, 1_mm}},
         {"hemicube", hemicube, Fourier{}, 0.5_um, {{12_mm, 5_mm, 25_mm}, 0.9_mm}},
         {"a tiny pupil", plain, Fourier{}, 1.5_um, {{1_mm, 1_mm, 30_mm}, 50_um}},
     };

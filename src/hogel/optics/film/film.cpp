@@ -9,6 +9,7 @@
 #include "hogel/optics/film/lens.h"
 #include "hogel/optics/film/resample.h"
 #include "hogel/optics/lines.h"
+#include "hogel/optics/phase_walk.h"
 
 namespace hogel::optics::film {
 namespace {
@@ -140,62 +141,72 @@ Array<Complex, 2> Film::pupil_wave(View<const Complex, 2> band) const {
     return wave;
 }
 
-void Film::expose(View<const Complex, 2> pupil_wave, const Camera& camera, View<float, 2> intensity) const {
+void Film::expose(std::span<const Array<Complex, 2>> pupil_waves, const Camera& camera,
+                  View<float, 2> intensity) const {
     const FilmLens lens(size_.sines, hologram_.wavelength, camera);
     // Between nodes the intensities are blended linearly.
-    const auto weight = [](std::size_t k, std::size_t size, std::size_t at, std::size_t nodes) {
-        const double place = (static_cast<double>(k) + 0.5) / static_cast<double>(size) * static_cast<double>(nodes);
-        const double held = std::clamp(place - 0.5, 0.0, static_cast<double>(nodes) - 1);
-        return static_cast<float>(std::max(0.0, 1 - std::abs(held - static_cast<double>(at))));
+    const auto shares = [](std::size_t size, std::size_t at, std::size_t nodes) {
+        std::vector<float> share(size);
+        for (std::size_t k = 0; k < size; ++k) {
+            const double place =
+                (static_cast<double>(k) + 0.5) / static_cast<double>(size) * static_cast<double>(nodes);
+            const double held = std::clamp(place - 0.5, 0.0, static_cast<double>(nodes) - 1);
+            share[k] = static_cast<float>(std::max(0.0, 1 - std::abs(held - static_cast<double>(at))));
+        }
+        return share;
     };
     const std::ptrdiff_t reach_x = std::min(lens.reach_x(), size_.reach_x),
                          reach_y = std::min(lens.reach_y(), size_.reach_y);
-    const std::size_t width = across(reach_x);
-    Array<Complex, 2> opening({across(reach_y), width}), columns({size_.y.count, width});
-    std::vector<float> share(size_.x.count);
+    Array<Complex, 2> factors({across(reach_y), across(reach_x)});
     for (std::size_t b = 0; b < lens.nodes_y; ++b)
         for (std::size_t a = 0; a < lens.nodes_x; ++a) {
-            core::parallel_for(opening.extent(0), [&](std::size_t y) {
-                std::ranges::fill(opening[y].elements(), Complex(0));
-                const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(y) - reach_y;
-                lens.row(lens.node_x(a), lens.node_y(b), row, [&](std::ptrdiff_t column, Complex factor) {
-                    if (std::abs(column) > reach_x) return;
-                    const Complex wave = pupil_wave(row + size_.reach_y, column + size_.reach_x);
-                    opening(y, column + reach_x) = {wave.real() * factor.real() - wave.imag() * factor.imag(),
-                                                    wave.real() * factor.imag() + wave.imag() * factor.real()};
-                });
+            core::parallel_for(factors.extent(0), [&](std::size_t y) {
+                std::ranges::fill(factors[y].elements(), Complex(0));
+                lens.row(lens.node_x(a), lens.node_y(b), static_cast<std::ptrdiff_t>(y) - reach_y,
+                         [&](std::ptrdiff_t column, Complex factor) {
+                             if (std::abs(column) <= reach_x) factors(y, column + reach_x) = factor;
+                         });
             });
-            // First the few columns of the opening, then each row, whose intensity is added at once.
-            core::parallel_for(blocks_of(width), [&](std::size_t block) {
-                const std::size_t first = block * lines_together, count = std::min(lines_together, width - first);
-                Array<Complex, 2> lines({count, stride_of(size_.y.size)});
-                for (std::size_t y = 0; y < opening.extent(0); ++y) {
-                    const std::size_t at = wrapped(static_cast<std::ptrdiff_t>(y) - reach_y, size_.y.size);
-                    for (std::size_t c = 0; c < count; ++c) lines(c, at) = opening(y, first + c);
-                }
-                for (std::size_t c = 0; c < count; ++c) film_down_.backward(&lines(c, 0));
-                for (std::size_t j = 0; j < size_.y.count; ++j)
-                    for (std::size_t c = 0; c < count; ++c) columns(j, first + c) = lines(c, size_.y.first + j);
-            });
-            for (std::size_t i = 0; i < size_.x.count; ++i) share[i] = weight(i, size_.x.count, a, lens.nodes_x);
-            core::parallel_for(blocks_of(size_.y.count), [&](std::size_t block) {
-                Array<Complex, 1> line({size_.x.size});
-                for (std::size_t j = block * lines_together; j < std::min((block + 1) * lines_together, size_.y.count);
-                     ++j) {
-                    const float down = weight(j, size_.y.count, b, lens.nodes_y);
-                    if (down == 0) continue;
-                    std::ranges::fill(line.elements(), Complex(0));
-                    const auto middle = static_cast<std::size_t>(reach_x);
-                    std::copy_n(&columns(j, middle), middle + 1, line.data());
-                    std::copy_n(&columns(j, 0), middle, line.data() + size_.x.size - middle);
-                    film_along_.backward(line.data());
-                    float* row = &intensity(j, 0);
-                    const Complex* seen = line.data() + size_.x.first;
-                    for (std::size_t i = 0; i < size_.x.count; ++i)
-                        row[i] += down * share[i] * (seen[i].real() * seen[i].real() + seen[i].imag() * seen[i].imag());
-                }
-            });
+            const std::vector<float> share_x = shares(size_.x.count, a, lens.nodes_x),
+                                     share_y = shares(size_.y.count, b, lens.nodes_y);
+            for (const Array<Complex, 2>& wave : pupil_waves) expose_node(wave, factors, share_x, share_y, intensity);
         }
+}
+
+void Film::expose_node(View<const Complex, 2> pupil_wave, View<const Complex, 2> lens, std::span<const float> share_x,
+                       std::span<const float> share_y, View<float, 2> intensity) const {
+    const std::size_t width = lens.extent(1), height = lens.extent(0), middle = width / 2;
+    const std::size_t left = static_cast<std::size_t>(size_.reach_x) - middle,
+                      top = static_cast<std::size_t>(size_.reach_y) - height / 2;
+    Array<Complex, 2> columns({size_.y.count, width});
+    // First the few columns of the opening, then each row, whose intensity is added at once.
+    core::parallel_for(blocks_of(width), [&](std::size_t block) {
+        const std::size_t first = block * lines_together, count = std::min(lines_together, width - first);
+        Array<Complex, 2> lines({count, stride_of(size_.y.size)});
+        for (std::size_t y = 0; y < height; ++y) {
+            const std::size_t at =
+                wrapped(static_cast<std::ptrdiff_t>(y) - static_cast<std::ptrdiff_t>(height / 2), size_.y.size);
+            const Complex *wave = &pupil_wave(top + y, left + first), *factor = &lens(y, first);
+            for (std::size_t c = 0; c < count; ++c) lines(c, at) = times(wave[c], factor[c]);
+        }
+        for (std::size_t c = 0; c < count; ++c) film_down_.backward(&lines(c, 0));
+        for (std::size_t j = 0; j < size_.y.count; ++j)
+            for (std::size_t c = 0; c < count; ++c) columns(j, first + c) = lines(c, size_.y.first + j);
+    });
+    core::parallel_for(blocks_of(size_.y.count), [&](std::size_t block) {
+        Array<Complex, 1> line({size_.x.size});
+        for (std::size_t j = block * lines_together; j < std::min((block + 1) * lines_together, size_.y.count); ++j) {
+            if (share_y[j] == 0) continue;
+            std::ranges::fill(line.elements(), Complex(0));
+            std::copy_n(&columns(j, middle), middle + 1, line.data());
+            std::copy_n(&columns(j, 0), middle, line.data() + size_.x.size - middle);
+            film_along_.backward(line.data());
+            float* row = &intensity(j, 0);
+            const Complex* seen = line.data() + size_.x.first;
+            for (std::size_t i = 0; i < size_.x.count; ++i)
+                row[i] += share_y[j] * share_x[i] * (seen[i].real() * seen[i].real() + seen[i].imag() * seen[i].imag());
+        }
+    });
 }
 
 }  // namespace hogel::optics::film

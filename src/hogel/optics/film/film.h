@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <complex>
+#include <span>
+
+#include "hogel/array.h"
 #include "hogel/camera.h"
 #include "hogel/image.h"
 #include "hogel/math/fft.h"
@@ -52,8 +56,10 @@ class Film {
     /// The wave over the pupil, [row][column] of frequencies −reach … reach of a transform of the sines.
     Array<std::complex<float>, 2> pupil_wave(View<const std::complex<float>, 2> band) const;
 
-    /// Adds the intensity on a camera's film, of the shape of unexposed().
-    void expose(View<const std::complex<float>, 2> pupil_wave, const Camera& camera, View<float, 2> intensity) const;
+    /// Adds the intensities of several looks, each given by its pupil wave, on a camera's film, of the shape of
+    /// unexposed(). The lens is computed once for all of them.
+    void expose(std::span<const Array<std::complex<float>, 2>> pupil_waves, const Camera& camera,
+                View<float, 2> intensity) const;
 
     /// Adds a camera's picture, in radiance, of the part `shown` of the hologram plane.
     /// @param weight  factor of the intensities: the reciprocal of the number of looks that they sum
@@ -61,6 +67,9 @@ class Film {
                  Image& picture) const;
 
   private:
+    void expose_node(View<const std::complex<float>, 2> pupil_wave, View<const std::complex<float>, 2> lens,
+                     std::span<const float> share_x, std::span<const float> share_y, View<float, 2> intensity) const;
+
     narrow_band::BandGrid band_;
     FieldGrid hologram_;
     FilmSize size_;

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// The mean of infinitely many looks (optics/expected) against means of looks.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "hogel/error.h"
+#include "hogel/hologram.h"
+#include "hogel/hologram/test_light_fields.h"
+#include "hogel/photograph.h"
+#include "hogel/units.h"
+
+namespace hogel::hologram {
+namespace {
+
+using namespace literals;
+
+// Stripes on a tilted plane, so that neighbouring hogels and directions differ.
+double stripes(Vec3 hogel, Vec3 direction) {
+    const double depth = -0.4e-3;
+    const double x = hogel.x + depth * direction.x / direction.z, y = hogel.y + depth * direction.y / direction.z;
+    return 0.6 + 0.4 * std::sin(2 * std::numbers::pi * (x / 290e-6 + y / 440e-6));
+}
+
+struct Case {
+    std::string name;
+    LightFieldGrid grid;
+    double pitch;
+    Camera camera;
+};
+
+Camera camera_at(Vec3 eye, double pupil, double focus, std::size_t pixels, double width, double x = 0) {
+    Camera camera;
+    camera.eye = eye;
+    camera.pupil = pupil;
+    camera.focus_depth = focus;
+    camera.picture = {pixels, pixels, width / double(pixels), width / double(pixels), x, 0};
+    return camera;
+}
+
+std::vector<Case> cases() {
+    const LightFieldGrid grid{72, 68, 48_um, 24, 24, Perspective{0.15, 0.15}, 1};
+    const LightFieldGrid small{100, 100, 24_um, 24, 24, Perspective{0.15, 0.15}, 1};
+    const LightFieldGrid odd{50, 50, 40.5_um, 24, 24, Perspective{0.15, 0.15}, 1};
+    return {
+        {"on the hologram", grid, 1.5_um, camera_at({0, 0, 30_mm}, 0.7_mm, 0, 72, 72 * 48_um)},
+        {"behind it, oblique", grid, 1.5_um, camera_at({3_mm, -2_mm, 30_mm}, 0.7_mm, 3_mm, 57, 72 * 48_um)},
+        {"in front of it, a part, pixels smaller than hogels", grid, 1.5_um,
+         camera_at({-2_mm, 1_mm, 30_mm}, 0.5_mm, -2_mm, 96, 48 * 48_um, 0.2_mm)},
+        {"small hogels, large pixels", small, 1.5_um, camera_at({1_mm, 1_mm, 30_mm}, 0.6_mm, 0, 50, 100 * 24_um)},
+        {"odd hogels, wide pupil", odd, 1.5_um, camera_at({-2_mm, 1_mm, 30_mm}, 1.4_mm, 1_mm, 50, 50 * 40.5_um)},
+    };
+}
+
+Image photo(const LightField& light_field, const Case& c, std::size_t looks) {
+    const auto hologram =
+        make_hologram(light_field, {{532_nm, 0}, c.pitch, Fourier{}, std::max<std::size_t>(looks, 1), 7});
+    PhotographOptions options;
+    options.expected = looks == 0;
+    return photograph(*hologram, {&c.camera, 1}, options).front();
+}
+
+double mean(const Image& image) {
+    double sum = 0;
+    for (const float value : image.pixels.elements()) sum += value;
+    return sum / double(image.pixels.size());
+}
+
+double distance(const Image& a, const Image& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        sum += std::pow(double(a.pixels.data()[i]) - double(b.pixels.data()[i]), 2);
+    return std::sqrt(sum / double(a.pixels.size()));
+}
+
+TEST(ExpectedPhotograph, is_what_means_of_looks_converge_to) {
+    for (const Case& c : cases()) {
+        SCOPED_TRACE(c.name);
+        const LightField light_field = light_field_of_faces({&c.grid, 1}, stripes);
+        const Image expected = photo(light_field, c, 0);
+        const Image many = photo(light_field, c, 64);
+        EXPECT_NEAR(mean(many) / mean(expected), 1, 0.004);
+        const double four = distance(photo(light_field, c, 4), expected),
+                     sixteen = distance(photo(light_field, c, 16), expected), sixty_four = distance(many, expected);
+        EXPECT_NEAR(2 * sixteen / four, 1, 0.05);
+        EXPECT_NEAR(4 * sixty_four / four, 1, 0.05);
+    }
+}
+
+// Bands of rows of hogels and one eye at a time give the same pictures.
+TEST(ExpectedPhotograph, fits_into_little_memory) {
+    const Case c = cases().front();
+    const LightField light_field = light_field_of_faces({&c.grid, 1}, stripes);
+    const auto hologram = make_hologram(light_field, {{532_nm, 0}, c.pitch, Fourier{}, 1, 7});
+    Camera other = c.camera;
+    other.eye.x += 1_mm;
+    other.focus_depth = 2_mm;
+    const std::vector<Camera> cameras{c.camera, other};
+    PhotographOptions options;
+    options.expected = true;
+    const std::vector<Image> whole = photograph(*hologram, cameras, options);
+    options.memory = 500'000;
+    const std::vector<Image> bands = photograph(*hologram, cameras, options);
+    for (std::size_t i = 0; i < cameras.size(); ++i) EXPECT_LT(distance(whole[i], bands[i]), 1e-5 * mean(whole[i]));
+}
+
+TEST(ExpectedPhotograph, needs_independent_random_phases) {
+    const Case c = cases().front();
+    const LightField light_field = light_field_of_faces({&c.grid, 1}, stripes);
+    PhotographOptions options;
+    options.expected = true;
+    const auto hologram = make_hologram(light_field, {{532_nm, 0}, c.pitch, Fourier{Phases::fixed}, 1, 7});
+    EXPECT_THROW(photograph(*hologram, {&c.camera, 1}, options), Error);
+}
+
+}  // namespace
+}  // namespace hogel::hologram

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/optics/expected/expected.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <vector>
+
+#include "hogel/core/object_pool.h"
+#include "hogel/core/parallel.h"
+#include "hogel/optics/expected/kernels.h"
+#include "hogel/optics/expected/spots.h"
+#include "hogel/optics/expected/tails.h"
+#include "hogel/optics/narrow_band/narrow_band.h"
+#include "hogel/optics/photograph_plan.h"
+
+namespace hogel::optics::expected {
+namespace {
+
+// A fraction by which a pupil's band is widened for the choice of waves.
+constexpr double guard = 0.05;
+
+// Hogels that are read together.
+constexpr std::size_t block_across = 64, block_down = 2;
+
+// Pixels that are exposed together.
+constexpr std::size_t pixels_across = 32, pixels_down = 16;
+
+// By how much, in radians, the phase of the focus at the pupil's rim may vary over the part of the hologram that one
+// table of spots serves.
+constexpr double max_change = 0.5;
+
+// Parts of the hologram along each axis that have spots of their own, at most.
+constexpr double max_parts = 9;
+
+// A camera: its spots, seen from the middles of the parts of the hologram.
+struct Exposure {
+    std::size_t camera = 0;
+    std::size_t parts_x = 1, parts_y = 1;
+    PixelPlaces columns, rows;
+    std::vector<Spots> spots;  // [part down · parts_x + part across]
+    Array<float, 2> tails;     // [hogel]: light that falls far away
+};
+
+// An eye: the numbers of its hogels, [row][column · pair], and its cameras.
+struct ExpectedEye {
+    double band = 0;
+    std::unique_ptr<SpotBasis> basis;
+    std::unique_ptr<Pairs> pairs;
+    std::vector<Exposure> exposures;
+    Array<float, 2> numbers;
+};
+
+// The number of parts along an axis within which the phase of the focus at the rim changes little.
+std::size_t parts(const HogelGrid& hogels, const Camera& camera, bool across) {
+    const Grid& plane = hogels.plane;
+    const auto defocus = [&](double side) {
+        const double x = plane.center_x + (across ? side * 0.5 * plane.size_x() : 0),
+                     y = plane.center_y + (across ? 0 : side * 0.5 * plane.size_y());
+        const ViewGeometry geometry(camera.eye, hogels.wavelength);
+        const double ratio = focus_ratio(camera, x, y), cosine = geometry.cosine(x, y);
+        const double radius = 0.5 * camera.pupil;
+        return std::numbers::pi * radius * radius * cosine * (1 - 1 / ratio) / (camera.eye.z * hogels.wavelength);
+    };
+    return static_cast<std::size_t>(
+        std::clamp(std::ceil(std::abs(defocus(1) - defocus(-1)) / max_change), 1.0, max_parts));
+}
+
+// The weight of part `index` of `count` at a position on the hologram, 0 … 1: linear between their middles.
+float share(double position, std::size_t index, std::size_t count) {
+    const double place = std::clamp(position * static_cast<double>(count) - 0.5, 0.0, static_cast<double>(count) - 1);
+    return static_cast<float>(std::max(0.0, 1 - std::abs(place - static_cast<double>(index))));
+}
+
+Exposure make_exposure(const HogelGrid& hogels, const ExpectedEye& eye, const Camera& camera, std::size_t index) {
+    const Grid &plane = hogels.plane, &picture = camera.picture;
+    Exposure exposure;
+    exposure.camera = index;
+    const std::size_t places = max_places(*eye.pairs, Spots::reach(hogels, camera, eye.band));
+    exposure.columns =
+        pixel_places(picture.width, plane.column(picture.x(0)), picture.pitch_x / plane.pitch_x, plane.width, places);
+    exposure.rows =
+        pixel_places(picture.height, plane.row(picture.y(0)), picture.pitch_y / plane.pitch_y, plane.height, places);
+    exposure.parts_x = parts(hogels, camera, true);
+    exposure.parts_y = parts(hogels, camera, false);
+    for (std::size_t j = 0; j < exposure.parts_y; ++j)
+        for (std::size_t i = 0; i < exposure.parts_x; ++i) {
+            core::throw_if_stopped();
+            const double x = (static_cast<double>(i) + 0.5) / static_cast<double>(exposure.parts_x) - 0.5,
+                         y = 0.5 - (static_cast<double>(j) + 0.5) / static_cast<double>(exposure.parts_y);
+            exposure.spots.emplace_back(hogels, camera, *eye.basis, *eye.pairs, eye.band,
+                                        plane.center_x + x * plane.size_x(), plane.center_y + y * plane.size_y(),
+                                        exposure.columns, exposure.rows);
+        }
+    exposure.tails = Array<float, 2>({plane.height, plane.width});
+    return exposure;
+}
+
+// Photographs for several eyes that share the reading of hogels.
+class Photographer {
+  public:
+    Photographer(const HogelGrid& hogels, const WavePowers& waves, std::span<const Camera> cameras,
+                 std::span<const SharedEye> eyes)
+        : hogels_(hogels), waves_(waves), cameras_(cameras) {
+        for (const SharedEye& shared : eyes) {
+            ExpectedEye eye;
+            eye.band = half_band(hogels, cameras[shared.members.front()].eye, shared.pupil);
+            eye.basis = std::make_unique<SpotBasis>(hogels.samples, eye.band * (1 + guard));
+            eye.pairs = std::make_unique<Pairs>(*eye.basis, eye.band);
+            for (const std::size_t member : shared.members)
+                eye.exposures.push_back(make_exposure(hogels, eye, cameras[member], member));
+            eyes_.push_back(std::move(eye));
+        }
+    }
+
+    // Bytes of the numbers of a row of hogels.
+    double row_bytes() const {
+        double pairs = 0;
+        for (const ExpectedEye& eye : eyes_) pairs += static_cast<double>(eye.pairs->padded_count());
+        return pairs * static_cast<double>(hogels_.plane.width) * sizeof(float);
+    }
+    std::size_t reach() const {
+        std::size_t reach = 0;
+        for (const ExpectedEye& eye : eyes_)
+            for (const Exposure& exposure : eye.exposures) reach = std::max(reach, exposure.spots.front().reach());
+        return reach;
+    }
+
+    // Exposes the pixels whose middles are on rows [first, end) of hogels.
+    void expose(std::size_t first, std::size_t end, std::span<Image> pictures, const Progress& progress) {
+        const std::size_t around = reach(), height = hogels_.plane.height;
+        first_row_ = first - std::min(first, around);
+        const std::size_t last_row = std::min(height, end + around);
+        read(last_row - first_row_, first, end, progress.part(0.0, 0.8));
+        for (ExpectedEye& eye : eyes_)
+            for (const Exposure& exposure : eye.exposures)
+                expose_blocks(exposure, [&](std::size_t row, std::size_t left, std::size_t right) {
+                    const auto base = static_cast<std::size_t>(exposure.rows.base[row]);
+                    if (base >= first && base < end)
+                        expose_row(eye, exposure, row, left, right, pictures[exposure.camera]);
+                });
+        progress.report(1);
+    }
+
+    // Adds the light that falls far from its hogels.
+    void add_tails(std::span<Image> pictures) const {
+        for (const ExpectedEye& eye : eyes_)
+            for (const Exposure& exposure : eye.exposures) {
+                const Camera& camera = cameras_[exposure.camera];
+                const Array<float, 2> spread =
+                    spread_tails(exposure.tails, exposure.spots.front().reach(),
+                                 128 * resolution_cell(camera, hogels_.wavelength) / hogels_.plane.pitch_x);
+                const Grid &plane = hogels_.plane, &picture = camera.picture;
+                Image& image = pictures[exposure.camera];
+                core::parallel_for(picture.height, [&](std::size_t row) {
+                    for (std::size_t column = 0; column < picture.width; ++column)
+                        image.pixels(row, column, 0) += exposure.rows.seen[row] * exposure.columns.seen[column] *
+                                                        between(spread, plane.row(picture.y(static_cast<double>(row))),
+                                                                plane.column(picture.x(static_cast<double>(column))));
+                });
+            }
+    }
+
+  private:
+    // Computes the numbers of `count` rows of hogels from first_row_ on, and the tails of rows [first, end).
+    void read(std::size_t count, std::size_t first, std::size_t end, const Progress& progress) {
+        const Grid& plane = hogels_.plane;
+        for (ExpectedEye& eye : eyes_)
+            if (eye.numbers.shape() != Shape<2>{count, plane.width * eye.pairs->padded_count()})
+                eye.numbers = Array<float, 2>({count, plane.width * eye.pairs->padded_count()});
+        const std::size_t across = (plane.width + block_across - 1) / block_across,
+                          down = (count + block_down - 1) / block_down;
+        core::parallel_for(across * down, [&](std::size_t i) {
+            Region part{i % across * block_across, first_row_ + i / across * block_down, 0, 0};
+            part.width = std::min(block_across, plane.width - part.x0);
+            part.height = std::min(block_down, first_row_ + count - part.y0);
+            auto powers = powers_.take();
+            const std::size_t samples = hogels_.samples,
+                              size = (samples + SpotBasis::lanes - 1) / SpotBasis::lanes * SpotBasis::lanes * samples;
+            if (powers->size() == 0) *powers = Array<float, 2>({block_across * block_down, size});
+            waves_.read_powers(part, {powers->data(), {part.samples(), size}});
+            for (ExpectedEye& eye : eyes_)
+                for (std::size_t h = 0; h < part.samples(); ++h)
+                    add_hogel(eye, part.x0 + h % part.width, part.y0 + h / part.width, &(*powers)(h, 0), first, end);
+        });
+        progress.report(1);
+    }
+
+    void add_hogel(ExpectedEye& eye, std::size_t s, std::size_t t, const float* powers, std::size_t first,
+                   std::size_t end) const {
+        const Grid& plane = hogels_.plane;
+        const SpotBasis& basis = *eye.basis;
+        const Camera& camera = cameras_[eye.exposures.front().camera];
+        const ViewGeometry geometry(camera.eye, hogels_.wavelength);
+        const double x = plane.x(static_cast<double>(s)), y = plane.y(static_cast<double>(t));
+        const double cycles = plane.pitch_x / hogels_.wavelength;
+        thread_local Array<float, 1> all;
+        if (all.size() < basis.count() * basis.padded_count())
+            all = Array<float, 1>({basis.count() * basis.padded_count()});
+        sum_powers(basis, basis.weights(geometry.sine_x(x, y) * cycles), basis.weights(-geometry.sine_y(x, y) * cycles),
+                   powers, all.data());
+        float* const numbers = &eye.numbers(t - first_row_, s * eye.pairs->padded_count());
+        float* to = numbers;
+        for (std::size_t q = 0; q < basis.count(); ++q) {
+            const Pairs::Range range = eye.pairs->of_column[q];
+            to = std::copy(all.data() + q * basis.padded_count() + range.begin,
+                           all.data() + q * basis.padded_count() + range.end, to);
+        }
+        if (t < first || t >= end) return;
+        for (Exposure& exposure : eye.exposures) {
+            const std::span<const float> tails = exposure.spots[exposure.spots.size() / 2].tails();
+            exposure.tails(t, s) = sum_products({numbers, tails.data(), 0, 0, 1, tails.size()});
+        }
+    }
+
+    // Calls expose(row, left, right) for parts of rows of pixels, block by block, so that the numbers around a block
+    // stay in the processor's cache.
+    template <class Expose>
+    static void expose_blocks(const Exposure& exposure, const Expose& expose) {
+        const std::size_t width = exposure.columns.base.size(), height = exposure.rows.base.size();
+        const std::size_t across = (width + pixels_across - 1) / pixels_across,
+                          down = (height + pixels_down - 1) / pixels_down;
+        core::parallel_for(across * down, [&](std::size_t i) {
+            const std::size_t left = i % across * pixels_across, top = i / across * pixels_down;
+            for (std::size_t row = top; row < std::min(top + pixels_down, height); ++row)
+                if (exposure.rows.seen[row] > 0) expose(row, left, std::min(left + pixels_across, width));
+        });
+    }
+
+    void expose_row(const ExpectedEye& eye, const Exposure& exposure, std::size_t row, std::size_t first,
+                    std::size_t end, Image& picture) const {
+        const auto width = static_cast<std::ptrdiff_t>(hogels_.plane.width),
+                   rows = static_cast<std::ptrdiff_t>(eye.numbers.extent(0));
+        const std::size_t pairs = eye.pairs->padded_count();
+        const auto reach = static_cast<std::ptrdiff_t>(exposure.spots.front().reach());
+        const std::ptrdiff_t base_y = exposure.rows.base[row] - static_cast<std::ptrdiff_t>(first_row_);
+        const std::ptrdiff_t top = std::max<std::ptrdiff_t>(0, base_y - reach),
+                             bottom = std::min(rows, base_y + reach + 1);
+        const auto position = [](std::ptrdiff_t base, double extent) {
+            return (static_cast<double>(base) + 0.5) / extent;
+        };
+        const double down = position(exposure.rows.base[row], static_cast<double>(hogels_.plane.height));
+        for (std::size_t column = first; column < end; ++column) {
+            const std::ptrdiff_t base = exposure.columns.base[column];
+            const std::ptrdiff_t left = std::max<std::ptrdiff_t>(0, base - reach),
+                                 right = std::min(width, base + reach + 1);
+            if (exposure.columns.seen[column] == 0) continue;
+            const double across = position(base, static_cast<double>(width));
+            float light = 0;
+            for (std::size_t i = 0; i < exposure.spots.size(); ++i) {
+                const float weight = share(across, i % exposure.parts_x, exposure.parts_x) *
+                                     share(down, i / exposure.parts_x, exposure.parts_y);
+                if (weight == 0) continue;
+                const View<const float, 4> spots = exposure.spots[i].weights();
+                const float* weights =
+                    &spots(exposure.rows.place[row], exposure.columns.place[column], top - base_y + reach,
+                           static_cast<std::size_t>(left - base + reach) * pairs);
+                light += weight *
+                         sum_products({&eye.numbers(top, static_cast<std::size_t>(left) * pairs), weights,
+                                       eye.numbers.extent(1), spots.extent(3), static_cast<std::size_t>(bottom - top),
+                                       static_cast<std::size_t>(right - left) * pairs});
+            }
+            picture.pixels(row, column, 0) += exposure.rows.seen[row] * exposure.columns.seen[column] * light;
+        }
+    }
+
+    HogelGrid hogels_;
+    const WavePowers& waves_;
+    std::span<const Camera> cameras_;
+    std::vector<ExpectedEye> eyes_;
+    std::size_t first_row_ = 0;  // of the numbers
+    core::ObjectPool<Array<float, 2>> powers_;
+};
+
+}  // namespace
+
+namespace {
+
+HogelGrid hogel_grid(const FieldGrid& hologram, const WavePowers::Counts& counts) {
+    const Grid& samples = hologram.plane;
+    const auto side = static_cast<double>(counts.samples);
+    return {{counts.across, counts.down, samples.pitch_x * side, samples.pitch_y * side, samples.center_x,
+             samples.center_y},
+            counts.samples,
+            hologram.wavelength};
+}
+
+std::vector<SharedEye> eyes_of(std::span<const Camera> cameras) {
+    std::vector<std::size_t> all(cameras.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return group_by_eye(cameras, all);
+}
+
+}  // namespace
+
+Work work(const FieldGrid& hologram, const WavePowers::Counts& counts, std::span<const Camera> cameras,
+          const PhotographOptions& options) {
+    const HogelGrid hogels = hogel_grid(hologram, counts);
+    Work work;
+    for (const SharedEye& eye : eyes_of(cameras)) {
+        const double band = half_band(hogels, cameras[eye.members.front()].eye, eye.pupil);
+        const SpotBasis basis(counts.samples, band * (1 + guard));
+        const auto pairs = static_cast<double>(Pairs(basis, band).padded_count());
+        work.bytes += pairs * static_cast<double>(hogels.plane.samples()) * sizeof(float);
+        for (const std::size_t member : eye.members) {
+            const auto taps = static_cast<double>(2 * Spots::reach(hogels, cameras[member], band) + 1);
+            work.products += pairs * taps * taps * static_cast<double>(cameras[member].picture.samples());
+        }
+    }
+    work.bytes = std::min(work.bytes, static_cast<double>(options.memory));
+    return work;
+}
+
+void photograph(const FieldSource& hologram, const WavePowers& waves, std::span<const Camera> cameras,
+                const PhotographOptions& options, std::span<Image> pictures, const Progress& progress) {
+    const FieldGrid& field = hologram.grid();
+    for (const Camera& camera : cameras) {
+        validate(camera);
+        require_resolution(field, camera);
+        narrow_band::NarrowBand(field, camera.eye, camera.pupil);  // throws where the pupil is too wide for the pitch
+    }
+    const WavePowers::Counts counts = waves.counts();
+    const HogelGrid hogels = hogel_grid(field, counts);
+    const std::vector<SharedEye> eyes = eyes_of(cameras);
+    // As many eyes at a time as fit into memory with enough rows of hogels.
+    std::size_t at_once = eyes.size();
+    for (std::size_t done = 0; done < eyes.size();) {
+        const std::span<const SharedEye> some = std::span(eyes).subspan(done, std::min(at_once, eyes.size() - done));
+        Photographer photographer(hogels, waves, cameras, some);
+        const auto fit = static_cast<std::size_t>(static_cast<double>(options.memory) / photographer.row_bytes());
+        const std::size_t around = 2 * photographer.reach();
+        if (fit < std::min(counts.down, 3 * around) && at_once > 1) {
+            at_once = (at_once + 1) / 2;
+            continue;
+        }
+        const std::size_t rows = fit >= counts.down ? counts.down : std::max(fit, around + 1) - around;
+        const auto fraction = [&](std::size_t row) {
+            return (static_cast<double>(done) + 0.98 * static_cast<double>(some.size()) * static_cast<double>(row) /
+                                                    static_cast<double>(counts.down)) /
+                   static_cast<double>(eyes.size());
+        };
+        for (std::size_t first = 0; first < counts.down; first += rows) {
+            const std::size_t end = std::min(counts.down, first + rows);
+            photographer.expose(first, end, pictures, progress.part(fraction(first), fraction(end)));
+        }
+        photographer.add_tails(pictures);
+        done += some.size();
+    }
+    progress.report(1);
+}
+
+}  // namespace hogel::optics::expected

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/optics/expected/kernels.h"
+
+namespace hogel::optics::expected {
+
+void sum_powers_plain(const SpotBasis& basis, const SpotBasis::Weights& columns, const SpotBasis::Weights& rows,
+                      const float* powers, float* out) {
+    const std::size_t n = basis.samples(), count = basis.count(), padded = basis.padded_count();
+    for (std::size_t i = 0; i < count * padded; ++i) out[i] = 0;
+    for (std::size_t row = 0; row < n; ++row)
+        for (std::size_t column = 0; column < n; ++column) {
+            constexpr std::size_t lanes = SpotBasis::lanes;
+            const float power = powers[(row / lanes * n + column) * lanes + row % lanes];
+            for (std::size_t x = 0; x < count; ++x)
+                for (std::size_t y = 0; y < padded; ++y)
+                    out[x * padded + y] +=
+                        columns.first[column * columns.stride + x] * rows.first[row * rows.stride + y] * power;
+        }
+}
+
+float sum_products_plain(const Lines& lines) {
+    float sum = 0;
+    for (std::size_t row = 0; row < lines.rows; ++row)
+        for (std::size_t i = 0; i < lines.length; ++i)
+            sum += lines.a[row * lines.a_row + i] * lines.b[row * lines.b_row + i];
+    return sum;
+}
+
+}  // namespace hogel::optics::expected

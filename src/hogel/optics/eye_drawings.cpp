@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/optics/eye_drawings.h"
+
+#include "hogel/optics/narrow_band/narrow_band.h"
+
+namespace hogel::optics {
+namespace {
+
+// Eyes whose bands are computed from the samples of a field.
+class SampledEyes final : public EyeDrawing {
+  public:
+    SampledEyes(const FieldSource& field, std::span<const Eye> eyes) : field_(field) {
+        for (const Eye& eye : eyes) bands_.emplace_back(field.grid(), eye.position, eye.pupil);
+    }
+    const narrow_band::BandGrid& band(std::size_t eye) const override { return bands_[eye]; }
+    std::vector<std::vector<Array<std::complex<float>, 2>>> draw(std::size_t first_look, std::size_t looks,
+                                                                 const Progress& progress) const override {
+        return narrow_band::draw_narrow_bands(field_, bands_, first_look, looks, progress);
+    }
+
+  private:
+    const FieldSource& field_;
+    std::vector<narrow_band::NarrowBand> bands_;
+};
+
+}  // namespace
+
+std::unique_ptr<EyeDrawing> draw_eyes(const FieldSource& whole, const Region& part, const FieldSource& window,
+                                      std::span<const Eye> eyes, LightFrom from) {
+    std::unique_ptr<EyeDrawing> drawing;
+    if (from != LightFrom::samples)
+        if (const auto* hogels = dynamic_cast<const EyeLight*>(&whole)) drawing = hogels->eye_drawing(part, eyes);
+    if (!drawing && from == LightFrom::hogels)
+        throw Error(ErrorCode::usage,
+                    "a photograph from hogels needs a stereogram that is made on demand, by Fourier transforms of "
+                    "hogels with at least twice as many samples as the eye takes in; from samples would do");
+    if (!drawing) drawing = std::make_unique<SampledEyes>(window, eyes);
+    return drawing;
+}
+
+}  // namespace hogel::optics

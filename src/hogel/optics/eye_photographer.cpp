@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "hogel/core/parallel.h"
+#include "hogel/image/film.h"
+#include "hogel/optics/eye_drawings.h"
+#include "hogel/optics/film/film.h"
+#include "hogel/optics/photograph_plan.h"
+#include "hogel/photograph.h"
+
+namespace hogel {
+
+using namespace optics;
+
+namespace {
+
+using Complex = std::complex<float>;
+
+// The light of one colour in the pupil of an eye, look by look, as far as it is known.
+struct SeenColour {
+    std::unique_ptr<EyeDrawing> drawing;
+    std::optional<film::Film> film;
+    std::vector<Array<Complex, 2>> waves;  // [look]
+
+    // The wave of the next look.
+    Array<Complex, 2> draw(std::size_t look) const {
+        auto bands = drawing->draw(look, 1, {});
+        return film->pupil_wave(bands.front().front());
+    }
+};
+
+// An eye, the widest pupil and the widest blur for which its light is known.
+struct SeenEye {
+    Vec3 eye;
+    double pupil = 0, blur = 0;
+    std::vector<SeenColour> colours;
+
+    // A much narrower pupil spreads light farther than films for the wider one have room.
+    bool serves(const Camera& camera) const {
+        return !colours.empty() && camera.eye == eye && camera.pupil <= pupil && camera.pupil > 0.8 * pupil &&
+               defocus_blur(camera) <= blur;
+    }
+};
+
+}  // namespace
+
+struct EyePhotographer::State {
+    std::vector<std::shared_ptr<const FieldSource>> holograms;
+    PhotographOptions options;
+    SeenEye seen;
+
+    std::size_t looks() const { return holograms.front()->looks(); }
+
+    // Begins with an eye whose light is not known. Focuses up to half as much out of focus again need no new light.
+    void look_from(const Camera& camera) {
+        seen = {camera.eye, camera.pupil, 1.5 * defocus_blur(camera), {}};
+        std::vector<SeenColour> colours;
+        for (const auto& hologram : holograms) {
+            const Grid& plane = hologram->grid().plane;
+            const Eye eye{camera.eye, camera.pupil};
+            SeenColour colour;
+            colour.drawing =
+                draw_eyes(*hologram, {0, 0, plane.width, plane.height}, *hologram, {&eye, 1}, options.from);
+            colour.film.emplace(colour.drawing->band(0), hologram->grid(), seen.pupil, seen.blur);
+            colours.push_back(std::move(colour));
+        }
+        seen.colours = std::move(colours);
+    }
+
+    // The bytes of the waves that may be kept.
+    bool may_keep(const Array<Complex, 2>& wave) const {
+        double bytes = 0;
+        for (const SeenColour& colour : seen.colours)
+            for (const auto& kept : colour.waves) bytes += static_cast<double>(sizeof(Complex) * kept.size());
+        return bytes + static_cast<double>(sizeof(Complex) * wave.size()) <= 0.5 * static_cast<double>(options.memory);
+    }
+
+    // Adds a look to a colour's intensities.
+    void expose(std::size_t colour, std::size_t look, const Camera& camera, View<float, 2> intensity) {
+        SeenColour& own = seen.colours[colour];
+        if (look < own.waves.size()) return own.film->expose(std::span(own.waves).subspan(look, 1), camera, intensity);
+        Array<Complex, 2> wave = own.draw(look);
+        own.film->expose({&wave, 1}, camera, intensity);
+        if (look == own.waves.size() && may_keep(wave)) own.waves.push_back(std::move(wave));
+    }
+
+    Image blank(const Camera& camera) const {
+        Image picture;
+        image::load_film({&camera, 1}, holograms.size(), holograms.front()->provenance(), {&picture, 1});
+        return picture;
+    }
+
+    static void put(const Image& one, std::size_t colour, Image& picture) {
+        const std::size_t colours = picture.channels();
+        for (std::size_t i = 0; i < one.pixels.size(); ++i)
+            picture.pixels.data()[i * colours + colour] = one.pixels.data()[i];
+    }
+
+    Image develop(const std::vector<Array<float, 2>>& intensities, const Camera& camera, std::size_t looks) const {
+        Image picture = blank(camera);
+        for (std::size_t c = 0; c < holograms.size(); ++c) {
+            Image one(camera.picture.width, camera.picture.height, 1);
+            seen.colours[c].film->develop(intensities[c], camera, Rectangle(holograms[c]->grid().plane),
+                                          1 / static_cast<double>(looks), one);
+            put(one, c, picture);
+        }
+        return picture;
+    }
+};
+
+EyePhotographer::EyePhotographer(std::vector<std::shared_ptr<const FieldSource>> holograms,
+                                 const PhotographOptions& options, const Progress& progress)
+    : state_(std::make_unique<State>()) {
+    const core::StopScope scope(progress);
+    if (holograms.size() != 1 && holograms.size() != 3)
+        throw Error(ErrorCode::usage,
+                    fmt::format("a photograph takes holograms of one or three wavelengths, not {}", holograms.size()));
+    state_->holograms = std::move(holograms);
+    state_->options = options;
+    std::size_t left = options.memory / 2;
+    for (std::size_t c = 0; c < state_->holograms.size(); ++c) {
+        if (const auto* eyes = dynamic_cast<const EyeLight*>(state_->holograms[c].get()))
+            left -= eyes->keep_amplitudes(left);
+        progress.report(static_cast<double>(c + 1) / static_cast<double>(state_->holograms.size()));
+    }
+}
+
+EyePhotographer::~EyePhotographer() = default;
+EyePhotographer::EyePhotographer(EyePhotographer&&) noexcept = default;
+EyePhotographer& EyePhotographer::operator=(EyePhotographer&&) noexcept = default;
+
+Image EyePhotographer::photograph(const Camera& camera, const Shown& shown, const Progress& progress) {
+    const core::StopScope scope(progress);
+    State& state = *state_;
+    const std::size_t colours = state.holograms.size();
+    if (state.options.expected) {
+        Image picture = state.blank(camera);
+        for (std::size_t c = 0; c < colours; ++c)
+            State::put(
+                hogel::photograph(*state.holograms[c], {&camera, 1}, state.options, progress.part(c, colours)).front(),
+                c, picture);
+        if (shown) shown(picture, 0);
+        return picture;
+    }
+    for (const auto& hologram : state.holograms) require_photographs(hologram->grid(), {&camera, 1}, state.options);
+    if (!state.seen.serves(camera)) state.look_from(camera);
+    std::vector<Array<float, 2>> intensities;
+    for (const SeenColour& colour : state.seen.colours) intensities.push_back(colour.film->unexposed());
+    const std::size_t looks = state.looks();
+    for (std::size_t look = 0; look < looks; ++look) {
+        for (std::size_t c = 0; c < colours; ++c) {
+            core::throw_if_stopped();
+            state.expose(c, look, camera, intensities[c]);
+        }
+        if (shown) shown(state.develop(intensities, camera, look + 1), look + 1);
+        progress.report(static_cast<double>(look + 1) / static_cast<double>(looks));
+    }
+    return state.develop(intensities, camera, looks);
+}
+
+}  // namespace hogel

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// From what photographs of holograms are computed, and what that takes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+#include <vector>
+
+#include "hogel/hologram/eye/stereogram_eyes.h"
+#include "hogel/optics/expected/expected.h"
+#include "hogel/optics/photograph_plan.h"
+#include "hogel/pipeline.h"
+#include "hogel/pipeline/plan_rates.h"
+
+namespace hogel {
+namespace {
+
+// Processor seconds, measured on two threads of one core of an AMD EPYC (Zen 5) with g++ 12, 2026-11-23, other programs
+// beside it. Per sample of a hologram: for the narrow band of one eye.
+constexpr double seconds_a_sample_and_eye = 1.8e-9;
+// Per wave of a hogel: for its amplitude, once; for its phase, for each look; for its light, for each look and eye; and
+// for its share in the numbers of the mean of infinitely many looks, for each eye.
+constexpr double seconds_an_amplitude = 0.4e-9, seconds_a_wave = 0.3e-9, seconds_a_wave_and_eye = 0.7e-9,
+                 seconds_a_power_and_eye = 0.4e-9;
+// Per sample of a band, for each look; per sample of a film, for each look and photograph; and for each product of a
+// number of a hogel with a spot.
+constexpr double seconds_a_band_sample = 25e-9, seconds_a_film_sample = 10e-9, seconds_a_product = 0.11e-9;
+
+// Samples of a film for each resolution cell.
+constexpr double film_density = 3.2;
+
+std::vector<optics::SharedEye> eyes_of(std::span<const Camera> cameras) {
+    std::vector<std::size_t> all(cameras.size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+    return optics::group_by_eye(cameras, all);
+}
+
+// The samples of a side of a hogel.
+std::size_t samples_a_side(const LightFieldGrid& light_field, const FieldGrid& hologram) {
+    return hologram.plane.width / std::max<std::size_t>(light_field.hogels_s, 1);
+}
+
+// Seconds for one colour of photographs from hogels.
+double seconds_from_hogels(const LightFieldGrid& light_field, const FieldGrid& hologram,
+                           std::span<const Camera> cameras, std::size_t looks) {
+    const auto hogels = static_cast<double>(light_field.hogels()),
+               waves = static_cast<double>(hologram.plane.samples()), count = static_cast<double>(looks);
+    const std::vector<optics::SharedEye> eyes = eyes_of(cameras);
+    double seconds = waves * (seconds_an_amplitude +
+                              count * (seconds_a_wave + static_cast<double>(eyes.size()) * seconds_a_wave_and_eye));
+    for (const optics::SharedEye& eye : eyes) {
+        const auto per_hogel = static_cast<double>(hologram::eye::band_samples_per_hogel(
+            hologram, samples_a_side(light_field, hologram), {cameras[eye.members.front()].eye, eye.pupil}));
+        seconds += count * hogels * per_hogel * per_hogel * seconds_a_band_sample;
+    }
+    for (const Camera& camera : cameras) {
+        const double cell = resolution_cell(camera, hologram.wavelength) / film_density;
+        seconds += count * hologram.plane.size_x() * hologram.plane.size_y() / (cell * cell) * seconds_a_film_sample;
+    }
+    return seconds;
+}
+
+double seconds_of_expected(const FieldGrid& hologram, std::span<const Camera> cameras,
+                           const optics::expected::Work& work) {
+    return static_cast<double>(hologram.plane.samples()) *
+               (seconds_an_amplitude + static_cast<double>(eyes_of(cameras).size()) * seconds_a_power_and_eye) +
+           work.products * seconds_a_product;
+}
+
+}  // namespace
+
+LightChoice choose_light(std::span<const LightFieldGrid> faces, const HologramRequest& request,
+                         std::span<const Camera> cameras, const PhotographOptions& options) {
+    if (options.expected) return {LightFrom::hogels, "the mean of infinitely many looks is a sum over hogels"};
+    if (options.from == LightFrom::samples) return {LightFrom::samples, "that was requested"};
+    const auto* const added = std::get_if<PhaseAdded>(&request.method);
+    if (!std::holds_alternative<Fourier>(request.method) && (added == nullptr || added->exact))
+        return {LightFrom::samples, "this method has no hogels that are sums of as many waves as they have samples"};
+    std::size_t per_hogel = 0, samples = 0;
+    for (const Channel& channel : request.channels) {
+        const FieldGrid hologram = hologram_grid(faces, request.options(channel));
+        samples = samples_a_side(faces.front(), hologram);
+        for (const optics::SharedEye& eye : eyes_of(cameras))
+            per_hogel = std::max(per_hogel, hologram::eye::band_samples_per_hogel(
+                                                hologram, samples, {cameras[eye.members.front()].eye, eye.pupil}));
+    }
+    const std::string reason = fmt::format("an eye takes in {} of {} samples of a hogel along an axis, {} than half",
+                                           per_hogel, samples, 2 * per_hogel <= samples ? "no more" : "more");
+    return {hologram::eye::band_is_cheaper(per_hogel, samples) ? LightFrom::hogels : LightFrom::samples, reason};
+}
+
+Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramRequest& request,
+                      std::span<const Camera> cameras, const PhotographOptions& options) {
+    Plan plan = plan_holograms(faces, request);
+    plan.disk = 0;
+    const bool from_hogels = choose_light(faces, request, cameras, options).from == LightFrom::hogels;
+    const auto eyes = static_cast<double>(eyes_of(cameras).size());
+    double seconds = 0, camera_bytes = 0;
+    for (const Channel& channel : request.channels) {
+        const FieldGrid hologram = hologram_grid(faces, request.options(channel));
+        if (options.expected) {
+            const optics::expected::Work work = optics::expected::work(
+                hologram, {faces.front().hogels_s, faces.front().hogels_t, samples_a_side(faces.front(), hologram)},
+                cameras, options);
+            seconds += seconds_of_expected(hologram, cameras, work);
+            camera_bytes = std::max(camera_bytes, work.bytes);
+            continue;
+        }
+        seconds += from_hogels ? seconds_from_hogels(faces.front(), hologram, cameras, request.looks)
+                               : static_cast<double>(hologram.plane.samples()) * static_cast<double>(request.looks) *
+                                     (seconds_a_sample + eyes * seconds_a_sample_and_eye);
+        camera_bytes = std::max(camera_bytes,
+                                optics::plan_photographs(hologram, cameras, static_cast<double>(options.memory)).bytes);
+    }
+    plan.seconds = on_all_threads(seconds);
+    plan.memory += camera_bytes;
+    return plan;
+}
+
+}  // namespace hogel
