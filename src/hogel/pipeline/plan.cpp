@@ -62,7 +62,7 @@ double memory_available() {
 double hologram_samples(std::span<const LightFieldGrid> faces, const HologramRequest& request) {
     double samples = 0;
     for (const Channel& channel : request.channels)
-        samples += static_cast<double>(hologram_grid(faces, request.options(channel)).plane.samples());
+        samples += static_cast<double>(hologram_grid(faces, request.options(channel, faces)).plane.samples());
     return samples;
 }
 
@@ -121,7 +121,8 @@ Plan plan_holograms(std::span<const LightFieldGrid> faces, const HologramRequest
     constexpr double tiles = 4 * double{1 << 24}, table = 52, transform = 28;
     const auto hogels = static_cast<double>(std::max<std::size_t>(faces.front().hogels(), 1));
     const double hogel =
-        static_cast<double>(hologram_grid(faces, request.options(request.channels.front())).plane.samples()) / hogels;
+        static_cast<double>(hologram_grid(faces, request.options(request.channels.front(), faces)).plane.samples()) /
+        hogels;
     const auto threads = static_cast<double>(thread_count());
     plan.memory = threads * tiles + hogel * (table + std::min(threads, hogels) * transform);
     return plan;
@@ -138,7 +139,7 @@ Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramReque
         on_all_threads(samples * (seconds_a_sample + static_cast<double>(eyes.size()) * seconds_a_sample_and_eye));
     double camera_bytes = 0;
     for (const Channel& channel : request.channels) {
-        const FieldGrid grid = hologram_grid(faces, request.options(channel));
+        const FieldGrid grid = hologram_grid(faces, request.options(channel, faces));
         camera_bytes =
             std::max(camera_bytes, optics::plan_photographs(grid, cameras, static_cast<double>(options.memory)).bytes);
     }
