@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Readers of the pictures that hogel writes, from the descriptions of the formats: EXR in scanlines, compressed by ZIP or
+"""Pictures, from the descriptions of their formats: EXR in scanlines, compressed by ZIP or
 not at all, and PNG of 8 bits a channel, not interlaced."""
 import struct
 import zlib
@@ -89,3 +89,15 @@ def unfiltered(kind, line, above, step):
         nearest = min((left, up[x], corner), key=lambda v: abs(left + up[x] - corner - v))
         row[x] = (row[x] + {1: left, 3: (left + up[x]) // 2, 4: nearest}[kind]) & 255
     return row.astype(np.uint8)
+
+
+def write_png(path, levels):
+    """`levels` is [y][x] of 8 bits, grey."""
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+    height, width = levels.shape
+    lines = np.hstack([np.zeros((height, 1), np.uint8), levels.astype(np.uint8)]).tobytes()
+    with open(path, "wb") as file:
+        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">2I5B", width, height, 8, 0, 0, 0, 0)) +
+                   chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b""))
