@@ -14,6 +14,11 @@ class Checks:
         self.failed += not right
         print(f"{what}: {value:.2g}, at most {limit:.2g}{'' if right else '   WRONG'}", flush=True)
 
+    def at_least(self, what, value, limit):
+        right = bool(value >= limit)
+        self.failed += not right
+        print(f"{what}: {value:.2g}, at least {limit:.2g}{'' if right else '   WRONG'}", flush=True)
+
     def equal(self, what, value, expected):
         right = value == expected
         self.failed += not right
