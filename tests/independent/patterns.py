@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Decodes the pictures of 8 bits that `hogel slm` and `hogel print` write, and compares with what was encoded.
 
-usage: encodings.py HOGEL      exit status 77: numpy or h5py is missing
+usage: patterns.py HOGEL      exit status 77: numpy or h5py is missing
 
 docs/holograms.md, "Patterns for modulators". Each pixel must be the value of the encoding's formula to half a level. What the
 pixels transmit, multiplied by the conjugate of the order's carrier and low-passed to the field's band, must be the field: the
