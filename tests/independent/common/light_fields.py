@@ -4,8 +4,9 @@ import h5py
 import numpy as np
 
 
-def write_light_field(path, radiance, hogel_pitch, half_u, half_v=None, depth=None, sines=False):
-    """`radiance` is [c][t][s][v][u], `depth` [t][s][v][u]. Directions fill the tangents, or the sines, to half_u and half_v."""
+def write_light_field(path, radiance, hogel_pitch, half_u, half_v=None, depth=None, sines=False, centre=(0, 0)):
+    """`radiance` is [c][t][s][v][u], `depth` [t][s][v][u]. Directions fill the tangents, or the sines, to half_u and half_v
+    around `centre`."""
     kind = "sine" if sines else "tan"
     with h5py.File(path, "w", libver="v108") as file:
         file.attrs["format"], file.attrs["format_version"] = "hogel light field", np.uint64(1)
@@ -16,6 +17,7 @@ def write_light_field(path, radiance, hogel_pitch, half_u, half_v=None, depth=No
         data.attrs["hogel_pitch_m"] = float(hogel_pitch)
         data.attrs[f"{kind}_half_u"] = float(half_u)
         data.attrs[f"{kind}_half_v"] = float(half_u if half_v is None else half_v)
+        data.attrs["center_u"], data.attrs["center_v"] = map(float, centre)
         if depth is not None:
             data = file.create_dataset("depth", data=np.asarray(depth, "f4"))
             data.attrs["axis_order"], data.attrs["unit"] = "t,s,v,u", "m"
