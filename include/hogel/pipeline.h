@@ -100,7 +100,11 @@ struct HologramRequest {
     /// Whether the light field holds coefficients of basis fringes instead of radiances: see open_for_holograms().
     bool of_coefficients = false;
 
-    HologramOptions options(const Channel& channel) const { return {channel, pitch, method, looks, seed}; }
+    /// For one wavelength and a light field with those faces. If that has one channel, every wavelength shows it.
+    HologramOptions options(const Channel& channel, std::span<const LightFieldGrid> faces) const {
+        const bool grey = !faces.empty() && faces.front().channels == 1;
+        return {{channel.wavelength, grey ? 0 : channel.index}, pitch, method, looks, seed};
+    }
 };
 
 /// The kind of an input. A scene is the name of a built-in one or a mesh file; light fields and holograms are files.

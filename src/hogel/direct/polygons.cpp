@@ -13,6 +13,9 @@
 namespace hogel::direct {
 namespace {
 
+// A polygon seen from closer to its plane than this cosine counts as seen edge-on.
+constexpr double min_cosine = 0.02;
+
 // The triangles of one mesh that lie in one plane.
 struct Polygon {
     std::vector<std::size_t> triangles;
@@ -32,7 +35,7 @@ std::vector<Polygon> polygons_of(const ShadedScene& scene) {
         if (!(length(across) > 0)) continue;
         const Vec3 normal = std::copysign(1 / length(across), across.z) * across;
         // A polygon seen edge-on is invisible.
-        if (normal.z < 0.02) continue;
+        if (normal.z < min_cosine) continue;
         const auto step = [](double x) { return std::lround(1e4 * x); };
         Polygon& polygon = found[{triangle.mesh, step(normal.x), step(normal.y), step(dot(normal, a) / size)}];
         polygon.triangles.push_back(i);
@@ -75,6 +78,19 @@ void for_samples_inside(const std::array<Vec3, 3>& p, const Grid& grid,
         }
 }
 
+// Gives the waves of random samples, which have the same spectral density in all directions, that of a diffuse surface:
+// Lλ²/cos θ, with θ to the normal of its own plane (docs/notation.md, section 3).
+void weigh_as_diffuse(optics::Spectrum& waves) {
+    core::parallel_for(waves.height(), [&](std::size_t row) {
+        const double sine_y = waves.wavelength * waves.frequency_y(static_cast<double>(row));
+        for (std::size_t column = 0; column < waves.width(); ++column) {
+            const double sine_x = waves.wavelength * waves.frequency_x(static_cast<double>(column));
+            const double cosine = std::sqrt(std::max(0.0, 1 - sine_x * sine_x - sine_y * sine_y));
+            waves.samples.view()(row, column) *= static_cast<float>(1 / std::sqrt(std::max(cosine, min_cosine)));
+        }
+    });
+}
+
 // The light of a polygon on planes parallel to the hologram. Its surface, with random phases, is sampled on its own
 // plane; its plane waves are rotated to the hologram's axes and propagated to the requested plane. Sources: Leseberg
 // and Frère, "Computer-generated holograms of 3-D objects composed of tilted planar segments", Applied Optics 27, 1988;
@@ -108,8 +124,9 @@ class PolygonLight {
         const Grid& own = surface.grid().plane;
         const optics::Band around{surface.carrier_x - 0.5 / own.pitch_x, surface.carrier_x + 0.5 / own.pitch_x,
                                   surface.carrier_y - 0.5 / own.pitch_y, surface.carrier_y + 0.5 / own.pitch_y};
-        const optics::Spectrum own_waves =
+        optics::Spectrum own_waves =
             optics::spectrum_of(surface, optics::padded(own, own.size_x(), own.size_y()), around, in_memory_);
+        weigh_as_diffuse(own_waves);
         optics::Spectrum waves =
             optics::tilt(own_waves, {{x.x, y.x, n.x}, {x.y, y.y, n.y}}, window, optics::Band::of(plane), in_memory_);
         waves.window.center_x = origin.x;

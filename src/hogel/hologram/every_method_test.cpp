@@ -12,6 +12,7 @@
 #include "hogel/hologram/parallax.h"
 #include "hogel/hologram/points.h"
 #include "hogel/hologram/surface_cells.h"
+#include "hogel/hologram/windows/batch.h"
 #include "hogel/photograph.h"
 #include "hogel/ray_photograph.h"
 #include "hogel/units.h"
@@ -192,10 +193,16 @@ class OverlapAddPoint : public testing::TestWithParam<double> {};
 TEST_P(OverlapAddPoint, is_focused_as_narrowly_as_the_fan_of_rays_allows) {
     const double depth = GetParam(), tan_half = 8.5 * 633_nm / (19 * 4_um);
     const LightFieldGrid grid{201, 39, 4_um, 17, 17, Perspective{tan_half, tan_half}, 1};
-    const Card card{depth, -2_um, 2_um, -2_um, 2_um};
+    // One point of the surface, the nearest to the middle hogel.
+    const auto beside = [](std::size_t hogels) {
+        const double middle = 0.5 * double(hogels - 1);
+        return (std::round(middle / windows::point_spacing) * windows::point_spacing - middle) * 4_um;
+    };
+    const double x = beside(grid.hogels_s), y = -beside(grid.hogels_t), half = 0.5 * windows::point_spacing * 4_um;
+    const Card card{depth, x - half, x + half, y - half, y + half};
     const LightFieldBuffer light_field = light_field_of(grid, {&card, 1});
     const auto hologram = make_hologram(borrow(light_field), options_for(OverlapAdd{}, 4_um));
-    const Peak peak = peak_of(focus_of(*hologram, {0, 0, -depth}, 30_um));
+    const Peak peak = peak_of(focus_of(*hologram, {x, y, -depth}, 30_um));
     // Seventeen directions, 1/W apart, W = 19 samples.
     const double fan = 0.886 / (17 / (19 * 4_um));
     EXPECT_NEAR(peak.width * 30_um / fan, 1, 0.15);

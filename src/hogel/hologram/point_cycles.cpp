@@ -5,7 +5,7 @@
 namespace hogel::hologram {
 namespace {
 
-constexpr std::int64_t margin = 32;  // hogels beyond the region on each side
+constexpr std::int64_t margin = 32;  // points beyond the range on each side
 
 }  // namespace
 
@@ -13,11 +13,11 @@ double CycleSeries::operator()(std::uint32_t column, std::uint32_t row, std::uin
     return core::philox({column, row, direction, series}, key)[0] / 4294967296.0;
 }
 
-PointCycles::PointCycles(const CycleSeries& series, const HogelRange& hogels)
+PointCycles::PointCycles(const CycleSeries& series, const HogelRange& points)
     : series_(series),
-      column0_(static_cast<std::int64_t>(hogels.s0) - margin),
-      row0_(static_cast<std::int64_t>(hogels.t0) - margin),
-      cycles_({hogels.nt + 2 * margin, hogels.ns + 2 * margin}) {
+      column0_(static_cast<std::int64_t>(points.s0) - margin),
+      row0_(static_cast<std::int64_t>(points.t0) - margin),
+      cycles_({points.nt + 2 * margin, points.ns + 2 * margin}) {
     for (std::size_t row = 0; row < cycles_.extent(0); ++row)
         for (std::size_t column = 0; column < cycles_.extent(1); ++column)
             cycles_(row, column) =

@@ -13,16 +13,16 @@ namespace hogel::hologram {
 struct CycleSeries {
     std::array<std::uint32_t, 2> key;  ///< the seed
     std::uint32_t series;              ///< look and colour
-    /// The phase of the surface point at a hogel's position; or, with `direction` counted from one, of a ray of the
-    /// hogel that meets nothing.
+    /// The phase of the surface point of a column and a row; or, with `direction` counted from one, of a ray of the
+    /// hogel there that meets nothing.
     double operator()(std::uint32_t column, std::uint32_t row, std::uint32_t direction = 0) const;
 };
 
-/// The phases of surface points, one per hogel. Those around the hogels of a region are precomputed, because many
-/// hogels see each point.
+/// The phases of surface points by column and row. Those around a range are precomputed, because many hogels see each
+/// point.
 class PointCycles {
   public:
-    PointCycles(const CycleSeries& series, const HogelRange& hogels);
+    PointCycles(const CycleSeries& series, const HogelRange& points);
 
     double operator()(std::int64_t column, std::int64_t row) const {
         const auto x = static_cast<std::size_t>(column - column0_), y = static_cast<std::size_t>(row - row0_);

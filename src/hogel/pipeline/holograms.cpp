@@ -18,10 +18,10 @@ void require_holograms(std::span<const LightFieldGrid> faces, const HologramRequ
     // The shortest wavelength is the most critical: it is diffracted least and has the finest detail in the light that
     // enters a lens.
     const Channel& shortest = *std::ranges::min_element(request.channels, {}, &Channel::wavelength);
-    const FieldGrid hologram = hologram_grid(faces, request.options(shortest));
+    const FieldGrid hologram = hologram_grid(faces, request.options(shortest, faces));
     // The longest has the fewest directions and the coarsest detail.
     const Channel& longest = *std::ranges::max_element(request.channels, {}, &Channel::wavelength);
-    if (&longest != &shortest) require_photographs(hologram_grid(faces, request.options(longest)), cameras);
+    if (&longest != &shortest) require_photographs(hologram_grid(faces, request.options(longest, faces)), cameras);
     require_photographs(hologram, cameras);
     for (const Camera& camera : cameras) require_light_towards(hologram, camera);
 }
@@ -55,10 +55,9 @@ std::string warning_about(const LightField& light_field, const HologramRequest& 
 Fields make_holograms(const LightField& light_field, const HologramRequest& request) {
     Fields holograms;
     for (const Channel& channel : request.channels) {
-        Channel shown = channel;
-        if (light_field.grid().channels == 1) shown.index = 0;
-        holograms.push_back(request.of_coefficients ? make_hologram_of_coefficients(light_field, request.options(shown))
-                                                    : make_hologram(light_field, request.options(shown)));
+        const HologramOptions options = request.options(channel, light_field.grids());
+        holograms.push_back(request.of_coefficients ? make_hologram_of_coefficients(light_field, options)
+                                                    : make_hologram(light_field, options));
     }
     return holograms;
 }

@@ -98,7 +98,7 @@ Plan plan_light_field(const LightField& rendered, const LightFieldRequest& reque
 double hologram_samples(std::span<const LightFieldGrid> faces, const HologramRequest& request) {
     double samples = 0;
     for (const Channel& channel : request.channels)
-        samples += static_cast<double>(hologram_grid(faces, request.options(channel)).plane.samples());
+        samples += static_cast<double>(hologram_grid(faces, request.options(channel, faces)).plane.samples());
     return samples;
 }
 
@@ -113,7 +113,8 @@ Plan plan_holograms(std::span<const LightFieldGrid> faces, const HologramRequest
     constexpr double tiles = 4 * double{1 << 24}, table = 52, transform = 28;
     const auto hogels = static_cast<double>(std::max<std::size_t>(faces.front().hogels(), 1));
     const double hogel =
-        static_cast<double>(hologram_grid(faces, request.options(request.channels.front())).plane.samples()) / hogels;
+        static_cast<double>(hologram_grid(faces, request.options(request.channels.front(), faces)).plane.samples()) /
+        hogels;
     const auto threads = static_cast<double>(thread_count());
     plan.memory = threads * tiles + hogel * (table + std::min(threads, hogels) * transform);
     return plan;

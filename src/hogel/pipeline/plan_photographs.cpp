@@ -79,7 +79,7 @@ LightChoice choose_light(std::span<const LightFieldGrid> faces, const HologramRe
         return {LightFrom::samples, "this method has no hogels that are sums of as many waves as they have samples"};
     std::size_t per_hogel = 0, samples = 0;
     for (const Channel& channel : request.channels) {
-        const FieldGrid hologram = hologram_grid(faces, request.options(channel));
+        const FieldGrid hologram = hologram_grid(faces, request.options(channel, faces));
         samples = samples_a_side(faces.front(), hologram);
         for (const optics::SharedEye& eye : eyes_of(cameras))
             per_hogel = std::max(per_hogel, hologram::eye::band_samples_per_hogel(
@@ -98,7 +98,7 @@ Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramReque
     const auto eyes = static_cast<double>(eyes_of(cameras).size());
     double seconds = 0, camera_bytes = 0;
     for (const Channel& channel : request.channels) {
-        const FieldGrid hologram = hologram_grid(faces, request.options(channel));
+        const FieldGrid hologram = hologram_grid(faces, request.options(channel, faces));
         if (options.expected) {
             const optics::expected::Work work = optics::expected::work(
                 hologram, {faces.front().hogels_s, faces.front().hogels_t, samples_a_side(faces.front(), hologram)},

@@ -13,6 +13,11 @@
 
 namespace hogel::hologram::windows {
 
+/// The distance of the points of a diffuse surface along x and along y, in hogels. Points that stood as the hogels do
+/// would meet all of them alike, so that single directions of a plane parallel to the hologram were brighter than
+/// others.
+inline constexpr double point_spacing = 15.0 / 16;
+
 /// A direction of a window's Fourier transform, with the ray of the light field nearest to it.
 struct WindowDirection {
     std::uint32_t coefficient;  // index [row][column] of the transform
@@ -46,8 +51,8 @@ class WindowBatch {
     };
     explicit WindowBatch(const Shared& shared);
 
-    /// Gives the phases, in cycles, of the point (columns to the right, rows up) of each of the hogels; empty if points
-    /// have no phases.
+    /// Gives the phases, in cycles, of the points of these columns and rows that the hogels see; empty if points have
+    /// no phases.
     using PointCycles = std::function<void(const std::int32_t* columns, const std::int32_t* rows, float* cycles)>;
     /// The hogels, columns s, s + 1, … of row t, and the series of the random phases of rays that meet nothing; the
     /// phase of a direction is the first word of Philox's draw {s, t, coefficient + 1, series}.

@@ -27,9 +27,10 @@ using Wide = hn::Repartition<double, D>;
 #endif
 
 // Computes the phases (a fraction of a cycle) of the points that the rays meet and, for points with random phases, the
-// offsets of these points from the hogel.
-void PointsAndCycles(const WindowBatch::Shared& shared, const WindowDirection& direction, const float* depths,
-                     bool points, float* cycles, std::int32_t* columns, std::int32_t* rows) {
+// columns and rows of these points.
+void PointsAndCycles(const WindowBatch::Shared& shared, const WindowDirection& direction,
+                     const WindowBatch::At& at_hogels, const float* depths, bool points, float* cycles,
+                     std::int32_t* columns, std::int32_t* rows) {
     const Wide d;
     const hn::Rebind<float, Wide> narrow;
     const hn::Rebind<std::int32_t, Wide> whole;
@@ -39,10 +40,15 @@ void PointsAndCycles(const WindowBatch::Shared& shared, const WindowDirection& d
         auto all = hn::MulAdd(depth, hn::Set(d, direction.cycles_per_depth), first);
         if (points) {
             const auto hogels = hn::Mul(depth, hn::Set(d, shared.hogels_a_metre));
-            const auto column = hn::Round(hn::Mul(hn::Set(d, static_cast<double>(direction.U)), hogels));
-            const auto row = hn::Round(hn::Mul(hn::Set(d, static_cast<double>(direction.V)), hogels));
-            const auto pitch = hn::Set(d, shared.pitch);
-            const auto x = hn::Mul(column, pitch), y = hn::Mul(row, pitch);
+            const auto s = hn::Iota(d, static_cast<double>(at_hogels.s + i)),
+                       t = hn::Set(d, static_cast<double>(at_hogels.t));
+            const auto spacing = hn::Set(d, point_spacing), pitch = hn::Set(d, shared.pitch);
+            const auto column =
+                hn::Round(hn::Div(hn::MulAdd(hn::Set(d, static_cast<double>(direction.U)), hogels, s), spacing));
+            const auto row =
+                hn::Round(hn::Div(hn::NegMulAdd(hn::Set(d, static_cast<double>(direction.V)), hogels, t), spacing));
+            const auto x = hn::Mul(hn::MulSub(column, spacing, s), pitch),
+                       y = hn::Mul(hn::MulSub(row, spacing, t), pitch);
             const auto distance = hn::Sqrt(hn::MulAdd(y, y, hn::MulAdd(x, x, hn::Mul(depth, depth))));
             const auto path = hn::NegMulAdd(depth, hn::Set(d, shared.reference_cosine), hn::CopySign(distance, depth));
             all = hn::MulAdd(path, hn::Set(d, shared.waves_a_metre), first);
@@ -164,7 +170,7 @@ void FillWindows(const WindowBatch::Shared& shared, WindowBatch::Work& work, con
             for (std::size_t i = 0; i < width; ++i) re[i] = im[i] = 0;
             continue;
         }
-        PointsAndCycles(shared, direction, finite_depths, bool(points), cycles, columns, rows);
+        PointsAndCycles(shared, direction, at_hogels, finite_depths, bool(points), cycles, columns, rows);
         if (points) {
             points(columns, rows, own_cycles);
             for (std::size_t i = 0; i < width; i += hn::Lanes(d))

@@ -25,7 +25,10 @@ class WindowBrightness {
 
     /// @param hop     side of a hogel in samples
     /// @param window  values along one axis
-    WindowBrightness(const LightFieldGrid& rays, const FieldGrid& grid, std::size_t hop, std::span<const float> window);
+    /// @param point_spacing  of the points of a surface, in hogels: 1, or 1 − 1/n with a whole number n; then points
+    ///                       take n places between hogels, and factors are for the mean over these
+    WindowBrightness(const LightFieldGrid& rays, const FieldGrid& grid, std::size_t hop, std::span<const float> window,
+                     double point_spacing);
 
     /// The step of a depth, which must be finite; the last one is for all larger depths.
     std::size_t step_of(float depth) const {

@@ -38,6 +38,14 @@ std::vector<float> hann_window(std::size_t side) {
     return window;
 }
 
+// The hogels' range of points.
+HogelRange points_of(const HogelRange& hogels) {
+    const auto scaled = [](std::size_t hogel) {
+        return static_cast<std::size_t>(static_cast<double>(hogel) / point_spacing);
+    };
+    return {scaled(hogels.s0), scaled(hogels.t0), scaled(hogels.ns) + 2, scaled(hogels.nt) + 2};
+}
+
 std::int64_t nearest_whole(double x) { return static_cast<std::int64_t>(x < 0 ? x - 0.5 : x + 0.5); }
 
 // By how much the points at which neighbouring hogels see a surface in one direction are farther apart than the hogels:
@@ -68,7 +76,7 @@ class OverlapAddHologram final : public FieldSource {
           side_(window_side(light_field_.grid(), grid, hop_)),
           fft_(side_, side_),
           window_(hann_window(side_)),
-          brightness_(light_field_.grid(), grid, hop_, window_) {
+          brightness_(light_field_.grid(), grid, hop_, window_, phases == PointPhases::random ? point_spacing : 1) {
         for (const float row : window_)
             for (const float column : window_) square_.push_back(row * column);
         hogels_a_metre_ = 1 / light_field_.grid().pitch;
@@ -125,7 +133,7 @@ class OverlapAddHologram final : public FieldSource {
         std::fill(out.data(), out.data() + out.size(), Complex(0));
         Array<Complex, 2> window({side_, side_});
         std::optional<PointCycles> points;
-        if (phases_ == PointPhases::random) points.emplace(cycle_series(look), hogels);
+        if (phases_ == PointPhases::random) points.emplace(cycle_series(look), points_of(hogels));
         for_each_band(hogels, scratch.tile, [&](const LightFieldTile& tile) {
             const HogelRange& range = tile.range;
             for (std::size_t j = 0; j < range.nt; ++j)
@@ -168,7 +176,7 @@ class OverlapAddHologram final : public FieldSource {
                 std::fill_n(part->data(), size, 0.0f);
         }
         std::optional<PointCycles> points;
-        if (phases_ == PointPhases::random) points.emplace(cycle_series(look), hogels);
+        if (phases_ == PointPhases::random) points.emplace(cycle_series(look), points_of(hogels));
         for_each_band(hogels, scratch.tile, [&](const LightFieldTile& tile) {
             for (std::size_t j = 0; j < tile.range.nt; ++j)
                 for (std::size_t i = 0; i < tile.range.ns; i += together)
@@ -189,8 +197,7 @@ class OverlapAddHologram final : public FieldSource {
         if (points)
             cycles_of_points = [=](const std::int32_t* columns, const std::int32_t* rows, float* cycles) {
                 for (std::size_t k = 0; k < WindowBatch::hogels; ++k)
-                    cycles[k] = static_cast<float>((*points)(static_cast<std::int64_t>(s + k) + columns[k],
-                                                             static_cast<std::int64_t>(t) - rows[k]));
+                    cycles[k] = static_cast<float>((*points)(columns[k], rows[k]));
             };
         const CycleSeries cycles = cycle_series(look);
         const WindowBatch::At at{s, t, cycles.series, cycles.key};
@@ -279,16 +286,17 @@ class OverlapAddHologram final : public FieldSource {
                                         direction.coefficient + 1);
     }
 
-    // A diffuse surface consists of one point per hogel, at the hogels' positions in x and y; a ray shows the nearest
-    // point.
+    // A diffuse surface consists of points, point_spacing apart in x and y; a ray shows the nearest one.
     double cycles_of_point(const WindowDirection& direction, double depth, const HogelPlace& place,
                            const PointCycles& points) const {
         const double pitch = light_field_.grid().pitch, hogels = depth * hogels_a_metre_;
-        const std::int64_t columns = nearest_whole(direction.U * hogels), rows = nearest_whole(direction.V * hogels);
-        const double x = static_cast<double>(columns) * pitch, y = static_cast<double>(rows) * pitch;
+        const auto s = static_cast<double>(place.s), t = static_cast<double>(place.t);
+        const std::int64_t column = nearest_whole((s + direction.U * hogels) / point_spacing),
+                           row = nearest_whole((t - direction.V * hogels) / point_spacing);
+        const double x = (static_cast<double>(column) * point_spacing - s) * pitch,
+                     y = (t - static_cast<double>(row) * point_spacing) * pitch;
         const double distance = std::copysign(std::sqrt(depth * depth + x * x + y * y), depth);
-        return (distance - depth * reference_cosine_) * waves_a_metre_ +
-               points(static_cast<std::int64_t>(place.s) + columns, static_cast<std::int64_t>(place.t) - rows);
+        return (distance - depth * reference_cosine_) * waves_a_metre_ + points(column, row);
     }
 
     // First and number of the hogels whose windows touch samples first..first+count−1.
