@@ -67,8 +67,10 @@ void add_camera_options(Command& command, CameraOptions& options) {
     command.positive_length("--focal-length", options.focal_length, "With --f-number");
     command.angle("--angle-of-view", options.angle_of_view, "Across; 0deg: what shows the hologram");
     command.resolution("--resolution", options.resolution, "Pixels across, or across and down");
-    command.point("--to-eye", options.last_eye, "The eye of the last frame").sets(options.moves_eye);
-    command.length("--to-focus", options.last_focus, "The depth in focus of the last frame").sets(options.moves_focus);
+    command.point("--to-eye", options.last_eye, "The eye of the last frame").no_default().sets(options.moves_eye);
+    command.length("--to-focus", options.last_focus, "The depth in focus of the last frame")
+        .no_default()
+        .sets(options.moves_focus);
     command.count("--frames", options.frames, "Pictures on the way, for an output .mp4, .gif, .apng or name####.png");
     command.number("--frame-rate", options.frame_rate, "NUMBER", "Frames a second of a film").positive();
 }
@@ -87,6 +89,18 @@ std::vector<Camera> make_cameras(const CameraOptions& options, double width, dou
             make_camera(options, width, height,
                         options.frames > 1 ? static_cast<double>(i) / static_cast<double>(options.frames - 1) : 0));
     return cameras;
+}
+
+void record_camera(RunRecord& record, const CameraOptions& options, bool film) {
+    record.acted({"eye", "gaze", "focus", "focus-tilt", "angle-of-view", "resolution"});
+    if (options.f_number > 0)
+        record.acted({"f-number", "focal-length"});
+    else
+        record.acted({"pupil"});
+    if (options.moves_eye) record.acted({"to-eye"});
+    if (options.moves_focus) record.acted({"to-focus"});
+    if (options.frames > 1) record.acted({"frames"});
+    if (film) record.acted({"frame-rate"});
 }
 
 }  // namespace hogel::cli

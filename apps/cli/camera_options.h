@@ -6,6 +6,7 @@
 #include "command_line.h"
 #include "hogel/camera.h"
 #include "hogel/pipeline.h"
+#include "run_record.h"
 
 namespace hogel::cli {
 
@@ -28,5 +29,8 @@ void add_camera_options(Command& command, CameraOptions& options);
 
 /// The cameras of all frames, for a hologram of this size. Throws Error(usage).
 std::vector<Camera> make_cameras(const CameraOptions& options, double width, double height);
+
+/// Records the camera's options; that of the frame rate acts on films alone.
+void record_camera(RunRecord& record, const CameraOptions& options, bool film);
 
 }  // namespace hogel::cli

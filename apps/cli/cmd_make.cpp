@@ -87,11 +87,13 @@ void timed(const Session& session, Report& report, const std::string& name, Work
 
 void write_pictures(const std::filesystem::path& folder, const Report& report) {
     for (const PhotographPair& pair : report.pairs) {
-        Metadata metadata = report.run;
-        metadata.emplace_back("exposure", fmt::format("{:.9g}", report.exposure));
+        const std::pair<std::string, std::string> exposure{"exposure", fmt::format("{:.9g}", report.exposure)};
+        Metadata wave = report.waves_run, rays = report.rays_run;
+        wave.push_back(exposure);
+        rays.push_back(exposure);
         for (const char* extension : {".png", ".exr"}) {
-            write_image(folder / (pair.wave_file + extension), pair.wave, report.exposure, metadata);
-            write_image(folder / (pair.geometric_file + extension), pair.geometric, report.exposure, metadata);
+            write_image(folder / (pair.wave_file + extension), pair.wave, report.exposure, wave);
+            write_image(folder / (pair.geometric_file + extension), pair.geometric, report.exposure, rays);
         }
     }
 }
@@ -136,9 +138,9 @@ int make(const Options& options, const Session& session) {
     report.light_field = options.render.request().grid;
     report.pupil_samples = options.pupil_samples;
     report.threads = thread_count();
-    report.run = describe_run(session);
-
-    const Scene scene = load_scene(session, options.scene, options.render);
+    RunRecord rendering(session);
+    rendering.acted({"scene"});
+    const Scene scene = load_scene(session, options.scene, options.render, rendering);
     report.triangles = triangle_count(scene);
     report.pairs = plan_photographs(options, scene, report.light_field);
     report.looks = options.looks > 0 ? options.looks : enough_looks(report.pairs.front().camera);
@@ -153,12 +155,23 @@ int make(const Options& options, const Session& session) {
     const std::filesystem::path light_field_file = folder.path() / "lightfield.h5";
 
     timed(session, report, "light field", [&](Stage& stage) {
-        const LightField rendered = render_light_field(session, scene, options.render);
+        const LightField rendered = render_light_field(session, scene, options.render, rendering);
         require_memory(session, rendered, options.render, scene);
-        write_light_field(light_field_file, rendered, {.metadata = report.run}, stage.progress());
+        write_light_field(light_field_file, rendered, {.metadata = rendering.metadata()}, stage.progress());
     });
     report.light_field_bytes = std::filesystem::file_size(light_field_file);
     const LightField light_field = open_light_field(light_field_file);
+    RunRecord synthesis(session), waves(session), rays(session);
+    if (options.hologram.record(synthesis, request, light_field.grid()))
+        waves.acted("looks", fmt::format("{}", report.looks));
+    rays.acted({"eye-distance", "pupil", "resolution"});
+    waves.add(synthesis);
+    waves.add(rays);
+    rays.acted({"pupil-samples"});
+    report.waves_run = waves.metadata();
+    report.rays_run = rays.metadata();
+    for (const RunRecord& other : {waves, rays}) rendering.add(other);
+    report.run = rendering.metadata();
     const auto holograms = make_holograms(light_field, request);
     for (const auto& hologram : holograms) report.holograms.push_back(hologram->grid());
 
@@ -168,7 +181,8 @@ int make(const Options& options, const Session& session) {
     });
     if (options.store_hologram)
         timed(session, report, "hologram file", [&](Stage& stage) {
-            write_holograms(folder.path() / "hologram.h5", holograms, {.metadata = report.run}, stage.progress());
+            write_holograms(folder.path() / "hologram.h5", holograms, {.metadata = synthesis.metadata()},
+                            stage.progress());
         });
     timed(session, report, "photographs by waves", [&](Stage& stage) {
         std::vector<Image> pictures = photograph_colours(holograms, cameras, PhotographOptions(), stage.progress());

@@ -48,6 +48,24 @@ Result result_of(const Pattern& pattern, double wavelength, Encoding encoding) {
     return result;
 }
 
+// Records the options that act with an encoding.
+void record_pattern(RunRecord& record, const Options& options, Encoding encoding) {
+    record.acted({"input", "encoding"});
+    if (options.device.empty())
+        record.acted({"pixels", "pixel-pitch"});
+    else
+        record.acted({"device"});
+    // The two values of binary patterns are levels of every modulator.
+    if (options.device.empty() && encoding != Encoding::binary) record.acted({"levels"});
+    const bool iterated = encoding == Encoding::gerchberg_saxton || encoding == Encoding::gradient;
+    if (iterated) record.acted({"window", "iterations"});
+    if (encoding == Encoding::gradient) record.acted({"seed"});
+    // Phases and signs alone do not depend on how large a modulus is.
+    if (encoding != Encoding::phase && encoding != Encoding::binary) record.acted({"clip"});
+    if (encoding == Encoding::intensity || encoding == Encoding::bipolar || encoding == Encoding::binary)
+        record.acted({"reference"});
+}
+
 int slm(const Options& options, const Session& session) {
     PatternOptions pattern_options = options.pattern;
     pattern_options.encoding = encodings().find(options.encoding).encoding;
@@ -66,7 +84,9 @@ int slm(const Options& options, const Session& session) {
     const Modulator& modulator = pattern_options.modulator;
     Array<std::uint8_t, 3> levels({modulator.height, modulator.width, colours});
     Stage stage(session, "pattern");
-    Metadata metadata = describe_run(session);
+    RunRecord record(session);
+    record_pattern(record, options, pattern_options.encoding);
+    Metadata metadata = record.metadata();
     ResultList patterns;
     for (std::size_t c = 0; c < colours; ++c) {
         const Pattern pattern =
@@ -87,6 +107,9 @@ int slm(const Options& options, const Session& session) {
                                 -pattern.reference_angle * 180 / std::numbers::pi);
         session.say(line);
         metadata.emplace_back("efficiency at " + name, fmt::format("{:.6f}", pattern.efficiency));
+        if (pattern.reference_angle != 0)
+            metadata.emplace_back("reference angle at " + name,
+                                  fmt::format("{:.6f}deg", pattern.reference_angle * 180 / std::numbers::pi));
         patterns.push_back(result_of(pattern, fields[c]->grid().wavelength, pattern_options.encoding));
     }
     write_raw_pixels(options.output, levels, with_history(metadata, to_metadata(fields.front()->provenance())));

@@ -36,7 +36,8 @@ struct Report {
     std::vector<PhotographPair> pairs;
     std::vector<std::pair<std::string, double>> stages;  ///< name, seconds
     std::size_t threads = 0;
-    Metadata run;
+    Metadata run;                  ///< with the options that acted on any output
+    Metadata waves_run, rays_run;  ///< with those that acted on the photographs by waves, and by rays
 };
 
 /// A self-contained HTML page with embedded pictures.

@@ -12,6 +12,7 @@
 
 #include "hogel/export.h"
 #include "hogel/progress.h"
+#include "hogel/provenance.h"
 #include "hogel/scene.h"
 #include "hogel/table.h"
 
@@ -159,6 +160,8 @@ struct ShadedScene {
     bool fronts_only = false;
     std::shared_ptr<const SampleLighting> lighting;          ///< null if `radiance` gives all light
     std::shared_ptr<shading::RadianceCache> radiance_cache;  ///< null: light is evaluated anew for each ray
+    /// Where it comes from: the name of the scene, and the shading model unless all radiance was given.
+    Metadata provenance;
 
     /// Whether light is evaluated at the samples of this triangle instead of at its vertices.
     bool is_lit(std::size_t index) const {

@@ -89,12 +89,13 @@ LightField render_light_field(const std::shared_ptr<const ShadedScene>& scene, c
     std::vector<LightField::Source> faces;
     for (const LightFieldGrid& grid : request.grids())
         faces.push_back(make_renderer(request.renderer, scene, grid, request.samples));
-    return LightField(std::move(faces), {{{"renderer", request.renderer}, {"shading", request.shading.model}}, {}});
+    Metadata entries = scene->provenance;
+    entries.emplace_back("renderer", request.renderer);
+    return LightField(std::move(faces), {std::move(entries), {}});
 }
 
 LightField render_light_field(const Scene& scene, const LightFieldRequest& request, const Progress& progress) {
-    const LightField rendered = render_light_field(light_scene(scene, request, progress), request);
-    return rendered.with({with_history({{"scene", scene.name}}, rendered.provenance().entries), {}});
+    return render_light_field(light_scene(scene, request, progress), request);
 }
 
 LightField prepare_for_reading(const LightField& light_field, std::size_t times, bool with_depth,

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "hogel/core/parallel.h"
@@ -112,6 +113,9 @@ void shade_scene_into(const Scene& scene, const ShadingOptions& options, ShadedS
     shaded.radiance_cache = nullptr;
     set_geometry(scene, options.filter_textures, shaded);
     shaded.lighting = model.make(scene, options, shaded, progress);
+    shaded.provenance = {{"scene", scene.name}};
+    if (!std::ranges::all_of(scene.meshes, [](const Mesh& mesh) { return !mesh.radiance.empty(); }))
+        shaded.provenance.emplace_back("shading", options.model);
 }
 
 ShadedScene shade_scene(const Scene& scene, const ShadingOptions& options, const Progress& progress) {
