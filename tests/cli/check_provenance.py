@@ -46,7 +46,7 @@ OTHER = {
     "tone-decades": "0.2", "chrominance": "9", "tile": "3x2", "layers": "1",
     # fields and patterns
     "distance": "3mm", "output-pitch": "2um", "output-samples": "70x60", "offset-x": "40um", "offset-y": "40um",
-    "encoding": "double-phase", "reference": "1.2deg", "clip": "0.3", "window": "12", "iterations": "2",
+    "encoding": "double-phase", "reference": "1.2deg", "clip": "0.3", "window": "9", "iterations": "2",
     "device": "leto", "pixels": "90x70", "pixel-pitch": ACTS, "levels": "4",
     # prints
     "strips": None, "order": "rows",
@@ -155,7 +155,7 @@ def run(words, output):
 class File:
     """What hogel info says of a file: `options`, those of the command that made it, and `facts`, without how it was made
     and how many bytes it takes."""
-    MADE_BY = re.compile(r"(source )*(software|command|option .*|camera|efficiency .*|reference angle .*)|exposure|shading"
+    MADE_BY = re.compile(r"(source )*(software|command|option .*|camera|(efficiency|correlation|iterations|reference angle) at .*)|exposure|shading"
                          r"|renderer|bytes|.*_bytes|pixels_per_bit|layers_end_at")
 
     def __init__(self, name):
