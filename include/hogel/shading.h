@@ -152,11 +152,13 @@ struct ShadedScene {
     std::vector<Vec3> positions;  ///< metres, world frame
     std::vector<Rgb> radiance;    ///< at the vertices, before the texture: reflected light plus emission
     std::vector<TextureCoordinate> texture_coordinates;  ///< as long as `positions`
-    std::vector<Triangle> triangles;                     ///< of all meshes, in the order of the scene
-    std::vector<Texture> textures;                       ///< each picture of the scene once
-    Rgb background;                                      ///< radiance of rays that meet nothing
+    /// Of all meshes, in the order of the scene. Of triangles with the same corners shade_scene_into() keeps one, the
+    /// first whose front faces the middle of the hologram or else the first; of each winding one if `fronts_only`.
+    std::vector<Triangle> triangles;
+    std::vector<Texture> textures;  ///< each picture of the scene once
+    Rgb background;                 ///< radiance of rays that meet nothing
     /// Whether triangles are visible only from their front, from where their corners run counterclockwise. Light falls
-    /// on both sides, and both sides cast shadows.
+    /// on both sides, and both sides cast shadows. To be set before the scene is shaded.
     bool fronts_only = false;
     std::shared_ptr<const SampleLighting> lighting;          ///< null if `radiance` gives all light
     std::shared_ptr<shading::RadianceCache> radiance_cache;  ///< null: light is evaluated anew for each ray

@@ -77,8 +77,9 @@ std::shared_ptr<const ShadedScene> light_scene(const Scene& scene, const LightFi
                                                const Progress& progress) {
     const core::StopScope scope(progress);
     require_built_in(request);
-    auto shaded = std::make_shared<ShadedScene>(shade_scene(scene, request.shading, progress));
+    auto shaded = std::make_shared<ShadedScene>();
     shaded->fronts_only = request.cull_back_faces;
+    shade_scene_into(scene, request.shading, *shaded, progress);
     if (request.cache_spacing > 0)
         shading::add_radiance_cache(
             *shaded, render::cache_spacing(*shaded, finer(request.grid, request.samples), request.cache_spacing));
