@@ -95,26 +95,19 @@ Vec3 parse_point(const std::string& text, const std::string& what) {
     return {component(text.substr(0, first)), component(text.substr(first + 1, second - first - 1)), component(z)};
 }
 
-// A length as typed, without the space that format_length() puts before the unit.
-std::string typed(double metres) {
-    std::string text = format_length(metres);
-    std::erase(text, ' ');
-    return text;
-}
-
 std::string degrees(double radians) { return fmt::format("{:.6g}", radians * 180 / std::numbers::pi); }
 
 }  // namespace
 
 Option Command::length(const std::string& name, double& metres, const std::string& help) {
     return read_option(
-        name, "LENGTH", typed(metres), help,
+        name, "LENGTH", compact_length(metres), help,
         [&metres](const std::string& text, const std::string& what) { metres = parse_any_length(text, what); });
 }
 
 Option Command::positive_length(const std::string& name, double& metres, const std::string& help) {
     return read_option(
-        name, "LENGTH", typed(metres), help,
+        name, "LENGTH", compact_length(metres), help,
         [&metres](const std::string& text, const std::string& what) { metres = parse_positive_length(text, what); });
 }
 
@@ -182,6 +175,12 @@ std::optional<double> parse_number(const std::string& text) {
     const auto [end, error] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), last, number);
     if (text.empty() || error != std::errc() || end != last || !std::isfinite(number)) return {};
     return number;
+}
+
+std::string compact_length(double metres) {
+    std::string text = format_length(metres);
+    std::erase(text, ' ');
+    return text;
 }
 
 std::size_t colour_of(double wavelength) {

@@ -20,6 +20,9 @@ struct Angles {
 /// A finite number without a unit, or nothing if the text is not one.
 std::optional<double> parse_number(const std::string& text);
 
+/// A length as typed: with a unit, and no space before it.
+std::string compact_length(double metres);
+
 /// The channel of a picture for light of a wavelength: 0 red, 1 green, 2 blue.
 std::size_t colour_of(double wavelength);
 

@@ -69,8 +69,10 @@ void add_camera_options(Command& command, CameraOptions& options) {
     command.positive_length("--focal-length", options.focal_length, "With --f-number");
     command.angle("--angle-of-view", options.angle_of_view, "Across; 0deg: what shows the hologram");
     command.resolution("--resolution", options.resolution, "Pixels across, or across and down");
-    command.point("--to-eye", options.last_eye, "The eye of the last frame").sets(options.moves_eye);
-    command.length("--to-focus", options.last_focus, "The depth in focus of the last frame").sets(options.moves_focus);
+    command.point("--to-eye", options.last_eye, "The eye of the last frame").no_default().sets(options.moves_eye);
+    command.length("--to-focus", options.last_focus, "The depth in focus of the last frame")
+        .no_default()
+        .sets(options.moves_focus);
     command.count("--frames", options.frames, "Pictures on the way, for an output .mp4, .gif, .apng or name####.png");
     command.number("--frame-rate", options.frame_rate, "NUMBER", "Frames a second of a film").positive();
 }
@@ -110,13 +112,14 @@ PhotographOptions photograph_options(const std::string& camera, bool expected) {
             .expected = expected};
 }
 
-void say_camera(const Session& session, std::span<const LightFieldGrid> faces, const HologramRequest& request,
+std::string say_camera(const Session& session, std::span<const LightFieldGrid> faces, const HologramRequest& request,
                 std::span<const Camera> cameras, const PhotographOptions& options) {
     const LightChoice choice = choose_light(faces, request, cameras, options);
     if (options.from == LightFrom::hogels && choice.from != LightFrom::hogels)
         throw Error(ErrorCode::usage, fmt::format("--camera eye: {}; --camera narrow would do", choice.reason));
-    session.detail(
-        fmt::format("camera: {}, because {}", choice.from == LightFrom::hogels ? "eye" : "narrow", choice.reason));
+    std::string name = choice.from == LightFrom::hogels ? "eye" : "narrow";
+    session.detail(fmt::format("camera: {}, because {}", name, choice.reason));
+    return name;
 }
 
 Option add_looks_option(Command& command, const std::string& names, std::string& text, const std::string& help) {
@@ -133,6 +136,18 @@ Looks parse_looks(const std::string& text) {
                                                   "expected",
                                                   text, max_looks));
     return {static_cast<std::size_t>(*number), false};
+}
+
+void record_camera(RunRecord& record, const CameraOptions& options, bool film) {
+    record.acted({"eye", "gaze", "focus", "focus-tilt", "angle-of-view", "resolution"});
+    if (options.f_number > 0)
+        record.acted({"f-number", "focal-length"});
+    else
+        record.acted({"pupil"});
+    if (options.moves_eye) record.acted({"to-eye"});
+    if (options.moves_focus) record.acted({"to-focus"});
+    if (options.frames > 1) record.acted({"frames"});
+    if (film) record.acted({"frame-rate"});
 }
 
 }  // namespace hogel::cli

@@ -8,6 +8,7 @@
 #include "command_line.h"
 #include "hogel/camera.h"
 #include "hogel/pipeline.h"
+#include "run_record.h"
 #include "session.h"
 
 namespace hogel::cli {
@@ -36,9 +37,9 @@ std::vector<Camera> make_cameras(const CameraOptions& options, double width, dou
 void add_wave_camera_option(Command& command, std::string& camera, std::vector<std::string> names);
 /// What photograph() is asked for by --camera auto, eye or narrow, and --looks.
 PhotographOptions photograph_options(const std::string& camera, bool expected);
-/// Says with -v from what photographs are computed, and why. Throws Error(usage) for --camera eye where there are no
-/// waves of hogels, or so many of them enter the eye that samples are cheaper.
-void say_camera(const Session& session, std::span<const LightFieldGrid> faces, const HologramRequest& request,
+/// Says with -v from what photographs are computed, and why; returns its name, eye or narrow. Throws Error(usage) for
+/// --camera eye where there are no waves of hogels, or so many of them enter the eye that samples are cheaper.
+std::string say_camera(const Session& session, std::span<const LightFieldGrid> faces, const HologramRequest& request,
                 std::span<const Camera> cameras, const PhotographOptions& options);
 
 /// --looks: a number of looks, or the mean of infinitely many.
@@ -50,5 +51,8 @@ struct Looks {
 Option add_looks_option(Command& command, const std::string& names, std::string& text, const std::string& help);
 /// Throws Error(usage).
 Looks parse_looks(const std::string& text);
+
+/// Records the camera's options; that of the frame rate acts on films alone.
+void record_camera(RunRecord& record, const CameraOptions& options, bool film);
 
 }  // namespace hogel::cli

@@ -26,7 +26,8 @@ int bake(const Options& options, const Session& session) {
     place.size = options.size;
     BakeOptions bake_options = options.bake;
     bake_options.seed = session.seed;
-    const Scene scene = load_scene(session, options.scene, place);
+    RunRecord unstored(session);  // meshes hold no metadata
+    const Scene scene = load_scene(session, options.scene, place, unstored);
     with_options({{"memory", "--tessellate"}},
                  [&] { state_plan(session, plan_bake(scene, bake_options), "baking", options.output); });
     Stage stage(session, "baking");

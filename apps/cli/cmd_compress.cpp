@@ -48,6 +48,33 @@ void check_method(const CodingMethod& method) {
         with_options({{"", "--transform"}}, [&] { throw_unknown("transform", method.transform, known); });
 }
 
+// Records the options that act on this light field.
+void record_compression(RunRecord& record, const Options& options, const LightField& light_field) {
+    const CodingMethod& method = options.compression.method;
+    const CoderInfo& coder = coders().find(method.coder);
+    record.acted({"input", "coder"});
+    // What bounds the error of every sample takes no mapping.
+    if (!options.max_error && !options.lossless) record.acted({"chrominance", "tone"});
+    if (options.pixels_per_bit)
+        record.acted({"ppb"});
+    else if (options.step)
+        record.acted({"step"});
+    else if (options.max_error)
+        record.acted({"max-error"});
+    else if (options.lossless)
+        record.acted({"lossless"});
+    else
+        record.acted("sqnr", fmt::format("{}", std::get<Sqnr>(options.compression.target).decibels));
+    if (!coder.transform.empty())
+        record.acted("transform", method.transform.empty() ? coder.transform : method.transform);
+    if (coder.quantisation_table) record.acted("table", options.table.empty() ? "own" : options.table);
+    if (light_field.has_sides()) record.acted({"hemicube"});
+    if (light_field.has_depth()) record.acted({"no-depth"});
+    if (options.compression.with_depth) record.acted({"depth-error"});
+    if (options.compression.tone_decades) record.acted({"tone-decades"});
+    if (options.tile.columns > 0) record.acted({"tile"});
+}
+
 int compress_file(Options options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a light field", options.input));
@@ -63,13 +90,15 @@ int compress_file(Options options, const Session& session) {
                                                       compression.method.coder));
         compression.method.table = tables.at(options.table);
     }
-    compression.metadata = describe_run(session);
     if (options.hemicube == "unfolded") compression.layout = StreamLayout::unfolded;
     if (options.tone == "histogram") compression.tone_decades = options.tone_decades;
     compression.with_depth = light_field.has_depth() && !options.no_depth;
     if (options.depth_error > 0) compression.depth_error = options.depth_error;
     if (compression.depth_error && !compression.with_depth)
         throw Error(ErrorCode::usage, fmt::format("--depth-error: {} has no depth to keep", options.input));
+    RunRecord record(session);
+    record_compression(record, options, light_field);
+    compression.metadata = record.metadata();
     Stage stage(session, "compressing");
     const CompressionResult result =
         with_options({{"tiles", "--tile"},

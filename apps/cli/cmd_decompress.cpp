@@ -49,7 +49,11 @@ int decompress_file(const Options& options, const Session& session) {
     const std::string coder = read_stream_info(options.input).method.coder;
     const bool exact = coder == "lossless" || coder == "bounded";
     file.type = options.single || (exact && !options.half) ? SampleType::single : SampleType::half;
-    file.metadata = describe_run(session);
+    RunRecord record(session);
+    record.acted({"input"});
+    if (options.layers > 0) record.acted({"layers"});
+    record.acted(file.type == SampleType::single ? "float" : "half", "yes");
+    file.metadata = record.metadata();
     file.with_depth = light_field.has_depth();
     const auto sinks = create_light_field(options.output, light_field.grids(), file);
     Stage stage(session, "decompressing");

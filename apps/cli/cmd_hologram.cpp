@@ -21,12 +21,7 @@ struct Options {
     HologramChoices hologram;
     bool half = false, resume = false;
 
-    HologramFileOptions file(const Session& session) const {
-        HologramFileOptions file;
-        file.type = half ? SampleType::half : SampleType::single;
-        file.metadata = describe_run(session);
-        return file;
-    }
+    SampleType type() const { return half ? SampleType::half : SampleType::single; }
 };
 
 void report_hologram(const Options& options, const std::vector<FieldGrid>& grids, const Session& session) {
@@ -59,8 +54,14 @@ int straight_from_scene(const Options& options, const SceneHologramMethod& metho
         with_options({{"", "--size, --pitch"}}, [&] { validate(grid, ErrorCode::usage, "hologram"); });
     RenderOptions render = options.render;
     render.cache_spacing = 0;  // it is in widths of a ray, and there are no rays
-    const auto scene = light_scene(session, load_scene(session, options.input, render), render);
-    const auto sinks = create_hologram(options.output, grids, options.file(session));
+    RunRecord record(session);
+    record.acted({"input", "half", "wavelength", "pitch", "method", "hogels", "size", "seed"});
+    if (method.uses_spacing) record.acted({"spacing"});
+    if (method.uses_planes) record.acted({"planes"});
+    const auto scene = light_scene(session, load_scene(session, options.input, render, record), render, record);
+    const auto sinks =
+        create_hologram(options.output, grids,
+                        {.type = options.type(), .metadata = with_history(record.metadata(), scene->provenance)});
     SceneHologramOptions how;
     how.seed = session.seed;
     how.spacing = options.hologram.spacing;
@@ -88,7 +89,10 @@ int hologram(Options options, const Session& session) {
                     fmt::format("{}: is a hologram already; expected a light field or a scene", options.input));
     require_writable(options.output, {&options.input, 1});
     require_hdf5(options.output);
-    HologramFileOptions file = options.file(session);
+    HologramFileOptions file;
+    file.type = options.type();
+    RunRecord record(session);
+    record.acted({"input", "half"});
     HologramRequest request = options.hologram.request(session, 1);
     const auto check = [&](std::span<const LightFieldGrid> faces) {
         check_holograms(faces, request, kind == InputKind::scene);
@@ -102,13 +106,15 @@ int hologram(Options options, const Session& session) {
             return opened;
         }
         check(options.render.request().grids());
-        const Scene scene = load_scene(session, options.input, options.render);
+        const Scene scene = load_scene(session, options.input, options.render, record);
         if (options.resume) file.resume = describe_input(options.input, scene);
-        const LightField rendered = render_light_field(session, scene, options.render);
+        const LightField rendered = render_light_field(session, scene, options.render, record);
         require_memory(session, rendered, options.render, scene);
         return prepare_for_reading(session, rendered, request.channels.size(), needs_depth(request.method));
     }();
     if (const std::string warning = warning_about(light_field, request); !warning.empty()) session.say(warning);
+    options.hologram.record(record, request, light_field.grid());
+    file.metadata = record.metadata();
     const auto holograms = make_holograms(light_field, request);
     {
         Stage stage(session, "hologram");

@@ -90,23 +90,24 @@ void timed(const Session& session, Report& report, const std::string& name, Work
 
 void write_pictures(const std::filesystem::path& folder, const Report& report) {
     for (const PhotographPair& pair : report.pairs) {
-        Metadata metadata = report.run;
-        metadata.emplace_back("exposure", fmt::format("{:.9g}", report.exposure));
+        const std::pair<std::string, std::string> exposure{"exposure", fmt::format("{:.9g}", report.exposure)};
+        Metadata wave = report.waves_run, expected = report.expected_run, rays = report.rays_run;
+        for (Metadata* metadata : {&wave, &expected, &rays}) metadata->push_back(exposure);
         for (const char* extension : {".png", ".exr"}) {
-            if (report.looks > 0)
-                write_image(folder / (pair.wave_file + extension), pair.wave, report.exposure, metadata);
-            write_image(folder / (pair.expected_file + extension), pair.expected, report.exposure, metadata);
-            write_image(folder / (pair.geometric_file + extension), pair.geometric, report.exposure, metadata);
+            if (report.looks > 0) write_image(folder / (pair.wave_file + extension), pair.wave, report.exposure, wave);
+            write_image(folder / (pair.expected_file + extension), pair.expected, report.exposure, expected);
+            write_image(folder / (pair.geometric_file + extension), pair.geometric, report.exposure, rays);
         }
     }
 }
 
-// Prints the resources that the work needs. Throws if they are not available.
-void state_plan(const LightFieldGrid& grid, const HologramRequest& request, std::span<const Camera> cameras,
+// Prints the resources that the work needs, and returns the camera that is chosen. Throws if they are not available.
+std::string state_plan(const LightFieldGrid& grid, const HologramRequest& request, std::span<const Camera> cameras,
                 const PhotographOptions& options, const Session& session) {
     const std::span<const LightFieldGrid> faces(&grid, 1);
-    say_camera(session, faces, request, cameras, options);
+    std::string camera = say_camera(session, faces, request, cameras, options);
     state_plan(session, plan_photographs(faces, request, cameras, options), "photographing the hologram");
+    return camera;
 }
 
 // The command that renders the light field again, from the options that describe the run.
@@ -177,9 +178,9 @@ int make(const Options& options, const Session& session) {
     report.light_field = options.render.request().grid;
     report.pupil_samples = options.pupil_samples;
     report.threads = thread_count();
-    report.run = describe_run(session);
-
-    const Scene scene = load_scene(session, options.scene, options.render);
+    RunRecord rendering(session);
+    rendering.acted({"scene"});
+    const Scene scene = load_scene(session, options.scene, options.render, rendering);
     report.triangles = triangle_count(scene);
     report.pairs = plan_photographs(options, scene, report.light_field);
     const Looks looks =
@@ -191,20 +192,36 @@ int make(const Options& options, const Session& session) {
     with_options({{"pupil", "--pupil, --pitch"}, {"the eye", "--eye-distance, --pitch"}, {"", "--pitch, --fov"}},
                  [&] { require_holograms(std::span(&report.light_field, 1), request, cameras); });
     const PhotographOptions with = photograph_options(options.camera, looks.expected);
-    state_plan(report.light_field, request, cameras, with, session);
+    const std::string camera = state_plan(report.light_field, request, cameras, with, session);
 
     const OutputFolder folder(options.output, options.force);
     const PassingFile light_field_file(folder.path() / "lightfield.h5", options.keep_light_field);
-    report.render_command = render_command(report.run, options.scene);
     report.scene_input = describe_input(options.scene, scene);
 
     timed(session, report, "light field", [&](Stage& stage) {
-        const LightField rendered = render_light_field(session, scene, options.render);
+        const LightField rendered = render_light_field(session, scene, options.render, rendering);
         require_memory(session, rendered, options.render, scene);
-        write_light_field(light_field_file.path(), rendered, {.metadata = report.run}, stage.progress());
+        write_light_field(light_field_file.path(), rendered, {.metadata = rendering.metadata()}, stage.progress());
     });
+    report.render_command = render_command(rendering.metadata(), options.scene);
     if (options.keep_light_field) report.light_field_bytes = std::filesystem::file_size(light_field_file.path());
     const LightField light_field = open_light_field(light_field_file.path());
+    RunRecord synthesis(session), rays(session);
+    const bool looks_differ = options.hologram.record(synthesis, request, light_field.grid());
+    rays.acted({"eye-distance", "pupil", "resolution"});
+    RunRecord waves = synthesis;
+    waves.add(rays);
+    RunRecord expected = waves;
+    expected.idle("seed");
+    expected.acted("looks", "expected");
+    waves.acted("camera", camera);
+    if (looks_differ) waves.acted("looks", fmt::format("{}", report.looks));
+    rays.acted({"pupil-samples"});
+    report.waves_run = waves.metadata();
+    report.expected_run = expected.metadata();
+    report.rays_run = rays.metadata();
+    for (const RunRecord& other : {waves, rays}) rendering.add(other);
+    report.run = rendering.metadata();
     const auto holograms = make_holograms(light_field, request);
     for (const auto& hologram : holograms) report.holograms.push_back(hologram->grid());
 
@@ -214,7 +231,8 @@ int make(const Options& options, const Session& session) {
     });
     if (options.store_hologram)
         timed(session, report, "hologram file", [&](Stage& stage) {
-            write_holograms(folder.path() / "hologram.h5", holograms, {.metadata = report.run}, stage.progress());
+            write_holograms(folder.path() / "hologram.h5", holograms, {.metadata = synthesis.metadata()},
+                            stage.progress());
         });
     if (!looks.expected)
         timed(session, report, "photographs by waves", [&](Stage& stage) {

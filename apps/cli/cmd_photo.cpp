@@ -69,9 +69,9 @@ std::vector<Image> develop(Stage& stage, const Fields& fields, std::span<const C
     return pictures;
 }
 
-std::vector<Image> photographs_of_hologram(const Options& options, const Session& session) {
+std::vector<Image> photographs_of_hologram(const Options& options, RunRecord& record, const Session& session) {
     const Fields fields = open_fields(options.input, options.field, *session.command, options.hologram.pitch,
-                                      options.hologram.wavelengths);
+                                      options.hologram.wavelengths, record);
     if (fields.size() != 1 && fields.size() != 3)
         throw Error(ErrorCode::bad_input, fmt::format("{}: has {} wavelengths; a photograph takes one or three",
                                                       options.input, fields.size()));
@@ -97,9 +97,9 @@ std::vector<Image> photographs_of_hologram(const Options& options, const Session
     return pictures;
 }
 
-std::vector<Image> photographs_of_light_field(const Options& options, const Session& session, InputKind kind,
-                                              bool geometric) {
-    LightField light_field = open_or_render(session, options.input, options.render);
+std::vector<Image> photographs_of_light_field(const Options& options, RunRecord& record, const Session& session,
+                                              InputKind kind, bool geometric) {
+    LightField light_field = open_or_render(session, options.input, options.render, record);
     const std::vector<Camera> cameras =
         make_cameras(options.view, light_field.grid().width(), light_field.grid().height());
     if (geometric) {
@@ -116,13 +116,16 @@ std::vector<Image> photographs_of_light_field(const Options& options, const Sess
     check_holograms(light_field.grids(), request, kind == InputKind::scene, cameras);
     const WaveCamera with = options.wave_camera();
     const auto* const narrow = std::get_if<PhotographOptions>(&with);
-    if (narrow != nullptr) say_camera(session, light_field.grids(), request, cameras, *narrow);
+    if (narrow != nullptr)
+        record.acted("camera", say_camera(session, light_field.grids(), request, cameras, *narrow));
     state_plan(
         session,
         plan_photographs(light_field.grids(), request, cameras, narrow != nullptr ? *narrow : PhotographOptions()),
         "photographing the hologram");
     if (kind == InputKind::scene)
         light_field = prepare_for_reading(session, light_field, request.channels.size(), needs_depth(request.method));
+    if (options.hologram.record(record, request, light_field.grid())) record.acted({"looks"});
+    if (parse_looks(options.looks).expected) record.idle("seed");
     const auto holograms = make_holograms(light_field, request);
     Stage stage(session, "wave photograph");
     return develop(stage, holograms, cameras, options);
@@ -166,10 +169,23 @@ double exposure_of(const Options& options, double given, std::span<const Image> 
     return exposure;
 }
 
+// Records the options that act on the picture of any input; those of the input itself are recorded where it is opened.
+void record_photograph(RunRecord& record, const Options& options, InputKind kind, bool geometric) {
+    record.acted({"input", "display"});
+    const std::filesystem::path output = options.output;
+    record_camera(record, options.view, options.view.frames > 1 && is_film(output));
+    // EXR files hold linear values, which no exposure multiplies.
+    if (options.display == "intensity" && output.extension() != ".exr") record.acted({"exposure"});
+    if (kind != InputKind::hologram) record.acted(geometric ? "geometric" : "wave", "yes");
+    if (kind == InputKind::hologram && options.camera == "auto") record.acted("camera", "narrow");
+    record.acted({geometric ? "pupil-samples" : "camera"});
+    if (!geometric && options.camera == "full") record.acted({"film-distance"});
+}
+
 // Writes the pictures and reports them.
 void write_photographs(const Options& options, std::span<const Image> pictures, double exposure, bool geometric,
-                       const Session& session) {
-    Metadata metadata = describe_run(session);
+                       const RunRecord& record, const Session& session) {
+    Metadata metadata = record.metadata();
     metadata.emplace_back("exposure", fmt::format("{:.9g}", exposure));
     const Image& first = pictures.front();
     std::uintmax_t bytes = 0;
@@ -205,12 +221,14 @@ int photo(const Options& options, const Session& session) {
     require_writable(options.output, {&options.input, 1});
     const bool geometric = options.geometric || (kind == InputKind::light_field && !options.wave);
     require_sense(options, kind, geometric);
+    RunRecord record(session);
+    record_photograph(record, options, kind, geometric);
     std::vector<Image> pictures = kind == InputKind::hologram
-                                      ? photographs_of_hologram(options, session)
-                                      : photographs_of_light_field(options, session, kind, geometric);
+                                      ? photographs_of_hologram(options, record, session)
+                                      : photographs_of_light_field(options, record, session, kind, geometric);
     if (options.display == "log")
         for (Image& picture : pictures) picture = logarithmic(picture);
-    write_photographs(options, pictures, exposure_of(options, given, pictures), geometric, session);
+    write_photographs(options, pictures, exposure_of(options, given, pictures), geometric, record, session);
     return 0;
 }
 

@@ -19,13 +19,15 @@ int print(const Options& options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a light field", options.input));
     const LightField light_field = open_light_field(options.input);
+    RunRecord record(session);
+    record.acted({"input", "strips", "order", "exposure"});
     const OutputFolder folder(options.output, options.force);
     Stage stage(session, "pictures");
     const auto names = write_printer_images(folder.path(), light_field,
                                             {.rows = options.rows,
                                              .serpentine = options.order == "serpentine",
                                              .exposure = options.exposure,
-                                             .metadata = describe_run(session)},
+                                             .metadata = record.metadata()},
                                             stage.progress());
     session.say(fmt::format("{}: {} pictures, {} to {}", options.output, names.size(),
                             names.front().filename().string(), names.back().filename().string()));

@@ -106,8 +106,11 @@ ResultList methods_of(const Fields& fields, const Options& options, const std::v
 int propagate_fields(const Options& options, const Session& session) {
     const OutputKind kind = output_kind(options.output);
     require_writable(options.output, {&options.input, 1});
+    RunRecord record(session);
+    record.acted({"input", "distance", "offset-x", "offset-y"});
+    if (kind == OutputKind::picture) record.acted({"display"});
     const Fields fields =
-        open_fields(options.input, options.field, *session.command, options.pitch, options.wavelengths);
+        open_fields(options.input, options.field, *session.command, options.pitch, options.wavelengths, record);
     if (kind == OutputKind::array) require_one_wavelength(fields, options.output);
     if (kind == OutputKind::picture && options.display == "phase") require_one_wavelength(fields, "--display phase");
     if (kind == OutputKind::picture && fields.size() != 1 && fields.size() != 3)
@@ -115,7 +118,6 @@ int propagate_fields(const Options& options, const Session& session) {
                     fmt::format("{}: has {} wavelengths; a picture takes one or three", options.input, fields.size()));
     // Scratch files are in the output's folder.
     const ScratchOptions scratch{ScratchOptions().memory, std::filesystem::absolute(options.output).parent_path()};
-    Metadata metadata = with_history(describe_run(session), to_metadata(fields.front()->provenance()));
     Result exposed;
     std::vector<FieldGrid> inputs, grids;
     std::vector<PropagateOptions> propagations;
@@ -133,6 +135,10 @@ int propagate_fields(const Options& options, const Session& session) {
         hogel::propagate(*fields[c], options.distance, sink, propagations[c], stage.progress(c, grids.size()));
     };
     const Grid& plane = grids.front().plane;
+    // No value of the option says that the samples of the input are farther apart in one direction.
+    if (plane.pitch_x == plane.pitch_y) record.acted("output-pitch", compact_length(plane.pitch_x));
+    record.acted("output-samples", fmt::format("{}x{}", plane.width, plane.height));
+    Metadata metadata = with_history(record.metadata(), to_metadata(fields.front()->provenance()));
     if (kind == OutputKind::hologram) {
         const auto sinks = create_hologram(options.output, grids, {.metadata = metadata});
         for (std::size_t c = 0; c < grids.size(); ++c) colour(c, *sinks[c]);

@@ -59,13 +59,15 @@ void state_plan(const Options& options, const LightField& rendered, std::size_t 
 }
 
 // Compresses the light field while it is rendered, without an intermediate file.
-int write_compressed(const Options& options, const LightField& rendered, const Session& session) {
+int write_compressed(const Options& options, const LightField& rendered, RunRecord& record, const Session& session) {
     // It is read several times, in the coder's tiles.
     const LightField light_field = prepare_for_reading(session, rendered, 2, options.file.with_depth);
     CompressionOptions compression;
-    compression.target = Sqnr{options.sqnr.value_or(defaults.sqnr)};
+    const double sqnr = options.sqnr.value_or(defaults.sqnr);
+    compression.target = Sqnr{sqnr};
+    record.acted("sqnr", fmt::format("{}", sqnr));
     compression.with_depth = options.file.with_depth;
-    compression.metadata = describe_run(session);
+    compression.metadata = record.metadata();
     Stage stage(session, "compressing");
     const CompressionResult result = with_options(
         {{"", "--sqnr"}}, [&] { return compress(light_field, options.output, compression, stage.progress()); });
@@ -74,9 +76,10 @@ int write_compressed(const Options& options, const LightField& rendered, const S
 }
 
 int write_hdf5(const Options& options, const LightField& light_field, const std::optional<std::string>& resume,
-               const Session& session) {
+               RunRecord& record, const Session& session) {
     LightFieldFileOptions file = options.file;
-    file.metadata = describe_run(session);
+    record.acted({"float"});
+    file.metadata = record.metadata();
     file.resume = resume;
     Stage stage(session, "rendering");
     write_light_field(options.output, light_field, file, stage.progress());
@@ -106,16 +109,18 @@ int render(Options options, const Session& session) {
     if (!options.compressed()) require_hdf5(options.output);
     options.file.type = options.single ? SampleType::single : SampleType::half;
     static_cast<void>(options.render.request());  // throws before a scene is made
-    const Scene scene = load_scene(session, options.scene, options.render);
+    RunRecord record(session);
+    record.acted({"scene", "depth"});
+    const Scene scene = load_scene(session, options.scene, options.render, record);
     std::optional<std::string> resume;
     if (options.resume) resume = describe_input(options.scene, scene);
-    LightField rendered = render_light_field(session, scene, options.render);
+    LightField rendered = render_light_field(session, scene, options.render, record);
     if (options.region.columns > 0)
         rendered = rendered.wrapped(
             [&](const LightField::Source& face) { return std::make_shared<const InRegions>(face, options.region); });
     state_plan(options, rendered, triangle_count(scene), session);
-    return options.compressed() ? write_compressed(options, rendered, session)
-                                : write_hdf5(options, rendered, resume, session);
+    return options.compressed() ? write_compressed(options, rendered, record, session)
+                                : write_hdf5(options, rendered, resume, record, session);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace hogel::cli {
 namespace {
 
 struct Options {
-    std::string input, output, encoding = "phase", device;
+    std::string input, output, encoding = "auto", device;
     Counts pixels{0, 0};
     double pixel_pitch = 0;
     std::size_t levels = 256;
@@ -42,17 +42,55 @@ Modulator modulator_of(const Options& options) {
 // The share of light that a pattern uses, and its direction.
 Result result_of(const Pattern& pattern, double wavelength, Encoding encoding) {
     Result result{{"wavelength_m", wavelength}, {"efficiency", pattern.efficiency}};
-    if (is_phase_only(encoding)) result.emplace_back("light_field_efficiency", pattern.light_field_efficiency);
+    if (is_phase_only(encoding)) {
+        result.emplace_back("light_field_efficiency", pattern.light_field_efficiency);
+        result.emplace_back("correlation", pattern.correlation);
+    }
+    if (pattern.iterations > 0) result.emplace_back("iterations", pattern.iterations);
     if (pattern.reference_angle != 0)
         result.emplace_back("reference_angle_deg", pattern.reference_angle * 180 / std::numbers::pi);
     return result;
 }
 
+// The encoding that was asked for, or the one that suits the fields of all wavelengths: phases alone must suit each.
+std::string encoding_for(const Options& options, const Fields& fields, const PatternOptions& pattern,
+                         const Session& session) {
+    if (options.encoding != "auto") return options.encoding;
+    Stage stage(session, "choosing the encoding");
+    const bool alone =
+        with_options({{"pixels", options.device.empty() ? "--pixel-pitch" : "--device"}, {"share", "--clip"}}, [&] {
+            return std::ranges::all_of(
+                fields, [&](const auto& field) { return suitable_encoding(*field, pattern) == Encoding::phase; });
+        });
+    session.detail(fmt::format("encoding {}: the field's phase alone correlates with it by {} {} within its band",
+                               alone ? "phase" : "gradient", alone ? "at least" : "less than",
+                               phase_alone_correlation));
+    return alone ? "phase" : "gradient";
+}
+
+// Records the options that act with an encoding.
+void record_pattern(RunRecord& record, const Options& options, const std::string& name) {
+    const Encoding encoding = encodings().find(name).encoding;
+    record.acted({"input"});
+    record.acted("encoding", name);
+    if (options.device.empty())
+        record.acted({"pixels", "pixel-pitch"});
+    else
+        record.acted({"device"});
+    // The two values of binary patterns are levels of every modulator.
+    if (options.device.empty() && encoding != Encoding::binary) record.acted({"levels"});
+    const bool iterated = encoding == Encoding::gerchberg_saxton || encoding == Encoding::gradient;
+    if (iterated) record.acted({"window"});
+    if (iterated && options.pattern.iterations > 0) record.acted({"iterations"});
+    // Phases and signs alone do not depend on how large a modulus is.
+    if (encoding != Encoding::phase && encoding != Encoding::binary) record.acted({"clip"});
+    if (encoding == Encoding::intensity || encoding == Encoding::bipolar || encoding == Encoding::binary)
+        record.acted({"reference"});
+}
+
 int slm(const Options& options, const Session& session) {
     PatternOptions pattern_options = options.pattern;
-    pattern_options.encoding = encodings().find(options.encoding).encoding;
     pattern_options.modulator = modulator_of(options);
-    pattern_options.seed = session.seed;
     require_raw_pixels_name(options.output);
     require_writable(options.output, {&options.input, 1});
     if (input_kind(options.input) != InputKind::hologram)
@@ -63,10 +101,14 @@ int slm(const Options& options, const Session& session) {
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: has {} wavelengths; a pattern takes one or three", options.input, colours));
 
+    const std::string encoding = encoding_for(options, fields, pattern_options, session);
+    pattern_options.encoding = encodings().find(encoding).encoding;
     const Modulator& modulator = pattern_options.modulator;
     Array<std::uint8_t, 3> levels({modulator.height, modulator.width, colours});
     Stage stage(session, "pattern");
-    Metadata metadata = describe_run(session);
+    RunRecord record(session);
+    record_pattern(record, options, encoding);
+    Metadata metadata = record.metadata();
     ResultList patterns;
     for (std::size_t c = 0; c < colours; ++c) {
         const Pattern pattern =
@@ -80,13 +122,22 @@ int slm(const Options& options, const Session& session) {
             levels.data()[i * colours + c] = pattern.levels.data()[i];
         const std::string name = format_length(fields[c]->grid().wavelength);
         std::string line = fmt::format("{}: efficiency {:.2f} %", name, 100 * pattern.efficiency);
-        if (encodings().find(options.encoding).phase_only)
-            line += fmt::format(", of its light field {:.2f} %", 100 * pattern.light_field_efficiency);
+        if (is_phase_only(pattern_options.encoding))
+            line += fmt::format(", of its light field {:.2f} %, correlation {:.4f}",
+                                100 * pattern.light_field_efficiency, pattern.correlation);
+        if (pattern.iterations > 0) line += fmt::format(" after {} iterations", pattern.iterations);
         if (pattern.reference_angle != 0)
             line += fmt::format(", the hologram's order at {:.3f} degrees",
                                 -pattern.reference_angle * 180 / std::numbers::pi);
         session.say(line);
         metadata.emplace_back("efficiency at " + name, fmt::format("{:.6f}", pattern.efficiency));
+        if (is_phase_only(pattern_options.encoding))
+            metadata.emplace_back("correlation at " + name, fmt::format("{:.6f}", pattern.correlation));
+        if (pattern.iterations > 0)
+            metadata.emplace_back("iterations at " + name, fmt::format("{}", pattern.iterations));
+        if (pattern.reference_angle != 0)
+            metadata.emplace_back("reference angle at " + name,
+                                  fmt::format("{:.6f}deg", pattern.reference_angle * 180 / std::numbers::pi));
         patterns.push_back(result_of(pattern, fields[c]->grid().wavelength, pattern_options.encoding));
     }
     write_raw_pixels(options.output, levels, with_history(metadata, to_metadata(fields.front()->provenance())));
@@ -97,7 +148,7 @@ int slm(const Options& options, const Session& session) {
                  {"height", modulator.height},
                  {"pixel_pitch_m", modulator.pitch},
                  {"levels", modulator.levels},
-                 {"encoding", options.encoding},
+                 {"encoding", encoding},
                  {"patterns", patterns}});
     return 0;
 }
@@ -113,23 +164,31 @@ void add_slm(Command& command, Session& session) {
     command.positional("input", options->input, "F.h5", "Hologram");
     command.text("-o,--output", options->output, "FILE", "Pattern to write: .png or .bmp, 8 bits as they are")
         .required();
-    const std::vector<std::string> names = encodings().names();
+    std::vector<std::string> names = encodings().names();
+    names.insert(names.begin(), "auto");
     command.group("Pattern");
-    command.choice("--encoding", options->encoding, names, "NAME",
-                   "phase: the field's phase alone\n"
-                   "double-phase: the modulus as the difference of two phases\n"
-                   "gerchberg-saxton: phases iterated to show the field's local spectra\n"
-                   "gradient: phases by stochastic gradient descent towards local spectra anywhere\n"
-                   "intensity: |F + R|² with a reference beam R\n"
-                   "bipolar: 2 Re(F R*), raised to be positive\n"
-                   "burckhardt, lee: three or four real components, in columns by turns\n"
-                   "binary: where Re(F R*) is positive");
+    command.choice(
+        "--encoding", options->encoding, names, "NAME",
+        "auto: phase where that alone correlates with the field by 0.99 within its band, else gradient\n"
+        "phase: the field's phase alone: for fields of even modulus, such as plane and spherical waves\n"
+        "double-phase: the modulus as the difference of two phases: for any field, dark, without iteration\n"
+        "gerchberg-saxton: phases iterated to show the spectra of hogels: for random phases, not smooth ones\n"
+        "gradient: phases that show the field within its band: for any field; an aperture takes the rest\n"
+        "intensity: |F + R|² with a reference beam R\n"
+        "bipolar: 2 Re(F R*), raised to be positive\n"
+        "burckhardt, lee: three or four real components, in columns by turns\n"
+        "binary: where Re(F R*) is positive");
     command.angle("--reference", options->pattern.reference_angle,
                   "Angle of the reference beam; 0: between the least and the most that will do");
     command.number("--clip", options->pattern.clip, "0..1",
                    "Share of the samples whose modulus may be cut to the largest");
-    command.count("--window", options->pattern.window, "Iterated phases: pixels of a hogel's side");
-    command.count("--iterations", options->pattern.iterations, "Gerchberg-Saxton, gradient: how many steps");
+    command.count("--window", options->pattern.window,
+                  "Iterated phases: pixels of a hogel's side, by whose spectra the field's band is judged too");
+    command
+        .count("--iterations", options->pattern.iterations,
+               "Gerchberg-Saxton: how many steps (default: 40); gradient: at most (default: 200), until the\n"
+               "correlation with the field no longer gains")
+        .no_default();
     std::string devices = "Modulator:";
     for (const Modulator& modulator : modulators().rows())
         devices += fmt::format("\n{}: {}x{} at {}, {} levels", modulator.name, modulator.width, modulator.height,

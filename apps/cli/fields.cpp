@@ -24,7 +24,7 @@ bool is_external(const std::string& name, const FieldOptions& options) {
 }
 
 Fields open_fields(const std::string& name, const FieldOptions& options, const Command& command, double pitch,
-                   const std::vector<double>& wavelengths) {
+                   const std::vector<double>& wavelengths, RunRecord& record) {
     const bool pitch_given = command.given("--pitch"), wavelength_given = command.given("--wavelength");
     if (!is_external(name, options)) {
         for (const char* option : {"--values", "--imaginary", "--variable", "--conjugate"})
@@ -48,6 +48,8 @@ Fields open_fields(const std::string& name, const FieldOptions& options, const C
     what.imaginary = options.imaginary;
     what.variable = options.variable;
     what.conjugate = options.conjugate;
+    record.acted({"pitch", "wavelength", "values", "imaginary", "conjugate"});
+    if (std::filesystem::path(name).extension() == ".mat") record.acted({"variable"});
     Fields fields;
     fields.push_back(open_external_field(name, what));
     return fields;

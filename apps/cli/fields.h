@@ -3,6 +3,7 @@
 
 #include "command_line.h"
 #include "hogel/files.h"
+#include "run_record.h"
 #include "session.h"
 
 namespace hogel::cli {
@@ -18,8 +19,9 @@ void add_field_options(Command& command, FieldOptions& options);
 bool is_external(const std::string& name, const FieldOptions& options);
 
 /// Opens a hologram, or another program's field with the --pitch and the single --wavelength given to `command`. Throws
-/// Error(usage) if they are missing, or if they are given for a hologram, which has its own.
+/// Error(usage) if they are missing, or if they are given for a hologram, which has its own. Records the options that
+/// acted.
 Fields open_fields(const std::string& name, const FieldOptions& options, const Command& command, double pitch,
-                   const std::vector<double>& wavelengths);
+                   const std::vector<double>& wavelengths, RunRecord& record);
 
 }  // namespace hogel::cli

@@ -176,6 +176,32 @@ HologramRequest HologramChoices::request(const Session& session, std::size_t loo
     return request;
 }
 
+bool HologramChoices::record(RunRecord& record, const HologramRequest& request, const LightFieldGrid& front) const {
+    // The samples divide a hogel evenly, so they may be a little farther apart or closer than was asked.
+    const double columns = std::max(1.0, std::round(front.pitch / pitch)), effective = front.pitch / columns;
+    record.acted({"wavelength", "pitch", "method"});
+    if (std::abs(effective - pitch) > 1e-9 * pitch) record.acted("pitch", compact_length(effective));
+    const auto shared = [&](const char* otherwise) { record.acted("phase", phase.empty() ? otherwise : phase); };
+    bool seeded = true;
+    if (std::holds_alternative<Fourier>(request.method)) {
+        shared("random");
+        record.acted({"lobes"});
+    } else if (const auto* by_lines = std::get_if<Lines>(&request.method)) {
+        shared("random");
+        record.acted({"lobes"});
+        record.acted("line-pitch", compact_length(by_lines->line_pitch > 0 ? by_lines->line_pitch : effective));
+    } else if (const auto* fringes = std::get_if<Basis>(&request.method)) {
+        shared("fixed");
+        record.acted("basis", fringes->transform);
+        record.acted({"tolerance"});
+    } else if (const auto* windows = std::get_if<OverlapAdd>(&request.method)) {
+        shared("random");
+        seeded = windows->phases == PointPhases::random;
+    }
+    if (seeded) record.acted({"seed"});
+    return seeded;
+}
+
 void check_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request, bool rendered,
                      std::span<const Camera> cameras) {
     if (faces.size() > 1 && !std::holds_alternative<Fourier>(request.method) &&
@@ -268,23 +294,45 @@ void add_scene_hologram_options(Command& command, HologramChoices& options) {
     command.count("--planes", options.planes, "Depth planes of fresnel and planes");
 }
 
-Scene load_scene(const Session& session, const std::string& name, const RenderOptions& options) {
+Scene load_scene(const Session& session, const std::string& name, const RenderOptions& options, RunRecord& record) {
+    if (scenes().look_up(name) == nullptr) {
+        record.acted({"as-is"});
+        if (!options.as_is) record.acted({"front"});
+    }
     Stage stage(session, "scene");
     return hogel::load_scene(name, options.request(), stage.progress());
 }
 
-std::shared_ptr<const ShadedScene> light_scene(const Session& session, const Scene& scene,
-                                               const RenderOptions& options) {
+std::shared_ptr<const ShadedScene> light_scene(const Session& session, const Scene& scene, const RenderOptions& options,
+                                               RunRecord& record) {
     const LightFieldRequest request = options.request();
-    if (const double bytes = shadow_map_bytes(scene, request.shading); bytes > 0)
+    if (std::ranges::any_of(scene.meshes, [](const Mesh& mesh) { return mesh.radiance.empty(); }))
+        record.acted({"shading"});
+    if (const double bytes = shadow_map_bytes(scene, request.shading); bytes > 0) {
+        record.acted({"shadow-map"});
         session.detail(fmt::format("shadow maps: {}", format_bytes(bytes)));
+    }
     Stage stage(session, "lighting");
     return with_options({{"shadow map", "--shadow-map"}, {"shading model", "--shading"}},
                         [&] { return hogel::light_scene(scene, request, stage.progress()); });
 }
 
-LightField render_light_field(const Session& session, const Scene& scene, const RenderOptions& options) {
-    const auto lit = light_scene(session, scene, options);
+LightField render_light_field(const Session& session, const Scene& scene, const RenderOptions& options,
+                              RunRecord& record) {
+    record.acted({"algorithm", "cull-back-faces", "hogels", "samples", "size"});
+    record.acted({"fov"});
+    if (options.hemicube && !options.field_of_view_given) record.acted("fov", "180deg");
+    if (options.frequencies > 0)
+        record.acted({"frequencies"});
+    else
+        record.acted({"directions", "hemicube"});
+    if (!options.hemicube && options.frequencies == 0) record.acted({"toward"});
+    const auto lit = light_scene(session, scene, options, record);
+    for (std::size_t i = 0; i < lit->triangles.size(); ++i)
+        if (lit->is_lit(i)) {
+            record.acted({"cache-spacing"});
+            break;
+        }
     return with_options({{"sines", "--algorithm, --frequencies"}, {"", "--algorithm"}},
                         [&] { return hogel::render_light_field(lit, options.request()); });
 }
@@ -296,10 +344,11 @@ void require_memory(const Session& session, const LightField& rendered, const Re
                  [&] { state_plan(session, plan, "rendering by " + options.algorithm); });
 }
 
-LightField open_or_render(const Session& session, const std::string& name, const RenderOptions& options) {
+LightField open_or_render(const Session& session, const std::string& name, const RenderOptions& options,
+                          RunRecord& record) {
     if (input_kind(name) == InputKind::light_field) return open_light_field(name);
-    const Scene scene = load_scene(session, name, options);
-    LightField rendered = render_light_field(session, scene, options);
+    const Scene scene = load_scene(session, name, options, record);
+    LightField rendered = render_light_field(session, scene, options, record);
     require_memory(session, rendered, options, scene);
     return rendered;
 }

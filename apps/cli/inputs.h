@@ -10,6 +10,7 @@
 
 #include "command_line.h"
 #include "hogel/pipeline.h"
+#include "run_record.h"
 #include "session.h"
 
 namespace hogel::cli {
@@ -58,6 +59,9 @@ struct HologramChoices {
 
     HologramMethod hologram_method() const;
     HologramRequest request(const Session& session, std::size_t looks) const;
+    /// Records the options that act on a hologram of a light field with this front. Returns whether its looks differ,
+    /// so that their number acts on a photograph.
+    bool record(RunRecord& record, const HologramRequest& request, const LightFieldGrid& front) const;
 };
 /// As hogel::require_holograms(), whose errors then name the options.
 /// @param rendered  whether a scene becomes the light field by options, too
@@ -67,22 +71,26 @@ void add_hologram_options(Command& command, HologramChoices& options);
 /// As add_hologram_options(), and those of methods that compute the hologram of a scene without a light field.
 void add_scene_hologram_options(Command& command, HologramChoices& options);
 
+// The functions that follow add the options that acted to a record.
+
 /// A built-in scene in the size of the hologram, or a mesh file, fitted to it if requested, with lights.
-Scene load_scene(const Session& session, const std::string& name, const RenderOptions& options);
+Scene load_scene(const Session& session, const std::string& name, const RenderOptions& options, RunRecord& record);
 
 /// Shades the scene and prints the resources that this takes.
-std::shared_ptr<const ShadedScene> light_scene(const Session& session, const Scene& scene,
-                                               const RenderOptions& options);
+std::shared_ptr<const ShadedScene> light_scene(const Session& session, const Scene& scene, const RenderOptions& options,
+                                               RunRecord& record);
 
 /// The light field of a scene, rendered when it is read.
-LightField render_light_field(const Session& session, const Scene& scene, const RenderOptions& options);
+LightField render_light_field(const Session& session, const Scene& scene, const RenderOptions& options,
+                              RunRecord& record);
 
 /// Throws Error(usage) where rendering would take more memory than there is.
 void require_memory(const Session& session, const LightField& rendered, const RenderOptions& options,
                     const Scene& scene);
 
 /// The light field of a file, or of a scene, which is rendered when it is read.
-LightField open_or_render(const Session& session, const std::string& name, const RenderOptions& options);
+LightField open_or_render(const Session& session, const std::string& name, const RenderOptions& options,
+                          RunRecord& record);
 
 /// See prepare_for_reading() in hogel/pipeline.h.
 LightField prepare_for_reading(const Session& session, const LightField& light_field, std::size_t times,

@@ -84,10 +84,12 @@ class FrameFolder {
 
 }  // namespace
 
-bool is_movie(const fs::path& path) {
+bool is_film(const fs::path& path) {
     const std::string kind = path.extension().string();
-    return is_numbered(path) || kind == ".mp4" || kind == ".gif" || kind == ".apng";
+    return !is_numbered(path) && (kind == ".mp4" || kind == ".gif" || kind == ".apng");
 }
+
+bool is_movie(const fs::path& path) { return is_numbered(path) || is_film(path); }
 
 void require_movie(const fs::path& path) {
     if (!is_movie(path))

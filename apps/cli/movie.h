@@ -10,7 +10,9 @@
 
 namespace hogel::cli {
 
-/// Whether a name is that of several pictures: name####.png, numbered from 0, or one .mp4, .gif or .apng.
+/// Whether a name is that of a film: .mp4, .gif or .apng, without numbers.
+bool is_film(const std::filesystem::path& path);
+/// Whether a name is that of several pictures: name####.png, numbered from 0, or a film.
 bool is_movie(const std::filesystem::path& path);
 
 /// Throws Error(usage) for a name that is_movie() refuses, Error(not_built_in) for a movie file if ffmpeg is not

@@ -6,15 +6,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <string_view>
 
 #include "command_line.h"
 #include "hogel/error.h"
-#include "hogel/version.h"
 
 namespace hogel::cli {
 namespace {
@@ -65,18 +62,6 @@ void add_common_options(Command& command, Session& session) {
 
 void add_json_flag(Command& command, Session& session) {
     command.flag("--json", session.json, "The result as a JSON object, on the standard output");
-}
-
-Metadata describe_run(const Session& session) {
-    // Options that do not affect the result, such as the number of threads and the verbosity, are left out, so that
-    // equal input gives equal bytes.
-    constexpr std::array<std::string_view, 9> silent{"help",   "quiet",  "verbose", "threads", "output",
-                                                     "resume", "region", "json",    "force"};
-    Metadata metadata{{"software", "hogel " HOGEL_VERSION}, {"command", "hogel " + session.command->name()}};
-    for (const auto& [name, value] : session.command->values())
-        if (!value.empty() && std::ranges::find(silent, name) == silent.end())
-            metadata.emplace_back("option " + name, value);
-    return metadata;
 }
 
 void write_error_stream(const std::string& text) {

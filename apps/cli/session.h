@@ -6,7 +6,6 @@
 #include <stop_token>
 #include <string>
 
-#include "hogel/image.h"
 #include "hogel/progress.h"
 #include "result.h"
 
@@ -41,9 +40,6 @@ struct Session {
 void add_common_options(Command& command, Session& session);
 /// --json; every command has a result.
 void add_json_flag(Command& command, Session& session);
-
-/// The metadata of outputs: the version, the command, and the value of each of its options.
-Metadata describe_run(const Session& session);
 
 /// Writes to the standard error and ignores failures.
 void write_error_stream(const std::string& text);

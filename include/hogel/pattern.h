@@ -30,12 +30,12 @@ enum class Encoding {
     phase,             ///< phase: that of the field; its modulus is ignored (kinoform)
     double_phase,      ///< phase: the modulus as two phases φ ± acos|F| on a checkerboard (Hsueh and Sawchuk 1978)
     gerchberg_saxton,  ///< phase: alternating projections between the modulator and the field's local spectra
-    gradient,    ///< phase: stochastic gradient descent towards the field's local spectra, taken at random positions
-    intensity,   ///< amplitude: |F + R|² with a plane reference wave R
-    bipolar,     ///< amplitude: 2 Re(F R*) plus a constant that makes it positive
-    burckhardt,  ///< amplitude: three real components, 120° apart, in successive columns (Burckhardt 1970)
-    lee,         ///< amplitude: four real components, 90° apart, in successive columns (Lee 1970)
-    binary,      ///< amplitude: 1 where Re(F R*) > 0, 0 elsewhere
+    gradient,          ///< phase: descent towards the field within its band of frequencies; the light beyond is free
+    intensity,         ///< amplitude: |F + R|² with a plane reference wave R
+    bipolar,           ///< amplitude: 2 Re(F R*) plus a constant that makes it positive
+    burckhardt,        ///< amplitude: three real components, 120° apart, in successive columns (Burckhardt 1970)
+    lee,               ///< amplitude: four real components, 90° apart, in successive columns (Lee 1970)
+    binary,            ///< amplitude: 1 where Re(F R*) > 0, 0 elsewhere
 };
 
 /// Whether an encoding is for modulators of phase; the others are for modulators of amplitude.
@@ -59,11 +59,11 @@ struct PatternOptions {
     /// Angle of the reference wave R, radians in the plane of x and z, for the encodings with R. 0: the middle of the
     /// range of angles that keep the diffraction orders apart.
     double reference_angle = 0;
-    double clip = 0.001;  ///< share of the samples whose modulus is clipped to the largest that is shown
-    std::size_t window =
-        32;  ///< side in pixels of the squares whose spectra are the local spectra; best the side of a hogel
-    std::size_t iterations = 40;  ///< of Gerchberg–Saxton, or steps of the gradient descent
-    std::uint64_t seed = 1;       ///< of the random positions of squares in the gradient descent
+    double clip = 0.001;      ///< share of the samples whose modulus is clipped to the largest that is shown
+    std::size_t window = 32;  ///< side in pixels of the squares whose spectra are the local spectra, by which the band
+                              ///< of the field is judged, too; best the side of a hogel
+    /// Of Gerchberg–Saxton, or the most of the descent, which ends when it no longer gains. 0: 40, and 200.
+    std::size_t iterations = 0;
 };
 
 /// The values of a modulator's pixels for one wavelength.
@@ -79,7 +79,17 @@ struct Pattern {
     /// Angle of the reference wave, radians; 0 without one. The order that shows the hologram leaves at the opposite
     /// angle, also where successive columns make it.
     double reference_angle = 0;
+    std::size_t iterations = 0;  ///< of an iterated encoding
+    /// For phases, |Σ P F*| / √(Σ|P|² Σ|F|²) over the band of frequencies in which the field has light, after rounding
+    /// to levels: 1 if an aperture of that shape lets the field F through alone.
+    double correlation = 0;
 };
+
+/// The encoding for a modulator of phase that suits a field: `phase` where the field's phase alone correlates with the
+/// field by 0.99 or more within its band, because its modulus varies little, and otherwise `gradient`. Throws
+/// Error(usage) as encode_pattern() does.
+HOGEL_API Encoding suitable_encoding(const FieldSource& field, const PatternOptions& options);
+inline constexpr double phase_alone_correlation = 0.99;
 
 /// Encodes look 0 of a field for a modulator. A field larger than the modulator is cropped to its middle, a smaller one
 /// gets a dark border. The whole modulator is in memory. Throws Error(usage) if the pitches differ, and if a reference

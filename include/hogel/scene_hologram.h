@@ -32,6 +32,8 @@ struct SceneHologramMethod {
     std::function<Field(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                         const Progress& progress)>
         make;
+    bool uses_spacing = false;  ///< whether SceneHologramOptions::spacing acts
+    bool uses_planes = false;   ///< whether SceneHologramOptions::planes acts
 };
 
 /// All methods by name, and those that a program adds.

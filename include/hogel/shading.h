@@ -12,6 +12,7 @@
 
 #include "hogel/export.h"
 #include "hogel/progress.h"
+#include "hogel/provenance.h"
 #include "hogel/scene.h"
 #include "hogel/table.h"
 
@@ -151,14 +152,18 @@ struct ShadedScene {
     std::vector<Vec3> positions;  ///< metres, world frame
     std::vector<Rgb> radiance;    ///< at the vertices, before the texture: reflected light plus emission
     std::vector<TextureCoordinate> texture_coordinates;  ///< as long as `positions`
-    std::vector<Triangle> triangles;                     ///< of all meshes, in the order of the scene
-    std::vector<Texture> textures;                       ///< each picture of the scene once
-    Rgb background;                                      ///< radiance of rays that meet nothing
+    /// Of all meshes, in the order of the scene. Of triangles with the same corners shade_scene_into() keeps one, the
+    /// first whose front faces the middle of the hologram or else the first; of each winding one if `fronts_only`.
+    std::vector<Triangle> triangles;
+    std::vector<Texture> textures;  ///< each picture of the scene once
+    Rgb background;                 ///< radiance of rays that meet nothing
     /// Whether triangles are visible only from their front, from where their corners run counterclockwise. Light falls
-    /// on both sides, and both sides cast shadows.
+    /// on both sides, and both sides cast shadows. To be set before the scene is shaded.
     bool fronts_only = false;
     std::shared_ptr<const SampleLighting> lighting;          ///< null if `radiance` gives all light
     std::shared_ptr<shading::RadianceCache> radiance_cache;  ///< null: light is evaluated anew for each ray
+    /// Where it comes from: the name of the scene, and the shading model unless all radiance was given.
+    Metadata provenance;
 
     /// Whether light is evaluated at the samples of this triangle instead of at its vertices.
     bool is_lit(std::size_t index) const {

@@ -61,7 +61,7 @@ TABLE = [
     ("hologram sphere -o s.h5 --hogels 4x3 --directions 12 --size 1.6384mm --pitch 6.4um --fov 0.4deg --wavelength 633nm",
      hologram(1)),
     ("slm s.h5 -o slm.png --pixels 64x48 --pixel-pitch 6.4um",
-     SLM | {"patterns": [PATTERN | {"light_field_efficiency": REAL}]}),
+     SLM | {"patterns": [PATTERN | {"light_field_efficiency": REAL, "correlation": REAL, "iterations": COUNT}]}),
     ("slm s.h5 -o slm.bmp --pixels 64x48 --pixel-pitch 6.4um --encoding binary",
      SLM | {"patterns": [PATTERN | {"reference_angle_deg": REAL}]}),
     ("print x.h5 -o hogels", {"folder": WORD, "bytes": COUNT, "pictures": COUNT, "first": WORD, "last": WORD,

@@ -77,8 +77,9 @@ std::shared_ptr<const ShadedScene> light_scene(const Scene& scene, const LightFi
                                                const Progress& progress) {
     const core::StopScope scope(progress);
     require_built_in(request);
-    auto shaded = std::make_shared<ShadedScene>(shade_scene(scene, request.shading, progress));
+    auto shaded = std::make_shared<ShadedScene>();
     shaded->fronts_only = request.cull_back_faces;
+    shade_scene_into(scene, request.shading, *shaded, progress);
     if (request.cache_spacing > 0)
         shading::add_radiance_cache(
             *shaded, render::cache_spacing(*shaded, finer(request.grid, request.samples), request.cache_spacing));
@@ -89,12 +90,13 @@ LightField render_light_field(const std::shared_ptr<const ShadedScene>& scene, c
     std::vector<LightField::Source> faces;
     for (const LightFieldGrid& grid : request.grids())
         faces.push_back(make_renderer(request.renderer, scene, grid, request.samples));
-    return LightField(std::move(faces), {{{"renderer", request.renderer}, {"shading", request.shading.model}}, {}});
+    Metadata entries = scene->provenance;
+    entries.emplace_back("renderer", request.renderer);
+    return LightField(std::move(faces), {std::move(entries), {}});
 }
 
 LightField render_light_field(const Scene& scene, const LightFieldRequest& request, const Progress& progress) {
-    const LightField rendered = render_light_field(light_scene(scene, request, progress), request);
-    return rendered.with({with_history({{"scene", scene.name}}, rendered.provenance().entries), {}});
+    return render_light_field(light_scene(scene, request, progress), request);
 }
 
 LightField prepare_for_reading(const LightField& light_field, std::size_t times, bool with_depth,

@@ -63,7 +63,10 @@ struct Surfaces {
 ShadedScene unlit(const Scene& scene) {
     Scene dark = scene;
     dark.lights.clear();
-    return shade_scene(dark);
+    ShadedScene shaded;
+    shaded.fronts_only = true;  // light falls on both faces of a sheet, so both stay
+    shade_scene_into(dark, {}, shaded);
+    return shaded;
 }
 
 /// Calls body(vertex) for all vertices, and reports progress from `from` to `to`.

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/shading/doubled_faces.h"
 #include "hogel/shading/lighting.h"
 
 namespace hogel {
@@ -111,7 +113,11 @@ void shade_scene_into(const Scene& scene, const ShadingOptions& options, ShadedS
     if (model.shadow_map_bytes) require_memory(scene, options, model.shadow_map_bytes(scene, options));
     shaded.radiance_cache = nullptr;
     set_geometry(scene, options.filter_textures, shaded);
+    keep_one_of_doubled_faces(shaded);
     shaded.lighting = model.make(scene, options, shaded, progress);
+    shaded.provenance = {{"scene", scene.name}};
+    if (!std::ranges::all_of(scene.meshes, [](const Mesh& mesh) { return !mesh.radiance.empty(); }))
+        shaded.provenance.emplace_back("shading", options.model);
 }
 
 ShadedScene shade_scene(const Scene& scene, const ShadingOptions& options, const Progress& progress) {

@@ -44,6 +44,7 @@ Array<float, 2> iterate_phases(View<const Complex, 2> field, const PatternOption
     const std::size_t side = options.window, width = field.extent(1), height = field.extent(0);
     require_squares_fit(field, side);
     const std::vector<std::size_t> columns = squares_along(side, width), rows = squares_along(side, height);
+    const std::size_t iterations = options.iterations > 0 ? options.iterations : projections;
     const math::Fft2 fft(side, side);
     Array<float, 2> cycles(field.shape());
     for (std::size_t j = 0; j < rows.size(); ++j) {
@@ -55,11 +56,11 @@ Array<float, 2> iterate_phases(View<const Complex, 2> field, const PatternOption
             for (std::size_t y = 0; y < side; ++y) std::copy_n(&field(y0 + y, x0), side, &square(y, 0));
             fft.forward(square);
             for (std::size_t p = 0; p < square.size(); ++p) moduli.data()[p] = std::abs(square.data()[p]);
-            for (std::size_t k = 0; k <= options.iterations; ++k) {
+            for (std::size_t k = 0; k <= iterations; ++k) {
                 for (std::size_t p = 0; p < square.size(); ++p)
                     square.data()[p] = moduli.data()[p] * unit(square.data()[p]);
                 fft.backward(square);
-                if (k == options.iterations) break;
+                if (k == iterations) break;
                 for (Complex& value : square.elements()) value = unit(value);
                 fft.forward(square);
             }

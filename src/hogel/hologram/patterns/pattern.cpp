@@ -82,9 +82,13 @@ float cycles_of(Complex value) {
     return cycles < 0 ? cycles + 1 : cycles;
 }
 
-Array<float, 2> encode_phase(View<const Complex, 2> field, const PatternOptions& options, const Progress& progress) {
-    if (options.encoding == Encoding::gerchberg_saxton) return iterate_phases(field, options, progress);
-    if (options.encoding == Encoding::gradient) return descend_phases(field, options, progress);
+Array<float, 2> encode_phase(View<const Complex, 2> field, const PatternOptions& options, Convergence& convergence,
+                             const Progress& progress) {
+    if (options.encoding == Encoding::gerchberg_saxton) {
+        convergence.iterations = options.iterations > 0 ? options.iterations : projections;
+        return iterate_phases(field, options, progress);
+    }
+    if (options.encoding == Encoding::gradient) return descend_phases(field, options, convergence, progress);
     Array<float, 2> cycles(field.shape());
     for (std::size_t y = 0; y < field.extent(0); ++y)
         for (std::size_t x = 0; x < field.extent(1); ++x) {
@@ -169,7 +173,7 @@ Table<EncodingInfo>& encodings() {
             row("phase", "the field's own phase, its modulus forgotten", Encoding::phase),
             row("double-phase", "the modulus as two phases on a checkerboard", Encoding::double_phase),
             row("gerchberg-saxton", "phases by alternating projections", Encoding::gerchberg_saxton),
-            row("gradient", "phases by stochastic gradient descent", Encoding::gradient),
+            row("gradient", "phases by descent towards the field within its band", Encoding::gradient),
             row("intensity", "amplitudes of the interference with a reference wave", Encoding::intensity),
             row("bipolar", "amplitudes of the real part with a reference wave, raised", Encoding::bipolar),
             row("burckhardt", "amplitudes of three real components in successive columns", Encoding::burckhardt),
@@ -186,15 +190,29 @@ Pattern encode_pattern(const FieldSource& source, const PatternOptions& options,
     normalise(field, options.clip);
     Pattern pattern;
     Carrier carrier;
+    Convergence convergence;
     const bool phases = is_phase_only(options.encoding);
     pattern.values = phases
-                         ? encode_phase(field, options, progress)
+                         ? encode_phase(field, options, convergence, progress)
                          : encode_amplitude(field, options, source.grid().wavelength, carrier, pattern.reference_angle);
     pattern.levels = round_to_levels(pattern.values, options.modulator.levels, phases);
     const Array<Complex, 2> transmitted = transmission(pattern, options.encoding);
     pattern.efficiency = efficiency_of(transmitted, field, carrier);
-    if (phases) pattern.light_field_efficiency = light_field_efficiency_of(transmitted, field, options.window);
+    if (!phases) return pattern;
+    pattern.light_field_efficiency = light_field_efficiency_of(transmitted, field, options.window);
+    pattern.iterations = convergence.iterations;
+    Array<Complex, 2> spectrum = transmitted;
+    pattern.correlation = std::sqrt(1 - FieldBand(field, options.window).match(spectrum).error);
     return pattern;
+}
+
+Encoding suitable_encoding(const FieldSource& source, const PatternOptions& options) {
+    require_fitting(source.grid(), options);
+    const Array<Complex, 2> field = fit(source, options.modulator);
+    Array<Complex, 2> phases(field.shape());
+    for (std::size_t i = 0; i < field.size(); ++i) phases.data()[i] = std::polar(1.0f, std::arg(field.data()[i]));
+    const double error = FieldBand(field, options.window).match(phases).error;
+    return std::sqrt(1 - error) >= phase_alone_correlation ? Encoding::phase : Encoding::gradient;
 }
 
 Array<Complex, 2> transmission(const Pattern& pattern, Encoding encoding) {

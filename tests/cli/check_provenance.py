@@ -1,0 +1,275 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Checks that files store the options that acted on them, and no other.
+
+Each case is a command line. Every option of the command gets another value in turn, and the output is compared with that
+of the case. An option that changes it must be stored with that value, and one that does not must not be; and where the
+case stores an option, or has a default that acts, another value must change the output. So what is stored is held to
+what acted, not to a list.
+
+usage: check_provenance.py COMMAND    in a folder with the files that provenance.txt makes; hogel in the PATH
+"""
+import concurrent.futures
+import functools
+import json
+import os
+import re
+import struct
+import subprocess
+import sys
+
+# Options that decide how the work is done or where its result goes.
+SILENT = "help quiet verbose threads output resume region json force store-hologram".split()
+
+# An option that acts, although no other value shows it: another is refused, or the scene of the case looks the same.
+ACTS = object()
+
+# Another value of every option, with further options that it needs; None: the flag alone.
+OTHER = {
+    # renderings
+    "algorithm": "mvr", "shading": "direct", "shadow-map": "4", "cache-spacing": "2", "cull-back-faces": None,
+    "hogels": "5x4", "directions": "9x8", "samples": "2", "size": "1.3mm", "fov": "14deg", "toward": "0.5deg",
+    "front": "0.7", "as-is": None, "fit": None, "hemicube": None, "frequencies": "633nm", "depth": None, "float": None,
+    "seed": "7",
+    # holograms
+    "wavelength": "560nm", "pitch": "1.3um", "line-pitch": "10um", "method": "basis", "phase": "designed",
+    "lobes": "amplitude", "basis": "haar", "tolerance": "0.5", "spacing": "70um", "planes": "2", "half": None,
+    # cameras
+    "eye": "2,0,40mm", "gaze": "0.1,0,0mm", "focus": "2mm", "focus-tilt": "20deg", "pupil": "2mm", "f-number": "20",
+    "focal-length": "30mm", "angle-of-view": "1deg", "resolution": "9", "to-eye": "2,0,40mm --frames 3", "to-focus": "3mm --frames 3",
+    "frames": "3", "frame-rate": "24", "looks": "3", "exposure": "0.1", "display": "log", "camera": "full",
+    "film-distance": "30mm", "geometric": None, "wave": None, "pupil-samples": "5", "values": "phase",
+    "imaginary": "imaginary.exr", "variable": "b", "conjugate": None,
+    # compression
+    "sqnr": "25", "ppb": "3", "step": "0.1", "max-error": "0.1", "lossless": None, "coder": "threepass",
+    "transform": "haar", "table": "jpeg", "no-depth": None, "depth-error": "1mm", "tone": "histogram --tone-decades 0.1",
+    "tone-decades": "0.2", "chrominance": "9", "tile": "3x2", "layers": "1",
+    # fields and patterns
+    "distance": "3mm", "output-pitch": "2um", "output-samples": "70x60", "offset-x": "40um", "offset-y": "40um",
+    "encoding": "double-phase", "reference": "1.2deg", "clip": "0.3", "window": "9", "iterations": "2",
+    "device": "leto", "pixels": "90x70", "pixel-pitch": ACTS, "levels": "4",
+    # prints
+    "strips": None, "order": "rows",
+}
+
+SMALL = "--hogels 6x4 --directions 8x6 --size 1mm"
+LIGHT = SMALL + " --pitch 1.6um"
+PHOTO = "--eye 0,0,40mm --pupil 4mm --resolution 8"
+MODULATOR = "--pixels 128x96 --pixel-pitch 6.4um --window 32"
+
+# Name, command line, output, and other values in place of those above.
+CASES = [
+    ("render", f"render m.obj {SMALL} --float", "o.h5", {}),
+    ("render as is", f"render m.obj --as-is {SMALL} --float", "o.h5", {}),
+    ("render built-in", f"render sphere {SMALL} --float", "o.h5", {"cull-back-faces": ACTS}),
+    ("render by samples", f"render m.obj {SMALL} --float --shading direct", "o.h5", {"shading": "vertex"}),
+    ("render hemicube", "render m.obj --hogels 6x4 --directions 8x6 --size 1mm --float --hemicube", "o.h5",
+     {"directions": "8x4"}),
+    ("render frequencies", "render m.obj --algorithm raytrace --frequencies 633nm --hogels 6x4 --size 0.2mm --float", "o.h5",
+     {"frequencies": "500nm", "algorithm": ACTS, "fov": "10deg"}),
+    ("render compressed", f"render m.obj {SMALL}", "o.hgl", {}),
+    ("hologram", "hologram x.h5 --wavelength 532nm --pitch 1.6um", "o.h5", {}),
+    ("hologram lines", "hologram row.h5 --wavelength 532nm --pitch 1.6um --method lines", "o.h5", {}),
+    ("hologram basis", "hologram x.h5 --wavelength 532nm --pitch 1.6um --method basis", "o.h5", {"method": "fourier"}),
+    ("hologram of coefficients", "hologram fringes.hgl --wavelength 532nm --pitch 1.6um --method basis", "o.h5",
+     {"method": "fourier", "basis": "cdf97"}),
+    ("hologram added", "hologram deep.h5 --wavelength 532nm --pitch 1.6um --method phase-added", "o.h5", {}),
+    ("hologram olas", "hologram deep.h5 --wavelength 532nm --pitch 1.6um --method olas", "o.h5", {"phase": "fixed"}),
+    ("hologram smooth", "hologram deep.h5 --wavelength 532nm --pitch 1.6um --method olas --phase fixed", "o.h5",
+     {"phase": "random"}),
+    ("hologram of a scene", f"hologram m.obj {LIGHT} --wavelength 532nm", "o.h5", {}),
+    ("points", "hologram m.obj --method points --spacing 60um --size 0.2mm --pitch 2um --wavelength 532nm", "o.h5",
+     {"method": "edges", "hogels": "10x7"}),
+    ("fresnel", "hologram m.obj --method fresnel --size 0.2mm --pitch 2um --wavelength 532nm --front -12 --shading shadowed",
+     "o.h5", {"method": "edges", "hogels": "10x7", "shading": "vertex", "front": "-14", "as-is": ACTS}),
+    ("photo of a hologram", f"photo f.h5 {PHOTO} --focus 1mm", "o.png", {}),
+    ("photo, full camera", f"photo f.h5 {PHOTO} --camera full", "o.png", {"camera": "narrow"}),
+    ("photo, f-number", f"photo f.h5 --eye 0,0,40mm --f-number 12 --resolution 8", "o.exr", {}),
+    ("photo, linear", f"photo f.h5 {PHOTO}", "o.exr", {}),
+    ("photo, logarithmic", f"photo f.h5 {PHOTO} --display log", "o.exr", {"display": "intensity"}),
+    ("photo, frames", f"photo f.h5 {PHOTO} --frames 2 --to-eye 1,0,40mm", "o##.png",
+     {"to-eye": "2,0,40mm", "to-focus": "3mm"}),
+    ("photo by rays", f"photo x.h5 {PHOTO} --focus 1mm", "o.exr", {"focus-tilt": ACTS}),
+    ("photo by waves", f"photo x.h5 {PHOTO} --wave --pitch 1.6um --looks 2", "o.exr", {}),
+    ("photo of a scene", f"photo m.obj {LIGHT} {PHOTO} --looks 2", "o.exr", {"algorithm": ACTS, "toward": ACTS}),
+    ("photo of an array", f"photo f.npy {PHOTO} --pitch 1.6um --wavelength 532nm", "o.exr", {}),
+    ("photo of phases", f"photo real.npy {PHOTO} --pitch 1.6um --wavelength 532nm --values phase", "o.png",
+     {"values": "amplitude"}),
+    ("propagate, two pictures", "propagate real.exr --imaginary imaginary.exr --distance 1mm --pitch 1.6um --wavelength 532nm",
+     "o.h5", {"imaginary": "other.exr"}),
+    ("propagate", "propagate f.h5 --distance 1mm", "o.h5", {}),
+    ("propagate, picture", "propagate f.npy --distance 1mm --pitch 1.6um --wavelength 532nm", "o.png", {"conjugate": None}),
+    ("phase", f"slm s.h5 {MODULATOR} --encoding phase", "o.png", {}),
+    ("double phase", f"slm s.h5 {MODULATOR} --encoding double-phase", "o.png", {"encoding": "phase"}),
+    ("Gerchberg-Saxton", f"slm s.h5 {MODULATOR} --encoding gerchberg-saxton", "o.png", {}),
+    ("gradient", f"slm s.h5 {MODULATOR} --encoding gradient", "o.png", {}),
+    ("bipolar", f"slm s.h5 {MODULATOR} --encoding bipolar", "o.png", {}),
+    ("binary", f"slm s.h5 {MODULATOR} --encoding binary", "o.png", {}),
+    ("burckhardt", f"slm s.h5 {MODULATOR} --encoding burckhardt", "o.png", {}),
+    ("slm device", "slm s.h5 --device leto --encoding phase", "o.png", {"device": ACTS}),
+    ("compress", "compress deep.h5", "o.hgl", {}),
+    ("compress, wavelets", "compress x.h5 --coder threepass --step 0.01", "o.hgl", {"coder": "ezw", "step": "0.05"}),
+    ("compress, jpeg", "compress x.h5 --coder jpeg4d --sqnr 30", "o.hgl", {"transform": ACTS}),
+    ("compress, hemicube", "compress five.h5 --tone histogram --tone-decades 0.1", "o.hgl",
+     {"hemicube": "unfolded", "tone": "none"}),
+    ("compress, rate", "compress x.h5 --coder ezw --ppb 0.13", "o.hgl",
+     {"ppb": "0.14", "coder": ACTS, "transform": ACTS, "tone": ACTS, "chrominance": ACTS}),
+    ("compress, bounded", "compress x.h5 --max-error 0.05", "o.hgl", {"coder": ACTS}),
+    ("compress, exact", "compress x.h5 --lossless", "o.hgl", {"coder": ACTS}),
+    ("decompress", "decompress x.hgl", "o.h5", {}),
+    ("decompress exact", "decompress exact.hgl", "o.h5", {}),
+    ("print", "print x.h5 --strips", "o", {"strips": None}),
+]
+
+
+def hogel(*words):
+    return subprocess.run(["hogel", *words], capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=120)
+
+
+@functools.cache
+def options_of(command):
+    """The options of a command, and whether the help shows a default."""
+    parts = re.split(r"^  (?:-\w,)?--([a-z-]+)", hogel("help", command).stdout, flags=re.M)
+    return {name: re.search(r" \[[^\]]+\]$", text, re.M) is not None for name, text in zip(parts[1::2], parts[2::2])}
+
+
+def made(output):
+    """The files of an output: its folder's, or its numbered pictures."""
+    if os.path.isdir(output):
+        return sorted(os.path.join(output, name) for name in os.listdir(output))
+    if "##" in output:
+        return sorted(name for name in os.listdir(".") if re.fullmatch(output.replace("##", r"\d\d"), name))
+    return [output] if os.path.exists(output) else []
+
+
+def run(words, output):
+    """Runs a command line and returns its files, or none if it was refused."""
+    for name in made(output):
+        os.remove(name)
+    done = hogel(*words, "-o", output, "-q", "--threads", "1")
+    if done.returncode not in (0, 2, 3):
+        sys.exit(f"hogel {' '.join(words)}: status {done.returncode}: {done.stderr}")
+    return [File(name) for name in made(output)] if done.returncode == 0 else []
+
+
+class File:
+    """What hogel info says of a file: `options`, those of the command that made it, and `facts`, without how it was made
+    and how many bytes it takes."""
+    MADE_BY = re.compile(r"(source )*(software|command|option .*|camera|(efficiency|correlation|iterations|reference angle) at .*)|exposure|shading"
+                         r"|renderer|bytes|.*_bytes|pixels_per_bit|layers_end_at")
+
+    def __init__(self, name):
+        said = json.loads(hogel("info", "--json", name).stdout)
+        self.name = name
+        self.options = {key[7:]: value for key, value in said.items() if key.startswith("option ")}
+        self.facts = {key: value for key, value in said.items() if not self.MADE_BY.fullmatch(key)}
+
+
+def same(a, b):
+    """Whether two outputs have the same contents."""
+    if len(a) != len(b):
+        return False
+    for one, other in zip(a, b):
+        if one.facts != other.facts:
+            return False
+        compared = hogel("compare", "--json", one.name, other.name)
+        if compared.returncode != 0 or json.loads(compared.stdout)["max_error"] != 0:
+            return False
+    return True
+
+
+def with_option(words, option, value):
+    """The command line with another value of an option; a flag that is there is taken away."""
+    words = list(words)
+    if f"--{option}" in words:
+        at = words.index(f"--{option}")
+        if value is None:
+            return words[:at] + words[at + 1:]
+        return words[:at + 1] + value.split() + words[at + 2:]
+    return words + [f"--{option}"] + ([] if value is None else value.split())
+
+
+def check(case, line, output, others):
+    words = line.split()
+    # Cases run at the same time, so each has names of its own.
+    output = re.sub("[^a-z]", "", case) + output
+    base = "base" + output
+    first = run(words, base)
+    if not first:
+        return [f"{case}: refused: {hogel(*words, '-o', base).stderr}"]
+    acted = dict(first[0].options)
+    complaints = []
+    positional = "scene" if words[0] == "render" else "input"
+    if acted.pop(positional, None) != words[1]:
+        complaints.append(f"{case}: {positional} is not stored")
+    has_default = options_of(words[0])
+    for option in has_default:
+        value = others.get(option, OTHER.get(option, ""))
+        if option in SILENT or value is ACTS:
+            continue
+        if value == "":
+            complaints.append(f"{case}: no other value of --{option} is known")
+            continue
+        files = run(with_option(words, option, value), output)
+        acts = bool(files) and not same(first, files)
+        says = files[0].options.get(option) if files else None
+        is_default = acted.get(option) is True and f"--{option}" not in words  # a flag that stands for a default
+        if option in acted and not acts and not is_default:
+            complaints.append(f"{case}: --{option} is stored as {acted[option]} but does not act")
+        if files and not acts and says is not None and not is_default:
+            complaints.append(f"{case}: --{option} does not act, but is stored where it is given")
+        if acts and option not in acted and has_default[option]:
+            complaints.append(f"{case}: the default of --{option} acts, but is not stored")
+        wanted = f"--{option}" not in words if value is None else value.split()[0]
+        if acts and says != wanted and not (wanted is False and says is None) and option != "pitch":
+            complaints.append(f"{case}: --{option} {value} acts, but is stored as {says}")
+    for name in (base, output):
+        for file in made(name):
+            os.remove(file)
+        if os.path.isdir(name):
+            os.rmdir(name)
+    return complaints
+
+
+# What defaults stand for: a command line, and values that its output stores of options that were not given.
+DEFAULTS = [
+    ("hologram x.h5 --wavelength 532nm --pitch 1.7um", "o.h5", {"pitch": "1.70068um", "phase": "random", "method": "fourier"}),
+    ("hologram x.h5 --wavelength 532nm --pitch 1.6um --method basis", "o.h5", {"basis": "cdf97", "phase": "fixed"}),
+    ("hologram fringes.hgl --wavelength 532nm --pitch 1.6um --method basis", "o.h5", {"basis": "haar"}),
+    ("compress x.h5", "o.hgl", {"sqnr": "40"}),
+    ("compress x.h5 --coder threepass", "o.hgl", {"sqnr": "40", "transform": "cdf97"}),
+    ("compress x.h5 --coder jpeg4d", "o.hgl", {"transform": "dct8", "table": "own"}),
+    (f"render m.obj {SMALL}", "o.hgl", {"sqnr": "40"}),
+    ("decompress exact.hgl", "o.h5", {"float": True}),
+    ("propagate f.h5 --distance 1mm", "o.h5", {"output-samples": "624x416", "output-pitch": "1.60256um"}),
+    (f"photo x.h5 {PHOTO}", "o.png", {"geometric": True}),
+    (f"photo x.h5 {PHOTO} --wave --pitch 1.6um", "o.png", {"wave": True, "looks": "16"}),
+]
+
+
+def check_default(line, output, values):
+    files = run(line.split(), f"default{DEFAULTS.index((line, output, values))}{output}")
+    if not files:
+        return [f"{line}: refused"]
+    said = files[0].options
+    os.remove(files[0].name)
+    return [f"{line}: {option} is stored as {said.get(option)}, not {value}"
+            for option, value in values.items() if said.get(option) != value]
+
+
+def write_numbers():
+    head = b"{'descr': '<f4', 'fortran_order': False, 'shape': (200, 200)}"
+    head += b" " * (-(len(head) + 11) % 64) + b"\n"
+    with open("real.npy", "wb") as file:
+        file.write(b"\x93NUMPY\x01\x00" + struct.pack("<H", len(head)) + head)
+        file.write(struct.pack("<40000f", *(i * i % 63 / 10 for i in range(40000))))
+
+
+write_numbers()
+command = sys.argv[1]
+work = [(check, case) for case in CASES if case[1].split()[0] == command]
+work += [(check_default, case) for case in DEFAULTS if case[0].split()[0] == command]
+with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+    complaints = [line for lines in pool.map(lambda task: task[0](*task[1]), work) for line in lines]
+os.remove("real.npy")
+print("\n".join(complaints) if complaints else f"{len(work)} command lines of {command}")
