@@ -13,12 +13,13 @@ namespace {
 using Complex = std::complex<float>;
 using Numbers = Array<float, 2>;
 
-constexpr std::size_t max_pairs = 5;      // steps that are remembered
-constexpr double first_step = 0.25;       // root mean square of the first step, radians
-constexpr double sufficient = 1e-4;       // Armijo's share of the descent that the slope promises
-constexpr int max_halvings = 10;          // of a step that does not descend
-constexpr std::size_t watched_steps = 5;  // the descent ends when the correlation
-constexpr double least_gain = 5e-4;       // gains no more than this in so many steps
+constexpr std::size_t max_pairs = 5;  // steps that are remembered
+constexpr double first_step = 0.25;   // root mean square of the first step, radians
+constexpr double sufficient = 1e-4;   // Armijo's share of the descent that the slope promises
+constexpr int max_halvings = 10;      // of a step that does not descend
+// The descent ends when the correlation gains less than this in so many steps.
+constexpr double min_gain = 5e-4;
+constexpr std::size_t watched_steps = 5;
 
 // Σ a b, row by row, so that it is the same for any number of threads.
 double dot(const Numbers& a, const Numbers& b) {
@@ -145,7 +146,7 @@ Array<float, 2> descend_phases(View<const Complex, 2> field, const PatternOption
         now = then;
         correlations.push_back(std::sqrt(1 - now));
         if (k + 1 >= watched_steps &&
-            correlations.back() - correlations[correlations.size() - 1 - watched_steps] < least_gain)
+            correlations.back() - correlations[correlations.size() - 1 - watched_steps] < min_gain)
             break;
     }
     convergence = {correlations.size() - 1, correlations.back()};
