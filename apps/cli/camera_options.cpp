@@ -113,7 +113,7 @@ PhotographOptions photograph_options(const std::string& camera, bool expected) {
 }
 
 std::string say_camera(const Session& session, std::span<const LightFieldGrid> faces, const HologramRequest& request,
-                std::span<const Camera> cameras, const PhotographOptions& options) {
+                       std::span<const Camera> cameras, const PhotographOptions& options) {
     const LightChoice choice = choose_light(faces, request, cameras, options);
     if (options.from == LightFrom::hogels && choice.from != LightFrom::hogels)
         throw Error(ErrorCode::usage, fmt::format("--camera eye: {}; --camera narrow would do", choice.reason));

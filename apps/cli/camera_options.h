@@ -40,7 +40,7 @@ PhotographOptions photograph_options(const std::string& camera, bool expected);
 /// Says with -v from what photographs are computed, and why; returns its name, eye or narrow. Throws Error(usage) for
 /// --camera eye where there are no waves of hogels, or so many of them enter the eye that samples are cheaper.
 std::string say_camera(const Session& session, std::span<const LightFieldGrid> faces, const HologramRequest& request,
-                std::span<const Camera> cameras, const PhotographOptions& options);
+                       std::span<const Camera> cameras, const PhotographOptions& options);
 
 /// --looks: a number of looks, or the mean of infinitely many.
 struct Looks {

@@ -103,7 +103,7 @@ void write_pictures(const std::filesystem::path& folder, const Report& report) {
 
 // Prints the resources that the work needs, and returns the camera that is chosen. Throws if they are not available.
 std::string state_plan(const LightFieldGrid& grid, const HologramRequest& request, std::span<const Camera> cameras,
-                const PhotographOptions& options, const Session& session) {
+                       const PhotographOptions& options, const Session& session) {
     const std::span<const LightFieldGrid> faces(&grid, 1);
     std::string camera = say_camera(session, faces, request, cameras, options);
     state_plan(session, plan_photographs(faces, request, cameras, options), "photographing the hologram");

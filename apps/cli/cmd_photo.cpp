@@ -116,8 +116,7 @@ std::vector<Image> photographs_of_light_field(const Options& options, RunRecord&
     check_holograms(light_field.grids(), request, kind == InputKind::scene, cameras);
     const WaveCamera with = options.wave_camera();
     const auto* const narrow = std::get_if<PhotographOptions>(&with);
-    if (narrow != nullptr)
-        record.acted("camera", say_camera(session, light_field.grids(), request, cameras, *narrow));
+    if (narrow != nullptr) record.acted("camera", say_camera(session, light_field.grids(), request, cameras, *narrow));
     state_plan(
         session,
         plan_photographs(light_field.grids(), request, cameras, narrow != nullptr ? *narrow : PhotographOptions()),

@@ -40,7 +40,7 @@ struct Report {
     std::vector<PhotographPair> pairs;
     std::vector<std::pair<std::string, double>> stages;  ///< name, seconds
     std::size_t threads = 0;
-    Metadata run;                  ///< with the options that acted on any output
+    Metadata run;  ///< with the options that acted on any output
     /// With those that acted on photographs by waves, on their means of infinitely many looks, and on those by rays.
     Metadata waves_run, expected_run, rays_run;
 };
