@@ -110,8 +110,11 @@ Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramReque
         seconds += from_hogels ? seconds_from_hogels(faces.front(), hologram, cameras, request.looks)
                                : static_cast<double>(hologram.plane.samples()) * static_cast<double>(request.looks) *
                                      (seconds_a_sample + eyes * seconds_a_sample_and_eye);
-        camera_bytes = std::max(camera_bytes,
-                                optics::plan_photographs(hologram, cameras, static_cast<double>(options.memory)).bytes);
+        const auto memory = static_cast<double>(options.memory);
+        const optics::PhotographPlan camera = optics::plan_photographs(hologram, cameras, memory);
+        // Looks are computed together, as many as there is memory for.
+        const auto more = static_cast<double>(camera.looks_at_once(memory, request.looks) - 1);
+        camera_bytes = std::max(camera_bytes, camera.bytes + std::min(more * camera.bytes_a_look, memory));
     }
     plan.seconds = on_all_threads(seconds);
     plan.memory += camera_bytes;
