@@ -95,7 +95,8 @@ void write_pictures(const std::filesystem::path& folder, const Report& report) {
         for (Metadata* metadata : {&wave, &expected, &rays}) metadata->push_back(exposure);
         for (const char* extension : {".png", ".exr"}) {
             if (report.looks > 0) write_image(folder / (pair.wave_file + extension), pair.wave, report.exposure, wave);
-            write_image(folder / (pair.expected_file + extension), pair.expected, report.exposure, expected);
+            if (report.expected)
+                write_image(folder / (pair.expected_file + extension), pair.expected, report.exposure, expected);
             write_image(folder / (pair.geometric_file + extension), pair.geometric, report.exposure, rays);
         }
     }
@@ -108,6 +109,21 @@ std::string state_plan(const LightFieldGrid& grid, const HologramRequest& reques
     std::string camera = say_camera(session, faces, request, cameras, options);
     state_plan(session, plan_photographs(faces, request, cameras, options), "photographing the hologram");
     return camera;
+}
+
+// Whether pictures of infinitely many looks take no longer than those of the looks, or no more than ten seconds. They
+// take long where many waves of a hogel enter the lens: where hogels are large.
+bool is_expected_cheap(const LightFieldGrid& grid, const HologramRequest& request, std::span<const Camera> cameras,
+                       const PhotographOptions& options, const Session& session) {
+    const std::span<const LightFieldGrid> faces(&grid, 1);
+    const double looks = plan_photographs(faces, request, cameras, options).seconds,
+                 expected = plan_photographs(faces, request, cameras, {.expected = true}).seconds;
+    if (expected <= std::max(10.0, looks)) return true;
+    session.detail(
+        fmt::format("without pictures of infinitely many looks, which take about {:.0f} s; --looks expected "
+                    "makes them",
+                    expected));
+    return false;
 }
 
 // The command that renders the light field again, from the options that describe the run.
@@ -147,11 +163,11 @@ Result result_of(const Report& report, const std::string& folder, const Session&
     ResultList photographs;
     for (const PhotographPair& pair : report.pairs) {
         const ImageComparison& seen = report.looks > 0 ? pair.comparison : pair.expected_comparison;
-        photographs.push_back(Result{{"file", (report.looks > 0 ? pair.wave_file : pair.expected_file) + ".png"},
-                                     {"expected_file", pair.expected_file + ".png"},
-                                     {"geometric_file", pair.geometric_file + ".png"},
-                                     {"psnr", seen.psnr},
-                                     {"ssim", seen.ssim}});
+        Result files{{"file", (report.looks > 0 ? pair.wave_file : pair.expected_file) + ".png"}};
+        if (report.expected) files.emplace_back("expected_file", pair.expected_file + ".png");
+        files.insert(files.end(),
+                     {{"geometric_file", pair.geometric_file + ".png"}, {"psnr", seen.psnr}, {"ssim", seen.ssim}});
+        photographs.push_back(std::move(files));
     }
     const Grid& picture = report.pairs.front().camera.picture;
     return {{"folder", folder},
@@ -193,6 +209,7 @@ int make(const Options& options, const Session& session) {
                  [&] { require_holograms(std::span(&report.light_field, 1), request, cameras); });
     const PhotographOptions with = photograph_options(options.camera, looks.expected);
     const std::string camera = state_plan(report.light_field, request, cameras, with, session);
+    report.expected = looks.expected || is_expected_cheap(report.light_field, request, cameras, with, session);
 
     const OutputFolder folder(options.output, options.force);
     const PassingFile light_field_file(folder.path() / "lightfield.h5", options.keep_light_field);
@@ -239,17 +256,18 @@ int make(const Options& options, const Session& session) {
             std::vector<Image> pictures = photograph_colours(holograms, cameras, with, stage.progress());
             for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].wave = std::move(pictures[i]);
         });
-    timed(session, report, "expected photographs", [&](Stage& stage) {
-        std::vector<Image> pictures =
-            photograph_colours(holograms, cameras, PhotographOptions{.expected = true}, stage.progress());
-        for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].expected = std::move(pictures[i]);
-    });
+    if (report.expected)
+        timed(session, report, "expected photographs", [&](Stage& stage) {
+            std::vector<Image> pictures =
+                photograph_colours(holograms, cameras, PhotographOptions{.expected = true}, stage.progress());
+            for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].expected = std::move(pictures[i]);
+        });
 
     // One exposure for all pictures, from the view from above.
     report.exposure = automatic_exposure(report.pairs[1].geometric);
     for (PhotographPair& pair : report.pairs) {
         if (report.looks > 0) pair.comparison = compare(pair.geometric, pair.wave, report.exposure);
-        pair.expected_comparison = compare(pair.geometric, pair.expected, report.exposure);
+        if (report.expected) pair.expected_comparison = compare(pair.geometric, pair.expected, report.exposure);
     }
     write_pictures(folder.path(), report);
     write_text(folder.path() / "report.json", report_json(report));

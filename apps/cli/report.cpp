@@ -126,9 +126,11 @@ std::string pictures_html(const Report& report) {
             add(pair.wave, pair.wave_file, "waves, " + looks, "waves");
             compare(looks, pair.comparison);
         }
-        add(pair.expected, pair.expected_file, "waves, infinitely many looks",
-            "waves, the mean of infinitely many looks");
-        compare("infinitely many looks", pair.expected_comparison);
+        if (report.expected) {
+            add(pair.expected, pair.expected_file, "waves, infinitely many looks",
+                "waves, the mean of infinitely many looks");
+            compare("infinitely many looks", pair.expected_comparison);
+        }
         add(pair.geometric, pair.geometric_file, "rays", "rays");
         html += fmt::format(
             "<figure class=\"pair\"><div class=\"row\">{}</div>\n<figcaption><span>{}</span>{}</figcaption></figure>\n",
@@ -175,14 +177,15 @@ std::string tables_html(const Report& report) {
                                          ? format_bytes(static_cast<double>(report.light_field_bytes))
                                          : "not kept; scene and options are, from which it can be rendered again: " +
                                                report.render_command}};
-    Rows hologram{
-        {"Samples", samples_text(report)},
-        {"Pitch", fmt::format("{:.4g} µm", plane.pitch_x * 1e6)},
-        {"Wavelengths", wavelengths_text(report)},
-        {"Size if it were stored", format_bytes(field_bytes)},
-        {"Lens", fmt::format("{} wide, {} away", format_length(camera.pupil), format_length(camera.eye.z))},
-        {"Looks averaged", report.looks > 0 ? fmt::format("{}; and infinitely many", report.looks) : "infinitely many"},
-        {"Exposure", fmt::format("{:.4g}", report.exposure)}};
+    Rows hologram{{"Samples", samples_text(report)},
+                  {"Pitch", fmt::format("{:.4g} µm", plane.pitch_x * 1e6)},
+                  {"Wavelengths", wavelengths_text(report)},
+                  {"Size if it were stored", format_bytes(field_bytes)},
+                  {"Lens", fmt::format("{} wide, {} away", format_length(camera.pupil), format_length(camera.eye.z))},
+                  {"Looks averaged", report.looks == 0 ? "infinitely many"
+                                     : report.expected ? fmt::format("{}; and infinitely many", report.looks)
+                                                       : fmt::format("{}", report.looks)},
+                  {"Exposure", fmt::format("{:.4g}", report.exposure)}};
     Rows times;
     for (const auto& [name, seconds] : report.stages) {
         std::string title = name;
@@ -248,10 +251,11 @@ std::string report_json(const Report& report) {
                                        {"focus_depth", camera.focus_depth},
                                        {"pupil", camera.pupil},
                                        {"pixels", {camera.picture.width, camera.picture.height}},
-                                       {"expected", pair.expected_file + ".png"},
-                                       {"geometric", pair.geometric_file + ".png"},
-                                       {"expected_psnr", number(pair.expected_comparison.psnr)},
-                                       {"expected_ssim", number(pair.expected_comparison.ssim)}});
+                                       {"geometric", pair.geometric_file + ".png"}});
+        if (report.expected)
+            json["photographs"].back().update({{"expected", pair.expected_file + ".png"},
+                                               {"expected_psnr", number(pair.expected_comparison.psnr)},
+                                               {"expected_ssim", number(pair.expected_comparison.ssim)}});
         if (report.looks == 0) continue;
         json["photographs"].back().update({{"wave", pair.wave_file + ".png"},
                                            {"psnr", number(pair.comparison.psnr)},

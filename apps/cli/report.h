@@ -18,7 +18,7 @@ struct PhotographPair {
     std::string eye_name, focus_name;  ///< "left", "plane": parts of the file names
     Camera camera;
     Image wave;      ///< the mean of the looks; empty without looks
-    Image expected;  ///< the mean of infinitely many looks
+    Image expected;  ///< the mean of infinitely many looks; empty where it is left out
     Image geometric;
     std::string wave_file, expected_file, geometric_file;  ///< names in the report's folder, without extension
     ImageComparison comparison, expected_comparison;       ///< of the waves with the rays
@@ -35,6 +35,7 @@ struct Report {
     std::string scene_input;               ///< what identifies the scene: see describe_input()
     std::vector<FieldGrid> holograms;
     std::size_t looks = 0;  ///< 0: only the mean of infinitely many
+    bool expected = true;   ///< whether there are means of infinitely many looks
     std::size_t pupil_samples = 0;
     double exposure = 1;  ///< of all pictures
     std::vector<PhotographPair> pairs;

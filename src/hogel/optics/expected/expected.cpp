@@ -5,6 +5,8 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "hogel/core/object_pool.h"
@@ -73,15 +75,21 @@ float share(double position, std::size_t index, std::size_t count) {
     return static_cast<float>(std::max(0.0, 1 - std::abs(place - static_cast<double>(index))));
 }
 
-Exposure make_exposure(const HogelGrid& hogels, const ExpectedEye& eye, const Camera& camera, std::size_t index) {
+// The places of a picture's columns and rows among the hogels.
+std::pair<PixelPlaces, PixelPlaces> places_of(const HogelGrid& hogels, const Camera& camera, const Pairs& pairs,
+                                              double band) {
     const Grid &plane = hogels.plane, &picture = camera.picture;
+    const std::size_t places = max_places(pairs, Spots::reach(hogels, camera, band));
+    return {
+        pixel_places(picture.width, plane.column(picture.x(0)), picture.pitch_x / plane.pitch_x, plane.width, places),
+        pixel_places(picture.height, plane.row(picture.y(0)), picture.pitch_y / plane.pitch_y, plane.height, places)};
+}
+
+Exposure make_exposure(const HogelGrid& hogels, const ExpectedEye& eye, const Camera& camera, std::size_t index) {
+    const Grid& plane = hogels.plane;
     Exposure exposure;
     exposure.camera = index;
-    const std::size_t places = max_places(*eye.pairs, Spots::reach(hogels, camera, eye.band));
-    exposure.columns =
-        pixel_places(picture.width, plane.column(picture.x(0)), picture.pitch_x / plane.pitch_x, plane.width, places);
-    exposure.rows =
-        pixel_places(picture.height, plane.row(picture.y(0)), picture.pitch_y / plane.pitch_y, plane.height, places);
+    std::tie(exposure.columns, exposure.rows) = places_of(hogels, camera, *eye.pairs, eye.band);
     exposure.parts_x = parts(hogels, camera, true);
     exposure.parts_y = parts(hogels, camera, false);
     for (std::size_t j = 0; j < exposure.parts_y; ++j)
@@ -301,11 +309,16 @@ Work work(const FieldGrid& hologram, const WavePowers::Counts& counts, std::span
     for (const SharedEye& eye : eyes_of(cameras)) {
         const double band = half_band(hogels, cameras[eye.members.front()].eye, eye.pupil);
         const SpotBasis basis(counts.samples, band * (1 + guard));
-        const auto pairs = static_cast<double>(Pairs(basis, band).padded_count());
+        const Pairs list(basis, band);
+        const auto pairs = static_cast<double>(list.padded_count());
         work.bytes += pairs * static_cast<double>(hogels.plane.samples()) * sizeof(float);
         for (const std::size_t member : eye.members) {
-            const auto taps = static_cast<double>(2 * Spots::reach(hogels, cameras[member], band) + 1);
-            work.products += pairs * taps * taps * static_cast<double>(cameras[member].picture.samples());
+            const Camera& camera = cameras[member];
+            const auto taps = static_cast<double>(2 * Spots::reach(hogels, camera, band) + 1);
+            work.products += pairs * taps * taps * static_cast<double>(camera.picture.samples());
+            const auto [columns, rows] = places_of(hogels, camera, list, band);
+            work.products += static_cast<double>(parts(hogels, camera, true) * parts(hogels, camera, false)) *
+                             Spots::products(hogels, camera, list, band, columns, rows);
         }
     }
     work.bytes = std::min(work.bytes, static_cast<double>(options.memory));

@@ -21,7 +21,7 @@ void photograph(const FieldSource& hologram, const WavePowers& waves, std::span<
 
 /// What photograph() takes, besides the waves' powers.
 struct Work {
-    double products = 0;  ///< of numbers of hogels and spots
+    double products = 0;  ///< of numbers of hogels and spots, and for the tables of spots
     double bytes = 0;     ///< of the numbers
 };
 Work work(const FieldGrid& hologram, const WavePowers::Counts& counts, std::span<const Camera> cameras,

@@ -118,7 +118,7 @@ Array<float, 2> pixel_means(const PixelPlaces& places, std::size_t reach, std::s
                             std::size_t highest) {
     const std::size_t taps = 2 * reach + 1;
     Array<float, 2> means({places.places.size() * taps, samples});
-    for (std::size_t row = 0; row < means.extent(0); ++row) {
+    core::parallel_for(means.extent(0), [&](std::size_t row) {
         const double hogel = static_cast<double>(row % taps) - static_cast<double>(reach);
         const auto [offset, width] = places.places[row / taps];
         const double from = offset - hogel;
@@ -131,7 +131,7 @@ Array<float, 2> pixel_means(const PixelPlaces& places, std::size_t reach, std::s
             }
             means(row, k) = static_cast<float>(sum / static_cast<double>(samples));
         }
-    }
+    });
     return means;
 }
 
@@ -216,6 +216,23 @@ std::size_t Spots::reach(const HogelGrid& hogels, const Camera& camera, double h
 
 namespace {
 
+// The film of a spot: its period in hogels, and the pupil's samples that reach it.
+struct SpotFilm {
+    SpreadWindow window{0, 0, 0, 1};
+    double period = 0;
+    std::size_t half = 0, size = 0;
+
+    SpotFilm(const Camera& camera, double half_band, std::size_t reach, double pixel) {
+        // Up to `reach` light is exact; it ends before the next period's light begins to be followed.
+        window.flat = static_cast<double>(reach) + 0.5;
+        window.stop = window.flat + pixel + cells_fading * 0.5 / half_band;
+        period = window.flat + window.stop;
+        const double radius = film::frequency_radius(2 * half_band, 2 * half_band * camera.eye.z / camera.pupil);
+        half = static_cast<std::size_t>(std::ceil((radius + PupilEdge(window, 1).reach()) * period));
+        size = math::good_fft_size(4 * half + 2);
+    }
+};
+
 // The pupil's samples of κ = −half … half, in steps of 1/period, [down][across].
 struct Opening {
     Array<Complex, 2> wave;
@@ -260,20 +277,27 @@ struct Opening {
 
 }  // namespace
 
+double Spots::products(const HogelGrid& hogels, const Camera& camera, const Pairs& pairs, double half_band,
+                       const PixelPlaces& columns, const PixelPlaces& rows) {
+    const std::size_t around = reach(hogels, camera, half_band);
+    const SpotFilm frame(camera, half_band, around, std::max(columns.width, rows.width));
+    const auto size = static_cast<double>(frame.size), taps = static_cast<double>(2 * around + 1);
+    const double across = taps * static_cast<double>(columns.places.size()),
+                 down = taps * static_cast<double>(rows.places.size());
+    // A transform of a line takes about twenty for each number, a sine and a cosine sixty.
+    constexpr double transform = 20, waves = 60;
+    return static_cast<double>(pairs.count) * size * (size * (transform + across) + down * across) +
+           waves * (across + down) * size * 2 * static_cast<double>(frame.half);
+}
+
 Spots::Spots(const HogelGrid& hogels, const Camera& camera, const SpotBasis& basis, const Pairs& pairs,
              double half_band, double x, double y, const PixelPlaces& columns, const PixelPlaces& rows)
     : reach_(reach(hogels, camera, half_band)), tails_(pairs.count) {
     const Pupil pupil(hogels, camera, x, y);
-    const double pixel = std::max(columns.width, rows.width);
-    // Up to `reach` light is exact; it ends before the next period's light begins to be followed.
-    SpreadWindow window(0, 0, 0, 1);
-    window.flat = static_cast<double>(reach_) + 0.5;
-    window.stop = window.flat + pixel + cells_fading * 0.5 / half_band;
-    const double period = window.flat + window.stop;
-    const PupilEdge edge(window, 1);
-    const auto half = static_cast<std::size_t>(std::ceil(
-        (film::frequency_radius(2 * half_band, 2 * half_band * camera.eye.z / camera.pupil) + edge.reach()) * period));
-    const std::size_t size = math::good_fft_size(4 * half + 2), side = 2 * half + 1, highest = 2 * half;
+    const SpotFilm frame(camera, half_band, reach_, std::max(columns.width, rows.width));
+    const double period = frame.period;
+    const PupilEdge edge(frame.window, 1);
+    const std::size_t half = frame.half, size = frame.size, side = 2 * half + 1, highest = 2 * half;
     const Opening opening(pupil, edge, half, period);
     const double pitch = hogels.plane.pitch_x;
     const Array<Complex, 2> across = lights(basis, half, period, pupil.bend_x(pitch)),

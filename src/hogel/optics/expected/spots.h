@@ -67,6 +67,10 @@ class Spots {
     /// farther away is the tail.
     static std::size_t reach(const HogelGrid& hogels, const Camera& camera, double half_band);
 
+    /// Products of numbers that the constructor computes, about.
+    static double products(const HogelGrid& hogels, const Camera& camera, const Pairs& pairs, double half_band,
+                           const PixelPlaces& columns, const PixelPlaces& rows);
+
     /// @param x, y  the point of the hologram at which pupil and focus are seen
     Spots(const HogelGrid& hogels, const Camera& camera, const SpotBasis& basis, const Pairs& pairs, double half_band,
           double x, double y, const PixelPlaces& columns, const PixelPlaces& rows);
