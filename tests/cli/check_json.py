@@ -67,7 +67,7 @@ TABLE = [
     ("print x.h5 -o hogels", {"folder": WORD, "bytes": COUNT, "pictures": COUNT, "first": WORD, "last": WORD,
                               "exposure": REAL, "seconds": REAL}),
     ("bake sphere -o baked.glb --rays 1", FILE | {"triangles": COUNT}),
-    ("make sphere -o made --hogels 8 --directions 12 --size 1mm --eye-distance 40mm --pupil 4mm --resolution 16 --looks 1",
+    ("make sphere -o made --hogels 8 --directions 12 --size 1mm --eye-distance 40mm --pupil 1mm --resolution 16 --looks 1",
      MADE),
     ("info wave.png", None),
     ("scenes", {"scenes": [{"name": WORD, "text": WORD}]}),
