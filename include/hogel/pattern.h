@@ -62,7 +62,7 @@ struct PatternOptions {
     double clip = 0.001;      ///< share of the samples whose modulus is clipped to the largest that is shown
     std::size_t window = 32;  ///< side in pixels of the squares whose spectra are the local spectra, by which the band
                               ///< of the field is judged, too; best the side of a hogel
-    /// Of Gerchberg–Saxton, or the most of the descent, which ends when it no longer gains. 0: 40, and 200.
+    /// Iterations of Gerchberg–Saxton, or the limit of the descent, which ends when it no longer gains. 0: 40, and 200.
     std::size_t iterations = 0;
 };
 

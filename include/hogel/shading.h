@@ -152,8 +152,8 @@ struct ShadedScene {
     std::vector<Vec3> positions;  ///< metres, world frame
     std::vector<Rgb> radiance;    ///< at the vertices, before the texture: reflected light plus emission
     std::vector<TextureCoordinate> texture_coordinates;  ///< as long as `positions`
-    /// Of all meshes, in the order of the scene. Of triangles with the same corners shade_scene_into() keeps one, the
-    /// first whose front faces the middle of the hologram or else the first; of each winding one if `fronts_only`.
+    /// Triangles of all meshes, in the scene's order. Among those with the same corners shade_scene_into() keeps one,
+    /// the first whose front faces the middle of the hologram or else the first; one of each winding if `fronts_only`.
     std::vector<Triangle> triangles;
     std::vector<Texture> textures;  ///< each picture of the scene once
     Rgb background;                 ///< radiance of rays that meet nothing

@@ -64,7 +64,7 @@ class PhaseAddedSynthesis final : public HogelSynthesis, public HogelWaves {
         fft_.backward(hogel);
     }
 
-    // Of rays with exact frequencies a hogel is no sum of as many waves as it has samples.
+    // With the exact frequencies of rays a hogel is no sum of as many waves as it has samples.
     const HogelWaves* hogel_waves() const override { return waves_ ? nullptr : this; }
 
     void waves(std::span<const float> prepared, const HogelPlace& place, float* waves) const override {

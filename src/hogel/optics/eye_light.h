@@ -57,8 +57,8 @@ class EyeLight {
     /// Computes what all eyes and looks share, the amplitudes of the waves, and keeps it, if that takes at most
     /// `memory` bytes. Not to be called while the field is read. Returns the bytes that are kept.
     virtual std::size_t keep_amplitudes(std::size_t memory) const = 0;
-    /// Of the waves of all hogels, if their phases are random and independent, otherwise null: the mean of infinitely
-    /// many looks is then a sum of their intensities.
+    /// The powers of the waves of all hogels if their phases are random and independent, so that the mean of infinitely
+    /// many looks is a sum of their intensities; otherwise null.
     virtual const WavePowers* wave_powers() const { return nullptr; }
 };
 
