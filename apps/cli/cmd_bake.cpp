@@ -26,14 +26,15 @@ int bake(const Options& options, const Session& session) {
     place.size = options.size;
     BakeOptions bake_options = options.bake;
     bake_options.seed = session.seed;
-    RunRecord unstored(session);  // meshes hold no metadata
-    const Scene scene = load_scene(session, options.scene, place, unstored);
+    RunRecord record(session);
+    record.acted({"scene", "rays", "bounces", "tessellate", "size", "seed"});
+    const Scene scene = load_scene(session, options.scene, place, record);
     with_options({{"memory", "--tessellate"}},
                  [&] { state_plan(session, plan_bake(scene, bake_options), "baking", options.output); });
     Stage stage(session, "baking");
     const Scene baked =
         with_options({{"", "--tessellate"}}, [&] { return hogel::bake_scene(scene, bake_options, stage.progress()); });
-    write_baked_scene(options.output, baked);
+    write_baked_scene(options.output, baked, record.metadata());
     session.say(fmt::format("{}: {} triangles, {}; render it with --as-is", options.output, triangle_count(baked),
                             format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
     report_file(session, options.output, {{"triangles", triangle_count(baked)}});

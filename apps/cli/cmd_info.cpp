@@ -37,6 +37,7 @@ FileSummary summarize_mesh(const std::string& path, const Progress& progress) {
     FileSummary summary;
     summary.kind = FileKind::mesh;
     summary.text = {{"kind", "mesh"}};
+    for (const auto& entry : scene.provenance) summary.text.push_back(entry);
     summary.numbers = {{"meshes", static_cast<double>(scene.meshes.size())},
                        {"triangles", static_cast<double>(triangle_count(scene))},
                        {"lights", static_cast<double>(scene.lights.size())},

@@ -10,6 +10,7 @@
 #include "hogel/export.h"
 #include "hogel/geometry.h"
 #include "hogel/image.h"
+#include "hogel/provenance.h"
 
 namespace hogel {
 
@@ -63,6 +64,7 @@ struct Scene {
     std::vector<Light> lights;  ///< in any order
     Rgb ambient{0, 0, 0};       ///< radiance from all directions, unshadowed
     Rgb background{0, 0, 0};    ///< radiance of rays that meet nothing
+    Metadata provenance;        ///< what made it, if its file says so: write_baked_scene()
 };
 
 /// A box with edges along the axes.

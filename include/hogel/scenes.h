@@ -58,9 +58,11 @@ HOGEL_API void add_default_lights(Scene& scene);
 
 /// Writes a scene with given radiance as a binary glTF file (.glb), in metres and in the world frame. The radiance of a
 /// vertex is its colour (linear 32-bit floats, which may exceed 1), the materials are unlit (KHR_materials_unlit), and
-/// a texture that multiplies the radiance is embedded as PNG. import_scene() reads it back. Throws Error(bad_input) for
-/// a mesh without radiance, Error(usage) for a name that does not end in .glb, Error(cannot_write).
-HOGEL_API void write_baked_scene(const std::filesystem::path& path, const Scene& scene);
+/// a texture that multiplies the radiance is embedded as PNG. What made the file, `metadata` with the scene's name and
+/// provenance behind it, is the object "hogel" of the document's asset.extras. import_scene() reads all that back.
+/// Throws Error(bad_input) for a mesh without radiance, Error(usage) for a name that does not end in .glb,
+/// Error(cannot_write).
+HOGEL_API void write_baked_scene(const std::filesystem::path& path, const Scene& scene, const Metadata& metadata = {});
 
 /// Throws Error(usage) for a name that write_baked_scene() would refuse. To be called before a scene is baked.
 HOGEL_API void require_baked_scene_name(const std::filesystem::path& path);

@@ -12,6 +12,7 @@
 
 #include "hogel/core/output_file.h"
 #include "hogel/error.h"
+#include "hogel/provenance.h"
 
 namespace hogel {
 namespace {
@@ -154,10 +155,13 @@ void require_baked_scene_name(const std::filesystem::path& path) {
         throw Error(ErrorCode::usage, fmt::format("{}: expected a name that ends in .glb", path.string()));
 }
 
-void write_baked_scene(const std::filesystem::path& path, const Scene& scene) {
+void write_baked_scene(const std::filesystem::path& path, const Scene& scene, const Metadata& metadata) {
     require_baked_scene_name(path);
     validate(scene);
     Gltf gltf;
+    Metadata history{{"scene", scene.name}};
+    for (const auto& [key, text] : with_history(metadata, with_history(std::move(history), scene.provenance)))
+        gltf.json["asset"]["extras"]["hogel"][key] = text;
     std::map<const Image*, std::size_t> textures;
     for (const Mesh& mesh : scene.meshes)
         if (!mesh.triangles.empty()) add_mesh(gltf, mesh, textures);

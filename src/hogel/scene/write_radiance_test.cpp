@@ -69,6 +69,39 @@ TEST(WriteBakedScene, is_read_back_unchanged) {
     EXPECT_NEAR(back.meshes[1].material.base_color_texture->pixels(1, 1, 2), 14.0 / 17, 0.01);
 }
 
+TEST(WriteBakedScene, keeps_what_made_it) {
+    const Folder folder;
+    Scene scene = two_balls();
+    scene.name = "balls";
+    scene.provenance = {{"command", "make balls"}, {"option size", "4"}, {"scene", "ball"}};
+    write_baked_scene(folder.path / "x.glb", scene, {{"command", "bake"}, {"option rays", "\"9\" µ"}});
+    const Metadata expected{{"command", "bake"},         {"option rays", "\"9\" µ"},
+                            {"scene", "balls"},          {"source command", "make balls"},
+                            {"source option size", "4"}, {"source scene", "ball"}};
+    EXPECT_EQ(import_scene(folder.path / "x.glb").provenance, expected);
+}
+
+// Whatever others keep under this name is passed over, but for texts.
+TEST(WriteBakedScene, provenance_of_others_is_passed_over) {
+    const Folder folder;
+    Scene scene = two_balls();
+    scene.name = "test";
+    write_baked_scene(folder.path / "x.glb", scene, {{"command", "bake"}});
+    std::ifstream file(folder.path / "x.glb", std::ios::binary);
+    const std::string whole(std::istreambuf_iterator<char>(file), {});
+    const std::string ours = R"("hogel":{"command":"bake","scene":"test"})";
+    ASSERT_NE(whole.find(ours), whole.npos);
+    for (std::string theirs : {R"("hogel":[1,"x"])", R"("hogel":{"a":1,"b":"c"})", R"("hogel":"x")"}) {
+        const bool has_text = theirs.find("\"c\"") != theirs.npos;
+        theirs.resize(ours.size(), ' ');
+        std::string changed = whole;
+        changed.replace(changed.find(ours), ours.size(), theirs);
+        std::ofstream(folder.path / "y.glb", std::ios::binary) << changed;
+        const Metadata expected = has_text ? Metadata{{"b", "c"}} : Metadata{};
+        EXPECT_EQ(import_scene(folder.path / "y.glb").provenance, expected);
+    }
+}
+
 TEST(WriteBakedScene, gives_the_same_bytes_every_time) {
     const Folder folder;
     const auto bytes = [&](const char* name) {

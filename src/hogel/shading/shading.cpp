@@ -118,6 +118,7 @@ void shade_scene_into(const Scene& scene, const ShadingOptions& options, ShadedS
     shaded.provenance = {{"scene", scene.name}};
     if (!std::ranges::all_of(scene.meshes, [](const Mesh& mesh) { return !mesh.radiance.empty(); }))
         shaded.provenance.emplace_back("shading", options.model);
+    shaded.provenance = with_history(std::move(shaded.provenance), scene.provenance);
 }
 
 ShadedScene shade_scene(const Scene& scene, const ShadingOptions& options, const Progress& progress) {

@@ -132,6 +132,16 @@ void drop_unused(Json& json) {
     }
 }
 
+/// The texts in asset.extras.hogel. Other programs may keep what they like there, which is passed over.
+Metadata stored_provenance(const Json& json) {
+    Metadata provenance;
+    const Json::json_pointer place("/asset/extras/hogel");
+    if (!json.contains(place) || !json[place].is_object()) return provenance;
+    for (const auto& [key, text] : json[place].items())
+        if (text.is_string()) provenance.emplace_back(key, text.get<std::string>());
+    return provenance;
+}
+
 void append_chunk(std::string& bytes, std::string_view type, std::string_view content) {
     const auto size = static_cast<std::uint32_t>(content.size());
     bytes.append(reinterpret_cast<const char*>(&size), sizeof size).append(type).append(content);
@@ -209,9 +219,11 @@ Gltf parse_gltf(const std::string& file, const std::filesystem::path& folder, st
 
 // assimp 5.2 drops faces with indices that do not exist, wraps offsets around, allocates what counts and indexed names
 // announce, and walks trees recursively.
-std::string check_gltf(const std::string& file, const std::filesystem::path& folder, std::string_view bytes) {
+std::string check_gltf(const std::string& file, const std::filesystem::path& folder, std::string_view bytes,
+                       Metadata& provenance) {
     Gltf gltf = parse_gltf(file, folder, bytes);
     if (!gltf.is_version_2) return {};
+    provenance = stored_provenance(gltf.json);
     {
         const GltfBuffers buffers(gltf);
         check_primitives(gltf, check_accessors(gltf, buffers));

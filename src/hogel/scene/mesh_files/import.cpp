@@ -49,8 +49,13 @@ Imported import_file(const std::filesystem::path& path, std::uintmax_t size, con
         return imported;
     }
     const std::size_t first = start.find_first_not_of(" \t\r\n");
-    if (is_gltf(path) || start.starts_with("glTF") || (first != start.npos && start[first] == '{'))
-        return import_in_child(path, file, check_gltf(file, path.parent_path(), read_file(path, size, file)));
+    if (is_gltf(path) || start.starts_with("glTF") || (first != start.npos && start[first] == '{')) {
+        Metadata provenance;
+        Imported imported =
+            import_in_child(path, file, check_gltf(file, path.parent_path(), read_file(path, size, file), provenance));
+        imported.provenance = std::move(provenance);
+        return imported;
+    }
     if (has_extension(path, {".ply"}) || starts_like_ply(start)) check_ply(file, read_file(path, size, file));
     return import_in_child(path, file, {});
 }
@@ -59,6 +64,7 @@ Scene convert(Imported imported, const std::filesystem::path& path, const std::s
     Textures textures(std::move(imported.textures), path.parent_path(), file);
     Scene scene;
     scene.name = path.stem().string();
+    scene.provenance = std::move(imported.provenance);
     for (ImportedMesh& part : imported.meshes) {
         Mesh& mesh = part.mesh;
         mesh.material.base_color_texture = textures[part.texture];

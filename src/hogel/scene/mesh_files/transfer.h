@@ -33,6 +33,7 @@ struct ImportedMesh {
 struct Imported {
     std::vector<ImportedMesh> meshes;
     std::vector<TextureSource> textures;
+    Metadata provenance;  ///< which the parent reads
 };
 
 /// In the child: sends what was read, piece by piece, so that it is not held twice.
