@@ -218,10 +218,11 @@ void expose(const Focused& focused, const Camera& camera, const Rectangle& shown
                     if (!shown.holds(x, y)) continue;
                     const Vec3 p = in_focus(camera, x, y), aside = focused.scale * (p - focused.origin);
                     // Interpolation may fall below zero between dark samples.
-                    const double value = std::max(
-                        0.0f, film::smooth_at(samples.extent(0), samples.extent(1),
-                                              plane.row(plane.center_y + dot(aside, focused.axes.y)),
-                                              plane.column(plane.center_x + dot(aside, focused.axes.x)), intensity));
+                    const double value =
+                        std::max(0.0f, film::smooth_at<film::SixPoint>(
+                                           samples.extent(0), samples.extent(1),
+                                           plane.row(plane.center_y + dot(aside, focused.axes.y)),
+                                           plane.column(plane.center_x + dot(aside, focused.axes.x)), intensity));
                     const double r = length(p - camera.eye), along = R * focus_ratio(camera, x, y);
                     sum += value * focused.scale * focused.scale * r * r * r / (along * focused.pupil_area);
                 }
@@ -254,10 +255,10 @@ Array<std::complex<float>, 2> wave_at_pixels(const Focused& focused, const Camer
             if (!shown.holds(x, y)) continue;
             const Vec3 p = in_focus(camera, x, y), aside = p - focused.origin;
             const double right = dot(aside, focused.axes.x), above = dot(aside, focused.axes.y);
-            const std::complex<float> slow =
-                film::smooth_at(samples.extent(0), samples.extent(1), plane.row(plane.center_y + above),
-                                plane.column(plane.center_x + right),
-                                [&](std::size_t j, std::size_t i) { return up[j] * across[i] * samples(j, i); });
+            const std::complex<float> slow = film::smooth_at<film::SixPoint>(
+                samples.extent(0), samples.extent(1), plane.row(plane.center_y + above),
+                plane.column(plane.center_x + right),
+                [&](std::size_t j, std::size_t i) { return up[j] * across[i] * samples(j, i); });
             const double cycles =
                 wave.carrier_x * right + wave.carrier_y * above + length(p - camera.eye) / wave.grid().wavelength;
             result(row, column) = slow * phasor(cycles);

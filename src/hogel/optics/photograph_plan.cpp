@@ -142,7 +142,8 @@ std::vector<SharedEye> group_by_eye(std::span<const Camera> cameras, std::span<c
 }
 
 std::size_t PhotographPlan::looks_at_once(double memory, std::size_t looks) const {
-    const double spare = std::max(0.0, memory - bytes);
+    // More than is kept when it is freed would be cleared by the system each time (core::FreedBlocks).
+    const double spare = std::clamp(memory - bytes, 0.0, 768.0 * 1024 * 1024);
     return 1 + static_cast<std::size_t>(std::min(spare / bytes_a_look, static_cast<double>(looks)));
 }
 

@@ -9,6 +9,7 @@
 
 #include "hogel/hologram/eye/stereogram_eyes.h"
 #include "hogel/optics/expected/expected.h"
+#include "hogel/optics/film/film.h"
 #include "hogel/optics/photograph_plan.h"
 #include "hogel/pipeline.h"
 #include "hogel/pipeline/plan_rates.h"
@@ -26,9 +27,6 @@ constexpr double seconds_an_amplitude = 0.4e-9, seconds_a_wave = 0.3e-9, seconds
 // Per sample of a band, for each look; per sample of a film, for each look and photograph; and for each product of a
 // number of a hogel with a spot.
 constexpr double seconds_a_band_sample = 25e-9, seconds_a_film_sample = 10e-9, seconds_a_product = 0.11e-9;
-
-// Samples of a film for each resolution cell.
-constexpr double film_density = 3.2;
 
 std::vector<optics::SharedEye> eyes_of(std::span<const Camera> cameras) {
     std::vector<std::size_t> all(cameras.size());
@@ -55,7 +53,7 @@ double seconds_from_hogels(const LightFieldGrid& light_field, const FieldGrid& h
         seconds += count * hogels * per_hogel * per_hogel * seconds_a_band_sample;
     }
     for (const Camera& camera : cameras) {
-        const double cell = resolution_cell(camera, hologram.wavelength) / film_density;
+        const double cell = resolution_cell(camera, hologram.wavelength) / optics::film::samples_a_cell;
         seconds += count * hologram.plane.size_x() * hologram.plane.size_y() / (cell * cell) * seconds_a_film_sample;
     }
     return seconds;

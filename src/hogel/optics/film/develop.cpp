@@ -7,6 +7,7 @@
 #include "hogel/optics/film/interpolation.h"
 #include "hogel/optics/film/kernels.h"
 #include "hogel/optics/film/lens.h"
+#include "hogel/photograph.h"
 
 namespace hogel::optics::film {
 
@@ -14,11 +15,8 @@ void Film::develop(View<const float, 2> intensity, const Camera& camera, const R
                    Image& image) const {
     const Grid& picture = camera.picture;
     const Vec3 eye = band_.geometry.eye();
-    // Gauss' two points in each part of a pixel that is about two film samples wide.
-    const auto points = [&](double pitch, double film_step) {
-        return 2 * static_cast<std::size_t>(std::max(1.0, std::ceil(0.5 * pitch / (film_step * eye.z))));
-    };
-    const std::size_t sub_x = points(picture.pitch_x, size_.x.step), sub_y = points(picture.pitch_y, size_.y.step);
+    const double cell = resolution_cell(camera, hologram_.wavelength);
+    const std::size_t sub_x = gauss_points(picture.pitch_x / cell), sub_y = gauss_points(picture.pitch_y / cell);
     const auto place = [](std::size_t pixel, std::size_t point, std::size_t count) {
         return static_cast<double>(pixel) + gauss_place(point, count);
     };

@@ -23,17 +23,14 @@ const InterpolationTable& interpolation() {
 
 std::size_t across(std::ptrdiff_t reach) { return static_cast<std::size_t>(2 * reach + 1); }
 
-// Samples of the film per resolution cell, for SixPoint.
-constexpr double film_density = 3.2;
-
 FilmAxis film_axis(double first, double period, const SineGrid::Range& seen, std::size_t frequencies, double cells) {
     FilmAxis axis;
-    const double wanted = std::ceil(film_density * period * cells);
+    const double wanted = std::ceil(samples_a_cell * period * cells);
     axis.size = math::good_fft_size(std::max(frequencies, static_cast<std::size_t>(wanted)));
     axis.step = period / static_cast<double>(axis.size);
     const double last = static_cast<double>(axis.size);
-    const double begin = std::clamp(std::floor((seen.low - first) / axis.step) - SixPoint::taps, 0.0, last),
-                 end = std::clamp(std::ceil((seen.high - first) / axis.step) + SixPoint::taps, 0.0, last);
+    const double begin = std::clamp(std::floor((seen.low - first) / axis.step) - TwelvePoint::taps, 0.0, last),
+                 end = std::clamp(std::ceil((seen.high - first) / axis.step) + TwelvePoint::taps, 0.0, last);
     axis.first = static_cast<std::size_t>(begin);
     axis.count = static_cast<std::size_t>(end) - axis.first;
     axis.low = first + begin * axis.step;
@@ -145,11 +142,11 @@ void Film::expose(std::span<const Array<Complex, 2>> pupil_waves, const Camera& 
                   View<float, 2> intensity) const {
     const FilmLens lens(size_.sines, hologram_.wavelength, camera);
     // Between nodes the intensities are blended linearly.
-    const auto shares = [](std::size_t size, std::size_t at, std::size_t nodes) {
-        std::vector<float> share(size);
-        for (std::size_t k = 0; k < size; ++k) {
-            const double place =
-                (static_cast<double>(k) + 0.5) / static_cast<double>(size) * static_cast<double>(nodes);
+    const auto shares = [](const FilmAxis& axis, const SineGrid::Range& sines, std::size_t at, std::size_t nodes) {
+        std::vector<float> share(axis.count);
+        for (std::size_t k = 0; k < axis.count; ++k) {
+            const double sine = axis.low + static_cast<double>(k) * axis.step;
+            const double place = (sine - sines.low) / sines.span() * static_cast<double>(nodes);
             const double held = std::clamp(place - 0.5, 0.0, static_cast<double>(nodes) - 1);
             share[k] = static_cast<float>(std::max(0.0, 1 - std::abs(held - static_cast<double>(at))));
         }
@@ -167,8 +164,8 @@ void Film::expose(std::span<const Array<Complex, 2>> pupil_waves, const Camera& 
                              if (std::abs(column) <= reach_x) factors(y, column + reach_x) = factor;
                          });
             });
-            const std::vector<float> share_x = shares(size_.x.count, a, lens.nodes_x),
-                                     share_y = shares(size_.y.count, b, lens.nodes_y);
+            const std::vector<float> share_x = shares(size_.x, size_.sines.x, a, lens.nodes_x),
+                                     share_y = shares(size_.y, size_.sines.y, b, lens.nodes_y);
             for (const Array<Complex, 2>& wave : pupil_waves) expose_node(wave, factors, share_x, share_y, intensity);
         }
 }

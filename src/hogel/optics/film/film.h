@@ -13,6 +13,10 @@
 
 namespace hogel::optics::film {
 
+/// Samples of a film per resolution cell. The intensity of a pupil's wave varies no faster than once in a cell, so two
+/// hold it all; TwelvePoint interpolates between a few more.
+inline constexpr double samples_a_cell = 2.4;
+
 /// One axis of the film that is exposed: samples of a transform of `size` over the period of the sines, of which those
 /// that see the hologram are kept.
 struct FilmAxis {

@@ -9,11 +9,12 @@ namespace hogel::optics::film {
 namespace {
 
 // The weights at a place z from the middle.
-std::array<double, SixPoint::taps> kaiser_weights(double z) {
-    constexpr double beta = 5, half_width = 0.5 * SixPoint::taps;
-    std::array<double, SixPoint::taps> weights;
+template <std::size_t taps>
+std::array<double, taps> kaiser_weights(double z) {
+    constexpr double beta = 5, half_width = 0.5 * taps;
+    std::array<double, taps> weights;
     double sum = 0;
-    for (std::size_t k = 0; k < SixPoint::taps; ++k) {
+    for (std::size_t k = 0; k < taps; ++k) {
         const double distance = z - (static_cast<double>(k) - half_width + 0.5);
         const double relative = distance / half_width, turn = std::numbers::pi * distance;
         const double sinc = std::abs(turn) < 1e-9 ? 1 : std::sin(turn) / turn;
@@ -26,13 +27,14 @@ std::array<double, SixPoint::taps> kaiser_weights(double z) {
 
 }  // namespace
 
-SixPoint::SixPoint() {
+template <std::size_t count>
+KaiserPoints<count>::KaiserPoints() {
     // Polynomials through as many Chebyshev points as they have terms, by Newton's divided differences, multiplied out.
     std::array<double, terms> place;
     for (std::size_t i = 0; i < terms; ++i)
         place[i] = 0.5 * std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / terms);
     std::array<std::array<double, taps>, terms> difference;
-    for (std::size_t i = 0; i < terms; ++i) difference[i] = kaiser_weights(place[i]);
+    for (std::size_t i = 0; i < terms; ++i) difference[i] = kaiser_weights<taps>(place[i]);
     for (std::size_t order = 1; order < terms; ++order)
         for (std::size_t i = terms; i-- > order;)
             for (std::size_t k = 0; k < taps; ++k)
@@ -49,9 +51,13 @@ SixPoint::SixPoint() {
     }
 }
 
-const SixPoint& SixPoint::table() {
-    static const SixPoint table;
+template <std::size_t count>
+const KaiserPoints<count>& KaiserPoints<count>::table() {
+    static const KaiserPoints table;
     return table;
 }
+
+template class KaiserPoints<6>;
+template class KaiserPoints<12>;
 
 }  // namespace hogel::optics::film

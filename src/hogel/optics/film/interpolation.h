@@ -60,24 +60,30 @@ class InterpolationTable {
 };
 
 /// The place of point `point` of `count` (even) in a pixel of −1/2 … 1/2: Gauss' two points in each of count/2 parts.
-/// With parts two samples wide the mean of an intensity is exact to 3·10⁻⁴ at the middle of its frequencies.
 inline double gauss_place(std::size_t point, std::size_t count) {
     constexpr double inner = 0.28867513459481287;  // 1/√12
     const double middle = static_cast<double>(point / 2) + 0.5 + (point % 2 == 0 ? -inner : inner);
     return 2 * middle / static_cast<double>(count) - 0.5;
 }
 
-/// Interpolation of intensities and of waves between six neighbours: a Kaiser-windowed sinc (β = 5), normalised to keep
-/// constants, as polynomials of the place between the two middle samples. The intensity behind a pupil that is sampled
-/// 3.2 times per resolution cell is interpolated to −52 dB of its variation.
-class SixPoint {
+/// The number of Gauss' points across a pixel that make the mean of an intensity exact to 3·10⁻⁴ at the middle of its
+/// frequencies: two for each 5/8 of a resolution cell.
+inline std::size_t gauss_points(double pixel_in_cells) {
+    return 2 * static_cast<std::size_t>(std::max(1.0, std::ceil(1.6 * pixel_in_cells)));
+}
+
+/// Interpolation of intensities and of waves between neighbours: a Kaiser-windowed sinc (β = 5), normalised to keep
+/// constants, as polynomials of the place between the two middle samples.
+template <std::size_t count>
+class KaiserPoints {
   public:
-    static constexpr std::size_t taps = 6, before = 2, terms = 7;
+    static constexpr std::size_t taps = count, before = count / 2 - 1, after = count / 2, terms = count + 1;
 
-    SixPoint();
-    static const SixPoint& table();
+    KaiserPoints();
+    static const KaiserPoints& table();
 
-    /// Weight k is Σ_p z^p coefficients()[p][k], with z = −1/2 … 1/2 the place from the middle between samples 2 and 3.
+    /// Weight k is Σ_p z^p coefficients()[p][k], with z = −1/2 … 1/2 the place from the middle between the two samples
+    /// in the middle.
     const std::array<std::array<float, taps>, terms>& coefficients() const { return coefficients_; }
 
     std::array<float, taps> weights(float z) const {
@@ -91,31 +97,36 @@ class SixPoint {
     std::array<std::array<float, taps>, terms> coefficients_;
 };
 
-/// SixPoint interpolation of value(0 … count − 1), zero where not all six neighbours exist. Values may be complex.
-template <class Value>
+/// Interpolate the intensity behind a pupil, speckle, to −51 dB of its variation where it is sampled 3.2 times per
+/// resolution cell, and to −55 dB where it is sampled 2.4 times.
+using SixPoint = KaiserPoints<6>;
+using TwelvePoint = KaiserPoints<12>;
+
+/// Interpolation of value(0 … count − 1), zero where not all neighbours exist. Values may be complex.
+template <class Points, class Value>
 auto smooth_at(std::size_t count, double place, const Value& value) {
     using Result = std::decay_t<decltype(value(0))>;
     const double whole = std::floor(place);
-    if (!(whole >= SixPoint::before && whole + 3 < static_cast<double>(count))) return Result{};
-    const std::size_t first = static_cast<std::size_t>(whole) - SixPoint::before;
-    const auto w = SixPoint::table().weights(static_cast<float>(place - whole) - 0.5f);
+    if (!(whole >= Points::before && whole + Points::after < static_cast<double>(count))) return Result{};
+    const std::size_t first = static_cast<std::size_t>(whole) - Points::before;
+    const auto w = Points::table().weights(static_cast<float>(place - whole) - 0.5f);
     Result sum{};
-    for (std::size_t k = 0; k < SixPoint::taps; ++k) sum += w[k] * value(first + k);
+    for (std::size_t k = 0; k < Points::taps; ++k) sum += w[k] * value(first + k);
     return sum;
 }
 
 /// The same in two dimensions, for value(row, column).
-template <class Value>
+template <class Points, class Value>
 auto smooth_at(std::size_t height, std::size_t width, double row, double column, const Value& value) {
     using Result = std::decay_t<decltype(value(0, 0))>;
-    // The weights along a row are the same for all six.
+    // The weights along a row are the same for all rows.
     const double whole = std::floor(column);
-    if (!(whole >= SixPoint::before && whole + 3 < static_cast<double>(width))) return Result{};
-    const std::size_t first = static_cast<std::size_t>(whole) - SixPoint::before;
-    const auto w = SixPoint::table().weights(static_cast<float>(column - whole) - 0.5f);
-    return smooth_at(height, row, [&](std::size_t j) {
+    if (!(whole >= Points::before && whole + Points::after < static_cast<double>(width))) return Result{};
+    const std::size_t first = static_cast<std::size_t>(whole) - Points::before;
+    const auto w = Points::table().weights(static_cast<float>(column - whole) - 0.5f);
+    return smooth_at<Points>(height, row, [&](std::size_t j) {
         Result sum{};
-        for (std::size_t k = 0; k < SixPoint::taps; ++k) sum += w[k] * value(j, first + k);
+        for (std::size_t k = 0; k < Points::taps; ++k) sum += w[k] * value(j, first + k);
         return sum;
     });
 }

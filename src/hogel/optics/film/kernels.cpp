@@ -12,15 +12,15 @@ void add_down_columns_plain(const float* values, std::size_t stride, std::size_t
                             float weight, std::span<float> out) {
     for (std::size_t i = 0; i < out.size(); ++i) {
         const double row = places.offset + places.scale * places.slopes[i];
-        out[i] += weight * smooth_at(height, row, [&](std::size_t j) { return values[j * stride + i]; });
+        out[i] += weight * smooth_at<TwelvePoint>(height, row, [&](std::size_t j) { return values[j * stride + i]; });
     }
 }
 
 void add_along_line_plain(std::span<const float> line, const LinePlaces& places, float weight, std::span<float> out) {
     for (std::size_t k = 0; k < out.size(); ++k) {
         const double d = places.first + places.pitch * static_cast<double>(k), r = std::sqrt(d * d + places.square);
-        const float value =
-            smooth_at(line.size(), places.offset + places.scale * (d / r), [&](std::size_t i) { return line[i]; });
+        const float value = smooth_at<TwelvePoint>(line.size(), places.offset + places.scale * (d / r),
+                                                   [&](std::size_t i) { return line[i]; });
         out[k] += weight * static_cast<float>(r * r * r) * std::max(value, 0.0f);
     }
 }

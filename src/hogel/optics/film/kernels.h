@@ -6,7 +6,7 @@
 
 namespace hogel::optics::film {
 
-/// The inner loops that resample a film to a picture, by SixPoint interpolation. Plain and fast twins agree to
+/// The inner loops that resample a film to a picture, by TwelvePoint interpolation. Plain and fast twins agree to
 /// rounding. Values are zero where a neighbour would be outside.
 
 /// out[i] += weight · the value of column i of `values` (`height` rows of `stride` floats) at row

@@ -30,26 +30,27 @@ using Doubles = hn::ScalableTag<double>;
 using Floats = hn::Rebind<float, Doubles>;
 using Indices = hn::Rebind<std::int32_t, Doubles>;
 
-// SixPoint interpolation at positions among `size` samples; gather(i) loads sample i of each lane. Positions are
+// TwelvePoint interpolation at positions among `size` samples; gather(i) loads sample i of each lane. Positions are
 // doubles, because a film is wide and positions must be accurate to a thousandth of a sample. Each power of the place
 // has a sum of the samples, so that no weight is computed.
 template <class Gather>
-HWY_INLINE hn::Vec<Floats> six_points(hn::Vec<Doubles> place, std::size_t size, const Gather& gather) {
+HWY_INLINE hn::Vec<Floats> twelve_points(hn::Vec<Doubles> place, std::size_t size, const Gather& gather) {
     const Doubles dd;
     const Floats df;
     const Indices di;
-    constexpr double before = SixPoint::before;
+    constexpr double before = TwelvePoint::before;
     const auto whole = hn::Floor(place);
-    const auto inside = hn::And(hn::Ge(whole, hn::Set(dd, before)), hn::Lt(whole, hn::Set(dd, double(size) - 3)));
+    const auto inside =
+        hn::And(hn::Ge(whole, hn::Set(dd, before)), hn::Lt(whole, hn::Set(dd, double(size) - TwelvePoint::after)));
     const auto z = hn::DemoteTo(df, hn::Sub(hn::IfThenElseZero(inside, hn::Sub(place, whole)), hn::Set(dd, 0.5)));
     const auto first = hn::DemoteTo(di, hn::IfThenElse(inside, hn::Sub(whole, hn::Set(dd, before)), hn::Zero(dd)));
-    hn::Vec<Floats> values[SixPoint::taps];
+    hn::Vec<Floats> values[TwelvePoint::taps];
     gather(first, values);
-    const auto& c = SixPoint::table().coefficients();
+    const auto& c = TwelvePoint::table().coefficients();
     auto value = hn::Zero(df);
-    for (std::size_t p = SixPoint::terms; p-- > 0;) {
+    for (std::size_t p = TwelvePoint::terms; p-- > 0;) {
         auto sum = hn::Mul(hn::Set(df, c[p][0]), values[0]);
-        for (std::size_t k = 1; k < SixPoint::taps; ++k) sum = hn::MulAdd(hn::Set(df, c[p][k]), values[k], sum);
+        for (std::size_t k = 1; k < TwelvePoint::taps; ++k) sum = hn::MulAdd(hn::Set(df, c[p][k]), values[k], sum);
         value = hn::MulAdd(value, z, sum);
     }
     const auto one_where_inside = hn::DemoteTo(df, hn::IfThenElseZero(inside, hn::Set(dd, 1)));
@@ -63,23 +64,23 @@ void AddDownColumns(const float* values, std::size_t stride, std::size_t height,
     const Indices di;
     const std::size_t lanes = hn::Lanes(dd);
     // Indices of a gather have 32 bits.
-    const std::size_t vectors = height < SixPoint::taps || stride > INT32_MAX / height ? 0 : out.size() / lanes;
+    const std::size_t vectors = height < TwelvePoint::taps || stride > INT32_MAX / height ? 0 : out.size() / lanes;
     const auto row = hn::Set(di, static_cast<std::int32_t>(vectors == 0 ? 0 : stride));
     for (std::size_t v = 0; v < vectors; ++v) {
         const std::size_t i = v * lanes;
         const auto place =
             hn::MulAdd(hn::LoadU(dd, &places.slopes[i]), hn::Set(dd, places.scale), hn::Set(dd, places.offset));
         const auto column = hn::Iota(di, static_cast<std::int32_t>(i));
-        const auto value = six_points(place, height, [&](hn::Vec<Indices> j, hn::Vec<Floats>* samples) {
+        const auto value = twelve_points(place, height, [&](hn::Vec<Indices> j, hn::Vec<Floats>* samples) {
             // Neighbouring columns nearly always have the same rows.
             const std::int32_t top = hn::GetLane(j);
             if (hn::AllTrue(di, hn::Eq(j, hn::Set(di, top)))) {
                 const float* from = values + static_cast<std::size_t>(top) * stride + i;
-                for (std::size_t k = 0; k < SixPoint::taps; ++k) samples[k] = hn::LoadU(df, from + k * stride);
+                for (std::size_t k = 0; k < TwelvePoint::taps; ++k) samples[k] = hn::LoadU(df, from + k * stride);
                 return;
             }
             auto at = hn::Add(hn::Mul(j, row), column);
-            for (std::size_t k = 0; k < SixPoint::taps; ++k, at = hn::Add(at, row))
+            for (std::size_t k = 0; k < TwelvePoint::taps; ++k, at = hn::Add(at, row))
                 samples[k] = hn::GatherIndex(df, values, at);
         });
         hn::StoreU(hn::MulAdd(hn::Set(df, weight), value, hn::LoadU(df, &out[i])), df, &out[i]);
@@ -94,7 +95,7 @@ void AddAlongLine(std::span<const float> line, const LinePlaces& places, float w
     const Doubles dd;
     const Floats df;
     const Indices di;
-    const std::size_t lanes = hn::Lanes(dd), vectors = line.size() < SixPoint::taps ? 0 : out.size() / lanes;
+    const std::size_t lanes = hn::Lanes(dd), vectors = line.size() < TwelvePoint::taps ? 0 : out.size() / lanes;
     const auto steps = hn::Iota(dd, 0);
     for (std::size_t v = 0; v < vectors; ++v) {
         const std::size_t k = v * lanes;
@@ -103,8 +104,8 @@ void AddAlongLine(std::span<const float> line, const LinePlaces& places, float w
         const auto square = hn::MulAdd(d, d, hn::Set(dd, places.square));
         const auto r = hn::Sqrt(square);
         const auto place = hn::MulAdd(hn::Div(d, r), hn::Set(dd, places.scale), hn::Set(dd, places.offset));
-        const auto value = six_points(place, line.size(), [&](hn::Vec<Indices> at, hn::Vec<Floats>* samples) {
-            for (std::size_t t = 0; t < SixPoint::taps; ++t, at = hn::Add(at, hn::Set(di, 1)))
+        const auto value = twelve_points(place, line.size(), [&](hn::Vec<Indices> at, hn::Vec<Floats>* samples) {
+            for (std::size_t t = 0; t < TwelvePoint::taps; ++t, at = hn::Add(at, hn::Set(di, 1)))
                 samples[t] = hn::GatherIndex(df, line.data(), at);
         });
         const auto factor = hn::Mul(hn::DemoteTo(df, hn::Mul(square, r)), hn::Set(df, weight));
