@@ -112,6 +112,7 @@ ResultList wavelengths_of(std::span<const FieldGrid> grids) {
 }
 
 OutputFolder::OutputFolder(fs::path path, bool force) : path_(std::move(path)) {
+    require_folder_name(path_);
     std::error_code error;
     created_ = fs::create_directories(path_, error);
     if (error || !fs::is_directory(path_))

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,7 +32,8 @@ enum class SampleType { half, single };
 HOGEL_API LightField open_light_field(const std::filesystem::path& path);
 
 /// Throws Error(not_built_in) in a build without HDF5, in which the functions below that open, create or summarise HDF5
-/// files throw it too. To be called before work whose result is to be such a file.
+/// files throw it too, and Error(usage) for a name that belongs to another format (require_name()). To be called before
+/// work whose result is to be such a file.
 HOGEL_API void require_hdf5(const std::filesystem::path& path);
 
 /// Options of create_light_field().
@@ -49,8 +51,8 @@ struct LightFieldFileOptions {
 /// Creates a light field in an HDF5 file: one sink for each face, the front first. The file appears under its name when
 /// all sinks are finished; until then it is a temporary file in the same folder, which is removed with the sinks unless
 /// it can be resumed. Disk space is reserved at once, so that a full disk is reported before the work begins. Half
-/// floats beyond 65504 become infinite. Throws Error(usage) if the grids are not those of one light field, and
-/// Error(cannot_write).
+/// floats beyond 65504 become infinite. Throws Error(usage) if the grids are not those of one light field or the name
+/// is not that of an HDF5 file (require_name()), and Error(cannot_write).
 HOGEL_API std::vector<std::unique_ptr<LightFieldSink>> create_light_field(const std::filesystem::path& path,
                                                                           std::span<const LightFieldGrid> grids,
                                                                           const LightFieldFileOptions& options = {});
@@ -70,7 +72,8 @@ struct HologramFileOptions {
 };
 
 /// Creates a hologram in an HDF5 file: one sink for each field. The file appears under its name when all sinks are
-/// finished. A sink of half floats throws Error(usage) for samples beyond 65504. Throws Error(cannot_write).
+/// finished. A sink of half floats throws Error(usage) for samples beyond 65504. Throws Error(usage) for a name that is
+/// not that of an HDF5 file (require_name()), and Error(cannot_write).
 HOGEL_API std::vector<std::unique_ptr<FieldSink>> create_hologram(const std::filesystem::path& path,
                                                                   std::span<const FieldGrid> grids,
                                                                   const HologramFileOptions& options = {});
@@ -92,6 +95,13 @@ struct FileFormat {
 
 /// The file formats of light fields, fields, pictures and meshes that this build has.
 HOGEL_API Table<FileFormat>& file_formats();
+
+/// Throws Error(usage) for a name that ends like files of another format than the named one ("hdf5"), so that no file
+/// is other than its name says. Endings that belong to no format are all right.
+HOGEL_API void require_name(const std::filesystem::path& path, std::string_view format);
+
+/// Throws Error(usage) for a folder that does not exist yet and whose name ends like that of a file.
+HOGEL_API void require_folder_name(const std::filesystem::path& path);
 
 /// Facts about a light field or hologram file: names and values, in SI units.
 struct FileSummary {

@@ -2,6 +2,7 @@
 #include "hogel/files.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -9,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <system_error>
 
 #include "hogel/compress.h"
@@ -74,6 +76,19 @@ std::string lower_case(std::string text) {
     return text;
 }
 
+// The format whose files have names that end like this, if any, built in or not.
+std::optional<FileFormat> format_of_name(const std::filesystem::path& path) {
+    const std::string extension = lower_case(path.extension().string());
+    if (extension.empty()) return std::nullopt;
+    std::vector<FileFormat> rows = file_formats().rows();
+    std::ranges::move(mesh_rows(), std::back_inserter(rows));
+    for (const FileFormat& format : rows)
+        if (std::ranges::count(format.extensions, extension) > 0) return format;
+    if (const image::PictureFormat* format = image::format_by_extension(path))
+        return FileFormat{format->name, format->extensions, format->text, {}, {}};
+    return std::nullopt;
+}
+
 // Only pictures and meshes are recognised by their names.
 FileKind kind_by_extension(const std::filesystem::path& path) {
     const std::string extension = lower_case(path.extension().string());
@@ -107,6 +122,27 @@ bool io::hdf5::is_hdf5(const std::filesystem::path& path) {
 
 void require_hdf5(const std::filesystem::path& path) {
     core::require_part("HDF5", fmt::format("'{}', an HDF5 file", path.string()));
+    require_name(path, "hdf5");
+}
+
+void require_name(const std::filesystem::path& path, std::string_view format) {
+    const std::optional<FileFormat> named = format_of_name(path);
+    if (!named || named->name == format) return;
+    const FileFormat& wanted = file_formats().find(format);
+    throw Error(ErrorCode::usage,
+                fmt::format("'{}' is named like a file of the format {}; expected a name that ends in {}",
+                            path.string(), named->name, fmt::join(wanted.extensions, " or ")));
+}
+
+void require_folder_name(const std::filesystem::path& path) {
+    std::error_code ignored;
+    const std::optional<FileFormat> named = format_of_name(path);
+    if (named && !std::filesystem::is_directory(path, ignored))
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("'{}' is named like a file of the format {}, but a folder is written; expected a name without "
+                        "such an ending",
+                        path.string(), named->name));
 }
 
 Table<FileFormat>& file_formats() {

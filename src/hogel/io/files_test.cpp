@@ -255,6 +255,35 @@ TEST_F(Files, formats_name_every_extension_once_and_pictures_and_meshes_are_know
     EXPECT_TRUE(std::ranges::adjacent_find(extensions) == extensions.end());
 }
 
+// No file is other than its name says.
+TEST_F(Files, names_of_other_formats_are_refused) {
+    const auto refused = [&](const char* name, const char* format) {
+        try {
+            require_name(directory_ / name, format);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::usage) << name;
+            return true;
+        }
+        return false;
+    };
+    for (const char* name : {"x.npy", "x.hgl", "x.PNG", "x.exr", "x.mat", "x.glb", "x.tif", "y.h5.jpg"})
+        EXPECT_TRUE(refused(name, "hdf5")) << name;
+    for (const char* name : {"x.h5", "x.H5", "x.hdf5", "x", "x.field", "x.png.h5"})
+        EXPECT_FALSE(refused(name, "hdf5")) << name;
+    EXPECT_TRUE(refused("x.h5", "hgl"));
+    EXPECT_FALSE(refused("x.hgl", "hgl"));
+    const LightFieldGrid grid = grid_of(1, 1, 1, 1, 1);
+    EXPECT_THROW(create_light_field(directory_ / "x.npy", {&grid, 1}), Error);
+    const FieldGrid field{{2, 2, 1e-6, 1e-6, 0, 0}, 5e-7};
+    EXPECT_THROW(create_hologram(directory_ / "x.npy", {&field, 1}), Error);
+    EXPECT_THROW(require_folder_name(directory_ / "x.png"), Error);
+    EXPECT_NO_THROW(require_folder_name(directory_ / "x.2"));
+    fs::create_directory(directory_ / "y.png");
+    EXPECT_NO_THROW(require_folder_name(directory_ / "y.png"));
+    fs::remove(directory_ / "y.png");
+    EXPECT_TRUE(fs::is_empty(directory_));
+}
+
 TEST_F(Files, many_threads_open_read_and_write_at_once) {
     const LightFieldGrid grid = grid_of(7, 5, 3, 2, 3);
     const LightFieldBuffer field = random_light_field(grid, true);

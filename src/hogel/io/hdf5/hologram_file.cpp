@@ -186,6 +186,7 @@ Fields open_hologram(const std::filesystem::path& path) {
 std::vector<std::unique_ptr<FieldSink>> create_hologram(const std::filesystem::path& path,
                                                         std::span<const FieldGrid> grids,
                                                         const HologramFileOptions& options) {
+    require_name(path, "hdf5");
     if (grids.empty() || grids.size() > max_fields)
         throw Error(ErrorCode::usage, fmt::format("hologram '{}': {} fields, but 1 to {} can be written", path.string(),
                                                   grids.size(), max_fields));

@@ -201,6 +201,7 @@ using namespace io::hdf5;
 std::vector<std::unique_ptr<LightFieldSink>> create_light_field(const std::filesystem::path& path,
                                                                 std::span<const LightFieldGrid> grids,
                                                                 const LightFieldFileOptions& options) {
+    require_name(path, "hdf5");
     for (const LightFieldGrid& grid : grids) validate(grid, ErrorCode::usage, "light field");
     require_faces(grids);
     std::vector<hdf5::NewDataset> datasets;
