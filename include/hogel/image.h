@@ -32,10 +32,10 @@ struct HOGEL_API Image {
 HOGEL_API float srgb_encode(float linear);
 HOGEL_API float srgb_decode(float display);
 
-/// Writes a picture in the format of the name's extension: .exr as linear half floats, .png as 8-bit sRGB of linear
-/// values times `exposure`, with `metadata` and the picture's provenance; in a build with HOGEL_TIFF also .tif, like
-/// .png. The file appears under its name when it is complete. Throws Error(cannot_write), Error(not_built_in) for .tif
-/// in other builds, or Error(usage) for an unknown extension or an exposure that is not positive and finite.
+/// Writes a picture in the format of the name's extension: .exr as linear half floats, or single ones where halves do
+/// not hold it, .png as 8-bit sRGB of linear values times `exposure`, with `metadata` and the picture's provenance; in a
+/// build with HOGEL_TIFF also .tif, like .png. The file appears under its name when it is complete. Throws
+/// Error(cannot_write), Error(not_built_in) for .tif, Error(usage) for an unknown extension or a wrong exposure.
 HOGEL_API void write_image(const std::filesystem::path& path, const Image& image, double exposure = 1,
                            const Metadata& metadata = {});
 
