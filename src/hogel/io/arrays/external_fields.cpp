@@ -9,6 +9,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "hogel/core/half.h"
 #include "hogel/core/raw_file.h"
 #include "hogel/error.h"
 #include "hogel/image.h"
@@ -46,6 +47,7 @@ std::size_t bytes_of(Number number) {
             return 1;
         case Number::int16:
         case Number::uint16:
+        case Number::half:
             return 2;
         case Number::int32:
         case Number::uint32:
@@ -77,6 +79,11 @@ double number_at(Number number, const unsigned char* at) {
             return value_at<std::int64_t>(at);
         case Number::uint64:
             return value_at<std::uint64_t>(at);
+        case Number::half: {
+            std::uint16_t half;
+            std::memcpy(&half, at, sizeof half);
+            return static_cast<double>(core::float_of(half));
+        }
         case Number::single:
             return value_at<float>(at);
         case Number::real:
@@ -95,7 +102,7 @@ SampleConverter::SampleConverter(const std::filesystem::path& path, const Extern
     if (!complex && values_ == Values::complex)
         throw Error(ErrorCode::usage,
                     fmt::format("'{}' holds real numbers: are they amplitudes or phases?", path.string()));
-    const bool whole = number != Number::single && number != Number::real;
+    const bool whole = number != Number::half && number != Number::single && number != Number::real;
     if (whole && bytes_of(number) > 2 && values_ == Values::phase)
         fail_external(path, "phases as whole numbers of more than 16 bits have no known unit");
     radians_ = whole ? 2 * std::numbers::pi / std::exp2(8.0 * static_cast<double>(bytes_of(number))) : 1;

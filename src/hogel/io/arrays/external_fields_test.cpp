@@ -12,6 +12,7 @@
 #include <span>
 #include <string_view>
 
+#include "hogel/core/half.h"
 #include "hogel/core/output_file.h"
 #include "hogel/core/part.h"
 #include "hogel/error.h"
@@ -211,6 +212,29 @@ TEST_F(ExternalFields, are_written_as_numpy_writes_them) {
     write_npy(directory_ / "b.npy", all_of(*field));
     std::ifstream a(directory_ / "a.npy", std::ios::binary), b(directory_ / "b.npy", std::ios::binary);
     EXPECT_TRUE(std::equal(std::istreambuf_iterator<char>(a), {}, std::istreambuf_iterator<char>(b), {}));
+}
+
+TEST_F(ExternalFields, of_numpy_are_read_in_either_order_of_bytes_and_as_halves) {
+    const Bytes little = npy_rows();
+    Bytes big = npy(">c8", false, [&](Bytes& bytes) { bytes.insert(bytes.end(), little.end() - 48, little.end()); });
+    ASSERT_EQ(big.size(), little.size());
+    for (auto number = big.end() - 48; number != big.end(); number += 4) std::reverse(number, number + 4);
+    expect_example(*open_external_field(write("b.npy", big), known()));
+    for (const bool swapped : {false, true}) {
+        const Bytes halves = npy(swapped ? ">f2" : "<f2", false, [&](Bytes& bytes) {
+            for (const float value : {0.0f, -0.5f, 2.25f, 1024.0f, 3e-5f, 7.0f}) {
+                const std::uint16_t half = core::half_of(value);
+                put(bytes, static_cast<std::uint16_t>(swapped ? half >> 8 | half << 8 : half));
+            }
+        });
+        const auto samples = all_of(*open_external_field(write("h.npy", halves), known(Values::amplitude)));
+        EXPECT_EQ(samples(0, 1), Complex(-0.5f));
+        EXPECT_EQ(samples(1, 1), Complex(1024));
+        EXPECT_NEAR(samples(2, 0).real(), 3e-5f, 3e-8f);
+    }
+    EXPECT_THROW(open_external_field(write("x.npy", npy(">u1", false, [](Bytes& b) { b.resize(b.size() + 6); })),
+                                     known(Values::amplitude)),
+                 Error);
 }
 
 // Expects that opening the field is refused because the build lacks a part.

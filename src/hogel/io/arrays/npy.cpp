@@ -21,7 +21,7 @@ constexpr std::size_t max_header = 1 << 16;
 
 struct Header {
     Number number = Number::real;
-    bool complex = false, by_columns = false;
+    bool complex = false, by_columns = false, big_endian = false;
     std::size_t height = 0, width = 0;
     std::uint64_t begin = 0;  // offset of the numbers
 };
@@ -62,22 +62,28 @@ void parse_type(const std::filesystem::path& path, std::string_view descr, Heade
         bool complex;
     };
     static constexpr Known known[] = {
-        {"'<c8'", Number::single, true},  {"'<c16'", Number::real, true},   {"'<f4'", Number::single, false},
-        {"'<f8'", Number::real, false},   {"'|u1'", Number::uint8, false},  {"'|i1'", Number::int8, false},
-        {"'<u2'", Number::uint16, false}, {"'<i2'", Number::int16, false},  {"'<u4'", Number::uint32, false},
-        {"'<i4'", Number::int32, false},  {"'<u8'", Number::uint64, false}, {"'<i8'", Number::int64, false},
+        {"c8'", Number::single, true},  {"c16'", Number::real, true},   {"f2'", Number::half, false},
+        {"f4'", Number::single, false}, {"f8'", Number::real, false},   {"u1'", Number::uint8, false},
+        {"i1'", Number::int8, false},   {"u2'", Number::uint16, false}, {"i2'", Number::int16, false},
+        {"u4'", Number::uint32, false}, {"i4'", Number::int32, false},  {"u8'", Number::uint64, false},
+        {"i8'", Number::int64, false},
     };
-    for (const Known& type : known)
-        if (descr.starts_with(type.name)) {
+    // The first letter is the order of bytes.
+    for (const Known& type : known) {
+        const std::string_view orders = bytes_of(type.number) == 1 ? "|" : "<>";
+        if (descr.size() > 2 && descr[0] == '\'' && orders.find(descr[1]) != orders.npos &&
+            descr.substr(2).starts_with(type.name)) {
             header.number = type.number;
             header.complex = type.complex;
+            header.big_endian = descr[1] == '>';
             return;
         }
+    }
     std::string shown(descr.substr(0, std::min<std::size_t>(descr.find(','), 12)));
     for (char& c : shown)
         if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~') c = '?';
     fail_external(path,
-                  fmt::format("its numbers are of type {}; <c8, <c16, <f4, <f8 and whole numbers are read", shown));
+                  fmt::format("its numbers are of type {}; c8, c16, f2, f4, f8 and whole numbers are read", shown));
 }
 
 Header read_header(const std::filesystem::path& path, const core::RawFile& file) {
@@ -136,6 +142,9 @@ class NpyField final : public FieldSource {
             const std::size_t first =
                 columns ? (region.x0 + i) * header_.height + region.y0 : (region.y0 + i) * header_.width + region.x0;
             file_.read(header_.begin + first * bytes, line.data(), line.size());
+            if (header_.big_endian)
+                for (std::size_t at = 0; at < line.size(); at += number_bytes)
+                    std::reverse(&line[at], &line[at] + number_bytes);
             for (std::size_t k = 0; k < count; ++k) {
                 const unsigned char* at = &line[k * bytes];
                 (columns ? out(k, i) : out(i, k)) = convert_(

@@ -11,7 +11,7 @@
 namespace hogel::io::arrays {
 
 /// Types of numbers in a file, little-endian. `real` is a double.
-enum class Number { int8, uint8, int16, uint16, int32, uint32, int64, uint64, single, real };
+enum class Number { int8, uint8, int16, uint16, int32, uint32, int64, uint64, half, single, real };
 std::size_t bytes_of(Number number);
 double number_at(Number number, const unsigned char* at);
 
