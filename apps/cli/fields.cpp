@@ -36,12 +36,13 @@ Fields open_fields(const std::string& name, const FieldOptions& options, const C
                                                       pitch_given ? "--pitch" : "--wavelength"));
         return open_hologram(name);
     }
-    if (!pitch_given || !wavelength_given || wavelengths.size() != 1)
+    const std::size_t colours = external_colours(name);
+    if (!pitch_given || !wavelength_given || wavelengths.size() != colours)
         throw Error(ErrorCode::usage,
-                    fmt::format("{}: does not say how it is sampled; give --pitch and one --wavelength", name));
+                    fmt::format("{}: does not say how it is sampled; give --pitch and {} --wavelength", name,
+                                colours == 1 ? "one" : "three wavelengths with"));
     ExternalField what;
     what.pitch_x = what.pitch_y = pitch;
-    what.wavelength = wavelengths.front();
     what.values = options.values == "phase"       ? ExternalField::Values::phase
                   : options.values == "amplitude" ? ExternalField::Values::amplitude
                                                   : ExternalField::Values::complex;
@@ -51,7 +52,10 @@ Fields open_fields(const std::string& name, const FieldOptions& options, const C
     record.acted({"pitch", "wavelength", "values", "imaginary", "conjugate"});
     if (std::filesystem::path(name).extension() == ".mat") record.acted({"variable"});
     Fields fields;
-    fields.push_back(open_external_field(name, what));
+    for (what.colour = 0; what.colour < colours; ++what.colour) {
+        what.wavelength = wavelengths[what.colour];
+        fields.push_back(open_external_field(name, what));
+    }
     return fields;
 }
 

@@ -127,13 +127,19 @@ struct ExternalField {
     std::filesystem::path imaginary;  ///< a picture of the imaginary parts, for a picture of real parts
     std::string variable;             ///< the array of a MAT file to read; may be empty where it holds only one
     bool conjugate = false;           ///< true where the file's time factor is e^{+iωt}
+    std::size_t colour = 0;           ///< which of the colours of an array with three axes: external_colours()
 };
+
+/// The number of fields in a file of another program: three for a NumPy array [colour][row][column] or
+/// [row][column][colour] of three colours, otherwise one. Throws Error(bad_input) for a file that is missing or
+/// damaged.
+HOGEL_API std::size_t external_colours(const std::filesystem::path& path);
 
 /// Opens a field written by another program: a NumPy array (.npy), a MATLAB array (.mat, up to version 7.3), or a
 /// picture of amplitudes, of phases, or of real parts with a second one of imaginary parts. Row 0 is at the top, column
 /// 0 at the left, and the middle of the array is at x = y = 0. NPY files are read region by region on demand, others
 /// completely when opened. Throws Error(bad_input) for a file that is damaged or of another kind, and Error(usage) if
-/// `what.values` does not match the file's numbers.
+/// `what.values` does not match the file's numbers or it has no such colour.
 HOGEL_API std::shared_ptr<const FieldSource> open_external_field(const std::filesystem::path& path,
                                                                  const ExternalField& what);
 

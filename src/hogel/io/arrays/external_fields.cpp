@@ -161,8 +161,15 @@ bool is_external_array(const std::filesystem::path& path) {
     return is_npy(start) || is_mat(start);
 }
 
+std::size_t external_colours(const std::filesystem::path& path) {
+    return is_npy(first_bytes(path)) ? npy_colours(path) : 1;
+}
+
 std::shared_ptr<const FieldSource> open_external_field(const std::filesystem::path& path, const ExternalField& what) {
     const std::vector<unsigned char> start = first_bytes(path);
+    if (!is_npy(start) && what.colour > 0)
+        throw Error(ErrorCode::usage,
+                    fmt::format("'{}' has no colour {}: it holds one field", path.string(), what.colour));
     if (!is_npy(start) && !is_mat(start)) return open_picture_field(path, what);
     if (!what.imaginary.empty())
         throw Error(ErrorCode::usage,

@@ -237,6 +237,47 @@ TEST_F(ExternalFields, of_numpy_are_read_in_either_order_of_bytes_and_as_halves)
                  Error);
 }
 
+// [colour][row][column] and [row][column][colour] with three colours are three fields.
+TEST_F(ExternalFields, of_numpy_may_have_three_colours) {
+    const auto number = [](std::size_t colour, std::size_t row, std::size_t column) {
+        return static_cast<float>(100 * colour + 10 * row + column);
+    };
+    const auto shaped = [&](const char* shape, const std::function<void(Bytes&)>& numbers) {
+        Bytes bytes = npy("<f4", false, numbers);
+        const std::string_view old = "(3, 2), }";
+        const auto at = std::search(bytes.begin(), bytes.end(), old.begin(), old.end());
+        EXPECT_NE(at, bytes.end());
+        std::ranges::copy(std::string(shape) + ", }", at);
+        return bytes;
+    };
+    const Bytes first = shaped("(3, 4, 5)", [&](Bytes& bytes) {
+        for (std::size_t i = 0; i < 60; ++i) put(bytes, number(i / 20, i / 5 % 4, i % 5));
+    });
+    const Bytes last = shaped("(4, 5, 3)", [&](Bytes& bytes) {
+        for (std::size_t i = 0; i < 60; ++i) put(bytes, number(i % 3, i / 15, i / 3 % 5));
+    });
+    for (const Bytes& bytes : {first, last}) {
+        const fs::path path = write("c.npy", bytes);
+        EXPECT_EQ(external_colours(path), 3u);
+        ExternalField what = known(Values::amplitude);
+        for (what.colour = 0; what.colour < 3; ++what.colour) {
+            const auto field = open_external_field(path, what);
+            ASSERT_EQ(field->grid().plane.width, 5u);
+            ASSERT_EQ(field->grid().plane.height, 4u);
+            Array<Complex, 2> part({3, 2});
+            field->read({2, 1, 2, 3}, 0, part);
+            for (std::size_t y = 0; y < 3; ++y)
+                for (std::size_t x = 0; x < 2; ++x) EXPECT_EQ(part(y, x), Complex(number(what.colour, y + 1, x + 2)));
+        }
+        EXPECT_THROW(open_external_field(path, what), Error);
+    }
+    EXPECT_EQ(external_colours(write("one.npy", npy_rows())), 1u);
+    for (const char* shape : {"(2, 2, 2)", "(3, 2, 2, 1)", "(60,)", "(3, 4, 6)", "(4, 5, 3", "()"})
+        EXPECT_THROW(external_colours(write("bad.npy", shaped(shape, [](Bytes& b) { b.resize(b.size() + 240); }))),
+                     Error)
+            << shape;
+}
+
 // Expects that opening the field is refused because the build lacks a part.
 void expect_not_built_in(const fs::path& path, const ExternalField& what, const std::string& option) {
     try {

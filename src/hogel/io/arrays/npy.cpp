@@ -7,6 +7,7 @@
 #include <array>
 #include <cstring>
 #include <string_view>
+#include <vector>
 
 #include "hogel/core/output_file.h"
 #include "hogel/core/raw_file.h"
@@ -22,8 +23,11 @@ constexpr std::size_t max_header = 1 << 16;
 struct Header {
     Number number = Number::real;
     bool complex = false, by_columns = false, big_endian = false;
-    std::size_t height = 0, width = 0;
-    std::uint64_t begin = 0;  // offset of the numbers
+    std::size_t colours = 1, height = 0, width = 0;
+    bool colours_last = false;  // [row][column][colour] instead of [colour][row][column]
+    std::uint64_t begin = 0;    // offset of the numbers
+
+    std::size_t bytes_of_sample() const { return bytes_of(number) * (complex ? 2 : 1); }
 };
 
 // The text after "'key':", or nothing.
@@ -86,6 +90,31 @@ void parse_type(const std::filesystem::path& path, std::string_view descr, Heade
                   fmt::format("its numbers are of type {}; c8, c16, f2, f4, f8 and whole numbers are read", shown));
 }
 
+[[noreturn]] void fail_shape(const std::filesystem::path& path) {
+    fail_external(path,
+                  "an array of two axes, [row][column], or of three with three colours first or last was expected");
+}
+
+// One or three numbers in front of rows and columns, or else behind them, are colours.
+void parse_shape(const std::filesystem::path& path, std::string_view shape, Header& header) {
+    std::vector<std::size_t> axes;
+    bool good = take(shape, '(');
+    for (std::size_t length = 0; good && axes.size() < 4 && take_number(shape, length);) {
+        axes.push_back(length);
+        good = take(shape, ',') || shape.starts_with(')');
+    }
+    const auto is_colours = [](std::size_t length) { return length == 1 || length == 3; };
+    if (good && axes.size() == 3 && (is_colours(axes.front()) || is_colours(axes.back()))) {
+        header.colours_last = !is_colours(axes.front());
+        const auto colours = header.colours_last ? axes.end() - 1 : axes.begin();
+        header.colours = *colours;
+        axes.erase(colours);
+    }
+    if (!good || !take(shape, ')') || axes.size() != 2) fail_shape(path);
+    header.height = axes[0];
+    header.width = axes[1];
+}
+
 Header read_header(const std::filesystem::path& path, const core::RawFile& file) {
     std::array<unsigned char, 12> start{};
     file.read(0, start.data(), 10);
@@ -108,14 +137,13 @@ Header read_header(const std::filesystem::path& path, const core::RawFile& file)
     parse_type(path, value_of(text, "descr"), header);
     const std::string_view order = value_of(text, "fortran_order");
     header.by_columns = order.starts_with("True");
-    std::string_view shape = value_of(text, "shape");
-    const bool flat = take(shape, '(') && take_number(shape, header.height) && take(shape, ',') &&
-                      take_number(shape, header.width) && (take(shape, ',') || true) && take(shape, ')');
-    if (!flat || (!header.by_columns && !order.starts_with("False")))
-        fail_external(path, "an array of two axes, [row][column], was expected");
-    const std::uint64_t bytes = bytes_of(header.number) * (header.complex ? 2 : 1), held = file.size() - header.begin;
+    parse_shape(path, value_of(text, "shape"), header);
+    if (!header.by_columns && !order.starts_with("False")) fail_shape(path);
+    if (header.by_columns && header.colours > 1)
+        fail_external(path, "colours in an array by columns are not read; an array in C order was expected");
+    const std::uint64_t bytes = header.colours * header.bytes_of_sample(), held = file.size() - header.begin;
     if (header.width > 0 && header.height > held / bytes / header.width)
-        fail_external(path, fmt::format("it is truncated: {} bytes are too few for {}x{} numbers of {} bytes", held,
+        fail_external(path, fmt::format("it is truncated: {} bytes are too few for {}x{} times {} bytes", held,
                                         header.width, header.height, bytes));
     return header;
 }
@@ -126,27 +154,35 @@ class NpyField final : public FieldSource {
         : file_(path, core::RawFile::Mode::read, path),
           header_(read_header(path, file_)),
           grid_(external_grid(path, what, header_.width, header_.height)),
-          convert_(path, what, header_.number, header_.complex) {}
+          colour_(what.colour),
+          convert_(path, what, header_.number, header_.complex) {
+        if (colour_ >= header_.colours)
+            throw Error(ErrorCode::usage, fmt::format("'{}' has no colour {}: it holds {}", path.string(), colour_,
+                                                      header_.colours == 1 ? "one field" : "three fields"));
+    }
 
     const FieldGrid& grid() const override { return grid_; }
 
     void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override {
         validate(region, grid_, out.shape());
         if (look != 0) throw Error(ErrorCode::usage, fmt::format("look {} was asked of a file, which has one", look));
-        const std::size_t number_bytes = bytes_of(header_.number), bytes = number_bytes * (header_.complex ? 2 : 1);
+        const std::size_t number_bytes = bytes_of(header_.number), bytes = header_.bytes_of_sample();
         const bool columns = header_.by_columns;
         const std::size_t lines = columns ? region.width : region.height,
                           count = columns ? region.height : region.width;
-        std::vector<unsigned char> line(count * bytes);
+        // From a sample to the next one of a line, and to the first of this colour.
+        const std::size_t step = header_.colours_last ? header_.colours : 1;
+        const std::size_t colour = header_.colours_last ? colour_ : colour_ * header_.height * header_.width;
+        std::vector<unsigned char> line(((count - 1) * step + 1) * bytes);
         for (std::size_t i = 0; i < lines; ++i) {
             const std::size_t first =
                 columns ? (region.x0 + i) * header_.height + region.y0 : (region.y0 + i) * header_.width + region.x0;
-            file_.read(header_.begin + first * bytes, line.data(), line.size());
+            file_.read(header_.begin + (first * step + colour) * bytes, line.data(), line.size());
             if (header_.big_endian)
                 for (std::size_t at = 0; at < line.size(); at += number_bytes)
                     std::reverse(&line[at], &line[at] + number_bytes);
             for (std::size_t k = 0; k < count; ++k) {
-                const unsigned char* at = &line[k * bytes];
+                const unsigned char* at = &line[k * step * bytes];
                 (columns ? out(k, i) : out(i, k)) = convert_(
                     number_at(header_.number, at), header_.complex ? number_at(header_.number, at + number_bytes) : 0);
             }
@@ -157,6 +193,7 @@ class NpyField final : public FieldSource {
     core::RawFile file_;
     Header header_;
     FieldGrid grid_;
+    std::size_t colour_;
     SampleConverter convert_;
 };
 
@@ -164,6 +201,10 @@ class NpyField final : public FieldSource {
 
 bool is_npy(std::span<const unsigned char> start) {
     return start.size() >= magic.size() && std::equal(magic.begin(), magic.end(), start.begin());
+}
+
+std::size_t npy_colours(const std::filesystem::path& path) {
+    return read_header(path, core::RawFile(path, core::RawFile::Mode::read, path)).colours;
 }
 
 std::unique_ptr<FieldSource> open_npy(const std::filesystem::path& path, const ExternalField& what) {

@@ -36,6 +36,9 @@ std::unique_ptr<FieldSource> open_npy(const std::filesystem::path& path, const E
 std::unique_ptr<FieldSource> open_mat(const std::filesystem::path& path, const ExternalField& what);
 std::unique_ptr<FieldSource> open_picture_field(const std::filesystem::path& path, const ExternalField& what);
 
+/// external_colours() of a NumPy array.
+std::size_t npy_colours(const std::filesystem::path& path);
+
 bool is_npy(std::span<const unsigned char> start);
 bool is_mat(std::span<const unsigned char> start);
 
