@@ -143,8 +143,8 @@ Header read_header(const std::filesystem::path& path, const core::RawFile& file)
         fail_external(path, "colours in an array by columns are not read; an array in C order was expected");
     const std::uint64_t bytes = header.colours * header.bytes_of_sample(), held = file.size() - header.begin;
     if (header.width > 0 && header.height > held / bytes / header.width)
-        fail_external(path, fmt::format("it is truncated: {} bytes are too few for {}x{} times {} bytes", held,
-                                        header.width, header.height, bytes));
+        fail_external(path, fmt::format("it is truncated: {} bytes are too few for {}x{} numbers of {} bytes", held,
+                                        header.width * header.colours, header.height, header.bytes_of_sample()));
     return header;
 }
 
