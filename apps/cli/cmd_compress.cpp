@@ -79,8 +79,8 @@ int compress_file(Options options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a light field", options.input));
     const LightField light_field = open_light_field(options.input);
-    require_name(options.output, "hgl");
     require_writable(options.output, {&options.input, 1});
+    require_name(options.output, "hgl");
     CompressionOptions& compression = options.compression;
     compression.target = target_of(options);
     if (options.tile.columns > 0) compression.tile = HogelRange{0, 0, options.tile.columns, options.tile.rows};
