@@ -40,6 +40,7 @@ struct RendererInfo {
     std::function<double(const LightFieldGrid& grid, const HogelRange& region)> depth_buffer_bytes = nullptr;
     bool casts_rays = false;         ///< needs Embree; in a build without it make() throws Error(not_built_in)
     bool takes_frequencies = false;  ///< can render light fields whose directions are uniform in sines
+    bool takes_focal_plane = false;  ///< can render light fields with a fixed focal plane, wherever the scene is
 };
 
 /// The renderers by name.

@@ -103,12 +103,14 @@ class Exposure {
         for (std::size_t t = 0; t < tile.range.nt; ++t) {
             const double V = (grid.t(static_cast<double>(tile.range.t0 + t)) - lens_y) / distance;
             for (std::size_t s = 0; s < tile.range.ns; ++s) {
-                const double U = (grid.s(static_cast<double>(tile.range.s0 + s)) - lens_x) / distance;
+                const auto i = static_cast<double>(tile.range.s0 + s), j = static_cast<double>(tile.range.t0 + t);
+                const double U = (grid.s(i) - lens_x) / distance;
                 const Vec3 direction = to_face(grid.face(), {U, V, 1});
                 if (!(direction.z > 0) || shown_before(face, {U, V, 1})) continue;
-                const double forward = !grid.is_perspective() ? length(direction) : direction.z;
-                const Interpolation u(grid.column(direction.x / forward), grid.directions_u);
-                const Interpolation v(grid.row(direction.y / forward), grid.directions_v);
+                const double forward = grid.has_frequencies() ? length(direction) : direction.z;
+                const LightFieldGrid own = grid.of_hogel(i, j);  // with the directions of this hogel
+                const Interpolation u(own.column(direction.x / forward), grid.directions_u);
+                const Interpolation v(own.row(direction.y / forward), grid.directions_v);
                 if (u.outside || v.outside) continue;
                 const std::size_t u1 = u.high(grid.directions_u), v1 = v.high(grid.directions_v);
                 for (std::size_t c = 0; c < grid.channels; ++c) {

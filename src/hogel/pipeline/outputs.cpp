@@ -29,6 +29,7 @@ std::vector<std::filesystem::path> write_printer_images(const std::filesystem::p
     const core::StopScope scope(progress);
     if (!(options.exposure > 0)) throw Error(ErrorCode::usage, "exposure: a positive number was expected");
     const LightFieldGrid& grid = light_field.grid();
+    require_common_directions(grid, ErrorCode::usage, "a printer, which shows every hogel with the same optics,");
     const std::size_t pictures = options.rows ? grid.hogels_t : grid.hogels();
     const std::size_t digits = std::to_string(pictures).size();
     std::vector<std::filesystem::path> names;

@@ -37,11 +37,15 @@ class RemadeRenderer final : public Renderer {
     std::unique_ptr<LightFieldSource> source_;
 };
 
+// Throws if the renderer cannot have these directions, naming those that can.
 void require_renderable(const LightFieldGrid& grid, const RendererInfo& info) {
-    if (info.takes_frequencies) return;
+    if (grid.is_perspective()) return;
+    bool RendererInfo::*const takes =
+        grid.focal_plane() ? &RendererInfo::takes_focal_plane : &RendererInfo::takes_frequencies;
+    if (info.*takes) return;
     std::vector<std::string> others;
     for (const RendererInfo& other : renderers().rows())
-        if (other.takes_frequencies) others.push_back(other.name);
+        if (other.*takes) others.push_back(other.name);
     require_perspective(grid, ErrorCode::usage,
                         fmt::format("the renderer '{}' (but not {})", info.name, fmt::join(others, ", ")));
 }
