@@ -112,6 +112,7 @@ std::vector<Image> photographs_of_light_field(const Options& options, RunRecord&
             return photograph(light_field, cameras, {options.pupil_samples}, stage.progress());
         });
     }
+    light_field = with_common_directions(light_field);
     const HologramRequest request = options.hologram.request(session, parse_looks(options.looks).count);
     check_holograms(light_field.grids(), request, kind == InputKind::scene, cameras);
     const WaveCamera with = options.wave_camera();

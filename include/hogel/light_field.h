@@ -329,6 +329,19 @@ HOGEL_API void require_faces(std::span<const LightFieldGrid> faces);
 /// calls finish(). Memory: one tile per thread.
 HOGEL_API void copy(const LightFieldSource& source, LightFieldSink& sink, const Progress& progress = {});
 
+/// The grid of with_common_directions(): all directions that any hogel has, at the same steps around the same middle,
+/// as a perspective. A single row or column of directions stays one, since without parallax that way it stands for all.
+/// Without a fixed focal plane, the grid itself. Throws Error(usage) for more samples than can be addressed.
+HOGEL_API LightFieldGrid common_directions(const LightFieldGrid& grid);
+
+/// The same light field with the same directions at all hogels, which holograms, printers and hemicubes need: on the
+/// grid common_directions(), or on any perspective with the same hogels. Resampled when it is read: the radiance is
+/// interpolated linearly between the hogel's neighbouring directions, in U and in V, and zero outside of its
+/// directions, half a step beyond the last; the depth is that of the nearest direction, +infinity outside. A light
+/// field without a fixed focal plane is returned as it is, or refused with Error(usage) if a grid is given.
+HOGEL_API LightField with_common_directions(const LightField& light_field);
+HOGEL_API LightField with_common_directions(const LightField& light_field, const LightFieldGrid& grid);
+
 /// The same light field behind a cache of tiles, for readers whose tiles do not suit the sources: a renderer that is
 /// fast in long rows, for example, read in narrow tiles. The sources are read in their preferred tiles, and the tiles
 /// used last are kept, at most `bytes` in all. A read that needs more than that bypasses the cache. Depths are cached

@@ -29,7 +29,8 @@ OTHER = {
     # renderings
     "algorithm": "mvr", "shading": "direct", "shadow-map": "4", "cache-spacing": "2", "cull-back-faces": None,
     "hogels": "5x4", "directions": "9x8", "samples": "2", "size": "1.3mm", "fov": "14deg", "toward": "0.5deg",
-    "front": "0.7", "as-is": None, "fit": None, "hemicube": None, "frequencies": "633nm", "depth": None, "float": None,
+    "front": "0.7", "as-is": None, "fit": None, "hemicube": None, "frequencies": "633nm", "focal-plane": "-50mm",
+    "depth": None, "float": None,
     "seed": "7",
     # holograms
     "wavelength": "560nm", "pitch": "1.3um", "line-pitch": "10um", "method": "basis", "phase": "designed",
@@ -67,6 +68,7 @@ CASES = [
      {"directions": "8x4", "fov": "120deg"}),
     ("render frequencies", "render m.obj --algorithm raytrace --frequencies 633nm --hogels 6x4 --size 0.2mm --float", "o.h5",
      {"frequencies": "500nm", "algorithm": ACTS, "fov": "10deg"}),
+    ("render focal plane", f"render m.obj --focal-plane -40mm {SMALL} --float", "o.h5", {}),
     ("render compressed", f"render m.obj {SMALL}", "o.hgl", {}),
     ("hologram", "hologram x.h5 --wavelength 532nm --pitch 1.6um", "o.h5", {}),
     ("hologram lines", "hologram row.h5 --wavelength 532nm --pitch 1.6um --method lines", "o.h5", {}),

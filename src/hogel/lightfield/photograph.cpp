@@ -7,12 +7,13 @@
 #include <numbers>
 
 #include "hogel/core/parallel.h"
+#include "hogel/lightfield/interpolation.h"
 
 namespace hogel {
 namespace {
 
-// Linear interpolation. std::lerp would check for infinities.
-float mix(float a, float b, float weight) { return a + (b - a) * weight; }
+using lightfield::Interpolation;
+using lightfield::mix;
 
 struct LensPoint {
     double x, y;              // metres from the centre of the lens
@@ -44,25 +45,6 @@ std::vector<LensPoint> lens_points(double pupil, std::size_t count) {
     }
     return points;
 }
-
-// Linear interpolation between two neighbours of a row of samples. A sample represents the cell around it: it extends
-// half a cell beyond the last position, and farther out the value is zero.
-struct Interpolation {
-    std::size_t low = 0;
-    float high_weight = 0;
-    bool outside = true;
-
-    Interpolation(double index, std::size_t count) {
-        const double last = static_cast<double>(count) - 1;
-        if (!(index >= -0.5 && index <= last + 0.5)) return;
-        outside = false;
-        const double clamped = std::clamp(index, 0.0, last);
-        low = static_cast<std::size_t>(std::clamp(std::floor(clamped), 0.0, std::max(last - 1, 0.0)));
-        high_weight = static_cast<float>(clamped - static_cast<double>(low));
-    }
-    // The upper neighbour; the same sample if there is only one.
-    std::size_t high(std::size_t count) const { return std::min(low + 1, count - 1); }
-};
 
 // The film of one camera, to which the hogels of one face after the other are added.
 class Exposure {

@@ -23,13 +23,12 @@ void paste(const LightFieldTile& row, std::size_t hogel, Image& picture, std::si
 
 }  // namespace
 
-std::vector<std::filesystem::path> write_printer_images(const std::filesystem::path& folder,
-                                                        const LightField& light_field,
+std::vector<std::filesystem::path> write_printer_images(const std::filesystem::path& folder, const LightField& rays,
                                                         const PrinterImageOptions& options, const Progress& progress) {
     const core::StopScope scope(progress);
+    const LightField light_field = with_common_directions(rays);  // the same optics show every hogel
     if (!(options.exposure > 0)) throw Error(ErrorCode::usage, "exposure: a positive number was expected");
     const LightFieldGrid& grid = light_field.grid();
-    require_common_directions(grid, ErrorCode::usage, "a printer, which shows every hogel with the same optics,");
     const std::size_t pictures = options.rows ? grid.hogels_t : grid.hogels();
     const std::size_t digits = std::to_string(pictures).size();
     std::vector<std::filesystem::path> names;
