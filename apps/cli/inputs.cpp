@@ -337,7 +337,8 @@ LightField render_light_field(const Session& session, const Scene& scene, const 
     if (options.frequencies > 0)
         record.acted({"frequencies"});
     else
-        record.acted({"directions", "hemicube"});
+        record.acted({"directions"});
+    if (options.frequencies == 0 && !options.focal_plane_given) record.acted({"hemicube"});
     if (!options.hemicube && options.frequencies == 0) record.acted({"toward"});
     if (options.focal_plane_given) record.acted({"focal-plane"});
     const auto lit = light_scene(session, scene, options, record);
