@@ -39,7 +39,7 @@ OTHER = {
     "eye": "2,0,40mm", "gaze": "0.1,0,0mm", "focus": "2mm", "focus-tilt": "20deg", "pupil": "2mm", "f-number": "20",
     "focal-length": "30mm", "angle-of-view": "1deg", "resolution": "9", "to-eye": "2,0,40mm --frames 3", "to-focus": "3mm --frames 3",
     "frames": "3", "frame-rate": "24", "looks": "3", "exposure": "0.1", "display": "log", "camera": "full",
-    "film-distance": "30mm", "diffuser": "vertical", "geometric": None, "wave": None, "pupil-samples": "5", "values": "phase",
+    "film-distance": "30mm", "diffuser": ACTS, "geometric": None, "wave": None, "pupil-samples": "5", "values": "phase",
     "imaginary": "imaginary.exr", "variable": "b", "conjugate": None,
     # compression
     "sqnr": "25", "ppb": "3", "step": "0.1", "max-error": "0.1", "lossless": None, "coder": "threepass",
@@ -84,6 +84,8 @@ CASES = [
      {"method": "edges", "hogels": "10x7"}),
     ("fresnel", "hologram m.obj --method fresnel --size 0.2mm --pitch 2um --wavelength 532nm --front -12 --shading shadowed",
      "o.h5", {"method": "edges", "hogels": "10x7", "shading": "vertex", "front": "-14", "as-is": ACTS}),
+    ("photo of lines", "photo lines.h5 --eye 0,0,40mm --pupil 1mm --resolution 8 --focus 1mm --diffuser vertical", "o.png",
+     {"diffuser": "none", "camera": ACTS}),
     ("photo of a hologram", f"photo f.h5 {PHOTO} --focus 1mm", "o.png", {}),
     ("photo, full camera", f"photo f.h5 {PHOTO} --camera full", "o.png", {"camera": "narrow"}),
     ("photo, f-number", f"photo f.h5 --eye 0,0,40mm --f-number 12 --resolution 8", "o.exr", {}),
