@@ -27,6 +27,7 @@ struct Options {
     std::size_t pupil_samples = defaults.pupil_samples;
     std::string exposure = "auto", display = "intensity";
     std::string camera = "auto";
+    std::string diffuser = "none";
     bool geometric = false, wave = false;
 
     double film_distance = 0;
@@ -37,8 +38,11 @@ struct Options {
             return PlaneWaveCameraOptions{
                 {.memory = ScratchOptions().memory, .folder = std::filesystem::absolute(output).parent_path()},
                 film_distance};
-        return photograph_options(camera, parse_looks(looks).expected);
+        PhotographOptions options = photograph_options(camera, parse_looks(looks).expected);
+        options.vertical_diffuser = has_diffuser();
+        return options;
     }
+    bool has_diffuser() const { return diffuser == "vertical"; }
 };
 
 double parse_exposure(const std::string& text) {
@@ -79,7 +83,8 @@ std::vector<Image> photographs_of_hologram(const Options& options, RunRecord& re
     const std::vector<Camera> cameras = make_cameras(options.view, plane.size_x(), plane.size_y());
     for (const auto& field : fields)
         for (const Camera& camera : cameras)
-            with_options({{"", "--eye"}}, [&] { require_light_towards(field->grid(), camera); });
+            with_options({{"", "--eye"}},
+                         [&] { require_light_towards(field->grid(), camera, options.has_diffuser()); });
     Stage stage(session, "wave photograph");
     std::vector<Image> pictures = develop(stage, fields, cameras, options);
     const auto black = [](const Image& picture) {
@@ -112,6 +117,7 @@ std::vector<Image> photographs_of_light_field(const Options& options, RunRecord&
             return photograph(light_field, cameras, {options.pupil_samples}, stage.progress());
         });
     }
+    light_field = with_common_directions(light_field);
     const HologramRequest request = options.hologram.request(session, parse_looks(options.looks).count);
     check_holograms(light_field.grids(), request, kind == InputKind::scene, cameras);
     const WaveCamera with = options.wave_camera();
@@ -151,6 +157,12 @@ void require_sense(const Options& options, InputKind kind, bool geometric) {
         throw Error(
             ErrorCode::usage,
             fmt::format("--looks expected: needs the hogels, not samples; leave out --camera {}", options.camera));
+    if (options.has_diffuser() && kind != InputKind::hologram)
+        throw Error(ErrorCode::usage,
+                    "--diffuser vertical: stands before a hologram file; make one with 'hogel hologram "
+                    "--method lines'");
+    if (options.has_diffuser() && options.camera == "full")
+        throw Error(ErrorCode::usage, "--diffuser vertical: is of the narrow-band camera; leave out --camera full");
     if (options.film_distance != 0 && options.camera != "full")
         throw Error(ErrorCode::usage, "--film-distance: the thin lens belongs to the full camera; add --camera full");
     if (options.display == "phase" && (options.camera != "full" || options.film_distance != 0))
@@ -178,6 +190,7 @@ void record_photograph(RunRecord& record, const Options& options, InputKind kind
     if (kind != InputKind::hologram) record.acted(geometric ? "geometric" : "wave", "yes");
     if (kind == InputKind::hologram && options.camera == "auto") record.acted("camera", "narrow");
     record.acted({geometric ? "pupil-samples" : "camera"});
+    if (kind == InputKind::hologram && options.camera != "full") record.acted({"diffuser"});
     if (!geometric && options.camera == "full") record.acted({"film-distance"});
 }
 
@@ -244,6 +257,9 @@ void add_photo_options(Command& command, Options& options) {
     add_wave_camera_option(command, options.camera, {"auto", "eye", "narrow", "full"});
     command.length("--film-distance", options.film_distance,
                    "From a thin lens to its film, for the full camera, with its aberrations; 0mm: a perfect lens");
+    command.choice("--diffuser", options.diffuser, {"none", "vertical"}, "none|vertical",
+                   "What stands before a hologram with horizontal parallax only:"
+                   "\nvertical: a diffuser that spreads the light of each line to all heights");
     const Option geometric =
         command.flag("--geometric", options.geometric, "By rays rather than waves (default for a light field)");
     command.flag("--wave", options.wave, "By waves, through the hologram (default for a scene)").excludes(geometric);

@@ -145,7 +145,7 @@ void add_render(Command& command, Session& session) {
     command.counts("--region", options->region, "Hogels that a renderer is given at once (default: what it prefers)")
         .no_default();
     add_hemicube_option(command, options->render);
-    add_frequencies_option(command, options->render);
+    add_direction_options(command, options->render);
     add_json_flag(command, session);
     command.work([options, &session] { return render(*options, session); });
 }

@@ -117,6 +117,7 @@ LightFieldGrid RenderOptions::grid() const {
     const Angles view = hemicube ? Angles{defaults.field_of_view, defaults.field_of_view} : field_of_view;
     grid.view = with_options({{"full angle", "--fov"}, {"", "--fov, --toward"}},
                              [&] { return hogel::field_of_view(view.across, view.down, toward.across, toward.down); });
+    if (focal_plane_given) grid.view = FocalPlane{grid.range(), focal_plane};
     if (frequencies > 0) {
         // As many frequencies j/d as fit into the field of view.
         const double step = frequencies / grid.pitch;
@@ -126,8 +127,9 @@ LightFieldGrid RenderOptions::grid() const {
         grid.directions_v = static_cast<std::size_t>(down);
         grid.view = Frequencies{{0.5 * across * step, 0.5 * down * step}};
     }
-    with_options({{"", frequencies > 0 ? "--frequencies" : "--hogels, --directions, --size"}},
-                 [&] { validate(grid, ErrorCode::usage, "light field"); });
+    with_options(
+        {{"focal plane", "--focal-plane"}, {"", frequencies > 0 ? "--frequencies" : "--hogels, --directions, --size"}},
+        [&] { validate(grid, ErrorCode::usage, "light field"); });
     return grid;
 }
 
@@ -266,14 +268,24 @@ void add_hemicube_option(Command& command, RenderOptions& options) {
         .excludes("--toward");
 }
 
-void add_frequencies_option(Command& command, RenderOptions& options) {
+void add_direction_options(Command& command, RenderOptions& options) {
     command.group(light_field_group);
+    command
+        .length(
+            "--focal-plane", options.focal_plane,
+            "Depth behind the hologram of a fixed focal plane, whose points are those of all hogels, negative in front "
+            "of it, where cameras would stand; --fov and --toward are those of the middle of the hologram (default: "
+            "none, hogels have the same directions)")
+        .no_default()
+        .sets(options.focal_plane_given)
+        .excludes("--hemicube");
     command
         .positive_length(
             "--frequencies", options.frequencies,
             "Directions on the frequency grid of a hologram of this wavelength, as many as the field of view holds; "
             "with --algorithm raytrace")
         .excludes("--hemicube")
+        .excludes("--focal-plane")
         .excludes("--directions")
         .excludes("--toward");
 }
@@ -325,16 +337,19 @@ LightField render_light_field(const Session& session, const Scene& scene, const 
     if (options.frequencies > 0)
         record.acted({"frequencies"});
     else
-        record.acted({"directions", "hemicube"});
+        record.acted({"directions"});
+    if (options.frequencies == 0 && !options.focal_plane_given) record.acted({"hemicube"});
     if (!options.hemicube && options.frequencies == 0) record.acted({"toward"});
+    if (options.focal_plane_given) record.acted({"focal-plane"});
     const auto lit = light_scene(session, scene, options, record);
     for (std::size_t i = 0; i < lit->triangles.size(); ++i)
         if (lit->is_lit(i)) {
             record.acted({"cache-spacing"});
             break;
         }
-    return with_options({{"sines", "--algorithm, --frequencies"}, {"", "--algorithm"}},
-                        [&] { return hogel::render_light_field(lit, options.request()); });
+    return with_options(
+        {{"sines", "--algorithm, --frequencies"}, {"focal plane", "--algorithm, --focal-plane"}, {"", "--algorithm"}},
+        [&] { return hogel::render_light_field(lit, options.request()); });
 }
 
 void require_memory(const Session& session, const LightField& rendered, const RenderOptions& options,

@@ -29,7 +29,9 @@ struct RenderOptions {
     bool field_of_view_given = false;  ///< otherwise a hemicube spans 180 degrees
     Angles toward;
     bool hemicube = false;
-    double frequencies = 0;  ///< wavelength whose frequency grid gives the directions, metres; 0: perspective
+    double focal_plane = 0;          ///< depth of a fixed focal plane, metres
+    bool focal_plane_given = false;  ///< otherwise hogels have the same directions
+    double frequencies = 0;          ///< wavelength whose frequency grid gives the directions, metres; 0: perspective
     bool as_is = false;
     bool fronts_only = false;  ///< whether back faces are culled
     double front = defaults.front;
@@ -41,8 +43,8 @@ struct RenderOptions {
 void add_render_options(Command& command, RenderOptions& options);
 /// --hemicube, for commands that use all faces.
 void add_hemicube_option(Command& command, RenderOptions& options);
-/// --frequencies, for the command that makes light fields.
-void add_frequencies_option(Command& command, RenderOptions& options);
+/// --focal-plane and --frequencies, for the command that makes light fields.
+void add_direction_options(Command& command, RenderOptions& options);
 
 /// The options of a hologram of a light field.
 struct HologramChoices {

@@ -92,6 +92,19 @@ struct Frequencies : DirectionRange {
     friend bool operator==(const Frequencies&, const Frequencies&) = default;
 };
 
+/// Directions through the points of a *fixed focal plane* ζ = depth, the same points for all hogels ([K] 3.7.1 and
+/// figure 5.1a), as cameras on a rail, arrays of cameras and most light fields of others have them. With u = (x of a
+/// point)/depth uniform in center_u ± half_u, and v alike, the hogel at (s, t) has the directions U = u − s/depth and V
+/// = v − t/depth: the rays from (s, t, 0) through (u·depth, v·depth, depth). Cameras on the plane ζ = −D in front of
+/// the hologram are such points, with depth = −D: the camera at x = c is u = −c/D. In a grid with these directions u(),
+/// v(), column() and row() are about u and v, which are U and V of a hogel in the middle, s = t = 0;
+/// LightFieldGrid::of_hogel() has those of each hogel. As depth → ±∞ this becomes Perspective. For the front face only.
+struct FocalPlane : DirectionRange {
+    double depth = 0;  ///< ζ of the plane, metres: positive behind the hologram, negative in front of it; never 0
+
+    friend bool operator==(const FocalPlane&, const FocalPlane&) = default;
+};
+
 /// The perspective that spans the full angles `across` and `down` (radians) around an axis that is tilted from the
 /// perpendicular by `toward_right` and `toward_up` (radians). Throws Error(usage) for an angle outside 0 … π, and for a
 /// tilted range that reaches π/2 from the perpendicular.
@@ -101,13 +114,13 @@ inline Perspective field_of_view(double angle) { return field_of_view(angle, ang
 
 /// The sampling of a light field L[c][t][s][v][u] (docs/notation.md, section 1). A ray crosses the hologram plane at
 /// the centre (s, t) of a hogel and runs along x = s + Uζ, y = t + Vζ. `view` gives the directions (U, V) of each
-/// hogel.
+/// hogel, which are the same for all hogels unless there is a fixed focal plane.
 struct HOGEL_API LightFieldGrid {
-    std::size_t hogels_s = 0, hogels_t = 0;          ///< S columns, T rows of hogels
-    double pitch = 0;                                ///< d, metres between hogels
-    std::size_t directions_u = 0, directions_v = 0;  ///< n_U, n_V samples of direction
-    std::variant<Perspective, Frequencies> view;     ///< their range and spacing
-    std::size_t channels = 3;                        ///< 1, or 3 for R, G, B
+    std::size_t hogels_s = 0, hogels_t = 0;                   ///< S columns, T rows of hogels
+    double pitch = 0;                                         ///< d, metres between hogels
+    std::size_t directions_u = 0, directions_v = 0;           ///< n_U, n_V samples of direction
+    std::variant<Perspective, Frequencies, FocalPlane> view;  ///< their range and spacing
+    std::size_t channels = 3;                                 ///< 1, or 3 for R, G, B
 
     double width() const { return static_cast<double>(hogels_s) * pitch; }   ///< of the hologram, metres
     double height() const { return static_cast<double>(hogels_t) * pitch; }  ///< likewise
@@ -115,11 +128,20 @@ struct HOGEL_API LightFieldGrid {
     double s(double i) const { return (i + 0.5 - 0.5 * static_cast<double>(hogels_s)) * pitch; }
     double t(double j) const { return (0.5 * static_cast<double>(hogels_t) - j - 0.5) * pitch; }
 
+    /// Whether directions are uniform in the tangents U and V, and the same for all hogels.
     bool is_perspective() const { return view.index() == 0; }
+    /// Whether directions are uniform in sines.
+    bool has_frequencies() const { return view.index() == 1; }
+    /// The fixed focal plane, or null where all hogels have the same directions.
+    const FocalPlane* focal_plane() const { return std::get_if<FocalPlane>(&view); }
+    /// The grid whose hogels all have the directions of the hogel in column i and row j of this one. Without a fixed
+    /// focal plane that is this grid; with one it is a Perspective around U₀ − s/depth and V₀ − t/depth.
+    LightFieldGrid of_hogel(double i, double j) const;
     /// The face in whose picture directions are uniform.
     Face face() const { return is_perspective() ? std::get_if<Perspective>(&view)->face : Face::front; }
     const DirectionRange& range() const {
         if (const auto* perspective = std::get_if<Perspective>(&view)) return *perspective;
+        if (const auto* plane = focal_plane()) return *plane;
         return *std::get_if<Frequencies>(&view);
     }
     DirectionRange& range() { return const_cast<DirectionRange&>(std::as_const(*this).range()); }
@@ -140,7 +162,8 @@ struct HOGEL_API LightFieldGrid {
     /// The direction (x, y, ζ) of the ray (U, V), scaled to a component of 1 along the axis of the face: (U, V, 1) for
     /// the front. Zero for sines to which no ray belongs.
     Vec3 direction_of(double U, double V) const;
-    /// Whether a direction (x, y, ζ) lies in the cell around one of the sampled directions.
+    /// Whether a direction (x, y, ζ) lies in the cell around one of the sampled directions (with a fixed focal plane:
+    /// of a hogel in the middle).
     bool covers(Vec3 direction) const;
     std::size_t directions() const { return directions_u * directions_v; }
     std::size_t hogels() const { return hogels_s * hogels_t; }
@@ -152,8 +175,13 @@ struct HOGEL_API LightFieldGrid {
 /// positive, or more samples than can be addressed.
 HOGEL_API void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& what);
 
-/// Throws Error(code) if the directions are uniform in sines. The message says that `what` needs a perspective.
+/// Throws Error(code) if the directions are uniform in sines or go through a fixed focal plane. The message says that
+/// `what` needs a perspective.
 HOGEL_API void require_perspective(const LightFieldGrid& grid, ErrorCode code, const std::string& what);
+
+/// Throws Error(code) if there is a fixed focal plane. The message says that `what` needs the same directions at all
+/// hogels.
+HOGEL_API void require_common_directions(const LightFieldGrid& grid, ErrorCode code, const std::string& what);
 
 /// Whether two light fields have the same hogels at the same positions and the same number of channels.
 HOGEL_API bool same_hogels(const LightFieldGrid& a, const LightFieldGrid& b);
@@ -300,6 +328,19 @@ HOGEL_API void require_faces(std::span<const LightFieldGrid> faces);
 /// Streams one face of a light field from a source to a sink in the source's preferred tiles, on all threads, then
 /// calls finish(). Memory: one tile per thread.
 HOGEL_API void copy(const LightFieldSource& source, LightFieldSink& sink, const Progress& progress = {});
+
+/// The grid of with_common_directions(): all directions that any hogel has, at the same steps around the same middle,
+/// as a perspective. A single row or column of directions stays one, since without parallax that way it stands for all.
+/// Without a fixed focal plane, the grid itself. Throws Error(usage) for more samples than can be addressed.
+HOGEL_API LightFieldGrid common_directions(const LightFieldGrid& grid);
+
+/// The same light field with the same directions at all hogels, which holograms, printers and hemicubes need: on the
+/// grid common_directions(), or on any perspective with the same hogels. Resampled when it is read: the radiance is
+/// interpolated linearly between the hogel's neighbouring directions, in U and in V, and zero outside of its
+/// directions, half a step beyond the last; the depth is that of the nearest direction, +infinity outside. A light
+/// field without a fixed focal plane is returned as it is, or refused with Error(usage) if a grid is given.
+HOGEL_API LightField with_common_directions(const LightField& light_field);
+HOGEL_API LightField with_common_directions(const LightField& light_field, const LightFieldGrid& grid);
 
 /// The same light field behind a cache of tiles, for readers whose tiles do not suit the sources: a renderer that is
 /// fast in long rows, for example, read in narrow tiles. The sources are read in their preferred tiles, and the tiles

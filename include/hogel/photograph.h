@@ -32,6 +32,10 @@ struct PhotographOptions {
     /// intensities of all waves, what ideal time multiplexing shows. For stereograms that are made on demand and whose
     /// waves have independent random phases, Fourier with Phases::random; photograph() throws Error(usage) for others.
     bool expected = false;
+    /// Whether the hologram stands behind a diffuser that spreads the light of each of its lines, a row of samples, to
+    /// all heights, as displays with horizontal parallax only do ([K] 3.9): see photograph(). Not with `expected`, nor
+    /// from hogels.
+    bool vertical_diffuser = false;
 };
 
 /// Photographs a hologram by wave optics with the narrow-band camera (docs/notation.md, section 4): the field is
@@ -42,7 +46,15 @@ struct PhotographOptions {
 /// and look, and about as much again for one eye's film that is 192 resolution cells λR/A wider, with D the hologram's
 /// side, A the pupil, R the eye's distance. If that exceeds the options, cameras are processed fewer at a time and the
 /// hologram in windows; then the thousandth of the light that falls more than 256 resolution cells from its point is
-/// lost at the seams of windows. Throws Error(usage) for a pupil that receives more directions than the field's pitch
+/// lost at the seams of windows.
+///
+/// Behind a vertical diffuser a line of samples is coherent along x, and its light of any two heights within the line
+/// is incoherent, as is that of two lines: the picture is the sum of the intensities of all heights, which are seen
+/// with the radiance of the field towards the eye, whatever the pitch in y. A hologram of lines that are too coarse to
+/// diffract up and down is seen from all heights. Cost: a photograph for each of so many lines, the light of which
+/// overlaps, of a hologram with thin rows, 12 to a resolution cell.
+///
+/// Throws Error(usage) for a pupil that receives more directions than the field's pitch
 /// supports, for one that does not resolve two points on opposite edges of the hologram, and for a photograph that
 /// needs more memory than allowed.
 HOGEL_API std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camera> cameras,
@@ -62,7 +74,8 @@ HOGEL_API void require_photographs(const FieldGrid& hologram, std::span<const Ca
 /// Throws Error(usage) for an invalid camera, and for one in directions beyond those to which the pitch of the samples
 /// diffracts. In such directions photograph() shows what a modulator with these samples shows, copies (higher orders)
 /// of pictures from other directions, which is correct only for a field that is known to have just these directions.
-HOGEL_API void require_light_towards(const FieldGrid& hologram, const Camera& camera);
+/// @param vertical_diffuser  whether the field is seen from all heights, see PhotographOptions
+HOGEL_API void require_light_towards(const FieldGrid& hologram, const Camera& camera, bool vertical_diffuser = false);
 
 /// Options of photograph_by_plane_waves().
 struct PlaneWaveCameraOptions {

@@ -114,8 +114,8 @@ enum class InputKind { scene, light_field, hologram };
 /// Error(bad_input) for a file that is missing or of another kind.
 HOGEL_API InputKind input_kind(const std::string& name);
 
-/// Opens the light field in a file for holograms. If the request is for basis fringes and the file holds coefficients
-/// of such fringes, opens the coefficients and sets request.of_coefficients.
+/// Opens the light field in a file for holograms, with_common_directions(). If the request is for basis fringes and the
+/// file holds coefficients of such fringes, opens the coefficients and sets request.of_coefficients.
 /// @param any_transform  whether to set the request's transform to that of the file's coefficients
 HOGEL_API LightField open_for_holograms(const std::filesystem::path& path, HologramRequest& request,
                                         bool any_transform);

@@ -40,14 +40,18 @@ struct RendererInfo {
     std::function<double(const LightFieldGrid& grid, const HogelRange& region)> depth_buffer_bytes = nullptr;
     bool casts_rays = false;         ///< needs Embree; in a build without it make() throws Error(not_built_in)
     bool takes_frequencies = false;  ///< can render light fields whose directions are uniform in sines
+    /// Can render light fields with a fixed focal plane, wherever the scene is. Other renderers are given the
+    /// projection of a scene that does not reach the plane (docs/renderers.md).
+    bool takes_focal_plane = false;
 };
 
 /// The renderers by name.
 HOGEL_API Table<RendererInfo>& renderers();
 
 /// Makes a light field of the scene with the renderer of that name. It has depth. The scene is shared, never copied.
-/// Throws Error(usage) for an unknown name, for a grid uniform in sines if the renderer takes only perspectives, and
-/// for a scene that is not wholly behind the hologram plane if the renderer cannot cross it.
+/// Throws Error(usage) for an unknown name, for a grid uniform in sines if the renderer takes only perspectives, for a
+/// scene that is not wholly behind the hologram plane if the renderer cannot cross it, and for one that reaches a fixed
+/// focal plane if the renderer takes none itself.
 HOGEL_API std::unique_ptr<Renderer> make_renderer(std::string_view name, std::shared_ptr<const ShadedScene> scene,
                                                   const LightFieldGrid& grid);
 

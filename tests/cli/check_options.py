@@ -16,7 +16,7 @@ TABLE = [
     ("render sphere -o w.h5",
      """--algorithm=magic --shading=phong --shadow-map=0 --cache-spacing=17 --cache-spacing=nan --hogels=0
      --hogels=99999999 --directions=4x --samples=65 --size=0mm --size=1e300m --size=16 --fov=180deg --fov=20 --toward=89deg
-     --front=2 --region=0 --frequencies=-1nm --frequencies=633nm --sqnr=30 --threads=-1 --seed=x"""),
+     --front=2 --region=0 --frequencies=-1nm --frequencies=633nm --focal-plane=0mm --focal-plane=1e-320m --focal-plane=1nm --focal-plane=x --sqnr=30 --threads=-1 --seed=x"""),
     ("render sphere -o w.h5 --hogels 4", "--directions=16777216"),
     ("render sphere -o w.h5 --hemicube", "--directions=5 --fov=20deg"),
     ("render sphere -o w.h5 --shading shadowed", "--shadow-map=16777216"),

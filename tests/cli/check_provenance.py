@@ -29,7 +29,8 @@ OTHER = {
     # renderings
     "algorithm": "mvr", "shading": "direct", "shadow-map": "4", "cache-spacing": "2", "cull-back-faces": None,
     "hogels": "5x4", "directions": "9x8", "samples": "2", "size": "1.3mm", "fov": "14deg", "toward": "0.5deg",
-    "front": "0.7", "as-is": None, "fit": None, "hemicube": None, "frequencies": "633nm", "depth": None, "float": None,
+    "front": "0.7", "as-is": None, "fit": None, "hemicube": None, "frequencies": "633nm", "focal-plane": "-50mm",
+    "depth": None, "float": None,
     "seed": "7",
     # holograms
     "wavelength": "560nm", "pitch": "1.3um", "line-pitch": "10um", "method": "basis", "phase": "designed",
@@ -38,7 +39,7 @@ OTHER = {
     "eye": "2,0,40mm", "gaze": "0.1,0,0mm", "focus": "2mm", "focus-tilt": "20deg", "pupil": "2mm", "f-number": "20",
     "focal-length": "30mm", "angle-of-view": "1deg", "resolution": "9", "to-eye": "2,0,40mm --frames 3", "to-focus": "3mm --frames 3",
     "frames": "3", "frame-rate": "24", "looks": "3", "exposure": "0.1", "display": "log", "camera": "full",
-    "film-distance": "30mm", "geometric": None, "wave": None, "pupil-samples": "5", "values": "phase",
+    "film-distance": "30mm", "diffuser": ACTS, "geometric": None, "wave": None, "pupil-samples": "5", "values": "phase",
     "imaginary": "imaginary.exr", "variable": "b", "conjugate": None,
     # compression
     "sqnr": "25", "ppb": "3", "step": "0.1", "max-error": "0.1", "lossless": None, "coder": "threepass",
@@ -67,6 +68,7 @@ CASES = [
      {"directions": "8x4", "fov": "120deg"}),
     ("render frequencies", "render m.obj --algorithm raytrace --frequencies 633nm --hogels 6x4 --size 0.2mm --float", "o.h5",
      {"frequencies": "500nm", "algorithm": ACTS, "fov": "10deg"}),
+    ("render focal plane", f"render m.obj --focal-plane -40mm {SMALL} --float", "o.h5", {}),
     ("render compressed", f"render m.obj {SMALL}", "o.hgl", {}),
     ("hologram", "hologram x.h5 --wavelength 532nm --pitch 1.6um", "o.h5", {}),
     ("hologram lines", "hologram row.h5 --wavelength 532nm --pitch 1.6um --method lines", "o.h5", {}),
@@ -82,6 +84,8 @@ CASES = [
      {"method": "edges", "hogels": "10x7"}),
     ("fresnel", "hologram m.obj --method fresnel --size 0.2mm --pitch 2um --wavelength 532nm --front -12 --shading shadowed",
      "o.h5", {"method": "edges", "hogels": "10x7", "shading": "vertex", "front": "-14", "as-is": ACTS}),
+    ("photo of lines", "photo lines.h5 --eye 0,0,40mm --pupil 1mm --resolution 8 --focus 1mm --diffuser vertical", "o.png",
+     {"diffuser": "none", "camera": ACTS}),
     ("photo of a hologram", f"photo f.h5 {PHOTO} --focus 1mm", "o.png", {"camera": ACTS}),
     ("photo, full camera", f"photo f.h5 {PHOTO} --camera full", "o.png", {"camera": "narrow"}),
     ("photo, f-number", f"photo f.h5 --eye 0,0,40mm --f-number 12 --resolution 8", "o.exr", {}),

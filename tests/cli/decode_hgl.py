@@ -735,6 +735,8 @@ def fields_of(source, end):
             depth_bytes, _, beyond = source.take("Qdd")
             assert size == 24
             depth = depth_bytes, beyond
+        elif name == "focal_plane":
+            assert size == 8 and source.take("d") != 0  # says what the directions are, not how they are coded
         else:
             assert name == "chrominance" and size == 4
             chrominance = f32(source.take("f"))

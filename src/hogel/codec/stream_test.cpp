@@ -76,6 +76,21 @@ TEST(Stream, keeps_the_grid) {
     EXPECT_TRUE(open_stream(folder / "a.hgl").grid() == grid);
 }
 
+// With and without depth, whose stream has the same directions.
+TEST(Stream, keeps_a_fixed_focal_plane) {
+    const TestFolder folder;
+    LightFieldGrid grid{3, 2, 1e-3, 4, 5, FocalPlane{{0.5, 0.7, 0.1, -0.2}, -0.3}, 1};
+    const LightFieldBuffer field(grid, true);
+    for (const bool depth : {false, true}) {
+        CompressionOptions options = small_tiles("threepass", "haar");
+        options.with_depth = depth;
+        compress(field, folder / "a.hgl", options);
+        const LightField back = open_stream(folder / "a.hgl");
+        EXPECT_TRUE(back.grid() == grid);
+        EXPECT_EQ(back.has_depth(), depth);
+    }
+}
+
 // The error that reading a file throws, if any.
 std::optional<ErrorCode> outcome(const std::filesystem::path& path) {
     try {
@@ -276,6 +291,9 @@ TEST(Stream, the_default_error_of_depth_is_that_of_the_steepest_ray) {
     grid.range().center_u = 0.4;
     EXPECT_DOUBLE_EQ(default_depth_error(grid, 1), 50e-6 / 32000 / 0.5);
     EXPECT_DOUBLE_EQ(default_depth_error(grid, 1e-6), 1e-9);
+    // With a fixed focal plane the hogels at the edge have the steepest: those at 75 µm see up to 0.5 + 75 µm/1 mm.
+    grid.view = FocalPlane{grid.range(), 1e-3};
+    EXPECT_DOUBLE_EQ(default_depth_error(grid, 1), 50e-6 / 32000 / 0.575);
 }
 
 // Layers of the radiance alone can be read without the depth stream.

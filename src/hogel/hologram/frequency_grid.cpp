@@ -103,7 +103,7 @@ FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows
     : rows_(rows), columns_(columns), rays_(light_field.directions()), row_length_(light_field.directions_u) {
     const double step = wavelength / light_field.pitch;  // between frequencies, as a direction sine
     const auto width = static_cast<std::ptrdiff_t>(columns), height = static_cast<std::ptrdiff_t>(rows);
-    const bool sines = !light_field.is_perspective();
+    const bool sines = light_field.has_frequencies();
     const auto mean = between == Interpolation::constant || is_frequency_grid(light_field, wavelength)
                           ? average_of_pieces
                           : average_of_lines;
@@ -208,7 +208,7 @@ bool is_frequency_grid(const LightFieldGrid& light_field, double wavelength) {
         return std::abs(step * light_field.pitch / wavelength - 1) < 1e-6 &&
                std::abs(middle - std::round(middle)) < 1e-6;
     };
-    return !light_field.is_perspective() && fits(light_field.step_u(), light_field.column(0)) &&
+    return light_field.has_frequencies() && fits(light_field.step_u(), light_field.column(0)) &&
            fits(light_field.step_v(), light_field.row(0));
 }
 

@@ -49,7 +49,7 @@ void require_diffraction(const LightFieldGrid& light_field, double wavelength, d
     const double edge = std::max(std::abs(light_field.center_u()) + light_field.half_u(),
                                  std::abs(light_field.center_v()) + light_field.half_v());
     // On a frequency grid the outermost frequency is half a step inside the edge.
-    const double needed = !light_field.is_perspective() ? std::min(1.0, edge - 0.5 * light_field.step_u())
+    const double needed = light_field.has_frequencies() ? std::min(1.0, edge - 0.5 * light_field.step_u())
                                                         : edge / std::sqrt(1 + edge * edge);
     const double possible = wavelength / (2 * pitch);
     if (needed <= possible) return;
@@ -102,6 +102,7 @@ FieldGrid hologram_grid(std::span<const LightFieldGrid> faces, const HologramOpt
     require_faces(faces);
     for (const LightFieldGrid& face : faces) validate(face, ErrorCode::usage, "light field");
     const LightFieldGrid& front = faces.front();
+    require_common_directions(front, ErrorCode::usage, "a hologram");
     const auto& [wavelength, channel] = options.channel;
     if (!(options.pitch > 0) || !(wavelength > 0))
         throw Error(ErrorCode::usage, "a hologram needs a positive pitch and wavelength");

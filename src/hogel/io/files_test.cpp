@@ -89,6 +89,26 @@ TEST_F(Files, directions_uniform_in_sines_come_back_as_such) {
     }
 }
 
+TEST_F(Files, a_fixed_focal_plane_comes_back_and_is_no_perspective_to_who_does_not_know_it) {
+    LightFieldGrid grid = grid_of(2, 3, 3, 5, 1);
+    grid.view = FocalPlane{{0.4, 0.3, 0.1, -0.2}, -0.5};
+    const LightFieldBuffer field = random_light_field(grid, true);
+    copy(field, *create_front(path_, grid, {SampleType::single, true, {}}));
+    EXPECT_EQ(open_light_field(path_).grid(), grid);
+    LightFieldBuffer back(grid, true);
+    copy(open_light_field(path_).front(), back);
+    EXPECT_TRUE(same_bits(back.radiance, field.radiance));
+    EXPECT_TRUE(same_bits(back.depth, field.depth));
+    const auto number = [&](const std::string& name) {
+        for (const auto& [key, value] : summarize(path_).numbers)
+            if (key == name) return value;
+        return std::nan("");
+    };
+    EXPECT_EQ(number("focal_plane_m"), -0.5);
+    EXPECT_EQ(number("focal_half_u"), 0.4);
+    EXPECT_TRUE(std::isnan(number("tan_half_u")));
+}
+
 TEST_F(Files, the_faces_of_a_hemicube_come_back_from_one_file) {
     const std::vector<LightFieldGrid> grids = hemicube(grid_of(3, 2, 6, 4, 3));
     for (const bool with_depth : {false, true}) {

@@ -19,10 +19,15 @@ double degrees_across(bool sines, double center, double half) {
     return (angle(center + half) - angle(center - half)) * 180 / std::numbers::pi;
 }
 
+// What the numbers of the range are of, as in the names of files' attributes.
+std::string_view half_name(const LightFieldGrid& grid) {
+    return grid.has_frequencies() ? "sine_half" : grid.focal_plane() ? "focal_half" : "tan_half";
+}
+
 }  // namespace
 
 void describe(const LightFieldGrid& grid, FileSummary& summary) {
-    const bool sines = !grid.is_perspective();
+    const bool sines = grid.has_frequencies();
     summary.numbers.insert(summary.numbers.end(),
                            {{"hogels_s", static_cast<double>(grid.hogels_s)},
                             {"hogels_t", static_cast<double>(grid.hogels_t)},
@@ -31,13 +36,14 @@ void describe(const LightFieldGrid& grid, FileSummary& summary) {
                             {"height_m", static_cast<double>(grid.hogels_t) * grid.pitch},
                             {"directions_u", static_cast<double>(grid.directions_u)},
                             {"directions_v", static_cast<double>(grid.directions_v)},
-                            {sines ? "sine_half_u" : "tan_half_u", grid.half_u()},
-                            {sines ? "sine_half_v" : "tan_half_v", grid.half_v()},
+                            {fmt::format("{}_u", half_name(grid)), grid.half_u()},
+                            {fmt::format("{}_v", half_name(grid)), grid.half_v()},
                             {"center_u", grid.center_u()},
                             {"center_v", grid.center_v()},
                             {"field_of_view_u_deg", degrees_across(sines, grid.center_u(), grid.half_u())},
                             {"field_of_view_v_deg", degrees_across(sines, grid.center_v(), grid.half_v())},
                             {"channels", static_cast<double>(grid.channels)}});
+    if (const FocalPlane* plane = grid.focal_plane()) summary.numbers.emplace_back("focal_plane_m", plane->depth);
 }
 
 void describe_faces(const std::vector<LightFieldGrid>& grids, FileSummary& summary) {

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "hogel/core/parallel.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {
@@ -39,6 +40,18 @@ void require_in_front_half(const LightFieldGrid& grid, ErrorCode code, const std
                                       "and {} in V, but must lie where ζ > 0",
                                       what, face_name(grid.face()), fmt::format("{:g} to {:g}", u_low, u_high),
                                       fmt::format("{:g} to {:g}", v_low, v_high)));
+}
+
+// Throws unless the focal plane is at a depth to which all hogels have directions.
+void require_depth(const LightFieldGrid& grid, const FocalPlane& plane, ErrorCode code, const std::string& what) {
+    if (!std::isfinite(plane.depth) || plane.depth == 0)
+        throw Error(code, fmt::format("{}: the depth of the fixed focal plane is {}, but must be finite and not zero",
+                                      what, plane.depth));
+    const LightFieldGrid first = grid.of_hogel(0, 0);
+    if (!std::isfinite(first.center_u()) || !std::isfinite(first.center_v()))
+        throw Error(code, fmt::format("{}: the fixed focal plane at a depth of {} m is too close to the hologram plane "
+                                      "for its hogels to have directions",
+                                      what, plane.depth));
 }
 
 Shape<5> radiance_shape(const LightFieldGrid& grid, const HogelRange& range) {
@@ -93,6 +106,7 @@ void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& wha
     require_positive(grid.step_v(), code, what, "the step between directions in v");
     require_positive(static_cast<double>(grid.hogels_s) * grid.pitch, code, what, "the width of the hologram");
     require_positive(static_cast<double>(grid.hogels_t) * grid.pitch, code, what, "the height of the hologram");
+    if (const FocalPlane* plane = grid.focal_plane()) require_depth(grid, *plane, code, what);
     std::size_t budget = max_bytes / sizeof(float);
     for (std::size_t extent : radiance_shape(grid, all_hogels(grid))) budget /= extent;
     if (budget == 0)
@@ -102,7 +116,16 @@ void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& wha
                               what, grid.hogels_s, grid.hogels_t, grid.directions_u, grid.directions_v, grid.channels));
 }
 
+void require_common_directions(const LightFieldGrid& grid, ErrorCode code, const std::string& what) {
+    if (const FocalPlane* plane = grid.focal_plane())
+        throw Error(code,
+                    fmt::format("{} needs the same directions at all hogels; these go through a fixed focal plane "
+                                "at a depth of {}",
+                                what, format_length(plane->depth)));
+}
+
 void require_perspective(const LightFieldGrid& grid, ErrorCode code, const std::string& what) {
+    require_common_directions(grid, code, what);
     if (!grid.is_perspective())
         throw Error(code, fmt::format("{} needs directions in perspective, uniform in tangents; these are uniform in "
                                       "sines, on the frequency grid of a hologram",
@@ -127,8 +150,19 @@ Perspective field_of_view(double across, double down, double toward_right, doubl
     return Perspective{{half_u, half_v, center_u, center_v}, Face::front};
 }
 
+LightFieldGrid LightFieldGrid::of_hogel(double i, double j) const {
+    LightFieldGrid grid = *this;
+    if (const FocalPlane* plane = focal_plane()) {
+        DirectionRange range = *plane;
+        range.center_u -= s(i) / plane->depth;
+        range.center_v -= t(j) / plane->depth;
+        grid.view = Perspective{range};
+    }
+    return grid;
+}
+
 Vec3 LightFieldGrid::direction_of(double U, double V) const {
-    if (is_perspective()) return from_face(face(), {U, V, 1});
+    if (!has_frequencies()) return from_face(face(), {U, V, 1});
     const double cos2 = 1 - U * U - V * V;
     const double cosine = std::sqrt(std::max(cos2, 0.0));
     return cos2 > 0 ? Vec3{U / cosine, V / cosine, 1} : Vec3{0, 0, 0};
@@ -137,7 +171,7 @@ Vec3 LightFieldGrid::direction_of(double U, double V) const {
 bool LightFieldGrid::covers(Vec3 direction) const {
     const Vec3 q = to_face(face(), direction);
     if (!(q.z > 0)) return false;
-    const double forward = is_perspective() ? q.z : length(q);
+    const double forward = has_frequencies() ? length(q) : q.z;
     const double k = column(q.x / forward), l = row(q.y / forward);
     return k >= -0.5 && k <= static_cast<double>(directions_u) - 0.5 && l >= -0.5 &&
            l <= static_cast<double>(directions_v) - 0.5;
@@ -282,6 +316,7 @@ void copy(const LightFieldSource& source, LightFieldSink& sink, const Progress& 
 void require_faces(std::span<const LightFieldGrid> faces) {
     if (faces.empty() || faces.front().face() != Face::front)
         throw Error(ErrorCode::usage, "a light field begins with its front; there is none");
+    if (faces.size() > 1) require_common_directions(faces.front(), ErrorCode::usage, "a light field of several faces");
     std::set<Face> seen;
     for (const LightFieldGrid& face : faces) {
         if (!seen.insert(face.face()).second)

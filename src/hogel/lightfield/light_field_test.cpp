@@ -242,6 +242,70 @@ TEST(LightFieldGrid, off_centre_directions_are_around_their_middle_and_column_an
     }
 }
 
+// The rays of all hogels go through the same points of the plane.
+TEST(FocalPlane, rays_of_all_hogels_meet_at_its_points) {
+    for (const double depth : {-0.4, -3e-3, 5e-3, 70.0}) {
+        LightFieldGrid g = small_grid();
+        g.view = FocalPlane{{0.4, 0.3, 0.05, -0.02}, depth};
+        validate(g, ErrorCode::usage, "light field");
+        for (std::size_t j = 0; j < g.hogels_t; ++j)
+            for (std::size_t i = 0; i < g.hogels_s; ++i) {
+                const LightFieldGrid hogel = g.of_hogel(double(i), double(j));
+                EXPECT_TRUE(hogel.is_perspective());
+                EXPECT_EQ(hogel.step_u(), g.step_u());
+                for (std::size_t k = 0; k < g.directions_u; ++k) {
+                    const Vec3 ray = hogel.direction_of(hogel.u(double(k)), hogel.v(2));
+                    EXPECT_NEAR(g.s(double(i)) + ray.x * depth, g.u(double(k)) * depth,
+                                1e-15 * std::abs(depth) + 1e-17);
+                    EXPECT_NEAR(g.t(double(j)) + ray.y * depth, g.v(2) * depth, 1e-15 * std::abs(depth) + 1e-17);
+                    EXPECT_NEAR(hogel.column(ray.x), double(k), 1e-9);
+                    EXPECT_NEAR(hogel.row(ray.y), 2, 1e-9);
+                    EXPECT_TRUE(hogel.covers(ray));
+                }
+            }
+    }
+}
+
+// Cameras in front of the hologram: what the eye at the left end sees is the sample farthest to the right.
+TEST(FocalPlane, in_front_of_the_hologram_is_a_plane_of_cameras) {
+    LightFieldGrid g = small_grid();
+    const double distance = 0.5, camera_x = -60_mm;
+    g.view = FocalPlane{{0.2, 0.2}, -distance};
+    const double u = -camera_x / distance;
+    for (const double i : {0.0, 3.0, 6.0}) {
+        const LightFieldGrid hogel = g.of_hogel(i, 2);
+        const double U = hogel.u(g.column(u));
+        EXPECT_NEAR(U, (g.s(i) - camera_x) / distance, 1e-15);
+        EXPECT_NEAR(g.s(i) + U * -distance, camera_x, 1e-16);
+    }
+}
+
+TEST(FocalPlane, far_away_is_a_perspective_and_without_one_hogels_have_the_grid_itself) {
+    LightFieldGrid g = small_grid(), far = g, sines = g;
+    far.view = FocalPlane{g.range(), 1e30};
+    EXPECT_EQ(far.of_hogel(3, 2), g);
+    EXPECT_NEAR(far.of_hogel(0, 0).center_u(), 0, 1e-30);
+    sines.view = Frequencies{g.range()};
+    for (const LightFieldGrid& grid : {g, sines, hemicube({4, 4, 1e-3, 4, 4, {}, 1})[3]})
+        EXPECT_EQ(grid.of_hogel(2, 1), grid);
+}
+
+TEST(FocalPlane, is_refused_where_it_has_no_meaning) {
+    LightFieldGrid g = small_grid();
+    for (const double bad : {0.0, 1e-320, std::nan(""), std::numeric_limits<double>::infinity()}) {
+        g.view = FocalPlane{g.range(), bad};
+        EXPECT_THROW(validate(g, ErrorCode::usage, "light field"), Error) << bad;
+    }
+    g.view = FocalPlane{g.range(), -0.5};
+    EXPECT_THROW(require_perspective(g, ErrorCode::usage, "this"), Error);
+    EXPECT_THROW(require_common_directions(g, ErrorCode::usage, "this"), Error);
+    require_common_directions(small_grid(), ErrorCode::usage, "this");
+    LightFieldGrid side = small_grid();
+    side.view = Perspective{{0.5, 1, 0.5, 0}, Face::left};
+    EXPECT_THROW(require_faces(std::vector{g, side}), Error);
+    require_faces(std::vector{g});
+}
+
 TEST(Face, rotates_there_and_back_and_looks_where_its_name_says) {
     const Vec3 p{0.3, -0.7, 1.1};
     for (const Face face : all_faces) EXPECT_EQ(from_face(face, to_face(face, p)), p);

@@ -7,12 +7,13 @@
 #include <numbers>
 
 #include "hogel/core/parallel.h"
+#include "hogel/lightfield/interpolation.h"
 
 namespace hogel {
 namespace {
 
-// Linear interpolation. std::lerp would check for infinities.
-float mix(float a, float b, float weight) { return a + (b - a) * weight; }
+using lightfield::Interpolation;
+using lightfield::mix;
 
 struct LensPoint {
     double x, y;              // metres from the centre of the lens
@@ -44,25 +45,6 @@ std::vector<LensPoint> lens_points(double pupil, std::size_t count) {
     }
     return points;
 }
-
-// Linear interpolation between two neighbours of a row of samples. A sample represents the cell around it: it extends
-// half a cell beyond the last position, and farther out the value is zero.
-struct Interpolation {
-    std::size_t low = 0;
-    float high_weight = 0;
-    bool outside = true;
-
-    Interpolation(double index, std::size_t count) {
-        const double last = static_cast<double>(count) - 1;
-        if (!(index >= -0.5 && index <= last + 0.5)) return;
-        outside = false;
-        const double clamped = std::clamp(index, 0.0, last);
-        low = static_cast<std::size_t>(std::clamp(std::floor(clamped), 0.0, std::max(last - 1, 0.0)));
-        high_weight = static_cast<float>(clamped - static_cast<double>(low));
-    }
-    // The upper neighbour; the same sample if there is only one.
-    std::size_t high(std::size_t count) const { return std::min(low + 1, count - 1); }
-};
 
 // The film of one camera, to which the hogels of one face after the other are added.
 class Exposure {
@@ -103,12 +85,14 @@ class Exposure {
         for (std::size_t t = 0; t < tile.range.nt; ++t) {
             const double V = (grid.t(static_cast<double>(tile.range.t0 + t)) - lens_y) / distance;
             for (std::size_t s = 0; s < tile.range.ns; ++s) {
-                const double U = (grid.s(static_cast<double>(tile.range.s0 + s)) - lens_x) / distance;
+                const auto i = static_cast<double>(tile.range.s0 + s), j = static_cast<double>(tile.range.t0 + t);
+                const double U = (grid.s(i) - lens_x) / distance;
                 const Vec3 direction = to_face(grid.face(), {U, V, 1});
                 if (!(direction.z > 0) || shown_before(face, {U, V, 1})) continue;
-                const double forward = !grid.is_perspective() ? length(direction) : direction.z;
-                const Interpolation u(grid.column(direction.x / forward), grid.directions_u);
-                const Interpolation v(grid.row(direction.y / forward), grid.directions_v);
+                const double forward = grid.has_frequencies() ? length(direction) : direction.z;
+                const LightFieldGrid own = grid.of_hogel(i, j);  // with the directions of this hogel
+                const Interpolation u(own.column(direction.x / forward), grid.directions_u);
+                const Interpolation v(own.row(direction.y / forward), grid.directions_v);
                 if (u.outside || v.outside) continue;
                 const std::size_t u1 = u.high(grid.directions_u), v1 = v.high(grid.directions_v);
                 for (std::size_t c = 0; c < grid.channels; ++c) {

@@ -22,11 +22,14 @@ LightFieldBuffer plane_at(double depth, const std::function<double(double, doubl
                           const LightFieldGrid& grid = coarse) {
     LightFieldBuffer light_field(grid);
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
-        for (std::size_t s = 0; s < grid.hogels_s; ++s)
+        for (std::size_t s = 0; s < grid.hogels_s; ++s) {
+            const LightFieldGrid hogel = grid.of_hogel(double(s), double(t));
             for (std::size_t v = 0; v < grid.directions_v; ++v)
                 for (std::size_t u = 0; u < grid.directions_u; ++u)
-                    light_field.radiance(0, t, s, v, u) = static_cast<float>(f(
-                        grid.s(double(s)) + grid.u(double(u)) * depth, grid.t(double(t)) + grid.v(double(v)) * depth));
+                    light_field.radiance(0, t, s, v, u) =
+                        static_cast<float>(f(grid.s(double(s)) + hogel.u(double(u)) * depth,
+                                             grid.t(double(t)) + hogel.v(double(v)) * depth));
+        }
     return light_field;
 }
 
@@ -60,6 +63,46 @@ TEST(GeometricPhotograph, shows_a_linear_radiance_where_the_line_of_sight_meets_
                     }
             }
     }
+}
+
+// So it is with a fixed focal plane, in front of the hologram or behind it, whichever sees the plane.
+TEST(GeometricPhotograph, with_a_fixed_focal_plane_shows_a_linear_radiance_where_the_line_of_sight_meets_it) {
+    const auto f = [](double x, double y) { return 1 + 100 * x - 60 * y; };
+    for (const double focal : {-0.1, -0.15, 0.2})
+        for (const double depth : {-4_mm, 6_mm}) {
+            LightFieldGrid grid = coarse;
+            grid.view = FocalPlane{{0.25, 0.22, 0.01, -0.02}, focal};
+            const LightFieldBuffer light_field = plane_at(depth, f, grid);
+            for (const Vec3 eye : {Vec3{0, 0, 0.1}, Vec3{10e-3, 0, 0.1}, Vec3{-6e-3, 8e-3, 0.12}}) {
+                const Camera camera = camera_at(eye, depth);
+                const Image image = photograph(borrow(light_field), std::span(&camera, 1), {256})[0];
+                for (std::size_t row = 2; row < 28; ++row)
+                    for (std::size_t column = 2; column < 38; ++column) {
+                        const double x = camera.picture.x(double(column)), y = camera.picture.y(double(row));
+                        const double reach = (eye.z + depth) / eye.z;
+                        const double expected = f(eye.x + (x - eye.x) * reach, eye.y + (y - eye.y) * reach);
+                        ASSERT_NEAR(image.pixels(row, column, 0), expected, 2e-3)
+                            << focal << " " << depth << " " << eye.x << " pixel " << column << "," << row;
+                    }
+            }
+        }
+}
+
+// An eye where one of the cameras stood sees that camera's samples and no others.
+TEST(GeometricPhotograph, from_a_point_of_the_focal_plane_shows_its_samples) {
+    LightFieldGrid grid = coarse;
+    grid.view = FocalPlane{{0.25, 0.22}, -0.1};
+    const std::size_t k = 30, l = 11;
+    LightFieldBuffer light_field(grid);
+    for (std::size_t t = 0; t < grid.hogels_t; ++t)
+        for (std::size_t s = 0; s < grid.hogels_s; ++s) light_field.radiance(0, t, s, l, k) = 1;
+    Camera camera = camera_at({-0.1 * grid.u(k), -0.1 * grid.v(l), 0.1}, 0);
+    camera.pupil = 1e-9;
+    const Image image = photograph(borrow(light_field), std::span(&camera, 1), {16})[0];
+    for (const float value : image.pixels.elements()) ASSERT_NEAR(value, 1, 1e-4);
+    camera.eye.x += 0.1 * grid.step_u() / 2;
+    const Image between = photograph(borrow(light_field), std::span(&camera, 1), {16})[0];
+    for (const float value : between.pixels.elements()) ASSERT_NEAR(value, 0.5, 1e-4);
 }
 
 // A bright stripe is sharp in focus and otherwise blurred by the circle of confusion: the mean, over the lens, of the

@@ -119,6 +119,9 @@ EyePhotographer::EyePhotographer(std::vector<std::shared_ptr<const FieldSource>>
     if (holograms.size() != 1 && holograms.size() != 3)
         throw Error(ErrorCode::usage,
                     fmt::format("a photograph takes holograms of one or three wavelengths, not {}", holograms.size()));
+    if (options.vertical_diffuser)
+        throw Error(ErrorCode::usage,
+                    "photographs from one eye after the other have no diffuser; photograph() has one");
     state_->holograms = std::move(holograms);
     state_->options = options;
     std::size_t left = options.memory / 2;

@@ -11,6 +11,7 @@
 #include "hogel/image/film.h"
 #include "hogel/optics/expected/expected.h"
 #include "hogel/optics/eye_drawings.h"
+#include "hogel/optics/line_diffuser.h"
 #include "hogel/optics/narrow_band/narrow_band.h"
 #include "hogel/optics/photograph_plan.h"
 #include "hogel/optics/spectrum.h"
@@ -101,10 +102,11 @@ void photograph_window(const FieldSource& whole, const PhotographPlan::Window& p
 double resolution_cell(const Camera& camera, double wavelength) { return wavelength * camera.eye.z / camera.pupil; }
 
 void require_photographs(const FieldGrid& hologram, std::span<const Camera> cameras, const PhotographOptions& options) {
+    if (options.vertical_diffuser) return require_photographs_of_lines(hologram, cameras, options);
     plan_photographs(hologram, cameras, static_cast<double>(options.memory));
 }
 
-void require_light_towards(const FieldGrid& hologram, const Camera& camera) {
+void require_light_towards(const FieldGrid& hologram, const Camera& camera, bool vertical_diffuser) {
     validate(camera);
     const Rectangle pupil(Grid{1, 1, camera.pupil, camera.pupil, camera.eye.x, camera.eye.y});
     const Band band = band_between(Rectangle(hologram.plane), pupil, camera.eye.z, hologram.wavelength);
@@ -121,7 +123,7 @@ void require_light_towards(const FieldGrid& hologram, const Camera& camera) {
                         format_length(0.5 / frequency)));
     };
     check(std::max(-band.low_x, band.high_x), hologram.plane.pitch_x, "x");
-    check(std::max(-band.low_y, band.high_y), hologram.plane.pitch_y, "y");
+    if (!vertical_diffuser) check(std::max(-band.low_y, band.high_y), hologram.plane.pitch_y, "y");
 }
 
 std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camera> cameras,
@@ -135,6 +137,7 @@ void photograph_into(const FieldSource& hologram, std::span<const Camera> camera
                      std::span<Image> pictures, const Progress& progress) {
     const core::StopScope scope(progress);
     image::require_a_picture_for_each(cameras, pictures);
+    if (options.vertical_diffuser) return photograph_lines(hologram, cameras, options, pictures, progress);
     if (options.expected) {
         const WavePowers& waves = powers_of(hologram);
         image::load_film(cameras, 1, hologram.provenance(), pictures);

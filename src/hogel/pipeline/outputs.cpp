@@ -23,10 +23,10 @@ void paste(const LightFieldTile& row, std::size_t hogel, Image& picture, std::si
 
 }  // namespace
 
-std::vector<std::filesystem::path> write_printer_images(const std::filesystem::path& folder,
-                                                        const LightField& light_field,
+std::vector<std::filesystem::path> write_printer_images(const std::filesystem::path& folder, const LightField& rays,
                                                         const PrinterImageOptions& options, const Progress& progress) {
     const core::StopScope scope(progress);
+    const LightField light_field = with_common_directions(rays);  // the same optics show every hogel
     if (!(options.exposure > 0)) throw Error(ErrorCode::usage, "exposure: a positive number was expected");
     const LightFieldGrid& grid = light_field.grid();
     const std::size_t pictures = options.rows ? grid.hogels_t : grid.hogels();

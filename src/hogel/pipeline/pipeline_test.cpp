@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "hogel/error.h"
@@ -104,6 +105,62 @@ TEST_F(Pipeline, photographs_go_into_the_callers_pictures) {
         EXPECT_TRUE(std::ranges::equal(pictures[i].pixels.elements(), waves[i].pixels.elements())) << i;
     EXPECT_THROW(photograph_into(light_field, cameras, {}, {pictures.data(), 1}), Error);
     EXPECT_THROW(photograph_into(*hologram, cameras, {}, {pictures.data(), 1}), Error);
+}
+
+double psnr(const Image& a, const Image& b) {
+    double error = 0, peak = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        error += std::pow(double(a.pixels.data()[i]) - double(b.pixels.data()[i]), 2);
+        peak = std::max(peak, double(b.pixels.data()[i]));
+    }
+    return 10 * std::log10(peak * peak * double(a.pixels.size()) / error);
+}
+
+// A hologram has the same directions everywhere. One of a light field with a fixed focal plane looks like one rendered
+// in directions in common, and each like the rays of the other.
+TEST_F(Pipeline, a_light_field_with_a_fixed_focal_plane_becomes_a_hologram) {
+    request_.grid = {32, 32, 0.25_mm, 48, 48, field_of_view(16_deg)};
+    const LightFieldGrid parallel = request_.grid;
+    request_.grid.view = FocalPlane{parallel.range(), -100_mm};
+    // Far behind the hologram, so that neighbouring directions see different things.
+    Scene scene = load_scene("sphere", request_);
+    for (Mesh& mesh : scene.meshes)
+        for (Vec3& p : mesh.positions) p.z -= 20_mm;
+    const LightField through_plane = render_light_field(scene, request_);
+    LightFieldFileOptions file;
+    file.type = SampleType::single;
+    write_light_field(folder_ / "a.h5", through_plane, file);
+    holograms_.pitch = 1.25_um;  // directions in common reach farther than those of one hogel
+    const LightField opened = open_for_holograms(folder_ / "a.h5", holograms_, false);
+    EXPECT_EQ(opened.grid(), common_directions(through_plane.grid()));
+    EXPECT_NE(entry(opened.provenance(), "directions").find("-100 mm"), std::string::npos);
+    request_.grid = opened.grid();
+    const LightField direct = render_light_field(scene, request_);
+    std::vector<Camera> cameras(2, camera_for(8_mm, 8_mm, 48));
+    cameras[1].eye = {-8_mm, 4_mm, 250_mm};
+    const PhotographOptions expected{.expected = true};
+    const std::vector<Image> waves = photograph_colours(make_holograms(opened, holograms_), cameras, expected);
+    const std::vector<Image> direct_waves = photograph_colours(make_holograms(direct, holograms_), cameras, expected);
+    const std::vector<Image> rays = photograph(through_plane, cameras, {256});
+    const std::vector<Image> direct_rays = photograph(direct, cameras, {256});
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+        RecordProperty("waves_db_" + std::to_string(i), std::to_string(psnr(waves[i], direct_waves[i])));
+        RecordProperty("rays_db_" + std::to_string(i), std::to_string(psnr(rays[i], direct_rays[i])));
+        RecordProperty("waves_of_rays_db_" + std::to_string(i), std::to_string(psnr(waves[i], rays[i])));
+        RecordProperty("direct_db_" + std::to_string(i), std::to_string(psnr(direct_waves[i], direct_rays[i])));
+        EXPECT_GT(psnr(waves[i], direct_waves[i]), 45) << i;
+        EXPECT_GT(psnr(rays[i], direct_rays[i]), 45) << i;
+        EXPECT_GT(psnr(waves[i], rays[i]), psnr(direct_waves[i], direct_rays[i]) - 1) << i;
+    }
+}
+
+TEST_F(Pipeline, a_printer_is_given_directions_in_common) {
+    const LightFieldGrid grid{2, 2, 1_mm, 8, 6, FocalPlane{{0.4, 0.3}, 5_mm}, 1};
+    write_printer_images(folder_, borrow(LightFieldBuffer(grid)), {});
+    const Image hogel = read_image(folder_ / "hogel_1.png");
+    EXPECT_EQ(hogel.width(), common_directions(grid).directions_u);
+    EXPECT_EQ(hogel.height(), common_directions(grid).directions_v);
+    EXPECT_GT(hogel.width(), 8u);
 }
 
 TEST_F(Pipeline, radiance_that_is_not_finite_is_refused_by_place) {

@@ -70,8 +70,8 @@ struct Case {
         return std::to_string(front.hogels_s) + "x" + std::to_string(front.hogels_t) + " hogels, " +
                std::to_string(front.directions_u) + "x" + std::to_string(front.directions_v) + " directions, samples " +
                std::to_string(samples.hogel) + "x" + std::to_string(samples.direction) + ", model " + model +
-               (hemicube ? ", hemicube" : "") + (fronts_only ? ", culled" : "") +
-               (spacing > 0 ? ", radiance cache" : "");
+               (hemicube ? ", hemicube" : "") + (front.focal_plane() ? ", fixed focal plane" : "") +
+               (fronts_only ? ", culled" : "") + (spacing > 0 ? ", radiance cache" : "");
     }
 };
 
@@ -103,6 +103,8 @@ std::vector<Case> cases() {
             one.front.range().center_u = 0.31;
             one.front.range().center_v = -0.23;
         }
+        // Cameras a few lengths of the scene away from it, or the focus behind it.
+        if (!one.hemicube && i % 4 >= 2) one.front.view = FocalPlane{one.front.range(), i % 8 < 4 ? -20_mm : 30_mm};
         list.push_back(one);
     }
     return list;
@@ -115,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(Renderers, Combinations, ::testing::ValuesIn(renderer_n
 // Rounding decides for rays along edges. With a radiance cache, epi interpolates between knots where the other
 // renderers read the cache, which makes a difference at the edges of shadows.
 TEST_P(Combinations, agree_with_ray_casting) {
-    std::size_t hits = 0, rays = 0, hemicubes = 0;
+    std::size_t hits = 0, rays = 0, hemicubes = 0, focal_planes = 0;
     std::size_t number = 0;
     for (const Case& one : cases()) {
         if (GetParam() == "simplex" && number++ / 2 % 3 != 0) continue;  // slow
@@ -127,6 +129,7 @@ TEST_P(Combinations, agree_with_ray_casting) {
         const auto shaded = std::make_shared<const ShadedScene>(std::move(lit));
         const std::vector<LightFieldGrid> faces = one.hemicube ? hemicube(one.front) : std::vector{one.front};
         hemicubes += faces.size() > 1 ? 1 : 0;
+        focal_planes += one.front.focal_plane() ? 1 : 0;
         std::size_t off = 0, far_off = 0, depths_off = 0, values = 0;
         for (const LightFieldGrid& face : faces) {
             const LightFieldBuffer truth = render("raytrace", shaded, face, one.samples),
@@ -151,6 +154,7 @@ TEST_P(Combinations, agree_with_ray_casting) {
     }
     EXPECT_GT(hits, rays / 2);
     EXPECT_GE(hemicubes, 2u);
+    EXPECT_GE(focal_planes, 5u);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "hogel/render/baselines/raytrace.h"
 #include "hogel/render/baselines/zbuffer.h"
 #include "hogel/render/epi/epi.h"
+#include "hogel/render/projected.h"
 #include "hogel/render/simplex/simplex.h"
 #include "hogel/render/simplex/simplex3d.h"
 #include "hogel/render/simplex/simploid.h"
@@ -37,13 +38,22 @@ class RemadeRenderer final : public Renderer {
     std::unique_ptr<LightFieldSource> source_;
 };
 
-void require_renderable(const LightFieldGrid& grid, const RendererInfo& info) {
-    if (info.takes_frequencies) return;
+// Says that a renderer, but not others that have what it lacks, needs something.
+std::string only(const RendererInfo& info, bool RendererInfo::*takes) {
     std::vector<std::string> others;
     for (const RendererInfo& other : renderers().rows())
-        if (other.takes_frequencies) others.push_back(other.name);
-    require_perspective(grid, ErrorCode::usage,
-                        fmt::format("the renderer '{}' (but not {})", info.name, fmt::join(others, ", ")));
+        if (other.*takes) others.push_back(other.name);
+    return fmt::format("the renderer '{}' (but not {})", info.name, fmt::join(others, ", "));
+}
+
+std::unique_ptr<Renderer> make_as_it_is(const RendererInfo& info, std::shared_ptr<const ShadedScene> scene,
+                                        const LightFieldGrid& grid) {
+    std::unique_ptr<LightFieldSource> source = info.make(std::move(scene), grid);
+    if (auto* renderer = dynamic_cast<Renderer*>(source.get())) {
+        source.release();
+        return std::unique_ptr<Renderer>(renderer);
+    }
+    return std::make_unique<RemadeRenderer>(info, grid, std::move(source));
 }
 
 }  // namespace
@@ -64,13 +74,15 @@ std::unique_ptr<Renderer> make_renderer(std::string_view name, std::shared_ptr<c
                                         const LightFieldGrid& grid) {
     validate(grid, ErrorCode::usage, "light field to render");
     const RendererInfo& info = renderers().find(name);
-    require_renderable(grid, info);
-    std::unique_ptr<LightFieldSource> source = info.make(std::move(scene), grid);
-    if (auto* renderer = dynamic_cast<Renderer*>(source.get())) {
-        source.release();
-        return std::unique_ptr<Renderer>(renderer);
+    if (grid.focal_plane() && !info.takes_focal_plane) {
+        const std::string needs = only(info, &RendererInfo::takes_focal_plane);
+        return render::unprojected(
+            make_as_it_is(info, render::projected_scene(scene, grid, needs), render::projected_grid(grid)), grid,
+            needs);
     }
-    return std::make_unique<RemadeRenderer>(info, grid, std::move(source));
+    if (grid.has_frequencies() && !info.takes_frequencies)
+        require_perspective(grid, ErrorCode::usage, only(info, &RendererInfo::takes_frequencies));
+    return make_as_it_is(info, std::move(scene), grid);
 }
 
 }  // namespace hogel

@@ -57,7 +57,8 @@ INSTANTIATE_TEST_SUITE_P(Renderers, SetScene, ::testing::ValuesIn(renderer_names
 
 TEST_P(SetScene, gives_the_bytes_of_a_new_renderer) {
     for (const SamplesPerRay samples : {SamplesPerRay{1, 1}, {2, 1}})
-        for (const LightFieldGrid& sampled : {grid, hemicube({3, 2, 1_mm, 8, 6, Perspective{1, 1}, 1})[1]}) {
+        for (const LightFieldGrid& sampled : {grid, hemicube({3, 2, 1_mm, 8, 6, Perspective{1, 1}, 1})[1],
+                                              LightFieldGrid{3, 4, 1_mm, 9, 7, FocalPlane{{0.4, 0.5}, -30_mm}, 3}}) {
             const auto moment = [](double t) {
                 return std::make_shared<const ShadedScene>(shade_scene(moving_scene(t), by("direct")));
             };

@@ -124,8 +124,12 @@ StreamInfo::Depth compress_depth(const LightField& light_field, const std::files
 namespace hogel {
 
 double default_depth_error(const LightFieldGrid& grid, double range) {
-    const double steepest =
-        std::max(std::abs(grid.center_u()) + grid.half_u(), std::abs(grid.center_v()) + grid.half_v());
+    // The hogel in the first corner and the one in the last are those with the steepest directions.
+    double steepest = 0;
+    for (const LightFieldGrid& hogel : {grid.of_hogel(0, 0), grid.of_hogel(static_cast<double>(grid.hogels_s) - 1,
+                                                                           static_cast<double>(grid.hogels_t) - 1)})
+        steepest = std::max(
+            {steepest, std::abs(hogel.center_u()) + hogel.half_u(), std::abs(hogel.center_v()) + hogel.half_v()});
     const double a_thousandth = 1e-3 * range;
     return steepest > 0 ? std::min(grid.pitch / (32000 * steepest), a_thousandth) : a_thousandth;
 }

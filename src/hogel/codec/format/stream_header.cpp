@@ -54,7 +54,8 @@ void take_sides(ByteReader& reader, StreamInfo& info) {
 }
 
 // Optional fields at the end of a header. Each has a name and a length, so that a reader can refuse unknown ones.
-constexpr std::string_view tone_name = "tone", chrominance_name = "chrominance", depth_name = "depth";
+constexpr std::string_view tone_name = "tone", chrominance_name = "chrominance", depth_name = "depth",
+                           focal_plane_name = "focal_plane";
 
 void put_optional_fields(ByteWriter& fields, const StreamHeader& info) {
     const auto put_field = [&](std::string_view name, const std::vector<std::uint8_t>& bytes) {
@@ -78,6 +79,11 @@ void put_optional_fields(ByteWriter& fields, const StreamHeader& info) {
         field.put(info.depth.bytes);
         for (const double number : {info.depth.error, info.depth.beyond}) field.put(number);
         put_field(depth_name, field.bytes);
+    }
+    if (const FocalPlane* plane = info.grid.focal_plane()) {
+        ByteWriter field;
+        field.put(plane->depth);
+        put_field(focal_plane_name, field.bytes);
     }
 }
 
@@ -108,6 +114,13 @@ StreamInfo::Depth take_depth(ByteReader& field) {
     return depth;
 }
 
+FocalPlane take_focal_plane(ByteReader& field, const StreamHeader& info) {
+    const FocalPlane plane{info.grid.range(), field.take_double()};
+    if (!std::isfinite(plane.depth) || plane.depth == 0 || field.left() > 0 || !info.sides.empty())
+        field.damaged("its header has an impossible focal plane");
+    return plane;
+}
+
 void take_optional_fields(ByteReader& reader, StreamHeader& info) {
     Companding& companding = info.companding;
     while (reader.left() > 0) {
@@ -119,6 +132,8 @@ void take_optional_fields(ByteReader& reader, StreamHeader& info) {
             companding.chrominance = take_chrominance(field);
         else if (name == depth_name && info.depth.bytes == 0)
             info.depth = take_depth(field);
+        else if (name == focal_plane_name && info.grid.focal_plane() == nullptr)
+            info.grid.view = take_focal_plane(field, info);
         else
             reader.damaged("its header has an unknown field, or one twice");
     }

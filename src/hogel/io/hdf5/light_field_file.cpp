@@ -105,23 +105,34 @@ class LightFieldWriter final : public LightFieldSink {
     std::atomic<std::size_t> hogels_{0};
 };
 
-// The name of the attribute with half the width of a face, which tells whether directions are uniform in tangents or in
-// sines.
-std::string half_name(bool sines, char axis) { return fmt::format("{}_half_{}", sines ? "sine" : "tan", axis); }
+// The names of the attributes with half the width of a face tell what directions are uniform in: tangents, sines, or
+// points of a focal plane. A program that knows only some of these must not take one for another.
+struct Uniform {
+    std::string_view in;
+    std::string half(char axis) const { return fmt::format("{}_half_{}", in, axis); }
+};
+constexpr Uniform tangents{"tan"}, sines{"sine"}, points{"focal"};
+constexpr const char* focal_plane_name = "focal_plane_m";
+
+Uniform uniform(const LightFieldGrid& grid) {
+    return grid.has_frequencies() ? sines : grid.focal_plane() ? points : tangents;
+}
 
 hdf5::Attributes light_field_attributes(const LightFieldGrid& grid) {
-    return {{"axis_order", "c,t,s,v,u"},
-            {"face", std::string(face_name(grid.face()))},
-            {"channels", std::uint64_t{grid.channels}},
-            {"hogels_s", std::uint64_t{grid.hogels_s}},
-            {"hogels_t", std::uint64_t{grid.hogels_t}},
-            {"hogel_pitch_m", grid.pitch},
-            {"directions_u", std::uint64_t{grid.directions_u}},
-            {"directions_v", std::uint64_t{grid.directions_v}},
-            {half_name(!grid.is_perspective(), 'u'), grid.half_u()},
-            {half_name(!grid.is_perspective(), 'v'), grid.half_v()},
-            {"center_u", grid.center_u()},
-            {"center_v", grid.center_v()}};
+    hdf5::Attributes attributes{{"axis_order", "c,t,s,v,u"},
+                                {"face", std::string(face_name(grid.face()))},
+                                {"channels", std::uint64_t{grid.channels}},
+                                {"hogels_s", std::uint64_t{grid.hogels_s}},
+                                {"hogels_t", std::uint64_t{grid.hogels_t}},
+                                {"hogel_pitch_m", grid.pitch},
+                                {"directions_u", std::uint64_t{grid.directions_u}},
+                                {"directions_v", std::uint64_t{grid.directions_v}},
+                                {uniform(grid).half('u'), grid.half_u()},
+                                {uniform(grid).half('v'), grid.half_v()},
+                                {"center_u", grid.center_u()},
+                                {"center_v", grid.center_v()}};
+    if (const FocalPlane* plane = grid.focal_plane()) attributes.emplace_back(focal_plane_name, plane->depth);
+    return attributes;
 }
 
 LightFieldGrid read_face_grid(hid_t file, Face face, const std::filesystem::path& path) {
@@ -146,15 +157,19 @@ LightFieldGrid read_face_grid(hid_t file, Face face, const std::filesystem::path
     grid.pitch = number("hogel_pitch_m");
     grid.directions_u = count("directions_u");
     grid.directions_v = count("directions_v");
-    const bool sines = hdf5::has_attribute(radiance.id(), half_name(true, 'u').c_str(), path);
-    const DirectionRange range{number(half_name(sines, 'u').c_str()), number(half_name(sines, 'v').c_str()),
-                               middle("center_u"), middle("center_v")};
-    if (sines && face != Face::front)
-        hdf5::fail(path, fmt::format("the directions of its {} face are uniform in sines; only those of the front can "
-                                     "be",
-                                     face_name(face)));
-    if (sines)
+    const auto is_in = [&](const Uniform& kind) {
+        return hdf5::has_attribute(radiance.id(), kind.half('u').c_str(), path);
+    };
+    const Uniform kind = is_in(sines) ? sines : is_in(points) ? points : tangents;
+    const DirectionRange range{number(kind.half('u').c_str()), number(kind.half('v').c_str()), middle("center_u"),
+                               middle("center_v")};
+    if (kind.in != tangents.in && face != Face::front)
+        hdf5::fail(path, fmt::format("the directions of its {} face are uniform in {}; only those of the front can be",
+                                     face_name(face), kind.in == sines.in ? "sines" : "points of a focal plane"));
+    if (kind.in == sines.in)
         grid.view = Frequencies{range};
+    else if (kind.in == points.in)
+        grid.view = FocalPlane{range, number(focal_plane_name)};
     else
         grid.view = Perspective{range, face};
     validate(grid, ErrorCode::bad_input, fmt::format("cannot read '{}'", path.string()));

@@ -66,13 +66,15 @@ class RaytraceRenderer final : public Renderer {
                           nu = std::min(bundle, grid_.directions_u - u0);
         const Vec3 hogel{grid_.s(static_cast<double>(tile.range.s0 + s)),
                          grid_.t(static_cast<double>(tile.range.t0 + t)), 0};
+        const LightFieldGrid grid =
+            grid_.of_hogel(static_cast<double>(tile.range.s0 + s), static_cast<double>(tile.range.t0 + t));
         const auto [near, far] = ray_interval(hogel);
         std::array<Vec3, bundle * bundle> origins, directions;
         std::array<trace::RayHit, bundle * bundle> hits;
         for (std::size_t v = 0; v < nv; ++v)
             for (std::size_t u = 0; u < nu; ++u) {
                 const Vec3 direction =
-                    grid_.direction_of(grid_.u(static_cast<double>(u0 + u)), grid_.v(static_cast<double>(v0 + v)));
+                    grid.direction_of(grid.u(static_cast<double>(u0 + u)), grid.v(static_cast<double>(v0 + v)));
                 const Vec3 start = hogel + direction * near;
                 // z = −ζ. The direction has a forward component of 1, so the ray parameter is the distance forward.
                 origins[v * nu + u] = {start.x, start.y, -start.z};
@@ -89,7 +91,7 @@ class RaytraceRenderer final : public Renderer {
                 if (is_ray && hit.triangle != trace::RayHit::miss)
                     point = {hit.triangle, 1 - hit.b1 - hit.b2, hit.b1, hit.b2,
                              -directions[v * nu + u].z * (near + hit.distance)};
-                store(tile, *scene_, grid_, point, t, s, v0 + v, u0 + u);
+                store(tile, *scene_, grid, point, t, s, v0 + v, u0 + u);
             }
     }
 
@@ -108,7 +110,8 @@ RendererInfo raytrace_renderer() {
         .make = [](std::shared_ptr<const ShadedScene> scene,
                    const LightFieldGrid& grid) { return std::make_unique<RaytraceRenderer>(std::move(scene), grid); },
         .casts_rays = true,
-        .takes_frequencies = true};
+        .takes_frequencies = true,
+        .takes_focal_plane = true};
 }
 
 }  // namespace hogel::render::baselines

@@ -67,33 +67,36 @@ class ZbufferRenderer final : public Renderer {
         for (std::size_t t = 0; t < tile.range.nt; ++t)
             for (std::size_t s = 0; s < tile.range.ns; ++s) {
                 core::throw_if_stopped();
-                project(tile.range.s0 + s, tile.range.t0 + t, vertices);
+                const auto i = static_cast<double>(tile.range.s0 + s), j = static_cast<double>(tile.range.t0 + t);
+                const LightFieldGrid grid = grid_.of_hogel(i, j);
+                project({grid.s(i), grid.t(j), 0}, grid, vertices);
                 std::fill(picture.begin(), picture.end(), VisiblePoint{});
-                for (std::size_t i = 0; i < scene_->triangles.size(); ++i) scan_convert(i, vertices, picture);
-                for (std::size_t v = 0; v < grid_.directions_v; ++v)
-                    for (std::size_t u = 0; u < grid_.directions_u; ++u)
-                        store_as_depth(tile, picture[v * grid_.directions_u + u], t, s, v, u);
+                for (std::size_t index = 0; index < scene_->triangles.size(); ++index)
+                    scan_convert(index, grid, vertices, picture);
+                for (std::size_t v = 0; v < grid.directions_v; ++v)
+                    for (std::size_t u = 0; u < grid.directions_u; ++u)
+                        store_as_depth(tile, grid, picture[v * grid.directions_u + u], t, s, v, u);
             }
     }
 
   private:
-    void project(std::size_t s, std::size_t t, std::vector<SeenVertex>& vertices) const {
-        const double hogel_s = grid_.s(static_cast<double>(s)), hogel_t = grid_.t(static_cast<double>(t));
+    // Where a hogel, whose directions are those of the grid, sees each vertex.
+    void project(Vec3 hogel, const LightFieldGrid& grid, std::vector<SeenVertex>& vertices) const {
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             const Vec3& p = scene_->positions[i];
-            const auto [x, y, depth] = to_face(grid_.face(), {p.x - hogel_s, p.y - hogel_t, -p.z});
-            vertices[i] = {x, y, depth, grid_.column(x / depth), grid_.row(y / depth)};
+            const auto [x, y, depth] = to_face(grid.face(), {p.x - hogel.x, p.y - hogel.y, -p.z});
+            vertices[i] = {x, y, depth, grid.column(x / depth), grid.row(y / depth)};
         }
     }
 
     // Converts the picture's depth, a distance forward, to ζ in the tile.
-    void store_as_depth(LightFieldTile& tile, VisiblePoint point, std::size_t t, std::size_t s, std::size_t v,
-                        std::size_t u) const {
-        point.depth *= grid_.direction_of(grid_.u(static_cast<double>(u)), grid_.v(static_cast<double>(v))).z;
-        store(tile, *scene_, grid_, point, t, s, v, u);
+    void store_as_depth(LightFieldTile& tile, const LightFieldGrid& grid, VisiblePoint point, std::size_t t,
+                        std::size_t s, std::size_t v, std::size_t u) const {
+        point.depth *= grid.direction_of(grid.u(static_cast<double>(u)), grid.v(static_cast<double>(v))).z;
+        store(tile, *scene_, grid, point, t, s, v, u);
     }
 
-    void scan_convert(std::size_t index, const std::vector<SeenVertex>& vertices,
+    void scan_convert(std::size_t index, const LightFieldGrid& grid, const std::vector<SeenVertex>& vertices,
                       std::vector<VisiblePoint>& picture) const {
         const ShadedScene::Triangle& triangle = scene_->triangles[index];
         const SeenVertex& a = vertices[triangle.vertices[0]];
@@ -102,8 +105,8 @@ class ZbufferRenderer final : public Renderer {
 
         // The rectangle of samples that the triangle can cover: all samples if it comes close to the hologram plane,
         // where directions are undefined.
-        double k0 = 0, k1 = static_cast<double>(grid_.directions_u) - 1;
-        double l0 = 0, l1 = static_cast<double>(grid_.directions_v) - 1;
+        double k0 = 0, k1 = static_cast<double>(grid.directions_u) - 1;
+        double l0 = 0, l1 = static_cast<double>(grid.directions_v) - 1;
         const auto [shallow, deep] = std::minmax({a.depth, b.depth, c.depth});
         if (shallow > min_depth_ || deep < -min_depth_) {
             constexpr double rounding = 1e-6;
@@ -123,7 +126,7 @@ class ZbufferRenderer final : public Renderer {
 
         for (double l = l0; l <= l1; ++l)
             for (double k = k0; k <= k1; ++k) {
-                const double U = grid_.u(k), V = grid_.v(l);
+                const double U = grid.u(k), V = grid.v(l);
                 const double facing = nx * U + ny * V + nz;
                 if (facing == 0 || (facing < 0 && scene_->fronts_only)) continue;
                 const double sign = facing > 0 ? 1 : -1;
@@ -133,7 +136,7 @@ class ZbufferRenderer final : public Renderer {
                 if (!(inside(wa, ea) && inside(wb, eb) && inside(wc, ec))) continue;
                 const double depth = plane / facing;
                 VisiblePoint& seen =
-                    picture[static_cast<std::size_t>(l) * grid_.directions_u + static_cast<std::size_t>(k)];
+                    picture[static_cast<std::size_t>(l) * grid.directions_u + static_cast<std::size_t>(k)];
                 if (!(depth < seen.depth)) continue;
                 const double sum = wa + wb + wc;
                 seen = {index, static_cast<float>(wa / sum), static_cast<float>(wb / sum), static_cast<float>(wc / sum),
@@ -157,7 +160,8 @@ RendererInfo zbuffer_renderer() {
         .depth_buffer_bytes =
             [](const LightFieldGrid& grid, const HogelRange&) {
                 return static_cast<double>(sizeof(VisiblePoint)) * static_cast<double>(grid.directions());
-            }};
+            },
+        .takes_focal_plane = true};
 }
 
 }  // namespace hogel::render::baselines
