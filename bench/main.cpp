@@ -261,6 +261,13 @@ void add_thesis(CLI::App& app, Program& program) {
     add_parsed(command, "--directions", light_field.directions, "Directions across and down in each hogel", "WxH",
                typed(light_field.directions), parse_counts);
     add_field_of_view(command, light_field.field_of_view);
+    command->add_option("--rates", options->rates, "Pixels per bit, rising, for which the rule of a histogram is asked")
+        ->type_name("N,...")
+        ->delimiter(',')
+        ->check(CLI::PositiveNumber.description(""))
+        ->capture_default_str();
+    add_names(command, "--transforms", options->transforms,
+              "Wavelets, dct8-jpeg, dct8-own, hogel, ezw-haar, ezw-d6; all if none are named");
     command->add_flag("--radiance", options->radiance, "Code L instead of its square root");
     add_count(command, "--crop", options->crop, "Side of the pictures, directions");
 }

@@ -76,7 +76,7 @@ void record_compression(RunRecord& record, const Options& options, const LightFi
     // What bounds the error of every sample takes no mapping.
     if (!options.max_error && !options.lossless) record.acted({"chrominance", "tone"});
     if (options.pixels_per_bit)
-        record.acted({"ppb", "rule"});
+        record.acted({"ppb"});
     else if (options.step)
         record.acted({"step"});
     else if (options.max_error)
@@ -89,6 +89,7 @@ void record_compression(RunRecord& record, const Options& options, const LightFi
         record.acted("transform", method.transform.empty() ? coder.transform : method.transform);
     if (coder.quantisation_table) record.acted("table", options.table.empty() ? "own" : options.table);
     if (coder.three_pass) record.acted("symbols", options.symbols.empty() ? "bits" : options.symbols);
+    if (options.pixels_per_bit && coder.three_pass) record.acted({"rule"});
     if (options.pixels_per_bit && options.rule != "search")
         record.acted("overhead", fmt::format("{}", options.overhead.value_or(default_overhead(method.symbols))));
     if (light_field.has_sides()) record.acted({"hemicube"});

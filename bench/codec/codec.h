@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/codec/thesis_curves.h"
 #include "bench/scene.h"
 
 namespace hogel::bench {
@@ -29,6 +30,8 @@ struct ThesisOptions {
     std::string output;  ///< folder for the figures; empty: none
     std::vector<std::string> scenes{"pumpkin", "church"};
     LightFieldOptions light_field;
+    std::vector<double> rates = ThesisMeasurement().rates;
+    std::vector<std::string> transforms;  ///< empty: all
     bool radiance = false;                ///< whether L is coded instead of √L
     std::size_t crop = 192, columns = 6;  ///< side of the pictures, and how many stand in a row
 
@@ -36,7 +39,7 @@ struct ThesisOptions {
         light_field.hogels = {128, 1};
         light_field.across = 360;
         light_field.directions = {512, 512};
-        light_field.field_of_view = {40_deg, 40_deg};
+        light_field.field_of_view = {16_deg, 16_deg};
     }
 };
 

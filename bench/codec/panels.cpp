@@ -17,7 +17,7 @@ namespace hogel::bench {
 namespace {
 
 // In pixels.
-constexpr double panel_width = 330, panel_height = 300, left = 46, right = 74, top = 34, bottom = 44, head = 58;
+constexpr double panel_width = 345, panel_height = 300, left = 46, right = 92, top = 34, bottom = 44, head = 58;
 constexpr double label_distance = 15;
 
 // Colours that are legible on white and on black, and distinguishable with red-green colour blindness.
@@ -47,14 +47,35 @@ struct Frame {
         return y0 + panel_height - bottom -
                (y - axes.min_y) / (axes.max_y - axes.min_y) * (panel_height - top - bottom);
     }
-    // The points of a curve within the axes, and where it crosses their ends.
-    std::vector<std::pair<double, double>> visible(const Curve& curve) const {
-        std::vector<std::pair<double, double>> points;
-        for (const auto& [x, y] : curve.points)
-            if (x >= axes.min_x * 0.99 && x <= axes.max_x * 1.01 && y >= axes.min_y && y <= axes.max_y)
-                points.emplace_back(column(x), row(y));
+    bool holds(const std::pair<double, double>& point) const {
+        return point.first >= axes.min_x && point.first <= axes.max_x && point.second >= axes.min_y &&
+               point.second <= axes.max_y;
+    }
+    std::pair<double, double> place(const std::pair<double, double>& point) const {
+        return {column(point.first), row(point.second)};
+    }
+    std::vector<std::pair<double, double>> markers(const Curve& curve) const {
+        std::vector<std::pair<double, double>> places;
+        for (const auto& point : curve.points)
+            if (holds(point)) places.push_back(place(point));
+        return places;
+    }
+    // A curve as far as it is within the axes: between its points it is cut where it leaves them.
+    std::vector<std::pair<double, double>> line(const Curve& curve) const {
+        std::vector<std::pair<double, double>> points = curve.points, places;
         std::ranges::sort(points);
-        return points;
+        constexpr int parts = 64;
+        for (std::size_t k = 0; k + 1 < points.size(); ++k)
+            for (int part = 0; part <= parts; ++part) {
+                const double weight = static_cast<double>(part) / parts;
+                const std::pair<double, double> between{
+                    points[k].first * std::pow(points[k + 1].first / points[k].first, weight),
+                    points[k].second + weight * (points[k + 1].second - points[k].second)};
+                const bool edge = part == 0 || part == parts, inside = holds(between);
+                const bool next_to_end = !edge && inside && (!holds(points[k]) || !holds(points[k + 1]));
+                if (inside && (edge || next_to_end)) places.push_back(place(between));
+            }
+        return places;
     }
 };
 
@@ -126,9 +147,9 @@ std::string panel_svg(const Frame& frame, const Panel& panel, const std::vector<
     for (const Panel& other : all)
         if (&other != &panel)
             for (const Curve& curve : other.curves)
-                svg += polyline(frame.visible(curve), "class=\"other\" stroke-width=\"1\"");
+                svg += polyline(frame.line(curve), "class=\"other\" stroke-width=\"1\"");
     std::vector<std::vector<std::pair<double, double>>> lines;
-    for (const Curve& curve : panel.curves) lines.push_back(frame.visible(curve));
+    for (const Curve& curve : panel.curves) lines.push_back(frame.line(curve));
     const std::vector<double> rows = name_rows(frame, lines);
     for (std::size_t i = 0; i < lines.size(); ++i) {
         if (lines[i].empty()) continue;
@@ -136,7 +157,7 @@ std::string panel_svg(const Frame& frame, const Panel& panel, const std::vector<
         const double name_x = frame.x0 + panel_width - right + 12;
         svg += polyline(lines[i], fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\"{}", colour,
                                               panel.curves[i].dashed ? " stroke-dasharray=\"6 4\"" : ""));
-        for (const auto& [x, y] : lines[i]) svg += marker(i, x, y);
+        for (const auto& [x, y] : frame.markers(panel.curves[i])) svg += marker(i, x, y);
         svg +=
             polyline({lines[i].back(), {name_x - 6, rows[i]}},
                      fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"0.7\" stroke-dasharray=\"2 2\"", colour));

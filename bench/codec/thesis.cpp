@@ -34,9 +34,10 @@ LightFieldBuffer lumigraph_of(const Session& session, const std::string& scene, 
     return result;
 }
 
-const ThesisCurve& find(const std::vector<ThesisCurve>& curves, std::string_view coder, std::string_view transform) {
-    return *std::ranges::find_if(curves,
-                                 [&](const ThesisCurve& c) { return c.coder == coder && c.transform == transform; });
+// The curve with that name, or null.
+const ThesisCurve* find(const std::vector<ThesisCurve>& curves, std::string_view transform) {
+    const auto found = std::ranges::find(curves, transform, &ThesisCurve::transform);
+    return found == curves.end() ? nullptr : &*found;
 }
 
 Curve drawn(const ThesisCurve& curve, const std::string& name) {
@@ -54,41 +55,89 @@ std::vector<Panel> families(const std::vector<ThesisCurve>& curves) {
         {"Average-interpolating", {"ai13", "ai31", "ai33"}},
         {"Interpolating", {"i22", "i24", "i42", "i44"}},
         {"Cohen, Daubechies, Feauveau", {"cdf31", "cdf33", "cdf42", "cdf44"}},
-        {"(9,7) and cosine transform", {"cdf97", "dct8-jpeg", "dct8-own"}}};
+        {"(9,7) and cosine transform", {"cdf97", "dct8-jpeg", "dct8-own"}},
+        {"Beside the coder hogel", {"hogel", "ai33", "dct8-jpeg"}}};
     std::vector<Panel> panels;
     for (const auto& [title, names] : groups) {
         Panel& panel = panels.emplace_back(Panel{title, {}});
-        for (const char* const name : names) {
-            const ThesisCurve& curve = *std::ranges::find_if(
-                curves, [&](const ThesisCurve& c) { return c.transform == name && c.coder != "ezw"; });
-            panel.curves.push_back(drawn(curve, curve.label));
-        }
+        for (const char* const name : names)
+            if (const ThesisCurve* curve = find(curves, name)) panel.curves.push_back(drawn(*curve, curve->label));
     }
-    Panel& ours = panels.emplace_back(Panel{"Beside the coder hogel", {}});
-    for (const auto& [coder, name] : {std::pair{"hogel", "-"}, {"threepass", "ai33"}, {"jpeg4d", "dct8-jpeg"}})
-        ours.curves.push_back(drawn(find(curves, coder, name), find(curves, coder, name).label));
     return panels;
 }
 
 // Fig. 4.18: EZW and three passes.
 std::vector<Panel> ezw_panels(const std::vector<ThesisCurve>& curves) {
     std::vector<Panel> panels;
-    for (const auto& [name, title] : {std::pair{"haar", "(a) Haar"}, {"d6", "(b) D6"}})
-        panels.push_back(
-            {title, {drawn(find(curves, "ezw", name), "EZW"), drawn(find(curves, "threepass", name), "3-pass")}});
+    for (const auto& [name, title] : {std::pair{"haar", "(a) Haar"}, {"d6", "(b) D6"}}) {
+        Panel& panel = panels.emplace_back(Panel{title, {}});
+        if (const ThesisCurve* curve = find(curves, std::string("ezw-") + name))
+            panel.curves.push_back(drawn(*curve, "EZW"));
+        if (const ThesisCurve* curve = find(curves, name)) panel.curves.push_back(drawn(*curve, "3-pass"));
+    }
     return panels;
 }
 
-// The middle of a slice as display values.
-std::vector<float> display(const std::vector<float>& slice, const LightFieldGrid& grid, std::size_t side, double white,
-                           bool radiance) {
-    std::vector<float> values;
-    const std::size_t v0 = (grid.directions_v - side) / 2, u0 = (grid.directions_u - side) / 2;
-    for (std::size_t v = v0; v < v0 + side; ++v)
-        for (std::size_t u = u0; u < u0 + side; ++u) {
-            const double value = std::max(slice[v * grid.directions_u + u], 0.0f) / white;
-            values.push_back(srgb_encode(static_cast<float>(radiance ? value : value * value)));
+double variance(std::span<const float> values) {
+    double sum = 0, squares = 0;
+    for (const float value : values) {
+        sum += value;
+        squares += static_cast<double>(value) * value;
+    }
+    const auto count = static_cast<double>(values.size());
+    return squares / count - sum / count * (sum / count);
+}
+
+// The hogel with the most contrast, whose slices are shown.
+std::size_t lively_hogel(const LightFieldBuffer& field) {
+    const std::size_t size = field.grid().directions();
+    std::size_t best = 0;
+    double most = -1;
+    for (std::size_t hogel = 0; hogel < field.grid().hogels(); ++hogel) {
+        const double here = variance(field.radiance.elements().subspan(hogel * size, size));
+        if (here > most) {
+            most = here;
+            best = hogel;
         }
+    }
+    return best;
+}
+
+// A square of directions of a hogel.
+struct Window {
+    std::size_t u0 = 0, v0 = 0, side;
+
+    std::vector<float> of(std::span<const float> slice, const LightFieldGrid& grid) const {
+        std::vector<float> values;
+        for (std::size_t v = v0; v < v0 + side; ++v)
+            for (std::size_t u = u0; u < u0 + side; ++u) values.push_back(slice[v * grid.directions_u + u]);
+        return values;
+    }
+};
+
+// The part of a slice with the most contrast, in steps of a quarter of its side.
+Window lively_window(std::span<const float> slice, const LightFieldGrid& grid, std::size_t side) {
+    Window best{0, 0, side};
+    double most = -1;
+    const std::size_t step = std::max<std::size_t>(side / 4, 1);
+    for (std::size_t v = 0; v + side <= grid.directions_v; v += step)
+        for (std::size_t u = 0; u + side <= grid.directions_u; u += step) {
+            const Window window{u, v, side};
+            const double here = variance(window.of(slice, grid));
+            if (here > most) {
+                most = here;
+                best = window;
+            }
+        }
+    return best;
+}
+
+// Values as display values, with `white` as 1.
+std::vector<float> display(std::vector<float> values, double white, bool radiance) {
+    for (float& value : values) {
+        const double part = std::max(value, 0.0f) / white;
+        value = srgb_encode(static_cast<float>(radiance ? part : part * part));
+    }
     return values;
 }
 
@@ -97,14 +146,15 @@ void write_sheet(const std::filesystem::path& file, const std::string& title, co
                  const std::vector<std::pair<const ThesisCurve*, double>>& shown, const ThesisOptions& options) {
     const LightFieldGrid& grid = original.grid();
     const std::size_t side = std::min({options.crop, grid.directions_u, grid.directions_v});
-    const auto middle = original.radiance.elements().subspan(grid.hogels() / 2 * grid.directions(), grid.directions());
-    std::vector<float> sorted(middle.begin(), middle.end());
+    const auto slice = original.radiance.elements().subspan(lively_hogel(original) * grid.directions(), grid.directions());
+    std::vector<float> sorted(slice.begin(), slice.end());
     std::ranges::sort(sorted);
     const double white = std::max(sorted[(sorted.size() - 1) * 995 / 1000], 1e-9f);
-    const auto picture = [&](const std::vector<float>& slice) {
-        return display(slice, grid, side, white, options.radiance);
+    const Window window = lively_window(slice, grid, side);
+    const auto picture = [&](std::span<const float> values) {
+        return display(window.of(values, grid), white, options.radiance);
     };
-    std::vector<SheetPicture> pictures{{"original", "", picture({middle.begin(), middle.end()})}};
+    std::vector<SheetPicture> pictures{{"original", "", picture(slice)}};
     for (const auto& [curve, rate] : shown) {
         if (curve->points.empty()) continue;
         const std::size_t at = curve->nearest(rate);
@@ -153,8 +203,8 @@ void write_figures(const std::string& scene, const LightFieldBuffer& field, cons
     std::vector<std::pair<const ThesisCurve*, double>> all, rates;
     for (const ThesisCurve& curve : curves)
         if (curve.coder != "ezw") all.emplace_back(&curve, 8);
-    for (const double rate : {0.8, 2.5, 5.5, 16.0, 50.0, 147.0})
-        rates.emplace_back(&find(curves, "threepass", "ai33"), rate);
+    if (const ThesisCurve* curve = find(curves, "ai33"))
+        for (const double rate : {0.8, 2.5, 5.5, 16.0, 50.0, 147.0}) rates.emplace_back(curve, rate);
     write_sheet(folder / fmt::format("thesis_transforms_{}.svg", scene),
                 "All transforms at about 8 pixels per bit: " + scene, field, all, options);
     write_sheet(folder / fmt::format("thesis_degrees_{}.svg", scene),
@@ -169,7 +219,8 @@ void redraw_thesis(const ThesisOptions& options, const Session& session) {
     for (const std::string& scene : options.scenes) {
         session.detail(scene);
         const LightFieldBuffer field = lumigraph_of(session, scene, options);
-        const std::vector<ThesisCurve> curves = thesis_curves(field);
+        const std::vector<ThesisCurve> curves =
+            thesis_curves(field, {options.rates, options.transforms, lively_hogel(field)});
         print_table(scene, curves);
         print_overheads(scene, curves);
         std::fflush(stdout);

@@ -25,11 +25,15 @@ constexpr std::pair<const char*, const char*> wavelets[] = {
     {"i42", "I (4,2)"},     {"i44", "I (4,4)"},     {"cdf31", "CDF (3,1)"}, {"cdf33", "CDF (3,3)"},
     {"cdf42", "CDF (4,2)"}, {"cdf44", "CDF (4,4)"}, {"cdf97", "(9,7)"}};
 
-// A lumigraph and its middle hogel.
+// The c with which rates are asked for; each point says which c meets its rate.
+constexpr double asked_overhead = 4;
+
+// A lumigraph, and how it is measured.
 class Lumigraph {
   public:
-    explicit Lumigraph(const LightFieldBuffer& buffer)
+    Lumigraph(const LightFieldBuffer& buffer, const ThesisMeasurement& measurement)
         : buffer_(buffer),
+          measurement_(measurement),
           values_(buffer.radiance.elements()),
           pyramid_(transform::Pyramid::interleaved({buffer.grid().hogels_t, buffer.grid().hogels_s,
                                                     buffer.grid().directions_v, buffer.grid().directions_u})) {
@@ -39,6 +43,7 @@ class Lumigraph {
     const LightFieldBuffer& buffer() const { return buffer_; }
     std::span<const float> values() const { return values_; }
     const transform::Pyramid& pyramid() const { return pyramid_; }
+    const std::vector<double>& rates() const { return measurement_.rates; }
     double pixels() const { return static_cast<double>(values_.size()); }
 
     std::vector<float> coefficients(const transform::Transform& transform) const {
@@ -62,12 +67,13 @@ class Lumigraph {
         }
         curve.points.push_back({pixels() / (8 * static_cast<double>(bytes)), 10 * std::log10(signal_ / error)});
         const std::size_t hogel = buffer_.grid().directions();
-        const auto slice = decoded.subspan(buffer_.grid().hogels() / 2 * hogel, hogel);
+        const auto slice = decoded.subspan(measurement_.hogel * hogel, hogel);
         curve.slices.emplace_back(slice.begin(), slice.end());
     }
 
   private:
     const LightFieldBuffer& buffer_;
+    const ThesisMeasurement& measurement_;
     std::span<const float> values_;
     transform::Pyramid pyramid_;
     double signal_ = 0;
@@ -79,9 +85,9 @@ ThesisCurve three_pass_curve(const Lumigraph& lumigraph, const char* name, const
     coding::MagnitudeHistogram histogram;
     histogram.add(coefficients);
     ThesisCurve curve{"threepass", name, label, {}};
-    for (const double rate : thesis_rates) {
+    for (const double rate : lumigraph.rates()) {
         const double wanted = lumigraph.pixels() / rate;
-        const double step = histogram.step(wanted, default_overhead(ZerotreeSymbols::bits));
+        const double step = histogram.step(wanted, asked_overhead);
         const auto encode = [&](coding::ThreePassSymbols symbols) {
             return coding::three_pass_encode(lumigraph.pyramid(), coefficients, step, symbols);
         };
@@ -106,12 +112,12 @@ ThesisCurve three_pass_curve(const Lumigraph& lumigraph, const char* name, const
 // EZW codes once; every rate is a prefix.
 ThesisCurve ezw_curve(const Lumigraph& lumigraph, const char* name, const char* label) {
     const transform::Transform transform = transform::transform(name);
-    ThesisCurve curve{"ezw", name, label, {}};
+    ThesisCurve curve{"ezw", std::string("ezw-") + name, label, {}};
     std::vector<float> work = lumigraph.coefficients(transform);
     coding::EzwLimit limit;
-    limit.bytes = static_cast<std::size_t>(lumigraph.pixels() / 8 / thesis_rates[0]);
+    limit.bytes = static_cast<std::size_t>(lumigraph.pixels() / 8 / lumigraph.rates().front());
     const std::vector<std::uint8_t> code = coding::ezw_encode(lumigraph.pyramid(), work, limit);
-    for (const double rate : thesis_rates) {
+    for (const double rate : lumigraph.rates()) {
         const auto bytes = std::min(code.size(), static_cast<std::size_t>(lumigraph.pixels() / 8 / rate));
         coding::ezw_decode(lumigraph.pyramid(), std::span(code).first(bytes), work);
         lumigraph.add(transform, work, bytes, curve);
@@ -119,15 +125,16 @@ ThesisCurve ezw_curve(const Lumigraph& lumigraph, const char* name, const char* 
     return curve;
 }
 
-// Calls code(scale) with scales that fall by factors of 2.2, until less than a pixel per bit is left. It returns the
-// pixels per bit.
+// Calls code(scale), which returns pixels per bit, with scales that fall by factors of 2.2 until the lowest rate is
+// passed.
 template <class Code>
-void with_falling_scale(double scale, Code&& code) {
+void with_falling_scale(const Lumigraph& lumigraph, double scale, Code&& code) {
     for (int pass = 0; pass < 24; ++pass, scale /= 2.2)
-        if (code(scale) < 1) break;
+        if (code(scale) < lumigraph.rates().front()) break;
 }
 
-constexpr double max_rate = 400;  // of points that are kept
+// Of points that are kept.
+double max_rate(const Lumigraph& lumigraph) { return 3 * lumigraph.rates().back(); }
 
 ThesisCurve cosine_curve(const Lumigraph& lumigraph, coding::QuantisationTable table) {
     const bool jpeg = table == coding::QuantisationTable::jpeg;
@@ -135,11 +142,11 @@ ThesisCurve cosine_curve(const Lumigraph& lumigraph, coding::QuantisationTable t
     const std::vector<float> coefficients = lumigraph.coefficients(transform);
     ThesisCurve curve{"jpeg4d", jpeg ? "dct8-jpeg" : "dct8-own", jpeg ? "DCT (JPEG)" : "DCT, own", {}};
     const double largest = *std::ranges::max_element(coefficients);
-    with_falling_scale(jpeg ? largest / 256 : largest, [&](double scale) {
+    with_falling_scale(lumigraph, jpeg ? largest / 256 : largest, [&](double scale) {
         stop_if_interrupted();
         const std::vector<std::uint8_t> code = coding::jpeg4d_encode(lumigraph.pyramid(), coefficients, scale, table);
         const double rate = lumigraph.pixels() / (8 * static_cast<double>(code.size()));
-        if (rate > max_rate) return rate;
+        if (rate > max_rate(lumigraph)) return rate;
         std::vector<float> decoded(coefficients.size());
         coding::jpeg4d_decode(lumigraph.pyramid(), code, decoded);
         lumigraph.add(transform, decoded, code.size(), curve);
@@ -152,14 +159,14 @@ ThesisCurve cosine_curve(const Lumigraph& lumigraph, coding::QuantisationTable t
 
 ThesisCurve hogel_curve(const Lumigraph& lumigraph) {
     const TemporaryFolder folder;
-    ThesisCurve curve{"hogel", "-", "hogel", {}};
+    ThesisCurve curve{"hogel", "hogel", "hogel", {}};
     LightFieldBuffer decoded(lumigraph.buffer().grid());
-    with_falling_scale(*std::ranges::max_element(lumigraph.values()) * 2, [&](double step) {
+    with_falling_scale(lumigraph, *std::ranges::max_element(lumigraph.values()) * 2, [&](double step) {
         CompressionOptions options;
         options.target = Step{step};
         const CompressionResult result =
             compress(borrow(lumigraph.buffer()), folder.path() / "a.hgl", options, until_interrupted());
-        if (result.pixels_per_bit > max_rate) return result.pixels_per_bit;
+        if (result.pixels_per_bit > max_rate(lumigraph)) return result.pixels_per_bit;
         copy(open_stream(folder.path() / "a.hgl").front(), decoded, until_interrupted());
         lumigraph.add_samples(decoded.radiance.elements(), result.bytes, curve);
         return result.pixels_per_bit;
@@ -190,14 +197,19 @@ std::size_t ThesisCurve::nearest(double rate) const {
     return best;
 }
 
-std::vector<ThesisCurve> thesis_curves(const LightFieldBuffer& values) {
-    const Lumigraph lumigraph(values);
+std::vector<ThesisCurve> thesis_curves(const LightFieldBuffer& values, const ThesisMeasurement& measurement) {
+    const Lumigraph lumigraph(values, measurement);
+    const auto wanted = [&](const std::string& name) {
+        return measurement.transforms.empty() || std::ranges::count(measurement.transforms, name) > 0;
+    };
     std::vector<ThesisCurve> curves;
-    for (const auto& [name, label] : wavelets) curves.push_back(three_pass_curve(lumigraph, name, label));
-    curves.push_back(cosine_curve(lumigraph, coding::QuantisationTable::jpeg));
-    curves.push_back(cosine_curve(lumigraph, coding::QuantisationTable::own));
-    curves.push_back(hogel_curve(lumigraph));
-    for (const char* const name : {"haar", "d6"}) curves.push_back(ezw_curve(lumigraph, name, "EZW"));
+    for (const auto& [name, label] : wavelets)
+        if (wanted(name)) curves.push_back(three_pass_curve(lumigraph, name, label));
+    if (wanted("dct8-jpeg")) curves.push_back(cosine_curve(lumigraph, coding::QuantisationTable::jpeg));
+    if (wanted("dct8-own")) curves.push_back(cosine_curve(lumigraph, coding::QuantisationTable::own));
+    if (wanted("hogel")) curves.push_back(hogel_curve(lumigraph));
+    for (const char* const name : {"haar", "d6"})
+        if (wanted(std::string("ezw-") + name)) curves.push_back(ezw_curve(lumigraph, name, "EZW"));
     return curves;
 }
 

@@ -23,7 +23,7 @@ struct ThesisCurve {
     std::string coder, transform;
     std::string label;  ///< as the figures of [K] call it
     std::vector<ThesisPoint> points;
-    std::vector<std::vector<float>> slices = {};  ///< for each point, the decoded hogel in the middle
+    std::vector<std::vector<float>> slices = {};  ///< for each point, a decoded hogel
 
     /// SQNR at a rate, interpolated linearly in the logarithm of the rate. NaN outside of the points.
     double at(double pixels_per_bit) const;
@@ -31,13 +31,18 @@ struct ThesisCurve {
     std::size_t nearest(double pixels_per_bit) const;
 };
 
-/// The rates, pixels per bit, for which the rule of a histogram is asked.
-inline constexpr double thesis_rates[] = {0.75, 1.4, 2.5, 4.5, 8, 16, 32, 64, 170};
+/// What is measured.
+struct ThesisMeasurement {
+    /// Pixels per bit for which the rule of a histogram is asked, rising.
+    std::vector<double> rates{0.5, 0.75, 1.4, 2.5, 4.5, 8, 16, 32, 64, 240};
+    std::vector<std::string> transforms;  ///< as ThesisCurve::transform; empty: all
+    std::size_t hogel = 0;                ///< of slices
+};
 
 /// All curves of [K] fig. 4.18 to 4.20 of a lumigraph of one channel, and those of this library's coders: wavelets in
 /// three passes, EZW for Haar and D6, the cosine transform with both tables, and the coder hogel. The whole array is
 /// transformed at once. Throws Error(cancelled) after an interrupt.
 /// @param values   the coded quantity
-std::vector<ThesisCurve> thesis_curves(const LightFieldBuffer& values);
+std::vector<ThesisCurve> thesis_curves(const LightFieldBuffer& values, const ThesisMeasurement& measurement);
 
 }  // namespace hogel::bench

@@ -210,7 +210,7 @@ Found code_to_target(const CompressionTarget& target, double rays, const CodingM
 
 double default_overhead(ZerotreeSymbols symbols) {
     // Medians over transforms and rates of docs/decisions/0043-codec-thesis-transforms.md.
-    return symbols == ZerotreeSymbols::alphabets ? 5.5 : 4.8;
+    return symbols == ZerotreeSymbols::alphabets ? 4.5 : 2.5;
 }
 
 CompressionResult compress(const LightField& light_field, const std::filesystem::path& path,
