@@ -143,10 +143,11 @@ std::vector<float> display(std::vector<float> values, double white, bool radianc
 
 // Writes the pictures of fig. 4.21 to 4.28 (all transforms at about 8 pixels per bit) or 4.29 ((3,3) at six rates).
 void write_sheet(const std::filesystem::path& file, const std::string& title, const LightFieldBuffer& original,
-                 const std::vector<std::pair<const ThesisCurve*, double>>& shown, const ThesisOptions& options) {
+                 const std::vector<std::pair<const ThesisCurve*, std::size_t>>& shown, const ThesisOptions& options) {
     const LightFieldGrid& grid = original.grid();
     const std::size_t side = std::min({options.crop, grid.directions_u, grid.directions_v});
-    const auto slice = original.radiance.elements().subspan(lively_hogel(original) * grid.directions(), grid.directions());
+    const auto slice =
+        original.radiance.elements().subspan(lively_hogel(original) * grid.directions(), grid.directions());
     std::vector<float> sorted(slice.begin(), slice.end());
     std::ranges::sort(sorted);
     const double white = std::max(sorted[(sorted.size() - 1) * 995 / 1000], 1e-9f);
@@ -155,9 +156,8 @@ void write_sheet(const std::filesystem::path& file, const std::string& title, co
         return display(window.of(values, grid), white, options.radiance);
     };
     std::vector<SheetPicture> pictures{{"original", "", picture(slice)}};
-    for (const auto& [curve, rate] : shown) {
+    for (const auto& [curve, at] : shown) {
         if (curve->points.empty()) continue;
-        const std::size_t at = curve->nearest(rate);
         pictures.push_back(
             {curve->label,
              fmt::format("{:.1f} ppb, {:.1f} dB", curve->points[at].pixels_per_bit, curve->points[at].sqnr),
@@ -200,11 +200,11 @@ void write_figures(const std::string& scene, const LightFieldBuffer& field, cons
                panels_svg("EZW and three passes", size, axes, ezw_panels(curves)));
     write_text(folder / fmt::format("thesis_rates_{}.svg", scene),
                panels_svg("Quality against compression", size, axes, families(curves)));
-    std::vector<std::pair<const ThesisCurve*, double>> all, rates;
+    std::vector<std::pair<const ThesisCurve*, std::size_t>> all, rates;
     for (const ThesisCurve& curve : curves)
-        if (curve.coder != "ezw") all.emplace_back(&curve, 8);
+        if (curve.coder != "ezw") all.emplace_back(&curve, curve.asked_for(8));
     if (const ThesisCurve* curve = find(curves, "ai33"))
-        for (const double rate : {0.8, 2.5, 5.5, 16.0, 50.0, 147.0}) rates.emplace_back(curve, rate);
+        for (const double rate : {0.8, 2.5, 5.5, 16.0, 50.0, 147.0}) rates.emplace_back(curve, curve->nearest(rate));
     write_sheet(folder / fmt::format("thesis_transforms_{}.svg", scene),
                 "All transforms at about 8 pixels per bit: " + scene, field, all, options);
     write_sheet(folder / fmt::format("thesis_degrees_{}.svg", scene),
