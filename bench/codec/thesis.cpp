@@ -202,7 +202,7 @@ void write_figures(const std::string& scene, const LightFieldBuffer& field, cons
                panels_svg("Quality against compression", size, axes, families(curves)));
     std::vector<std::pair<const ThesisCurve*, std::size_t>> all, rates;
     for (const ThesisCurve& curve : curves)
-        if (curve.coder != "ezw") all.emplace_back(&curve, curve.asked_for(8));
+        if (curve.coder != "ezw") all.emplace_back(&curve, curve.nearest(8));
     if (const ThesisCurve* curve = find(curves, "ai33"))
         for (const double rate : {0.8, 2.5, 5.5, 16.0, 50.0, 147.0}) rates.emplace_back(curve, curve->nearest(rate));
     write_sheet(folder / fmt::format("thesis_transforms_{}.svg", scene),

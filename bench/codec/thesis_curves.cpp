@@ -99,7 +99,6 @@ ThesisCurve three_pass_curve(const Lumigraph& lumigraph, const char* name, const
         const auto overhead = [&](std::size_t bytes) {
             return (8 * static_cast<double>(bytes) - of_levels) / significant;
         };
-        curve.points.back().asked = rate;
         curve.points.back().overhead = overhead(code.size());
         if (name == std::string_view("haar") || name == std::string_view("ai33")) {
             const std::size_t bytes = encode(coding::ThreePassSymbols::alphabets).size();
@@ -187,11 +186,6 @@ double ThesisCurve::at(double rate) const {
                                 std::log(b.pixels_per_bit / a.pixels_per_bit);
     }
     return std::numeric_limits<double>::quiet_NaN();
-}
-
-std::size_t ThesisCurve::asked_for(double rate) const {
-    const auto found = std::ranges::find(points, rate, &ThesisPoint::asked);
-    return found == points.end() ? nearest(rate) : static_cast<std::size_t>(found - points.begin());
 }
 
 std::size_t ThesisCurve::nearest(double rate) const {

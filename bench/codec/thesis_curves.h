@@ -13,7 +13,6 @@ namespace hogel::bench {
 /// A coding of a lumigraph with one quality.
 struct ThesisPoint {
     double pixels_per_bit, sqnr;
-    double asked = 0;                      ///< pixels per bit that the rule was asked for; 0: there is no rule
     std::optional<double> overhead = {};   ///< c with which [K]'s rule predicts this size: bits per significant value
     std::optional<double> alphabets = {};  ///< bytes with [K]'s alphabets over those bit by bit
     std::optional<double> alphabet_overhead = {};  ///< c with them
@@ -28,8 +27,6 @@ struct ThesisCurve {
 
     /// SQNR at a rate, interpolated linearly in the logarithm of the rate. NaN outside of the points.
     double at(double pixels_per_bit) const;
-    /// The point for which the rule was asked for a rate, or else the one nearest to it.
-    std::size_t asked_for(double pixels_per_bit) const;
     /// The point nearest to a rate.
     std::size_t nearest(double pixels_per_bit) const;
 };
