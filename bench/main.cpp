@@ -246,6 +246,32 @@ void add_codec(CLI::App& app, Program& program) {
     add_number(command, "--cache-spacing", light_field.cache_spacing, CLI::Range(0.0, 16.0), "As of hogel render", "F");
 }
 
+void add_thesis(CLI::App& app, Program& program) {
+    const auto options = std::make_shared<ThesisOptions>();
+    CLI::App* command = add_command<ThesisOptions>(
+        app, program, "thesis", "Curves and pictures of chapter 4 of Kartch's thesis: transforms and coders", 0,
+        options, [&program](const ThesisOptions& chosen) { redraw_thesis(chosen, program.session); });
+    add_session_options(command, program.session);
+    add_output(command, options->output);
+    add_names(command, "--scenes", options->scenes, "Scenes (pumpkin,church)");
+    LightFieldOptions& light_field = options->light_field;
+    add_parsed(command, "--hogels", light_field.hogels, "Hogels across and down", "WxH", typed(light_field.hogels),
+               parse_counts);
+    add_count(command, "--across", light_field.across, "Hogels that would fill the hologram's width");
+    add_parsed(command, "--directions", light_field.directions, "Directions across and down in each hogel", "WxH",
+               typed(light_field.directions), parse_counts);
+    add_field_of_view(command, light_field.field_of_view);
+    command->add_option("--rates", options->rates, "Pixels per bit, rising, for which the rule of a histogram is asked")
+        ->type_name("N,...")
+        ->delimiter(',')
+        ->check(CLI::PositiveNumber.description(""))
+        ->capture_default_str();
+    add_names(command, "--transforms", options->transforms,
+              "Wavelets, dct8-jpeg, dct8-own, hogel, ezw-haar, ezw-d6; all if none are named");
+    command->add_flag("--radiance", options->radiance, "Code L instead of its square root");
+    add_count(command, "--crop", options->crop, "Side of the pictures, directions");
+}
+
 void add_studies(CLI::App& app, Program& program) {
     const auto camera = std::make_shared<CameraStudy>();
     CLI::App* command = add_command<CameraStudy>(
@@ -329,6 +355,7 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     add_render(app, program);
     add_codec(app, program);
+    add_thesis(app, program);
     add_studies(app, program);
     try {
         app.parse(argc, argv);

@@ -12,7 +12,7 @@ LightFieldGrid LightFieldOptions::grid() const {
     LightFieldGrid grid;
     grid.hogels_s = hogels.columns;
     grid.hogels_t = hogels.rows;
-    grid.pitch = size / static_cast<double>(hogels.columns);
+    grid.pitch = size / static_cast<double>(across > 0 ? across : hogels.columns);
     grid.directions_u = directions.columns;
     grid.directions_v = directions.rows;
     grid.view = hogel::field_of_view(field_of_view.across, field_of_view.down);
@@ -34,7 +34,9 @@ LightFieldRequest request_of(const LightFieldOptions& options) {
 }  // namespace
 
 Scene load_scene(const std::string& name, const LightFieldOptions& options) {
-    return hogel::load_scene(name, request_of(options), until_interrupted());
+    LightFieldRequest request = request_of(options);
+    if (options.across > 0) request.grid.hogels_s = options.across;
+    return hogel::load_scene(name, request, until_interrupted());
 }
 
 std::shared_ptr<const ShadedScene> shade(const Session& session, const Scene& scene, const LightFieldOptions& options) {

@@ -27,7 +27,8 @@ struct LightFieldOptions {
     /// Distance of the radiance cache's points, in widths of a ray on the surface; 0: no cache.
     double cache_spacing = default_cache_spacing;
     Counts hogels{400, 400}, directions{32, 32};
-    double size = 20_mm;                   ///< width of the hologram
+    double size = 20_mm;     ///< width of the hologram
+    std::size_t across = 0;  ///< hogels that would fill the width, of which `hogels` are the middle; 0: all
     Angles field_of_view{16_deg, 16_deg};  ///< full angles
 
     /// Throws Error(usage) if they are invalid.

@@ -20,7 +20,8 @@ struct Options {
     CompressionOptions compression;
     std::optional<double> sqnr, pixels_per_bit, step, max_error;
     bool lossless = false;
-    std::string hemicube = "faces", table, tone = "none";
+    std::string hemicube = "faces", table, tone = "none", symbols, rule = "search";
+    std::optional<double> overhead;
     double tone_decades = defaults.tone_decades;
     Counts tile;
     bool no_depth = false;
@@ -29,11 +30,15 @@ struct Options {
 
 const std::map<std::string, QuantisationTable> tables{{"jpeg", QuantisationTable::jpeg},
                                                       {"own", QuantisationTable::own}};
+const std::map<std::string, ZerotreeSymbols> symbol_codings{{"alphabets", ZerotreeSymbols::alphabets},
+                                                            {"bits", ZerotreeSymbols::bits}};
+const std::map<std::string, RateRule> rules{
+    {"histogram", RateRule::histogram}, {"planes", RateRule::planes}, {"search", RateRule::search}};
 const std::vector<std::string> tones{"none", "histogram"};
 const std::vector<std::string> layouts{"faces", "unfolded"};
 
 CompressionTarget target_of(const Options& options) {
-    if (options.pixels_per_bit) return PixelsPerBit{*options.pixels_per_bit};
+    if (options.pixels_per_bit) return PixelsPerBit{*options.pixels_per_bit, rules.at(options.rule), options.overhead};
     if (options.step) return Step{*options.step};
     if (options.max_error) return MaxError{*options.max_error};
     if (options.lossless) return Lossless{};
@@ -46,6 +51,21 @@ void check_method(const CodingMethod& method) {
     const std::vector<std::string> known = transform_names();
     if (!method.transform.empty() && !std::ranges::count(known, method.transform))
         with_options({{"", "--transform"}}, [&] { throw_unknown("transform", method.transform, known); });
+}
+
+// Throws Error(usage) for options of the three-pass coder that do not act.
+void check_zerotrees(const Options& options) {
+    const std::string& coder = options.compression.method.coder;
+    const bool three_pass = coders().find(coder).three_pass;
+    if (!three_pass && !options.symbols.empty())
+        throw Error(ErrorCode::usage,
+                    fmt::format("--symbols: coder {} has no zerotrees of three passes; threepass and fringes have them",
+                                coder));
+    if (!three_pass && options.rule != "search")
+        throw Error(ErrorCode::usage,
+                    fmt::format("--rule: coder {} finds a rate by search; threepass and fringes have rules", coder));
+    if (options.overhead && options.rule == "search")
+        throw Error(ErrorCode::usage, "--overhead: goes with --rule histogram or planes");
 }
 
 // Records the options that act on this light field.
@@ -68,6 +88,10 @@ void record_compression(RunRecord& record, const Options& options, const LightFi
     if (!coder.transform.empty())
         record.acted("transform", method.transform.empty() ? coder.transform : method.transform);
     if (coder.quantisation_table) record.acted("table", options.table.empty() ? "own" : options.table);
+    if (coder.three_pass) record.acted("symbols", options.symbols.empty() ? "bits" : options.symbols);
+    if (options.pixels_per_bit && coder.three_pass) record.acted({"rule"});
+    if (options.pixels_per_bit && options.rule != "search")
+        record.acted("overhead", fmt::format("{}", options.overhead.value_or(default_overhead(method.symbols))));
     if (light_field.has_sides()) record.acted({"hemicube"});
     if (light_field.has_depth()) record.acted({"no-depth"});
     if (options.compression.with_depth) record.acted({"depth-error"});
@@ -91,6 +115,8 @@ int compress_file(Options options, const Session& session) {
                                                       compression.method.coder));
         compression.method.table = tables.at(options.table);
     }
+    check_zerotrees(options);
+    if (!options.symbols.empty()) compression.method.symbols = symbol_codings.at(options.symbols);
     if (options.hemicube == "unfolded") compression.layout = StreamLayout::unfolded;
     if (options.tone == "histogram") compression.tone_decades = options.tone_decades;
     compression.with_depth = light_field.has_depth() && !options.no_depth;
@@ -127,6 +153,20 @@ void add_target_options(Command& command, Options& options) {
         command.number("--ppb", options.pixels_per_bit, "N", "Size, to the byte: rays, with all their colours, a bit")
             .positive()
             .excludes(sqnr);
+    const Option rule =
+        command
+            .choice("--rule", options.rule, {"search", "histogram", "planes"}, "search|histogram|planes",
+                    "How --ppb finds the step of threepass and fringes: by search, to the byte; once "
+                    "from a histogram of coefficients, about; so too, with whole bit planes as in "
+                    "Kartch's thesis")
+            .needs(ppb);
+    command
+        .number("--overhead", options.overhead, "C",
+                fmt::format("Bits for the trees that the rule counts for each coefficient that is not 0 (0 to 32; "
+                            "default: {}, or {} with --symbols alphabets)",
+                            default_overhead(ZerotreeSymbols::bits), default_overhead(ZerotreeSymbols::alphabets)))
+        .range(0, 32)
+        .needs(rule);
     const Option step = command.number("--step", options.step, "N", "The quantiser's step, in units of radiance")
                             .positive()
                             .excludes(sqnr)
@@ -152,6 +192,9 @@ void add_method_options(Command& command, Options& options) {
         fmt::format("{}\nNot for hogel; otherwise cdf97, or dct8 for jpeg4d", fmt::join(transform_names(), ", ")));
     command.choice("--table", options.table, {"jpeg", "own"}, "jpeg|own",
                    "Quantisation table of jpeg4d: JPEG's, or one optimised for the light field (default: own)");
+    command.choice("--symbols", options.symbols, {"bits", "alphabets"}, "bits|alphabets",
+                   "How threepass and fringes code zerotrees: bit by bit, or from the alphabets of Kartch's thesis "
+                   "(default: bits)");
     command.choice("--hemicube", options.hemicube, layouts, "faces|unfolded",
                    "How a hemicube is coded: its faces one by one, or unfolded into one array with smooth corners");
     const Option no_depth = command.flag("--no-depth", options.no_depth, "Leave the depth of the rays out");

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/codec/thesis_curves.h"
 #include "bench/scene.h"
 
 namespace hogel::bench {
@@ -23,5 +24,27 @@ struct CodecOptions {
 
 /// Prints the size of a light field against its quality for coders and peers, and their speed.
 void measure_codec(const CodecOptions& options, const Session& session);
+
+/// The options of `hogel-bench thesis`.
+struct ThesisOptions {
+    std::string output;  ///< folder for the figures; empty: none
+    std::vector<std::string> scenes{"pumpkin", "church"};
+    LightFieldOptions light_field;
+    std::vector<double> rates = ThesisMeasurement().rates;
+    std::vector<std::string> transforms;  ///< empty: all
+    bool radiance = false;                ///< whether L is coded instead of √L
+    std::size_t crop = 192, columns = 6;  ///< side of the pictures, and how many stand in a row
+
+    ThesisOptions() {
+        light_field.hogels = {128, 1};
+        light_field.across = 360;
+        light_field.directions = {512, 512};
+        light_field.field_of_view = {16_deg, 16_deg};
+    }
+};
+
+/// Prints the curves of [K] fig. 4.18 to 4.20 as a table, and draws them and the pictures of fig. 4.21 to 4.29. The
+/// lumigraphs have horizontal parallax, one channel, and hogels as dense as those of [K].
+void redraw_thesis(const ThesisOptions& options, const Session& session);
 
 }  // namespace hogel::bench

@@ -27,11 +27,18 @@ enum class QuantisationTable {
     jpeg,  ///< JPEG's example for luminance (ISO 10918-1, table K.1) and its outer product with itself, [K] 4.4.1
 };
 
+/// How the coders with CoderInfo::three_pass code their symbols. Each channel of each tile of a stream names it.
+enum class ZerotreeSymbols {
+    bits,       ///< bit by bit in contexts
+    alphabets,  ///< from an alphabet of the differences of p_t and one of those of p_n, [K] 4.4.2
+};
+
 /// The coder of a light field and its parameters.
 struct CodingMethod {
     std::string coder = "hogel";                       ///< a row of coders()
     std::string transform;                             ///< one of transform_names(); empty: the coder's own
     QuantisationTable table = QuantisationTable::own;  ///< used only by coders with CoderInfo::quantisation_table
+    ZerotreeSymbols symbols = ZerotreeSymbols::bits;   ///< used only by coders with CoderInfo::three_pass
     friend bool operator==(const CodingMethod&, const CodingMethod&) = default;
 };
 
@@ -46,10 +53,21 @@ enum class StreamLayout {
 struct Sqnr {
     double decibels = 40;  ///< above 0, at most 120
 };
-/// A file of exactly ⌊rays / 8 / rate⌋ bytes.
-struct PixelsPerBit {
-    double rate = 8;  ///< rays, with all their channels, per bit of the whole file
+/// How the quantiser's step for a rate is found.
+enum class RateRule {
+    search,     ///< by coding again until the file has exactly the size asked for
+    histogram,  ///< from the histogram of coefficients, [K] 4.4.2, and coded once: the size is met approximately
+    planes,     ///< as histogram, with steps T_max·2^(−b_max) for whole numbers b_max of bit planes, as in [K]
 };
+/// A file of exactly ⌊rays / 8 / rate⌋ bytes, or with another rule of about as many.
+struct PixelsPerBit {
+    double rate = 8;                      ///< rays, with all their channels, per bit of the whole file
+    RateRule rule = RateRule::search;     ///< other rules only for coders with CoderInfo::three_pass
+    std::optional<double> overhead = {};  ///< c of the rule, 0 to 32: bits for the trees per coefficient that is not 0;
+                                          ///< by default default_overhead()
+};
+/// The c of [K] 4.4.2 that suits light fields with these symbols (docs/decisions/0043-codec-thesis-transforms.md).
+HOGEL_API double default_overhead(ZerotreeSymbols symbols);
 /// A given step of the quantiser.
 struct Step {
     double radiance = 0;  ///< above 0
@@ -93,7 +111,7 @@ struct CompressionResult {
     double sqnr = 0;                ///< decibels; with tone mapping or coarser chrominance, that of the mapped samples
     double pixels_per_bit = 0;      ///< rays per bit of the file
     double step = 0;                ///< of the quantiser, radiance
-    int passes = 0;                 ///< number of times that the whole light field was read and coded
+    int passes = 0;                 ///< number of times that the whole light field was coded
     std::uint64_t depth_bytes = 0;  ///< of `bytes`
     double depth_error = 0;         ///< bound on each depth, metres; 0: exact
 };
@@ -101,7 +119,8 @@ struct CompressionResult {
 /// Codes a light field into a .hgl stream (docs/format.md), tile by tile on all threads. Quality and rate are those of
 /// all faces together. Memory: a few tiles per thread. The quantiser step that meets an SQNR or a rate is searched by
 /// coding first some and then all of the tiles. A rate is met to the byte, either by filler metadata (less than half a
-/// per cent; more for light fields of few samples) or by cutting an embedded code (ezw). With MaxError and Lossless the
+/// per cent; more for light fields of few samples) or by cutting an embedded code (ezw); with another rule of
+/// PixelsPerBit the light field is read once for its histogram and coded once. With MaxError and Lossless the
 /// step of the prediction is the one that codes the middle of the light field in the fewest bytes. Depth is coded first
 /// and is a part of the file's size. The file appears under its name when it is complete. Throws Error(usage) for an
 /// invalid target or method, a rate that no step gives, and a quality beyond the coder's limit; Error(bad_input) for
@@ -247,6 +266,7 @@ struct CoderInfo {
     std::function<std::unique_ptr<TileCoder>(const CodingMethod& method, const LightFieldGrid& grid,
                                              const DirectionCross& counted)>
         make;
+    bool three_pass = false;  ///< whether CodingMethod::symbols is used, and rules of PixelsPerBit other than search
 };
 
 /// All coders: hogel, threepass, ezw, jpeg4d, fringes, and those that a program adds. A stream stores the name of its

@@ -48,12 +48,13 @@ void TileCoder::decode_coefficients(std::span<const std::uint8_t>, LightFieldTil
 Table<CoderInfo>& coders() {
     using namespace codec::baselines;
     static Table<CoderInfo> table(
-        "coder", {{"hogel", "prediction along disparities between hogels", "", false, make_hogel},
-                  {"threepass", "wavelets in four dimensions, zerotrees ([K] 4.4.2)", "cdf97", false, make_threepass},
-                  {"ezw", "wavelets in four dimensions, embedded zerotrees", "cdf97", false, make_ezw},
-                  {"jpeg4d", "cosine transform in four dimensions ([K] 4.4.1)", "dct8", true, make_jpeg4d},
-                  {"fringes", "threepass on amplitudes, hogels and directions apart: for basis fringes", "cdf97", false,
-                   make_fringes}});
+        "coder",
+        {{"hogel", "prediction along disparities between hogels", "", false, make_hogel},
+         {"threepass", "wavelets in four dimensions, zerotrees ([K] 4.4.2)", "cdf97", false, make_threepass, true},
+         {"ezw", "wavelets in four dimensions, embedded zerotrees", "cdf97", false, make_ezw},
+         {"jpeg4d", "cosine transform in four dimensions ([K] 4.4.1)", "dct8", true, make_jpeg4d},
+         {"fringes", "threepass on amplitudes, hogels and directions apart: for basis fringes", "cdf97", false,
+          make_fringes, true}});
     return table;
 }
 

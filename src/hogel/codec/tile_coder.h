@@ -3,9 +3,19 @@
 
 #include <memory>
 
+#include "hogel/coding/histogram_rule.h"
 #include "hogel/compress.h"
 
 namespace hogel::codec {
+
+// A coder of coefficients for which [K]'s rule predicts sizes.
+class CountsMagnitudes {
+  public:
+    virtual ~CountsMagnitudes() = default;
+    // Counts the coefficients of all channels of a tile.
+    // @param tile   its radiance is overwritten
+    virtual coding::MagnitudeHistogram magnitudes(LightFieldTile& tile) const = 0;
+};
 
 // The coder of a light field's tiles: a row of coders(), or one of the two that a stream may name beside them,
 // "lossless" and "bounded".

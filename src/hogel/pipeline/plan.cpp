@@ -143,8 +143,11 @@ namespace {
 // Maximum bytes of the file: a quantiser alone needs one bit per 6.02 dB.
 double compressed_bytes(const LightField& light_field, const CompressionTarget& target) {
     const double samples = light_field.samples();
-    if (const auto* rate = std::get_if<PixelsPerBit>(&target))
-        return samples / static_cast<double>(light_field.grid().channels) / 8 / rate->rate;
+    if (const auto* rate = std::get_if<PixelsPerBit>(&target)) {
+        // Rules meet the rate approximately; that of whole bit planes misses it by up to a factor of two.
+        const double may_exceed = rate->rule == RateRule::search ? 1 : 2;
+        return may_exceed * samples / static_cast<double>(light_field.grid().channels) / 8 / rate->rate;
+    }
     if (const auto* sqnr = std::get_if<Sqnr>(&target)) return samples * (sqnr->decibels / 6.02 + 0.5) / 8;
     return samples * sizeof(float);
 }

@@ -9,6 +9,7 @@
 #include "hogel/codec/format/bytes.h"
 #include "hogel/codec/format/colour.h"
 #include "hogel/codec/format/unfolded.h"
+#include "hogel/codec/tile_coder.h"
 #include "hogel/coding/ezw.h"
 #include "hogel/coding/jpeg4d.h"
 #include "hogel/coding/quantise.h"
@@ -47,15 +48,9 @@ class ClassicCoder : public TileCoder {
 
     Encoded encode(LightFieldTile& tile, double step, std::size_t max_bytes) const override {
         LightFieldTile work = tile;
-        if (content_ == Content::amplitude)
-            for (float& value : work.radiance.elements()) value = std::sqrt(std::max(value, 0.0f));
-        separate_colours(work.radiance);
-        const transform::Pyramid pyramid = pyramid_of(tile);
+        const transform::Pyramid pyramid = to_coefficients(work);
         const std::size_t channels = tile.radiance.extent(0);
-        std::vector<double> energies(channels);
         std::vector<std::vector<std::uint8_t>> codes(channels);
-        for (std::size_t c = 0; c < channels; ++c) transform_.forward(pyramid, work.radiance[c].elements());
-        for (std::size_t c = 0; c < channels; ++c) energies[c] = coding::energy(work.radiance[c].elements());
         core::parallel_for(
             channels, [&](std::size_t c) { codes[c] = encode_channel(pyramid, work.radiance[c].elements(), step); });
         shorten(codes, max_bytes);
@@ -86,6 +81,16 @@ class ClassicCoder : public TileCoder {
     }
 
   protected:
+    // Replaces a tile by the coefficients of its channels.
+    transform::Pyramid to_coefficients(LightFieldTile& tile) const {
+        if (content_ == Content::amplitude)
+            for (float& value : tile.radiance.elements()) value = std::sqrt(std::max(value, 0.0f));
+        separate_colours(tile.radiance);
+        transform::Pyramid pyramid = pyramid_of(tile);
+        for (std::size_t c = 0; c < tile.radiance.extent(0); ++c)
+            transform_.forward(pyramid, tile.radiance[c].elements());
+        return pyramid;
+    }
     virtual std::vector<std::uint8_t> encode_channel(const transform::Pyramid& pyramid, std::span<const float> values,
                                                      double step) const = 0;
     virtual void decode_channel(const transform::Pyramid& pyramid, std::span<const std::uint8_t> code,
@@ -152,14 +157,24 @@ double usable_step(std::span<const float> values, double step) {
     return std::max(step, static_cast<double>(coding::max_magnitude(values)) * 0x1p-29);
 }
 
-class ThreePassCoder final : public ClassicCoder {
+class ThreePassCoder final : public ClassicCoder, public CountsMagnitudes {
   public:
-    using ClassicCoder::ClassicCoder;
+    ThreePassCoder(const CodingMethod& method, const DirectionCross& counted, Content content = Content::radiance)
+        : ClassicCoder(method.transform, counted, content),
+          symbols_(method.symbols == ZerotreeSymbols::alphabets ? coding::ThreePassSymbols::alphabets
+                                                                : coding::ThreePassSymbols::bits) {}
+
+    coding::MagnitudeHistogram magnitudes(LightFieldTile& tile) const override {
+        to_coefficients(tile);
+        coding::MagnitudeHistogram histogram;
+        histogram.add(tile.radiance.elements());
+        return histogram;
+    }
 
   private:
     std::vector<std::uint8_t> encode_channel(const transform::Pyramid& pyramid, std::span<const float> values,
                                              double step) const override {
-        return coding::three_pass_encode(pyramid, values, usable_step(values, step));
+        return coding::three_pass_encode(pyramid, values, usable_step(values, step), symbols_);
     }
     void decode_channel(const transform::Pyramid& pyramid, std::span<const std::uint8_t> code,
                         std::span<float> values) const override {
@@ -169,6 +184,8 @@ class ThreePassCoder final : public ClassicCoder {
                        std::span<float> values) const override {
         coding::three_pass_round(code, values);
     }
+
+    coding::ThreePassSymbols symbols_;
 };
 
 class EzwCoder final : public ClassicCoder {
@@ -227,7 +244,7 @@ void require_transform(const CodingMethod& method, bool wavelet) {
 std::unique_ptr<TileCoder> make_threepass(const CodingMethod& method, const LightFieldGrid&,
                                           const DirectionCross& counted) {
     require_transform(method, true);
-    return std::make_unique<ThreePassCoder>(method.transform, counted);
+    return std::make_unique<ThreePassCoder>(method, counted);
 }
 
 std::unique_ptr<TileCoder> make_ezw(const CodingMethod& method, const LightFieldGrid&, const DirectionCross& counted) {
@@ -244,7 +261,7 @@ std::unique_ptr<TileCoder> make_jpeg4d(const CodingMethod& method, const LightFi
 std::unique_ptr<TileCoder> make_fringes(const CodingMethod& method, const LightFieldGrid&,
                                         const DirectionCross& counted) {
     require_transform(method, true);
-    return std::make_unique<ThreePassCoder>(method.transform, counted, Content::amplitude);
+    return std::make_unique<ThreePassCoder>(method, counted, Content::amplitude);
 }
 
 }  // namespace hogel::codec::baselines

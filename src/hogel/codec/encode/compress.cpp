@@ -81,6 +81,16 @@ CodingMethod method_for(const CompressionOptions& options) {
     }
     const CoderInfo& coder = coders().find(method.coder);
     if (method.transform.empty()) method.transform = coder.transform;
+    if (coder.three_pass) return method;
+    const auto* const rate = std::get_if<PixelsPerBit>(&options.target);
+    if (rate && rate->rule != RateRule::search)
+        throw Error(ErrorCode::usage, fmt::format("coder {} has no rule that finds a step for a rate; expected "
+                                                  "threepass or fringes, or the search",
+                                                  coder.name));
+    if (method.symbols != ZerotreeSymbols::bits)
+        throw Error(ErrorCode::usage, fmt::format("coder {} has no alphabets of zerotrees; expected threepass or "
+                                                  "fringes",
+                                                  coder.name));
     return method;
 }
 
@@ -167,9 +177,27 @@ Found search_step(const CompressionTarget& target, double rays, const std::strin
     return found;
 }
 
-Found code_to_target(const CompressionTarget& target, double rays, const std::string& coder,
+// Codes once with the step that a rule gives for a rate.
+Found code_by_rule(const PixelsPerBit& target, double rays, const CodingMethod& method, TileCompression& compression,
+                   const StreamWriter& writer) {
+    const std::vector<std::size_t> all = all_tiles(compression.tiles());
+    const double bytes = bytes_of_rate(target, rays, compression.samples());
+    const coding::MagnitudeHistogram magnitudes = compression.magnitudes();
+    const double bits = 8 * (bytes - static_cast<double>(writer.overhead(all.size())));
+    if (bits <= 0) refuse_rate(target, bytes, writer.overhead(all.size()));
+    Found found;
+    found.step = step_by_rule(target, method.symbols, magnitudes, bits);
+    found.outcome = compression.code(all, found.step, true);
+    check_quality(target, found.outcome, found.step, method.coder);
+    return found;
+}
+
+Found code_to_target(const CompressionTarget& target, double rays, const CodingMethod& method,
                      TileCompression& compression, const StreamWriter& writer) {
+    const std::string& coder = method.coder;
     const auto* const fixed = std::get_if<Step>(&target);
+    const auto* const rate = std::get_if<PixelsPerBit>(&target);
+    if (rate && rate->rule != RateRule::search) return code_by_rule(*rate, rays, method, compression, writer);
     if (!fixed && !is_exact(target)) return search_step(target, rays, coder, compression, writer);
     Found found;
     found.step = fixed ? fixed->radiance : step_of_min_bytes(compression, target);
@@ -179,6 +207,11 @@ Found code_to_target(const CompressionTarget& target, double rays, const std::st
 }
 
 }  // namespace
+
+double default_overhead(ZerotreeSymbols symbols) {
+    // Medians over transforms and rates of docs/decisions/0043-codec-thesis-transforms.md.
+    return symbols == ZerotreeSymbols::alphabets ? 4.5 : 2.5;
+}
 
 CompressionResult compress(const LightField& light_field, const std::filesystem::path& path,
                            const CompressionOptions& options, const Progress& progress) {
@@ -211,7 +244,7 @@ CompressionResult compress(const LightField& light_field, const std::filesystem:
     if (options.with_depth) header.depth = compress_depth(light_field, depth.emplace(path).temporary(), options);
     StreamWriter writer(path, header, depth ? depth->temporary() : std::filesystem::path());
     TileCompression compression(parts, header, writer, progress);
-    const Found found = code_to_target(options.target, rays, options.method.coder, compression, writer);
+    const Found found = code_to_target(options.target, rays, options.method, compression, writer);
     CompressionResult result;
     result.bytes = writer.size() + found.filler;
     result.sqnr = found.outcome.sqnr();

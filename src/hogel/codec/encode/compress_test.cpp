@@ -106,6 +106,55 @@ TEST(Compress, rate_is_met_with_little_filler) {
     EXPECT_EQ(info.metadata, options.metadata);
 }
 
+// [K] 4.4.2: one coding, whose size the histogram of coefficients predicts.
+TEST(Compress, a_rule_meets_the_rate_about_and_codes_once) {
+    const TestFolder folder;
+    const LightFieldBuffer field = textured_planes(16, 12, 32, 32, 3);
+    for (const char* coder : {"threepass", "fringes"})
+        for (const ZerotreeSymbols symbols : {ZerotreeSymbols::bits, ZerotreeSymbols::alphabets})
+            for (const auto& [rule, factor] : {std::pair{RateRule::histogram, 1.5}, {RateRule::planes, 2.2}}) {
+                CompressionOptions options;
+                options.method = {coder, "ai33", QuantisationTable::own, symbols};
+                options.tile = HogelRange{0, 0, 8, 12};
+                std::vector<std::uint64_t> bytes;
+                for (const std::optional<double>& overhead : {std::optional<double>(), {0.5}, {12}}) {
+                    options.target = PixelsPerBit{0.5, rule, overhead};
+                    const CompressionResult result = compress(field, folder / "a.hgl", options);
+                    EXPECT_EQ(result.passes, 1);
+                    EXPECT_EQ(result.bytes, std::filesystem::file_size(folder / "a.hgl"));
+                    EXPECT_NEAR(sqnr_of(field, decoded(folder / "a.hgl")), result.sqnr, 1e-6);
+                    if (!overhead) {
+                        EXPECT_LT(result.pixels_per_bit, 0.5 * factor) << coder;
+                        EXPECT_GT(result.pixels_per_bit, 0.5 / factor) << coder;
+                    }
+                    bytes.push_back(result.bytes);
+                }
+                EXPECT_GT(bytes[1], bytes[2]) << "more is counted for the trees, so the step is larger";
+            }
+}
+
+TEST(Compress, rules_and_alphabets_are_those_of_the_three_pass_coder) {
+    const TestFolder folder;
+    const LightFieldBuffer field = textured_planes(4, 3, 12, 10, 1);
+    for (const char* coder : {"hogel", "ezw", "jpeg4d"}) {
+        CompressionOptions options;
+        options.method.coder = coder;
+        options.target = PixelsPerBit{1, RateRule::histogram};
+        EXPECT_EQ(code_of([&] { compress(field, folder / "a.hgl", options); }), ErrorCode::usage) << coder;
+        options.target = Sqnr{20};
+        options.method.symbols = ZerotreeSymbols::alphabets;
+        EXPECT_EQ(code_of([&] { compress(field, folder / "a.hgl", options); }), ErrorCode::usage) << coder;
+    }
+    CompressionOptions options;
+    options.method = {"threepass", "haar"};
+    for (const PixelsPerBit& target : {PixelsPerBit{1, RateRule::search, 2}, PixelsPerBit{1, RateRule::planes, -1},
+                                       PixelsPerBit{1, RateRule::planes, 33}, PixelsPerBit{1e9, RateRule::planes}}) {
+        options.target = target;
+        EXPECT_EQ(code_of([&] { compress(field, folder / "a.hgl", options); }), ErrorCode::usage);
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.hgl"));
+}
+
 TEST(Compress, impossible_rates_are_refused) {
     const TestFolder folder;
     const LightFieldBuffer field = textured_planes(8, 6, 24, 20, 1), dark(field.grid());

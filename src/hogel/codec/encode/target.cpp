@@ -15,6 +15,7 @@ constexpr double likely_lossless_step = 0x1p-7;  // times the root mean square
 constexpr double likely_step_of_rate = 0.1;      // times the root mean square
 // The most bits that a sample can need, because floats have 24 significant bits.
 constexpr double max_bits_of_sample = 24;
+constexpr double max_overhead = 32;
 
 template <class... Cases>
 struct Overloaded : Cases... {
@@ -46,6 +47,14 @@ void check(const CompressionTarget& target) {
                           },
                           [&](const PixelsPerBit& t) {
                               if (!positive(t.rate)) refuse("a positive number");
+                              if (t.overhead && !(*t.overhead >= 0 && *t.overhead <= max_overhead))
+                                  throw Error(ErrorCode::usage,
+                                              fmt::format("an overhead of {} bits was asked for, expected 0 to {}",
+                                                          *t.overhead, max_overhead));
+                              if (t.overhead && t.rule == RateRule::search)
+                                  throw Error(ErrorCode::usage,
+                                              "an overhead was asked for of a rate that is searched for; expected the "
+                                              "rule of a histogram");
                           },
                           [&](const Step& t) {
                               if (!positive(t.radiance)) refuse("a positive number");
@@ -81,6 +90,12 @@ double bytes_of_rate(const PixelsPerBit& target, double rays, double samples) {
                                 "pixels per bit, or lossless coding",
                                 describe(target), max_bits_of_sample, rays / (max_bits_of_sample * samples)));
     return bytes;
+}
+
+double step_by_rule(const PixelsPerBit& target, ZerotreeSymbols symbols, const coding::MagnitudeHistogram& magnitudes,
+                    double bits) {
+    const double c = target.overhead.value_or(default_overhead(symbols));
+    return target.rule == RateRule::planes ? magnitudes.step_of_planes(bits, c) : magnitudes.step(bits, c);
 }
 
 void refuse_rate(const PixelsPerBit& target, double bytes, std::uint64_t nearest) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "hogel/codec/encode/step_search.h"
+#include "hogel/coding/histogram_rule.h"
 #include "hogel/compress.h"
 
 namespace hogel::codec::encode {
@@ -23,6 +24,10 @@ double likely_step(const CompressionTarget& target, double rms);
 
 // The size in bytes of a file with a rate. Refuses a size that the samples cannot fill.
 double bytes_of_rate(const PixelsPerBit& target, double rays, double samples);
+
+// The step that the target's rule gives for `bits` bits of coefficients. The target has a rule other than search.
+double step_by_rule(const PixelsPerBit& target, ZerotreeSymbols symbols, const coding::MagnitudeHistogram& magnitudes,
+                    double bits);
 
 // @param bytes     the requested size
 // @param nearest   size of the nearest possible file

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "hogel/codec/format/block_kernels.h"
+#include "hogel/codec/tile_coder.h"
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
 
@@ -92,6 +93,31 @@ CodingOutcome TileCompression::look(std::span<const std::size_t> tiles) {
             return outcome;
         },
         [&](std::size_t, CodingOutcome& outcome) { sum.add(outcome); });
+    return sum;
+}
+
+coding::MagnitudeHistogram TileCompression::magnitudes() {
+    std::vector<const CountsMagnitudes*> counters;
+    for (const CodedPart& part : parts_) {
+        counters.push_back(dynamic_cast<const CountsMagnitudes*>(part.coder.get()));
+        if (!counters.back())
+            throw Error(ErrorCode::usage,
+                        "a rate by the rule of a histogram was asked for; expected coder threepass or fringes, and "
+                        "another layout than stacked");
+    }
+    coding::MagnitudeHistogram sum;
+    core::parallel_ordered<coding::MagnitudeHistogram>(
+        tiles(), in_flight(),
+        [&](std::size_t i) {
+            auto [tile, outcome] = read(i);
+            coding::MagnitudeHistogram histogram = counters[i / tiling_.count()]->magnitudes(tile);
+            spare_.give_back(std::move(tile));
+            return histogram;
+        },
+        [&](std::size_t i, const coding::MagnitudeHistogram& histogram) {
+            sum.add(histogram);
+            progress_.report(static_cast<double>(i + 1) / static_cast<double>(tiles()));
+        });
     return sum;
 }
 

@@ -9,6 +9,7 @@
 
 #include "hogel/codec/encode/step_search.h"
 #include "hogel/codec/format/stream_file.h"
+#include "hogel/coding/histogram_rule.h"
 
 namespace hogel::codec::encode {
 
@@ -51,6 +52,8 @@ class TileCompression {
                        std::span<const std::size_t> max_bytes = {});
     // Sums over the signal only.
     CodingOutcome look(std::span<const std::size_t> tiles);
+    // The coefficients of all tiles. Throws Error(usage) for a coder that does not count them.
+    coding::MagnitudeHistogram magnitudes();
     // Codes the middle of the middle tile. Returns its bytes and the root mean square of the signal there.
     std::pair<double, double> try_middle(double step) const;
     // The sizes to which the tiles that were written last are cut, so that the file has `file` bytes.
