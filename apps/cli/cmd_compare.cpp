@@ -18,7 +18,7 @@ struct Options {
 SampleComparison compare_samples(const Options& options, FileKind kind, const Session& session) {
     Stage stage(session, "comparing");
     if (kind == FileKind::light_field)
-        return compare(open_light_field(options.a), open_light_field(options.b), stage.progress());
+        return compare(open_light_field_or_views(options.a), open_light_field_or_views(options.b), stage.progress());
     const Fields a = open_hologram(options.a), b = open_hologram(options.b);
     return compare(a, b, stage.progress());
 }

@@ -102,7 +102,7 @@ void record_compression(RunRecord& record, const Options& options, const LightFi
 int compress_file(Options options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a light field", options.input));
-    const LightField light_field = open_light_field(options.input);
+    const LightField light_field = open_light_field_or_views(options.input);
     require_writable(options.output, {&options.input, 1});
     require_name(options.output, "hgl");
     CompressionOptions& compression = options.compression;

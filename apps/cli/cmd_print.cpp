@@ -18,7 +18,7 @@ struct Options {
 int print(const Options& options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a light field", options.input));
-    const LightField light_field = open_light_field(options.input);
+    const LightField light_field = open_light_field_or_views(options.input);
     RunRecord record(session);
     record.acted({"input", "strips", "order", "exposure"});
     const OutputFolder folder(options.output, options.force);

@@ -7,6 +7,8 @@ std::span<const CommandInfo> commands() {
     static const CommandInfo table[] = {
         {"make", "From a scene to photographs of its hologram, with a report", add_make},
         {"render", "Render a scene into a light field", add_render},
+        {"import", "Turn a set of views (pictures of a camera array, a quilt) into a light field", add_import},
+        {"export", "Write a light field as a set of views for other programs", add_export},
         {"hologram", "Turn a light field or a scene into a hologram", add_hologram},
         {"slm", "Encode a hologram as a pattern for a light modulator", add_slm},
         {"print", "Write a light field as pictures for a hologram printer", add_print},

@@ -15,6 +15,8 @@ std::span<const CommandInfo> commands();
 void add_make(Command& command, Session& session);
 void add_bake(Command& command, Session& session);
 void add_render(Command& command, Session& session);
+void add_import(Command& command, Session& session);
+void add_export(Command& command, Session& session);
 void add_hologram(Command& command, Session& session);
 void add_slm(Command& command, Session& session);
 void add_print(Command& command, Session& session);

@@ -361,7 +361,7 @@ void require_memory(const Session& session, const LightField& rendered, const Re
 
 LightField open_or_render(const Session& session, const std::string& name, const RenderOptions& options,
                           RunRecord& record) {
-    if (input_kind(name) == InputKind::light_field) return open_light_field(name);
+    if (input_kind(name) == InputKind::light_field) return open_light_field_or_views(name);
     const Scene scene = load_scene(session, name, options, record);
     LightField rendered = render_light_field(session, scene, options, record);
     require_memory(session, rendered, options, scene);

@@ -8,6 +8,7 @@
 #include "hogel/camera.h"
 #include "hogel/compress.h"
 #include "hogel/error.h"
+#include "hogel/exchange.h"
 #include "hogel/field.h"
 #include "hogel/files.h"
 #include "hogel/geometry.h"

@@ -33,8 +33,8 @@ HOGEL_API float srgb_encode(float linear);
 HOGEL_API float srgb_decode(float display);
 
 /// Writes a picture in the format of the name's extension: .exr as linear half floats, or single ones where halves do
-/// not hold it, .png as 8-bit sRGB of linear values times `exposure`, with `metadata` and the picture's provenance; in a
-/// build with HOGEL_TIFF also .tif, like .png. The file appears under its name when it is complete. Throws
+/// not hold it, .png as 8-bit sRGB of linear values times `exposure`, with `metadata` and the picture's provenance; in
+/// a build with HOGEL_TIFF also .tif, like .png. The file appears under its name when it is complete. Throws
 /// Error(cannot_write), Error(not_built_in) for .tif, Error(usage) for an unknown extension or a wrong exposure.
 HOGEL_API void write_image(const std::filesystem::path& path, const Image& image, double exposure = 1,
                            const Metadata& metadata = {});
@@ -45,12 +45,12 @@ HOGEL_API void require_picture_name(const std::filesystem::path& path);
 /// The bytes of an 8-bit sRGB PNG file, for HTML pages with embedded pictures.
 HOGEL_API std::vector<unsigned char> encode_png(const Image& image, double exposure = 1);
 
-/// Reads a picture into linear light, with one or three channels: PNG, JPEG, EXR, BMP, TGA, GIF (its first picture) or
-/// Radiance HDR, and TIFF and WebP in builds with HOGEL_TIFF and HOGEL_WEBP. The file's first bytes, not its name, say
-/// which. Integers of 8 and 16 bits are taken as sRGB, floating-point numbers as linear; alpha is dropped. Of an EXR
-/// file the data window is read, its first layer with R, G and B, else with Y, else its first channels. The texts in
-/// the file are its provenance. Throws Error(bad_input), naming the file, for one that is missing, damaged or has more
-/// than `max_pixels`, which is known before memory is taken; and Error(not_built_in).
+/// Reads a picture into linear light, with one or three channels: PNG, JPEG, EXR, BMP, TGA, GIF (its first picture),
+/// Radiance HDR, PNM (binary) or PFM, and TIFF and WebP in builds with HOGEL_TIFF and HOGEL_WEBP. The file's first
+/// bytes, not its name, say which. Integers of 8 and 16 bits are taken as sRGB, floating-point numbers as linear; alpha
+/// is dropped. Of an EXR file the data window is read, its first layer with R, G and B, else with Y, else its first
+/// channels. The texts in the file are its provenance. Throws Error(bad_input), naming the file, for one that is
+/// missing, damaged or has more than `max_pixels`, which is known before memory is taken; and Error(not_built_in).
 HOGEL_API Image read_image(const std::filesystem::path& path, std::size_t max_pixels = std::size_t{1} << 28);
 
 /// As read_image(), from the bytes of a picture file in memory, such as a texture inside a glTF file.

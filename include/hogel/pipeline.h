@@ -13,6 +13,7 @@
 #include "hogel/bake.h"
 #include "hogel/camera.h"
 #include "hogel/compress.h"
+#include "hogel/exchange.h"
 #include "hogel/export.h"
 #include "hogel/field.h"
 #include "hogel/files.h"
@@ -107,15 +108,20 @@ struct HologramRequest {
     }
 };
 
-/// The kind of an input. A scene is the name of a built-in one or a mesh file; light fields and holograms are files.
+/// The kind of an input. A scene is the name of a built-in one or a mesh file; light fields and holograms are files. A
+/// set of views that a layout recognises, a folder or a file, is a light field too.
 enum class InputKind { scene, light_field, hologram };
 
 /// The kind of the input of that name. Throws Error(usage) for an unknown name, with the nearest that exists, and
 /// Error(bad_input) for a file that is missing or of another kind.
 HOGEL_API InputKind input_kind(const std::string& name);
 
-/// Opens the light field in a file for holograms, with_common_directions(). If the request is for basis fringes and the
-/// file holds coefficients of such fringes, opens the coefficients and sets request.of_coefficients.
+/// Opens a light field file, or imports a set of views as it is: import_views() with no options.
+HOGEL_API LightField open_light_field_or_views(const std::filesystem::path& path, const Progress& progress = {});
+
+/// Opens the light field in a file or a set of views for holograms, with_common_directions(). If the request is for
+/// basis fringes and the file holds coefficients of such fringes, opens the coefficients and sets
+/// request.of_coefficients.
 /// @param any_transform  whether to set the request's transform to that of the file's coefficients
 HOGEL_API LightField open_for_holograms(const std::filesystem::path& path, HologramRequest& request,
                                         bool any_transform);
@@ -253,6 +259,12 @@ HOGEL_API Plan plan_ray_photographs(std::span<const LightFieldGrid> faces, std::
 /// Resources to compress a light field, without the cost of reading it. For an SQNR, the disk space is an upper
 /// bound: the size without any prediction.
 HOGEL_API Plan plan_compression(const LightField& light_field, const CompressionOptions& options);
+/// Resources to import a set of views and write it to an uncompressed file.
+HOGEL_API Plan plan_import(const ImportedViews& views, const ViewOptions& options,
+                           const LightFieldFileOptions& file = {});
+/// Resources to write a light field as a set of views, without the cost of reading it. The disk space is an upper
+/// bound.
+HOGEL_API Plan plan_export(const LightField& light_field, const ViewExportOptions& options);
 /// Resources to propagate fields one after the other and write them to a file. Throws Error(usage) as
 /// propagation_method() does.
 HOGEL_API Plan plan_propagation(std::span<const FieldGrid> fields, double distance,

@@ -63,6 +63,13 @@ TABLE = [
     ("compress x.h5 -o w.hgl --coder ezw", "--lossless --max-error=1"),
     ("compress x.h5 -o w.hgl --no-depth", "--depth-error=1mm"),
     ("decompress x.hgl -o w.h5", "--layers=0 --layers=99"),
+    ("import views -o w.h5 --views 8x6",
+     """--layout=zoo --size=0mm --size=4 --distance=1mm --spacing=1mm --fov=0deg --fov=200deg --transfer=x --views=3x3
+     --column=third --mirror=all --projection=fish --disparity=1 --sqnr=30"""),
+    ("import views -o w.h5 --views 8x6 --projection cameras", "--disparity=9 --distance=0mm"),
+    ("import views -o w.hgl --views 8x6", "--float --sqnr=0"),
+    ("export x.h5 -o w", "--layout=hci --layout=zoo --layout=quilt --pictures=gif --bits=7 --bits=17 --transfer=x --exposure=0"),
+    ("export x.h5 -o w --pictures exr", "--bits=8"),
     ("print x.h5 -o w", "--exposure=0 --exposure=nan --order=none"),
     ("compare x.h5 x.hgl", "--min-psnr=x --min-sqnr=nan"),
 ]

@@ -49,6 +49,9 @@ OTHER = {
     "distance": "3mm", "output-pitch": "2um", "output-samples": "70x60", "offset-x": "40um", "offset-y": "40um",
     "encoding": "double-phase", "reference": "1.2deg", "clip": "0.3", "window": "9", "iterations": "2",
     "device": "leto", "pixels": "90x70", "pixel-pitch": ACTS, "levels": "4",
+    # sets of views
+    "layout": ACTS, "transfer": "linear", "views": "6x8", "mirror": "columns", "projection": "orthographic", "disparity": "1",
+    "column": "first",
     # prints
     "strips": None, "order": "rows",
 }
@@ -127,6 +130,9 @@ CASES = [
     ("compress, exact", "compress x.h5 --lossless", "o.hgl", {"coder": ACTS}),
     ("decompress", "decompress x.hgl", "o.h5", {}),
     ("decompress exact", "decompress exact.hgl", "o.h5", {}),
+    ("import cameras", "import views --views 8x6 --projection cameras", "o.h5", {"spacing": "9mm"}),
+    ("import orthographic", "import views --views 8x6", "o.h5", {"projection": "cameras"}),
+    ("import rows and columns", "import ordered --column second", "o.h5", {"views": ACTS, "projection": "orthographic"}),
     ("print", "print x.h5 --strips", "o", {"strips": None}),
 ]
 
@@ -208,7 +214,7 @@ def check(case, line, output, others):
         return [f"{case}: refused: {hogel(*words, '-o', base).stderr}"]
     acted = dict(first[0].options)
     complaints = []
-    positional = "scene" if words[0] == "render" else "input"
+    positional = {"render": "scene", "import": "source"}.get(words[0], "input")
     if acted.pop(positional, None) != words[1]:
         complaints.append(f"{case}: {positional} is not stored")
     has_default = options_of(words[0])

@@ -16,7 +16,7 @@ except ImportError:
 
 SMALL = "--hogels 3x2 --directions 4x3 -q".split()
 MESH_EXTENSIONS = [".gltf", ".glb", ".obj", ".ply", ".stl", ".off", ".fbx"]  # as in mesh_fuzz.cpp
-PICTURE_EXTENSIONS = [".png", ".exr", ".bmp", ".jpg", ".tga", ".gif", ".hdr"]  # as in picture_fuzz.cpp
+PICTURE_EXTENSIONS = [".png", ".exr", ".bmp", ".jpg", ".tga", ".gif", ".hdr", ".ppm", ".pfm"]  # as in picture_fuzz.cpp
 
 TRIANGLE = {
     ".obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
@@ -30,6 +30,16 @@ TRIANGLE = {
              b'"min":[0,0,0],"max":[1,1,0]}],"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":'
              b'"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}',
 }
+
+PLAIN_PICTURES = {
+    "8.ppm": b"P6\n# colours\n2 2\n255\n" + bytes(range(12)),
+    "10.ppm": b"P5\n2 1\n1023\n" + bytes([3, 255, 0, 7]),
+    "little.pfm": b"PF\n1 2\n-1.0\n" + bytes(24),
+    "big.pfm": b"Pf\n2 1\n1.0\n" + bytes([63, 128, 0, 0, 64, 0, 0, 0]),
+}
+
+PARAMETERS = (b"[intrinsics]\nfocal_length_mm = 100\nimage_resolution_x_px = 2\nimage_resolution_y_px = 2\nsensor_size_mm = 35\n"
+              b"[extrinsics]\nnum_cams_x = 2\nnum_cams_y = 2\nbaseline_mm = 20\nfocus_distance_m = 0.6\n")
 
 # Ways in which other programs store samples: the version of the format, which decides how chunks are found, and filters.
 CHUNKS = {
@@ -96,6 +106,13 @@ def make(hogel, corpus):
         for i, extension in enumerate(PICTURE_EXTENSIONS[:2]):
             run("photo", made / "a.h5", "-o", made / ("p" + extension), "--resolution", "8", "-q")
             put("picture_fuzz", extension[1:], bytes([i]) + (made / ("p" + extension)).read_bytes())
+        run("export", made / "a.h5", "-o", made / "views.npy", "--layout", "npy", "-q")
+        put("view_set_fuzz", "npy", b"\0" + (made / "views.npy").read_bytes())
+        put("view_set_fuzz", "quilt", b"\1" + PLAIN_PICTURES["8.ppm"])
+        put("view_set_fuzz", "parameters", b"\2" + PARAMETERS)
+        put("view_set_fuzz", "picture", b"\3P5 2 2 255\nabcd")
+        for name, data in PLAIN_PICTURES.items():
+            put("picture_fuzz", name, bytes([PICTURE_EXTENSIONS.index(name[-4:])]) + data)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,8 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace hogel;
-    constexpr std::array<const char*, 7> extensions{".png", ".exr", ".bmp", ".jpg", ".tga", ".gif", ".hdr"};
+    constexpr std::array<const char*, 9> extensions{".png", ".exr", ".bmp", ".jpg", ".tga",
+                                                    ".gif", ".hdr", ".ppm", ".pfm"};
     if (size == 0) return 0;
     const fuzz::FuzzFile file(data + 1, size - 1, extensions[data[0] % extensions.size()]);
     fuzz::expect_bad_input([&] { read_image(file.path(), 1 << 22); });

@@ -44,7 +44,7 @@ void PictureBytes::check_size(std::uint64_t width, std::uint64_t height, std::ui
 namespace {
 
 constexpr const char* unknown_format =
-    "its first bytes are not those of a PNG, JPEG, EXR, TIFF, WebP, GIF, BMP, HDR or TGA file";
+    "its first bytes are not those of a PNG, JPEG, EXR, TIFF, WebP, GIF, BMP, HDR, PNM, PFM or TGA file";
 
 // Linear light of each 16-bit display value; 8-bit values are the multiples of 257 among them.
 const std::vector<float>& linear_of_display() {
@@ -141,6 +141,10 @@ Picture read_file(const std::filesystem::path& path, std::size_t max_pixels, boo
 }
 
 }  // namespace
+
+Picture image::read_picture(const std::filesystem::path& path, std::size_t max_pixels) {
+    return guarded({{}, path.string()}, [&] { return read_file(path, max_pixels); });
+}
 
 Image read_image(const std::filesystem::path& path, std::size_t max_pixels) {
     return guarded({{}, path.string()}, [&] {

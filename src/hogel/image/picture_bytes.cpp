@@ -24,7 +24,15 @@ constexpr std::array signatures{Signature{"\x89PNG\r\n\x1a\n"sv, read_png},
                                 Signature{"MM\0*"sv, read_tiff},
                                 Signature{"GIF8"sv, read_with_stb},
                                 Signature{"BM"sv, read_with_stb},
-                                Signature{"#?"sv, read_with_stb}};
+                                Signature{"#?"sv, read_with_stb},
+                                Signature{"P1"sv, read_pnm},  // refuses these four by name
+                                Signature{"P2"sv, read_pnm},
+                                Signature{"P3"sv, read_pnm},
+                                Signature{"P4"sv, read_pnm},
+                                Signature{"P5"sv, read_pnm},
+                                Signature{"P6"sv, read_pnm},
+                                Signature{"PF"sv, read_pfm},
+                                Signature{"Pf"sv, read_pfm}};
 
 std::uint32_t big_endian(std::span<const unsigned char> b) {
     return std::uint32_t{b[0]} << 24 | std::uint32_t{b[1]} << 16 | std::uint32_t{b[2]} << 8 | b[3];

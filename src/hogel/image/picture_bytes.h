@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 
@@ -19,6 +20,9 @@ constexpr std::size_t beginning = 18;
 using PictureReader = Picture (*)(const PictureBytes&);
 /// The reader of the format that a picture file begins with; null for an unknown one.
 PictureReader picture_reader(std::span<const unsigned char> bytes);
+
+/// Reads a picture file as it is stored. Throws as read_image() does.
+Picture read_picture(const std::filesystem::path& path, std::size_t max_pixels);
 
 /// Describe what is wrong with the outer structure of a PNG or EXR file; "" if nothing is. The check is needed because
 /// the libraries that read these files allocate the length that a chunk or an attribute claims before they know whether

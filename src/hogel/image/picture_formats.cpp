@@ -48,6 +48,12 @@ std::vector<PictureFormat> all_formats() {
         {.name = "gif", .title = "GIF", .extensions = {".gif"}, .text = "GIF", .part = pictures},
         {.name = "hdr", .title = "HDR", .extensions = {".hdr"}, .text = "Radiance RGBE", .part = pictures},
         {.name = "tga", .title = "TGA", .extensions = {".tga"}, .text = "Targa", .part = pictures},
+        {.name = "pnm",
+         .title = "PNM",
+         .extensions = {".ppm", ".pgm", ".pnm"},
+         .text = "portable pixmaps of 8 to 16 bits, binary",
+         .part = {}},
+        {.name = "pfm", .title = "PFM", .extensions = {".pfm"}, .text = "portable float maps, linear", .part = {}},
         {.name = "webp", .title = "WebP", .extensions = {".webp"}, .text = "WebP", .part = "WebP"},
     };
     for (PictureFormat& format : formats) {

@@ -28,7 +28,8 @@ void require_holograms(std::span<const LightFieldGrid> faces, const HologramRequ
 
 LightField open_for_holograms(const std::filesystem::path& path, HologramRequest& request, bool any_transform) {
     auto* const basis = std::get_if<Basis>(&request.method);
-    if (basis == nullptr || !is_stream(path)) return with_common_directions(open_light_field(path));
+    if (basis == nullptr || is_view_set(path) || !is_stream(path))
+        return with_common_directions(open_light_field_or_views(path));
     const StreamInfo info = read_stream_info(path);
     const bool fits = !info.grid.focal_plane() && info.method.coder == "fringes" && !info.tone &&
                       info.chrominance == 1 && (any_transform || basis->transform == info.method.transform);

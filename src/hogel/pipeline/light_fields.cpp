@@ -45,6 +45,7 @@ std::vector<LightFieldGrid> LightFieldRequest::grids() const {
 InputKind input_kind(const std::string& name) {
     if (scenes().look_up(name) != nullptr) return InputKind::scene;
     require_file(name);
+    if (is_view_set(name)) return InputKind::light_field;
     switch (file_kind(name)) {
         case FileKind::light_field:
             return InputKind::light_field;
@@ -59,6 +60,10 @@ InputKind input_kind(const std::string& name) {
             break;
     }
     throw Error(ErrorCode::bad_input, fmt::format("{}: is neither a mesh, a light field nor a hologram", name));
+}
+
+LightField open_light_field_or_views(const std::filesystem::path& path, const Progress& progress) {
+    return is_view_set(path) ? import_views(path, {}, progress).light_field : open_light_field(path);
 }
 
 Scene load_scene(const std::string& name, const LightFieldRequest& request, const Progress& progress) {

@@ -39,6 +39,8 @@ using Samples = std::variant<Array<std::uint8_t, 3>, Array<std::uint16_t, 3>, Ar
 struct Picture {
     Samples samples;  ///< empty if only texts were asked for
     Metadata texts;
+    /// The largest code that the file may hold where that is less than its samples may: a pixmap of 10 bits has 1023.
+    std::uint32_t max_code = 0;
 };
 
 // The readers. They throw Error(bad_input), by PictureBytes, or std::exception with a reason. Those of formats that a
@@ -49,6 +51,10 @@ Picture read_jpeg(const PictureBytes& file);
 Picture read_exr(const PictureBytes& file);
 /// BMP, TGA, the first picture of a GIF, and Radiance HDR.
 Picture read_with_stb(const PictureBytes& file);
+/// Portable pixmaps, P5 and P6.
+Picture read_pnm(const PictureBytes& file);
+/// Portable float maps.
+Picture read_pfm(const PictureBytes& file);
 Picture read_tiff(const PictureBytes& file);
 Picture read_webp(const PictureBytes& file);
 
@@ -59,6 +65,11 @@ bool begins_like_tga(std::span<const unsigned char> bytes);
 // read_metadata() describes. They throw std::exception with a reason.
 enum class Curve { srgb, none };  ///< whether a PNG file says that its samples are sRGB
 std::vector<unsigned char> png_file(View<const std::uint8_t, 3> pixels, const Metadata& texts, Curve curve);
+/// 16 bits a sample.
+std::vector<unsigned char> png_file(View<const std::uint16_t, 3> pixels, const Metadata& texts, Curve curve);
+/// Codes 0 to max_code, of which those beyond 255 take two bytes each.
+std::vector<unsigned char> pnm_file(View<const std::uint16_t, 3> codes, std::uint32_t max_code);
+std::vector<unsigned char> pfm_file(View<const float, 3> pixels);
 std::vector<unsigned char> exr_file(View<const float, 3> pixels, const Metadata& texts);
 std::vector<unsigned char> bmp_file(View<const std::uint8_t, 3> pixels);
 std::vector<unsigned char> tiff_file(View<const std::uint8_t, 3> pixels, const Metadata& texts);

@@ -175,19 +175,8 @@ std::vector<png_text> png_texts(Metadata& texts) {
     return list;
 }
 
-}  // namespace
-
-Picture read_png(const PictureBytes& file) {
-    const std::string damage = png_structure_error(file.bytes);
-    if (!damage.empty()) file.fail(damage);
-    Reader reader(file);
-    reader.read_header();
-    Picture picture{{}, reader.texts()};
-    if (!file.only_texts) picture.samples = reader.pixels();
-    return picture;
-}
-
-std::vector<unsigned char> png_file(View<const std::uint8_t, 3> pixels, const Metadata& texts, Curve curve) {
+template <class T>
+std::vector<unsigned char> encode(View<const T, 3> pixels, const Metadata& texts, Curve curve) {
     std::vector<unsigned char> bytes;
     Metadata named = texts;
     const std::vector<png_text> list = png_texts(named);
@@ -204,17 +193,39 @@ std::vector<unsigned char> png_file(View<const std::uint8_t, 3> pixels, const Me
                           png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
                           png_set_compression_level(png, 6);
                           png_set_compression_strategy(png, Z_DEFAULT_STRATEGY);  // the bytes of earlier versions
-                          png_set_IHDR(png, info, width, height, 8, type, PNG_INTERLACE_NONE,
+                          png_set_IHDR(png, info, width, height, 8 * sizeof(T), type, PNG_INTERLACE_NONE,
                                        PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
                           if (curve == Curve::srgb) png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);
                           if (!list.empty()) png_set_text(png, info, list.data(), static_cast<int>(list.size()));
                           png_write_info(png, info);
-                          for (std::size_t y = 0; y < height; ++y) png_write_row(png, pixels.data() + y * row);
+                          if (sizeof(T) == 2 && std::endian::native == std::endian::little) png_set_swap(png);
+                          for (std::size_t y = 0; y < height; ++y)
+                              png_write_row(png, reinterpret_cast<png_const_bytep>(pixels.data() + y * row));
                           png_write_end(png, info);
                       });
     png_destroy_write_struct(&png, &info);
     if (!done) throw std::runtime_error(failure.text.data());
     return bytes;
+}
+
+}  // namespace
+
+Picture read_png(const PictureBytes& file) {
+    const std::string damage = png_structure_error(file.bytes);
+    if (!damage.empty()) file.fail(damage);
+    Reader reader(file);
+    reader.read_header();
+    Picture picture{{}, reader.texts()};
+    if (!file.only_texts) picture.samples = reader.pixels();
+    return picture;
+}
+
+std::vector<unsigned char> png_file(View<const std::uint8_t, 3> pixels, const Metadata& texts, Curve curve) {
+    return encode(pixels, texts, curve);
+}
+
+std::vector<unsigned char> png_file(View<const std::uint16_t, 3> pixels, const Metadata& texts, Curve curve) {
+    return encode(pixels, texts, curve);
 }
 
 }  // namespace hogel::image

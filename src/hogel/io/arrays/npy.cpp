@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // NumPy's array format, versions 1 to 3: "\x93NUMPY", two bytes of version, the length of a header (2 bytes, or 4 from
 // version 2 on), the header as the text of a Python dictionary, and the numbers.
+#include "hogel/io/arrays/npy.h"
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -12,7 +15,6 @@
 #include "hogel/core/output_file.h"
 #include "hogel/core/raw_file.h"
 #include "hogel/error.h"
-#include "hogel/io/arrays/numbers.h"
 
 namespace hogel::io::arrays {
 namespace {
@@ -20,15 +22,7 @@ namespace {
 constexpr std::array<unsigned char, 6> magic{0x93, 'N', 'U', 'M', 'P', 'Y'};
 constexpr std::size_t max_header = 1 << 16;
 
-struct Header {
-    Number number = Number::real;
-    bool complex = false, by_columns = false, big_endian = false;
-    std::size_t colours = 1, height = 0, width = 0;
-    bool colours_last = false;  // [row][column][colour] instead of [colour][row][column]
-    std::uint64_t begin = 0;    // offset of the numbers
-
-    std::size_t bytes_of_sample() const { return bytes_of(number) * (complex ? 2 : 1); }
-};
+constexpr std::size_t max_axes = 32;  // as in NumPy
 
 // The text after "'key':", or nothing.
 std::string_view value_of(std::string_view header, const char* key) {
@@ -59,7 +53,7 @@ bool take(std::string_view& text, char expected) {
     return true;
 }
 
-void parse_type(const std::filesystem::path& path, std::string_view descr, Header& header) {
+void parse_type(const std::filesystem::path& path, std::string_view descr, NpyHeader& header) {
     struct Known {
         std::string_view name;
         Number number;
@@ -90,37 +84,34 @@ void parse_type(const std::filesystem::path& path, std::string_view descr, Heade
                   fmt::format("its numbers are of type {}; c8, c16, f2, f4, f8 and whole numbers are read", shown));
 }
 
-[[noreturn]] void fail_shape(const std::filesystem::path& path) {
-    fail_external(path,
-                  "an array of two axes, [row][column], or of three with three colours first or last was expected");
+// The extents of "(4, 3)". Returns false for anything else.
+bool parse_shape(std::string_view text, std::vector<std::size_t>& shape) {
+    if (!take(text, '(')) return false;
+    for (std::size_t extent = 0; take_number(text, extent);) {
+        shape.push_back(extent);
+        if (!take(text, ',')) break;
+    }
+    return shape.size() <= max_axes && take(text, ')');
 }
 
-// One or three numbers in front of rows and columns, or else behind them, are colours.
-void parse_shape(const std::filesystem::path& path, std::string_view shape, Header& header) {
-    std::vector<std::size_t> axes;
-    bool good = take(shape, '(');
-    for (std::size_t length = 0; good && axes.size() < 4 && take_number(shape, length);) {
-        axes.push_back(length);
-        good = take(shape, ',') || shape.starts_with(')');
-    }
-    const auto is_colours = [](std::size_t length) { return length == 1 || length == 3; };
-    if (good && axes.size() == 3 && (is_colours(axes.front()) || is_colours(axes.back()))) {
-        header.colours_last = !is_colours(axes.front());
-        const auto colours = header.colours_last ? axes.end() - 1 : axes.begin();
-        header.colours = *colours;
-        axes.erase(colours);
-    }
-    if (!good || !take(shape, ')') || axes.size() != 2) fail_shape(path);
-    header.height = axes[0];
-    header.width = axes[1];
+// Throws unless all numbers are in the file.
+void require_numbers(const std::filesystem::path& path, const core::RawFile& file, const NpyHeader& header) {
+    const std::uint64_t bytes = header.bytes_of_sample();
+    std::uint64_t held = (file.size() - header.begin) / bytes;
+    for (const std::size_t extent : header.shape) held = extent == 0 ? held : held / extent;
+    if (held == 0 && std::ranges::count(header.shape, 0u) == 0)
+        fail_external(path, fmt::format("it is truncated: {} bytes are too few for {} numbers of {} bytes",
+                                        file.size() - header.begin, fmt::join(header.shape, "x"), bytes));
 }
 
-Header read_header(const std::filesystem::path& path, const core::RawFile& file) {
+}  // namespace
+
+NpyHeader read_npy_header(const std::filesystem::path& path, const core::RawFile& file) {
     std::array<unsigned char, 12> start{};
     file.read(0, start.data(), 10);
     const int version = start[6];
     if (version < 1 || version > 3) fail_external(path, fmt::format("its NPY version {} is not known", version));
-    Header header;
+    NpyHeader header;
     std::size_t length = start[8] + 256u * start[9];
     header.begin = 10;
     if (version > 1) {
@@ -137,28 +128,63 @@ Header read_header(const std::filesystem::path& path, const core::RawFile& file)
     parse_type(path, value_of(text, "descr"), header);
     const std::string_view order = value_of(text, "fortran_order");
     header.by_columns = order.starts_with("True");
-    parse_shape(path, value_of(text, "shape"), header);
-    if (!header.by_columns && !order.starts_with("False")) fail_shape(path);
-    if (header.by_columns && header.colours > 1)
-        fail_external(path, "colours in an array by columns are not read; an array in C order was expected");
-    const std::uint64_t bytes = header.colours * header.bytes_of_sample(), held = file.size() - header.begin;
-    if (header.width > 0 && header.height > held / bytes / header.width)
-        fail_external(path, fmt::format("it is truncated: {} bytes are too few for {}x{} numbers of {} bytes", held,
-                                        header.width * header.colours, header.height, header.bytes_of_sample()));
+    if (!parse_shape(value_of(text, "shape"), header.shape) || (!header.by_columns && !order.starts_with("False")))
+        fail_external(path, "its header says nothing of the array's shape or order");
+    require_numbers(path, file, header);
     return header;
+}
+
+std::string npy_beginning(const std::string& type, std::span<const std::size_t> shape) {
+    const std::string extents = fmt::format("{}{}", fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
+    std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, extents);
+    header.resize((10 + header.size() + 1 + 63) / 64 * 64 - 10 - 1, ' ');
+    header += '\n';
+    std::string start(magic.begin(), magic.end());
+    start += {1, 0, static_cast<char>(header.size() % 256), static_cast<char>(header.size() / 256)};
+    return start + header;
+}
+
+namespace {
+
+// A field, or three, in an array.
+struct Planes {
+    std::size_t height = 0, width = 0, colours = 1;
+    bool colours_last = false;  // [row][column][colour] instead of [colour][row][column]
+};
+
+// One or three numbers in front of rows and columns, or else behind them, are colours.
+Planes planes_of(const std::filesystem::path& path, const NpyHeader& header) {
+    std::vector<std::size_t> axes = header.shape;
+    Planes planes;
+    const auto is_colours = [](std::size_t extent) { return extent == 1 || extent == 3; };
+    if (axes.size() == 3 && (is_colours(axes.front()) || is_colours(axes.back()))) {
+        planes.colours_last = !is_colours(axes.front());
+        const auto colours = planes.colours_last ? axes.end() - 1 : axes.begin();
+        planes.colours = *colours;
+        axes.erase(colours);
+    }
+    if (axes.size() != 2)
+        fail_external(path,
+                      "an array of two axes, [row][column], or of three with three colours first or last was expected");
+    if (header.by_columns && planes.colours > 1)
+        fail_external(path, "colours in an array by columns are not read; an array in C order was expected");
+    planes.height = axes[0];
+    planes.width = axes[1];
+    return planes;
 }
 
 class NpyField final : public FieldSource {
   public:
     NpyField(const std::filesystem::path& path, const ExternalField& what)
         : file_(path, core::RawFile::Mode::read, path),
-          header_(read_header(path, file_)),
-          grid_(external_grid(path, what, header_.width, header_.height)),
+          header_(read_npy_header(path, file_)),
+          planes_(planes_of(path, header_)),
+          grid_(external_grid(path, what, planes_.width, planes_.height)),
           colour_(what.colour),
           convert_(path, what, header_.number, header_.complex) {
-        if (colour_ >= header_.colours)
+        if (colour_ >= planes_.colours)
             throw Error(ErrorCode::usage, fmt::format("'{}' has no colour {}: it holds {}", path.string(), colour_,
-                                                      header_.colours == 1 ? "one field" : "three fields"));
+                                                      planes_.colours == 1 ? "one field" : "three fields"));
     }
 
     const FieldGrid& grid() const override { return grid_; }
@@ -171,12 +197,12 @@ class NpyField final : public FieldSource {
         const std::size_t lines = columns ? region.width : region.height,
                           count = columns ? region.height : region.width;
         // From a sample to the next one of a line, and to the first of this colour.
-        const std::size_t step = header_.colours_last ? header_.colours : 1;
-        const std::size_t colour = header_.colours_last ? colour_ : colour_ * header_.height * header_.width;
+        const std::size_t step = planes_.colours_last ? planes_.colours : 1;
+        const std::size_t colour = planes_.colours_last ? colour_ : colour_ * planes_.height * planes_.width;
         std::vector<unsigned char> line(((count - 1) * step + 1) * bytes);
         for (std::size_t i = 0; i < lines; ++i) {
             const std::size_t first =
-                columns ? (region.x0 + i) * header_.height + region.y0 : (region.y0 + i) * header_.width + region.x0;
+                columns ? (region.x0 + i) * planes_.height + region.y0 : (region.y0 + i) * planes_.width + region.x0;
             file_.read(header_.begin + (first * step + colour) * bytes, line.data(), line.size());
             if (header_.big_endian)
                 for (std::size_t at = 0; at < line.size(); at += number_bytes)
@@ -191,7 +217,8 @@ class NpyField final : public FieldSource {
 
   private:
     core::RawFile file_;
-    Header header_;
+    NpyHeader header_;
+    Planes planes_;
     FieldGrid grid_;
     std::size_t colour_;
     SampleConverter convert_;
@@ -204,7 +231,8 @@ bool is_npy(std::span<const unsigned char> start) {
 }
 
 std::size_t npy_colours(const std::filesystem::path& path) {
-    return read_header(path, core::RawFile(path, core::RawFile::Mode::read, path)).colours;
+    const NpyHeader header = read_npy_header(path, core::RawFile(path, core::RawFile::Mode::read, path));
+    return planes_of(path, header).colours;
 }
 
 std::unique_ptr<FieldSource> open_npy(const std::filesystem::path& path, const ExternalField& what) {
@@ -218,13 +246,7 @@ namespace hogel {
 using namespace io::arrays;
 
 void write_npy(const std::filesystem::path& path, View<const std::complex<float>, 2> samples) {
-    std::string header = fmt::format("{{'descr': '<c8', 'fortran_order': False, 'shape': ({}, {}), }}",
-                                     samples.extent(0), samples.extent(1));
-    header.resize(128 - 10 - 1, ' ');
-    header += '\n';
-    std::string start(magic.begin(), magic.end());
-    start += {1, 0, static_cast<char>(header.size()), 0};
-    start += header;
+    const std::string start = npy_beginning("<c8", samples.shape());
     core::OutputFile output(path);
     core::RawFile file(output.temporary(), core::RawFile::Mode::create, path);
     file.write(0, start.data(), start.size());

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "commands.h"
+#include "concerns.h"
+#include "hogel/pipeline.h"
+#include "hogel/units.h"
+#include "inputs.h"
+#include "outputs.h"
+
+namespace hogel::cli {
+namespace {
+
+struct Options {
+    std::string input, output, transfer;
+    ViewExportOptions views;
+    std::size_t bits = 0;
+    bool force = false;
+};
+
+int export_light_field(Options options, const Session& session) {
+    if (input_kind(options.input) != InputKind::light_field)
+        throw Error(ErrorCode::bad_input, fmt::format("{}: is not a light field", options.input));
+    const LightField light_field = open_light_field_or_views(options.input);
+    const ViewLayout layout =
+        with_options({{"", "--layout"}}, [&] { return view_layouts().find(options.views.layout); });
+    const std::filesystem::path output = options.output;
+    std::unique_ptr<const OutputFolder> folder;
+    if (layout.is_folder) {
+        folder = std::make_unique<const OutputFolder>(options.output, options.force);
+    } else {
+        require_writable(options.output, {&options.input, 1});
+    }
+    options.views.bits = static_cast<unsigned>(std::min<std::size_t>(options.bits, 99));
+    if (layout.name == "quilt" && options.views.format.empty() && output.has_extension())
+        options.views.format = output.extension().string().substr(1);
+    for (std::size_t i = 0; i < transfer_names().size(); ++i)
+        if (options.transfer == transfer_names()[i]) options.views.transfer = static_cast<Transfer>(i);
+    state_plan(session, plan_export(light_field, options.views), "exporting", options.output);
+    Stage stage(session, "exporting");
+    const ExportedViews exported =
+        with_options({{"layout", "--layout"},
+                      {"picture format", "--pictures"},
+                      {"bits", "--bits, --pictures"},
+                      {"a quilt holds", "--layout"},
+                      {"exposure", "--exposure"},
+                      {"", "--layout"}},
+                     [&] { return export_views(light_field, options.output, options.views, stage.progress()); });
+    session.say(fmt::format("{}: {}x{} views, {}{}", options.output, exported.columns, exported.rows,
+                            exported.files.front().filename().string(),
+                            exported.files.size() > 1 ? " to " + exported.files.back().filename().string() : ""));
+    std::uintmax_t bytes = 0;
+    for (const auto& file : exported.files) bytes += std::filesystem::file_size(file);
+    session.result({{layout.is_folder ? "folder" : "file", options.output},
+                    {"bytes", bytes},
+                    {"layout", layout.name},
+                    {"views_across", exported.columns},
+                    {"views_down", exported.rows},
+                    {"files", exported.files.size()},
+                    {"seconds", session.seconds()}});
+    return 0;
+}
+
+}  // namespace
+
+void add_export(Command& command, Session& session) {
+    auto options = std::make_shared<Options>();
+    command.examples(
+        "  hogel export antinous.h5 -o views --layout hci\n"
+        "  hogel export antinous.h5 -o views --pictures ppm --bits 10\n"
+        "  hogel export antinous.h5 -o views.npy --layout npy");
+    command.positional("input", options->input, "X.h5|X.hgl", "Light field");
+    command
+        .text("-o,--output", options->output, "FOLDER|FILE",
+              "Folder for the views, or the file of layouts that are one")
+        .required();
+    add_force_flag(command, options->force);
+    std::string layouts;
+    for (const ViewLayout& layout : view_layouts().rows())
+        if (layout.create != nullptr) layouts += fmt::format("\n{}: {}", layout.name, layout.text);
+    command.text("--layout", options->views.layout, "NAME", "How the views are stored" + layouts);
+    command
+        .choice("--pictures", options->views.format, {"png", "ppm", "pfm", "exr"}, "FORMAT",
+                "png, ppm (8 to 16 bits), pfm or exr (floating-point numbers; default: as imported, else png)")
+        .no_default();
+    command.count("--bits", options->bits, "Of whole numbers, 8 to 16; png: 8 or 16 (default: as imported, else 8)")
+        .no_default();
+    command
+        .choice("--transfer", options->transfer, transfer_names(), "NAME",
+                fmt::format("{}: the curve of the stored numbers (default: as imported, else srgb, or linear for "
+                            "floating-point ones)",
+                            fmt::join(transfer_names(), ", ")))
+        .no_default();
+    command.number("--exposure", options->views.exposure, "NUMBER", "What linear values are multiplied by").positive();
+    add_json_flag(command, session);
+    command.work([options, &session] { return export_light_field(*options, session); });
+}
+
+}  // namespace hogel::cli

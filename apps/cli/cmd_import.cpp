@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "commands.h"
+#include "concerns.h"
+#include "hogel/compress.h"
+#include "hogel/pipeline.h"
+#include "hogel/units.h"
+#include "inputs.h"
+#include "outputs.h"
+
+namespace hogel::cli {
+namespace {
+
+struct Options {
+    std::string source, output;
+    ViewOptions views;
+    std::string projection, column, transfer, mirror = "none";
+    double size = 0, distance = 0, spacing = 0, field_of_view = 0, disparity = 0;
+    bool distance_given = false, spacing_given = false, field_given = false;
+    Counts counts;
+    bool single = false;
+    std::optional<double> sqnr;
+
+    bool compressed() const { return std::filesystem::path(output).extension() == ".hgl"; }
+};
+
+ViewOptions view_options(const Options& options) {
+    ViewOptions views = options.views;
+    views.size = options.size;
+    if (options.distance_given) views.distance = options.distance;
+    if (options.spacing_given) views.spacing = options.spacing;
+    if (options.field_given) views.field_of_view = options.field_of_view;
+    if (!options.projection.empty()) views.orthographic = options.projection == "orthographic";
+    if (!options.column.empty()) views.column_first = options.column == "first";
+    for (std::size_t i = 0; i < transfer_names().size(); ++i)
+        if (options.transfer == transfer_names()[i]) views.transfer = static_cast<Transfer>(i);
+    views.columns = options.counts.columns;
+    views.rows = options.counts.rows;
+    views.mirror_columns = options.mirror == "columns" || options.mirror == "both";
+    views.mirror_rows = options.mirror == "rows" || options.mirror == "both";
+    views.disparity = options.disparity;
+    return views;
+}
+
+void record_views(RunRecord& record, const Options& options, const ImportedViews& views) {
+    record.acted({"source", "mirror"});
+    record.acted("layout", views.layout);
+    record.acted("transfer", transfer_names()[static_cast<std::size_t>(views.transfer)]);
+    record.acted("size", compact_length(views.light_field.grid().width()));
+    if (options.distance_given) record.acted({"distance"});
+    if (options.spacing_given) record.acted({"spacing"});
+    if (options.field_given) record.acted({"fov"});
+    if (!options.projection.empty()) record.acted({"projection"});
+    if (!options.column.empty() && views.layout == "rows-columns") record.acted({"column"});
+    if (options.counts.columns > 0) record.acted({"views"});
+    if (options.disparity != 0) record.acted({"disparity"});
+}
+
+void say_understood(const Session& session, const std::string& source, const ImportedViews& views) {
+    session.say(fmt::format("{}: {}", source, views.summary));
+    for (const std::string& note : views.notes) session.say(fmt::format("{}: {}", source, note));
+    if (!views.assumed.empty())
+        session.say(fmt::format("{}: assumed, because neither the set nor an option says it: {}", source,
+                                fmt::join(views.assumed, ", ")));
+}
+
+Result result_of(const ImportedViews& views) {
+    return {{"layout", views.layout},
+            {"views_across", views.columns},
+            {"views_down", views.rows},
+            {"bits", views.bits},
+            {"transfer", transfer_names()[static_cast<std::size_t>(views.transfer)]},
+            {"camera_spacing_m", views.spacing},
+            {"camera_distance_m", views.distance},
+            {"scale", views.scale},
+            {"parallax", views.parallax}};
+}
+
+int write_compressed(const Options& options, const ImportedViews& views, RunRecord& record, const Session& session) {
+    const LightField light_field = prepare_for_reading(session, views.light_field, 2, false);
+    CompressionOptions compression;
+    const double sqnr = options.sqnr.value_or(defaults.sqnr);
+    compression.target = Sqnr{sqnr};
+    record.acted("sqnr", fmt::format("{}", sqnr));
+    compression.metadata = record.metadata();
+    Stage stage(session, "compressing");
+    const CompressionResult result = with_options(
+        {{"", "--sqnr"}}, [&] { return compress(light_field, options.output, compression, stage.progress()); });
+    report_compressed(session, options.output, result);
+    return 0;
+}
+
+int write_hdf5(const Options& options, const ImportedViews& views, const LightFieldFileOptions& file,
+               const Session& session) {
+    LightFieldFileOptions with_metadata = file;
+    with_metadata.metadata = with_history(file.metadata, to_metadata(views.light_field.provenance()));
+    const LightFieldGrid& grid = views.light_field.grid();
+    Stage stage(session, "importing");
+    const auto sinks = create_light_field(options.output, {&grid, 1}, with_metadata);
+    write_views(views.light_field, *sinks.front(), stage.progress());
+    session.say(fmt::format("{}: {}x{} hogels of {}x{} directions, {}", options.output, grid.hogels_s, grid.hogels_t,
+                            grid.directions_u, grid.directions_v,
+                            format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
+    report_samples(session, options.output, result_of(views));
+    return 0;
+}
+
+int import(const Options& options, const Session& session) {
+    if (options.compressed() && options.single)
+        throw Error(ErrorCode::usage,
+                    fmt::format("--float: belongs to HDF5 files; {} is a compressed one", options.output));
+    if (options.sqnr && !options.compressed())
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("--sqnr: belongs to compressed files, whose names end in .hgl, not to {}", options.output));
+    require_writable(options.output, {&options.source, 1});
+    if (!options.compressed()) require_hdf5(options.output);
+    const ViewOptions view = view_options(options);
+    const ImportedViews views = with_options({{"layout", "--layout"},
+                                              {"disparity", "--disparity"},
+                                              {"spacing of cameras and the field of view", "--spacing, --fov"},
+                                              {"distance and spacing", "--distance, --spacing"},
+                                              {"columns and rows", "--views"},
+                                              {"number of columns", "--views"},
+                                              {"views were asked for", "--views"},
+                                              {"field of view", "--fov"},
+                                              {"width", "--size"}},
+                                             [&] {
+                                                 Stage stage(session, "looking at the views");
+                                                 return import_views(options.source, view, stage.progress());
+                                             });
+    say_understood(session, options.source, views);
+    RunRecord record(session);
+    record_views(record, options, views);
+    LightFieldFileOptions file;
+    // Half floats hold codes of up to 11 bits so that they come back as they were.
+    constexpr unsigned max_bits_of_half = 11;
+    file.type = options.single || views.bits > max_bits_of_half ? SampleType::single : SampleType::half;
+    state_plan(session, plan_import(views, view, file), "importing", options.compressed() ? "" : options.output);
+    if (options.compressed()) return write_compressed(options, views, record, session);
+    record.acted("float", file.type == SampleType::single ? "yes" : "no");
+    file.metadata = record.metadata();
+    return write_hdf5(options, views, file, session);
+}
+
+void add_geometry_options(Command& command, Options& options) {
+    command.positive_length("--size", options.size, "Width of the hologram, to which the set is scaled (default: 20mm)")
+        .no_default();
+    command
+        .positive_length("--distance", options.distance,
+                         "From the cameras to the hologram (default: as the set says, else 300mm)")
+        .no_default()
+        .sets(options.distance_given);
+    const Option spacing =
+        command
+            .positive_length(
+                "--spacing", options.spacing,
+                "Between neighbouring cameras, at the hologram's scale (default: as the set says, else by --fov)")
+            .no_default()
+            .sets(options.spacing_given);
+    command
+        .angle("--fov", options.field_of_view,
+               "Full angle that a row of views spans, where the set does not say it (default: 16deg)")
+        .no_default()
+        .sets(options.field_given)
+        .excludes(spacing);
+    command
+        .number("--disparity", options.disparity, "PIXELS",
+                "By how much the plane that is to be the hologram moves left from a view to the one on its right; the "
+                "views are sheared and cropped (default: 0, the plane on which they agree)")
+        .no_default();
+}
+
+void add_order_options(Command& command, Options& options) {
+    command
+        .counts("--views", options.counts,
+                "Columns and rows of views, where one number counts them all (default: a square)")
+        .no_default();
+    command
+        .choice("--column", options.column, {"first", "second"}, "first|second",
+                "Which of the two numbers in the names of files is the column (default: what the parallax says)")
+        .no_default();
+    command.choice("--mirror", options.mirror, {"none", "columns", "rows", "both"}, "WHICH",
+                   "none, columns, rows or both: run the other way than the layout says");
+    command
+        .choice("--projection", options.projection, {"cameras", "orthographic"}, "NAME",
+                "cameras, or orthographic views along one direction each (default: as the layout says)")
+        .no_default();
+}
+
+}  // namespace
+
+void add_import(Command& command, Session& session) {
+    auto options = std::make_shared<Options>();
+    command.examples(
+        "  hogel import antinous -o antinous.h5 --size 40mm\n"
+        "  hogel import chess -o chess.hgl --size 60mm --fov 12deg\n"
+        "  hogel import head_qs8x6a0.75.png -o head.h5 --fov 40deg\n"
+        "  hogel import sockets -o sockets.h5 --projection orthographic --views 20x20");
+    command.positional("source", options->source, "SOURCE", "Folder or file of views");
+    command.text("-o,--output", options->output, "FILE", "Light field to write: HDF5, or compressed if it ends in .hgl")
+        .required();
+    std::string layouts;
+    for (const ViewLayout& layout : view_layouts().rows()) layouts += fmt::format("\n{}: {}", layout.name, layout.text);
+    command
+        .text("--layout", options->views.layout, "NAME",
+              "How the views are stored (default: what is recognised)" + layouts)
+        .no_default();
+    add_geometry_options(command, *options);
+    command
+        .choice("--transfer", options->transfer, transfer_names(), "NAME",
+                fmt::format("{}: the curve of the stored numbers (default: srgb, or linear for floating-point ones)",
+                            fmt::join(transfer_names(), ", ")))
+        .no_default();
+    add_order_options(command, *options);
+    command.flag("--float", options->single,
+                 "Store 32-bit floats rather than 16-bit ones, as for pictures of more than 11 bits");
+    command.number(
+        "--sqnr", options->sqnr, "DB",
+        fmt::format("Signal to error of a compressed light field, within 0.1 dB above (default: {})", defaults.sqnr));
+    add_json_flag(command, session);
+    command.work([options, &session] { return import(*options, session); });
+}
+
+}  // namespace hogel::cli

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sets with something wrong are refused, by the name of the file that is wrong.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "hogel/error.h"
+#include "hogel/exchange.h"
+#include "hogel/exchange/test_views.h"
+
+namespace hogel::exchange {
+namespace {
+
+const TestScene scene{.columns = 3, .rows = 3, .width = 20, .height = 18};
+
+// A set of the layout rows-columns.
+void write_set(const TestFolder& folder) {
+    for (std::size_t r = 0; r < scene.rows; ++r)
+        for (std::size_t c = 0; c < scene.columns; ++c)
+            folder.write(fmt::format("{:02}_{:02}.png", r, c), scene.png(r, c));
+}
+
+// The error of importing the set and reading it.
+std::string error_of(const std::filesystem::path& source, const ViewOptions& options = {},
+                     ErrorCode expected = ErrorCode::bad_input) {
+    try {
+        const ImportedViews views = import_views(source, options);
+        LightFieldBuffer buffer(views.light_field.grid());
+        write_views(views.light_field, buffer);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), expected) << error.what();
+        return error.what();
+    }
+    return "nothing";
+}
+
+TEST(DamagedViews, AHoleIsNamed) {
+    const TestFolder folder;
+    write_set(folder);
+    std::filesystem::remove(folder.path() / "01_02.png");
+    EXPECT_NE(error_of(folder.path()).find("01_02.png: a view is missing"), std::string::npos)
+        << error_of(folder.path());
+}
+
+TEST(DamagedViews, AMissingRowIsNoticed) {
+    const TestFolder folder;
+    write_set(folder);
+    for (std::size_t c = 0; c < 3; ++c) {
+        folder.write(fmt::format("04_{:02}.png", c), scene.png(0, c));
+    }
+    EXPECT_NE(error_of(folder.path()).find("go on from 2 to 4"), std::string::npos) << error_of(folder.path());
+}
+
+TEST(DamagedViews, AnotherSizeIsNamed) {
+    const TestFolder folder;
+    write_set(folder);
+    const TestScene other{.columns = 3, .rows = 3, .width = 21, .height = 18};
+    folder.write("02_00.png", other.png(2, 0));
+    EXPECT_NE(error_of(folder.path()).find("02_00.png: has 21x18 pixels"), std::string::npos)
+        << error_of(folder.path());
+}
+
+TEST(DamagedViews, OtherChannelsAndBitsAreNamed) {
+    const TestFolder folder;
+    write_set(folder);
+    folder.write("02_00.png", image::png_file(scene.view(2, 0, 1), {}, image::Curve::srgb));
+    EXPECT_NE(error_of(folder.path()).find("02_00.png: has 1 channels"), std::string::npos) << error_of(folder.path());
+    folder.write("02_00.png", image::png_file(Array<std::uint16_t, 3>({18, 20, 3}).view(), {}, image::Curve::srgb));
+    EXPECT_NE(error_of(folder.path()).find("02_00.png: has 16 bits"), std::string::npos) << error_of(folder.path());
+}
+
+TEST(DamagedViews, ADamagedPictureIsNamed) {
+    const TestFolder folder;
+    write_set(folder);
+    std::vector<unsigned char> bytes = scene.png(2, 2);
+    bytes.resize(bytes.size() / 2);
+    folder.write("02_02.png", bytes);
+    EXPECT_NE(error_of(folder.path()).find("02_02.png"), std::string::npos) << error_of(folder.path());
+}
+
+TEST(DamagedViews, SamplesThatAreNotFiniteAreNamed) {
+    const TestFolder folder;
+    for (std::size_t i = 0; i < 4; ++i) {
+        Array<float, 3> view({4, 4, 1}, 0.5f);
+        if (i == 3) view(2, 2, 0) = NAN;
+        folder.write(fmt::format("{}_{}.pfm", i / 2, i % 2), image::pfm_file(view));
+    }
+    EXPECT_NE(error_of(folder.path()).find("1_1.pfm: holds a sample that is not finite"), std::string::npos);
+}
+
+TEST(DamagedViews, NamesOfNoSetAreRefused) {
+    const TestFolder folder;
+    folder.write("alone.png", scene.png(0, 0));
+    EXPECT_FALSE(is_view_set(folder.path()));
+    EXPECT_NE(error_of(folder.path()).find("is no set of views"), std::string::npos);
+    EXPECT_NE(error_of(folder.path() / "nothing").find("is no set of views"), std::string::npos);
+    ViewOptions options;
+    options.layout = "hci";
+    EXPECT_NE(error_of(folder.path(), options).find("has no pictures input_Cam000.png"), std::string::npos);
+    options.layout = "zoo";
+    EXPECT_NE(error_of(folder.path(), options, ErrorCode::usage).find("no layout 'zoo'"), std::string::npos);
+}
+
+TEST(DamagedViews, CountsThatDoNotFitAreRefused) {
+    const TestFolder folder;
+    for (std::size_t i = 0; i < 7; ++i) folder.write(fmt::format("input_Cam{:03}.png", i), scene.png(0, i % 3));
+    EXPECT_NE(error_of(folder.path(), {}, ErrorCode::usage).find("7 views"), std::string::npos);
+    ViewOptions options;
+    options.columns = 4;
+    options.rows = 2;
+    EXPECT_NE(error_of(folder.path(), options, ErrorCode::usage).find("4x2 views were asked for"), std::string::npos);
+    std::filesystem::remove(folder.path() / "input_Cam003.png");
+    EXPECT_NE(error_of(folder.path()).find("input_Cam003.png: a view is missing"), std::string::npos);
+}
+
+TEST(DamagedViews, ParametersWithoutANumberAreNamed) {
+    const TestFolder folder;
+    for (std::size_t i = 0; i < 4; ++i) folder.write(fmt::format("input_Cam{:03}.png", i), scene.png(0, i % 3));
+    folder.write("parameters.cfg", std::string("[intrinsics]\nfocal_length_mm = -1\n"));
+    EXPECT_NE(error_of(folder.path()).find("parameters.cfg: has no"), std::string::npos);
+}
+
+TEST(DamagedViews, OptionsThatContradictAreRefused) {
+    const TestFolder folder;
+    write_set(folder);
+    ViewOptions options;
+    options.spacing = 0.01;
+    options.field_of_view = 0.1;
+    error_of(folder.path(), options, ErrorCode::usage);
+    options = {};
+    options.orthographic = true;
+    options.distance = 0.3;
+    error_of(folder.path(), options, ErrorCode::usage);
+    options = {};
+    options.disparity = 15;  // leaves nothing
+    error_of(folder.path(), options, ErrorCode::usage);
+}
+
+TEST(DamagedViews, ArraysAreRefusedAtEveryLength) {
+    const TestFolder folder;
+    std::string npy("\x93NUMPY\x01\x00\x46\x00", 10);
+    npy += "{'descr': '|u1', 'fortran_order': False, 'shape': (2, 2, 3, 3, 1), } ";
+    npy += "\n" + std::string(36, 'x');
+    folder.write("a.npy", npy);
+    EXPECT_TRUE(is_view_set(folder.path() / "a.npy"));
+    EXPECT_EQ(error_of(folder.path() / "a.npy"), "nothing");
+    ViewOptions options;
+    options.layout = "npy";
+    for (std::size_t length = 0; length < npy.size(); ++length) {
+        folder.write("a.npy", npy.substr(0, length));
+        EXPECT_FALSE(is_view_set(folder.path() / "a.npy")) << length;
+        EXPECT_NE(error_of(folder.path() / "a.npy", options), "nothing") << length;
+    }
+}
+
+}  // namespace
+}  // namespace hogel::exchange

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+// A light field as a set of views: the inverse of import_views.cpp.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hogel/core/parallel.h"
+#include "hogel/error.h"
+#include "hogel/exchange/transfer.h"
+#include "hogel/exchange/view_set.h"
+
+namespace hogel {
+namespace exchange {
+namespace {
+
+// What the import stored of the pictures; empty for other light fields.
+std::string stored(const LightField& light_field, const std::string& key) {
+    for (const auto& [name, text] : light_field.provenance().entries)
+        if (name == key) return text;
+    return {};
+}
+
+unsigned bits_for(const LightField& light_field, const ViewExportOptions& options, const std::string& format) {
+    if (format == "pfm" || format == "exr") {
+        if (options.bits != 0)
+            throw Error(
+                ErrorCode::usage,
+                fmt::format("the format {} holds floating-point numbers, which have no choice of bits", format));
+        return 32;
+    }
+    if (options.bits != 0) return options.bits;
+    const std::string text = stored(light_field, "views bits");
+    const int bits = text.empty() ? 8 : std::atoi(text.c_str());
+    return bits >= 8 && bits <= 16 ? static_cast<unsigned>(bits) : bits == 32 && format == "npy" ? 32 : 8;
+}
+
+// The format of the pictures: as asked for, else what holds the bits that the set had.
+std::string format_for(const LightField& light_field, const ViewExportOptions& options) {
+    static const std::vector<std::string> known{"png", "ppm", "pfm", "exr"};
+    if (!options.format.empty()) {
+        if (std::ranges::count(known, options.format) == 0) throw_unknown("picture format", options.format, known);
+        return options.format;
+    }
+    const std::string bits = options.bits != 0 ? fmt::format("{}", options.bits) : stored(light_field, "views bits");
+    if (bits == "32") return "pfm";
+    return bits.empty() || bits == "8" || bits == "16" ? "png" : "ppm";
+}
+
+Transfer transfer_for(const LightField& light_field, const ViewExportOptions& options, unsigned bits) {
+    if (options.transfer) return *options.transfer;
+    const std::string text = stored(light_field, "views transfer");
+    const auto found = std::ranges::find(transfer_names(), text);
+    const bool was_float = stored(light_field, "views bits") == "32";
+    if (found == transfer_names().end() || was_float != (bits == 32))
+        return bits == 32 ? Transfer::linear : Transfer::srgb;
+    return static_cast<Transfer>(found - transfer_names().begin());
+}
+
+ViewGeometry geometry_of(const LightFieldGrid& grid) {
+    ViewGeometry geometry;
+    const FocalPlane* plane = grid.focal_plane();
+    geometry.orthographic = plane == nullptr;
+    geometry.spacing_ratio = grid.step_u() > 0 && grid.directions_v > 1 ? grid.step_v() / grid.step_u() : 1;
+    if (plane == nullptr) {
+        geometry.spacing = grid.step_u();
+        return geometry;
+    }
+    geometry.distance = -plane->depth;
+    geometry.spacing = grid.step_u() * geometry.distance;
+    geometry.pixel_tangent = grid.pitch / geometry.distance;
+    return geometry;
+}
+
+void require_views(const LightField& light_field, const ViewLayout& layout) {
+    const LightFieldGrid& grid = light_field.grid();
+    if (layout.create == nullptr)
+        throw Error(ErrorCode::usage, fmt::format("the layout '{}' is read, but not written", layout.name));
+    if (light_field.has_sides())
+        throw Error(ErrorCode::usage, "a hemicube's sides are no views of one set; its front alone would do");
+    const FocalPlane* plane = grid.focal_plane();
+    if (plane == nullptr) require_perspective(grid, ErrorCode::usage, "a set of views");
+    if (plane == nullptr && layout.cameras_only)
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("the layout '{}' is for cameras, but the directions of this light field are the same at all "
+                        "hogels, which makes orthographic views; rows-columns and numbered hold these",
+                        layout.name));
+    if (plane != nullptr && plane->depth > 0)
+        throw Error(ErrorCode::usage, "the fixed focal plane lies behind the hologram; cameras stand in front of it");
+}
+
+// A group of views, filled from tiles of hogels.
+class Group {
+  public:
+    Group(const LightFieldGrid& grid, std::size_t first, std::size_t count)
+        : grid_(grid), first_(first), views_(Shape<4>{count, grid.hogels_t, grid.hogels_s, grid.channels}) {}
+
+    void add(const LightFieldTile& tile) {
+        const std::size_t n = grid_.directions_u, m = grid_.directions_v;
+        for (std::size_t i = 0; i < views_.extent(0); ++i) {
+            const std::size_t view = first_ + i, l = m - 1 - view / n, k = n - 1 - view % n;
+            for (std::size_t c = 0; c < grid_.channels; ++c)
+                for (std::size_t j = 0; j < tile.range.nt; ++j)
+                    for (std::size_t s = 0; s < tile.range.ns; ++s)
+                        views_(i, tile.range.t0 + j, tile.range.s0 + s, c) = tile.radiance(c, j, s, l, k);
+        }
+    }
+    View<const float, 3> view(std::size_t i) const { return views_.view()[i]; }
+
+  private:
+    const LightFieldGrid& grid_;
+    std::size_t first_;
+    Array<float, 4> views_;
+};
+
+template <class T>
+Array<T, 3> codes(View<const float, 3> linear, Transfer transfer, double exposure, unsigned bits) {
+    const auto full = static_cast<double>(std::numeric_limits<T>::max()), max = static_cast<double>((1u << bits) - 1);
+    Array<T, 3> out(linear.shape());
+    std::ranges::transform(linear.elements(), out.data(), [&](float value) {
+        const float display = encode(transfer, static_cast<float>(value * exposure));
+        const double code = std::round(max * std::clamp(static_cast<double>(display), 0.0, 1.0));
+        return static_cast<T>(max == full ? code : std::floor((code * full + std::floor(max / 2)) / max));
+    });
+    return out;
+}
+
+StoredView stored_view(View<const float, 3> linear, const ViewTarget& target, double exposure) {
+    if (target.bits <= 8) return codes<std::uint8_t>(linear, target.transfer, exposure, target.bits);
+    if (target.bits <= 16) return codes<std::uint16_t>(linear, target.transfer, exposure, target.bits);
+    Array<float, 3> out(linear.shape());
+    std::ranges::transform(linear.elements(), out.data(),
+                           [&](float value) { return encode(target.transfer, static_cast<float>(value * exposure)); });
+    return out;
+}
+
+void read_group(const LightFieldSource& source, Group& group, const Progress& progress) {
+    const LightFieldGrid& grid = source.grid();
+    const HogelRange size = source.preferred_tile();
+    const std::size_t across = (grid.hogels_s + size.ns - 1) / size.ns, down = (grid.hogels_t + size.nt - 1) / size.nt;
+    // In order, because a source may be read in bands.
+    const std::size_t batch = std::max<std::size_t>(thread_count(), 1) * 4;
+    for (std::size_t first = 0; first < across * down; first += batch) {
+        core::parallel_for(std::min(batch, across * down - first), [&](std::size_t i) {
+            const std::size_t s0 = (first + i) % across * size.ns, t0 = (first + i) / across * size.nt;
+            LightFieldTile tile(
+                grid, {s0, t0, std::min(size.ns, grid.hogels_s - s0), std::min(size.nt, grid.hogels_t - t0)}, false);
+            source.read(tile);
+            group.add(tile);
+        });
+        progress.report(static_cast<double>(first) / static_cast<double>(across * down));
+    }
+}
+
+}  // namespace
+}  // namespace exchange
+
+ExportedViews export_views(const LightField& light_field, const std::filesystem::path& path,
+                           const ViewExportOptions& options, const Progress& progress) {
+    using namespace exchange;
+    const core::StopScope scope(progress);
+    const ViewLayout layout = view_layouts().find(options.layout);
+    require_views(light_field, layout);
+    if (!(std::isfinite(options.exposure) && options.exposure > 0))
+        throw Error(ErrorCode::usage,
+                    fmt::format("the exposure is {}, but must be positive and finite", options.exposure));
+    if (options.bits != 0 && (options.bits < 8 || options.bits > 16))
+        throw Error(ErrorCode::usage,
+                    fmt::format("{} bits a sample were asked for, but 8 to 16 can be written", options.bits));
+    const LightFieldGrid& grid = light_field.grid();
+    ViewTarget target;
+    target.path = path;
+    target.columns = grid.directions_u;
+    target.rows = grid.directions_v;
+    target.width = grid.hogels_s;
+    target.height = grid.hogels_t;
+    target.channels = grid.channels;
+    target.geometry = geometry_of(grid);
+    target.format = layout.name == "npy" ? "npy" : format_for(light_field, options);
+    target.bits = bits_for(light_field, options, target.format);
+    if (target.format == "png" && target.bits != 8 && target.bits != 16)
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("PNG files hold 8 or 16 bits a sample, not {}; ppm holds any from 8 to 16", target.bits));
+    target.transfer = transfer_for(light_field, options, target.bits);
+    const auto writer = layout.create(target);
+
+    ExportedViews exported{target.columns, target.rows, {}};
+    const std::size_t views = target.columns * target.rows;
+    exported.files.resize(views);
+    const double view_bytes = static_cast<double>(target.width * target.height * target.channels) * sizeof(float);
+    const auto at_once =
+        static_cast<std::size_t>(std::clamp(options.memory / view_bytes, 1.0, static_cast<double>(views)));
+    for (std::size_t first = 0; first < views; first += at_once) {
+        const std::size_t count = std::min(at_once, views - first);
+        const Progress part = progress.part(static_cast<double>(first) / static_cast<double>(views),
+                                            static_cast<double>(first + count) / static_cast<double>(views));
+        Group group(grid, first, count);
+        read_group(light_field.front(), group, part.part(0, 0.5));
+        core::parallel_for(count, [&](std::size_t i) {
+            const std::size_t row = (first + i) / target.columns, column = (first + i) % target.columns;
+            exported.files[first + i] =
+                writer->write(row, column, stored_view(group.view(i), target, options.exposure));
+        });
+        part.report(1);
+    }
+    const std::vector<std::filesystem::path> more = writer->finish();
+    std::erase_if(exported.files, [](const auto& file) { return file.empty(); });
+    exported.files.insert(exported.files.end(), more.begin(), more.end());
+    return exported;
+}
+
+}  // namespace hogel

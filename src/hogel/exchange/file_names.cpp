@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/exchange/file_names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <system_error>
+
+#include "hogel/error.h"
+#include "hogel/image/picture_formats.h"
+
+namespace hogel::exchange {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t max_digits = 18;
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// Splits a name into its shape and its numbers.
+std::pair<std::string, std::vector<std::uint64_t>> parse(const std::string& name) {
+    std::string shape;
+    std::vector<std::uint64_t> numbers;
+    for (std::size_t i = 0; i < name.size();) {
+        if (!is_digit(name[i])) {
+            shape += name[i++];
+            continue;
+        }
+        std::uint64_t number = 0;
+        const std::size_t first = i;
+        for (; i < name.size() && is_digit(name[i]) && i - first < max_digits; ++i)
+            number = 10 * number + static_cast<std::uint64_t>(name[i] - '0');
+        shape += '#';
+        numbers.push_back(number);
+    }
+    return {shape, numbers};
+}
+
+std::vector<std::size_t> varying_of(const std::vector<NumberedFile>& files) {
+    std::vector<std::size_t> varying;
+    for (std::size_t i = 0; i < files.front().numbers.size(); ++i)
+        if (std::ranges::any_of(files, [&](const auto& file) { return file.numbers[i] != files.front().numbers[i]; }))
+            varying.push_back(i);
+    return varying;
+}
+
+// The distinct values of a number, in rising order, at even steps.
+std::vector<std::uint64_t> steps(const NumberedFiles& group, std::size_t number) {
+    std::vector<std::uint64_t> values;
+    for (const NumberedFile& file : group.files) values.push_back(file.numbers[number]);
+    std::ranges::sort(values);
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    for (std::size_t i = 2; i < values.size(); ++i)
+        if (values[i] - values[i - 1] != values[1] - values[0])
+            throw Error(ErrorCode::bad_input,
+                        fmt::format("{}: the numbers go on from {} to {}, but by steps of {} before; views are missing",
+                                    group.files.front().path.parent_path().string(), values[i - 1], values[i],
+                                    values[1] - values[0]));
+    return values;
+}
+
+// The name of a file that is missing: another one's, with two of its numbers replaced at their widths.
+std::string name_with(const std::string& name, std::size_t a, std::uint64_t a_value, std::size_t b,
+                      std::uint64_t b_value) {
+    std::string replaced;
+    std::size_t number = 0;
+    for (std::size_t i = 0; i < name.size();) {
+        if (!is_digit(name[i])) {
+            replaced += name[i++];
+            continue;
+        }
+        const std::size_t first = i;
+        while (i < name.size() && is_digit(name[i]) && i - first < max_digits) ++i;
+        const std::size_t digits = i - first;
+        replaced += number == a   ? fmt::format("{:0{}}", a_value, digits)
+                    : number == b ? fmt::format("{:0{}}", b_value, digits)
+                                  : name.substr(first, digits);
+        ++number;
+    }
+    return replaced;
+}
+
+}  // namespace
+
+std::vector<NumberedFiles> numbered_pictures(const fs::path& folder) {
+    std::map<std::string, NumberedFiles> groups;
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+        const std::string name = entry.path().filename().string();
+        const image::PictureFormat* format = image::format_by_extension(entry.path());
+        if (name.starts_with('.') || format == nullptr || !entry.is_regular_file(error)) continue;
+        auto [shape, numbers] = parse(entry.path().stem().string());
+        shape += entry.path().extension().string();
+        NumberedFiles& group = groups[shape];
+        group.shape = shape;
+        group.files.push_back({entry.path(), std::move(numbers)});
+    }
+    std::vector<NumberedFiles> list;
+    for (auto& [shape, group] : groups) {
+        std::ranges::sort(group.files, {}, &NumberedFile::path);
+        group.varying = varying_of(group.files);
+        list.push_back(std::move(group));
+    }
+    std::ranges::stable_sort(list, std::ranges::greater(), [](const auto& group) { return group.files.size(); });
+    return list;
+}
+
+PictureGrid in_rows_and_columns(const NumberedFiles& group, std::size_t row_number, std::size_t column_number) {
+    const std::vector<std::uint64_t> rows = steps(group, row_number), columns = steps(group, column_number);
+    PictureGrid grid{rows.size(), columns.size(), std::vector<fs::path>(rows.size() * columns.size())};
+    for (const NumberedFile& file : group.files) {
+        const auto row = static_cast<std::size_t>(std::ranges::find(rows, file.numbers[row_number]) - rows.begin());
+        const auto column =
+            static_cast<std::size_t>(std::ranges::find(columns, file.numbers[column_number]) - columns.begin());
+        fs::path& place = grid.files[row * grid.columns + column];
+        if (!place.empty())
+            throw Error(ErrorCode::bad_input,
+                        fmt::format("{}: is the same view as {}", file.path.string(), place.filename().string()));
+        place = file.path;
+    }
+    for (std::size_t i = 0; i < grid.files.size(); ++i)
+        if (grid.files[i].empty()) {
+            const fs::path& other = group.files.front().path;
+            const std::string name = name_with(other.stem().string(), row_number, rows[i / grid.columns], column_number,
+                                               columns[i % grid.columns]);
+            throw Error(ErrorCode::bad_input,
+                        fmt::format("{}: a view is missing; there are {} of {}x{}",
+                                    (other.parent_path() / name).string() + other.extension().string(),
+                                    group.files.size(), grid.columns, grid.rows));
+        }
+    return grid;
+}
+
+PictureGrid counted(const NumberedFiles& group, std::size_t number, std::size_t columns, std::size_t rows) {
+    std::vector<NumberedFile> files = group.files;
+    std::ranges::sort(files, {}, [&](const NumberedFile& file) { return file.numbers[number]; });
+    for (std::size_t i = 1; i < files.size(); ++i) {
+        const std::uint64_t before = files[i - 1].numbers[number], now = files[i].numbers[number];
+        if (now == before)
+            throw Error(ErrorCode::bad_input, fmt::format("{}: is the same view as {}", files[i].path.string(),
+                                                          files[i - 1].path.filename().string()));
+        if (now != before + 1)
+            throw Error(
+                ErrorCode::bad_input,
+                fmt::format("{}: a view is missing; the next one is {}",
+                            (files[i - 1].path.parent_path() /
+                             name_with(files[i - 1].path.stem().string(), number, before + 1, number, before + 1))
+                                    .string() +
+                                files[i - 1].path.extension().string(),
+                            files[i].path.filename().string()));
+    }
+    const std::size_t count = files.size();
+    if (columns == 0) {
+        columns = rows = static_cast<std::size_t>(std::llround(std::sqrt(static_cast<double>(count))));
+        if (columns * rows != count)
+            throw Error(ErrorCode::usage, fmt::format("{} views are not as many rows as columns; the number of columns "
+                                                      "and rows of views is needed",
+                                                      count));
+    }
+    if (columns * rows != count)
+        throw Error(ErrorCode::usage,
+                    fmt::format("{}x{} views were asked for, but there are {}", columns, rows, count));
+    PictureGrid grid{rows, columns, {}};
+    for (NumberedFile& file : files) grid.files.push_back(std::move(file.path));
+    return grid;
+}
+
+}  // namespace hogel::exchange

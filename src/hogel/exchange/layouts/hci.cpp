@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// The 4D Light Field Benchmark (Honauer et al. 2016) and the files of its Blender add-on
+// (lightfield-analysis/blender-addon, import_export.py): input_Cam000.png, ... row by row from the top left, and
+// parameters.cfg. The cameras are shifted, not rotated: views agree on the plane at focus_distance_m.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <map>
+
+#include "hogel/core/output_file.h"
+#include "hogel/error.h"
+#include "hogel/exchange/file_names.h"
+#include "hogel/exchange/view_set.h"
+
+namespace hogel::exchange {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* beginning = "input_Cam#";
+
+const NumberedFiles* pictures_in(const std::vector<NumberedFiles>& groups) {
+    for (const NumberedFiles& group : groups)
+        if (group.shape.starts_with(beginning)) return &group;
+    return nullptr;
+}
+
+bool probe(const fs::path& source) { return pictures_in(numbered_pictures(source)) != nullptr; }
+
+std::string trimmed(const std::string& text) {
+    const std::size_t first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
+    return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+// The numbers of parameters.cfg by name. Sections do not matter: no name is in two of them.
+std::map<std::string, double> read_parameters(const fs::path& file) {
+    std::map<std::string, double> parameters;
+    std::ifstream stream(file);
+    constexpr std::size_t max_lines = 10000;
+    std::string line;
+    for (std::size_t i = 0; i < max_lines && std::getline(stream, line); ++i) {
+        const std::size_t equals = line.find('=');
+        if (equals == std::string::npos) continue;
+        const std::string text = trimmed(line.substr(equals + 1));
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error == std::errc() && end == text.data() + text.size())
+            parameters[trimmed(line.substr(0, equals))] = value;
+    }
+    return parameters;
+}
+
+ViewGeometry geometry_of(const fs::path& file, const std::map<std::string, double>& parameters) {
+    const auto length = [&](const char* name) {
+        const auto found = parameters.find(name);
+        if (found == parameters.end() || !(found->second > 0))
+            fail_source(file, fmt::format("has no {} that is positive", name));
+        return found->second;
+    };
+    ViewGeometry geometry;
+    geometry.spacing = length("baseline_mm") * 1e-3;
+    geometry.distance = length("focus_distance_m");
+    geometry.pixel_tangent = length("sensor_size_mm") / length("focal_length_mm") /
+                             std::max(length("image_resolution_x_px"), length("image_resolution_y_px"));
+    return geometry;
+}
+
+ViewSet open(const fs::path& source, const ViewOptions& options) {
+    const std::vector<NumberedFiles> groups = numbered_pictures(source);
+    const NumberedFiles* group = pictures_in(groups);
+    if (group == nullptr) fail_source(source, "has no pictures input_Cam000.png and so on");
+    std::size_t columns = options.columns, rows = options.rows;
+    ViewSet set;
+    if (const fs::path file = source / "parameters.cfg"; fs::exists(file)) {
+        const std::map<std::string, double> parameters = read_parameters(file);
+        set.geometry = geometry_of(file, parameters);
+        const auto x = parameters.find("num_cams_x"), y = parameters.find("num_cams_y");
+        if (columns == 0 && x != parameters.end() && y != parameters.end() && x->second >= 1 && y->second >= 1 &&
+            x->second * y->second <= 1e9) {
+            columns = static_cast<std::size_t>(x->second);
+            rows = static_cast<std::size_t>(y->second);
+        }
+    }
+    PictureGrid grid = counted(*group, 0, columns, rows);
+    set.columns = grid.columns;
+    set.rows = grid.rows;
+    set.pictures = std::make_shared<FilePictures>(std::move(grid.files), set.columns);
+    return set;
+}
+
+// Names the views and describes the cameras when they are all there.
+class Writer final : public ViewWriter {
+  public:
+    explicit Writer(const ViewTarget& target)
+        : target_(target), files_(file_writer(target, [columns = target.columns](std::size_t row, std::size_t column) {
+              return fmt::format("input_Cam{:03}", row * columns + column);
+          })) {}
+
+    fs::path write(std::size_t row, std::size_t column, const StoredView& view) override {
+        return files_->write(row, column, view);
+    }
+
+    std::vector<fs::path> finish() override {
+        const ViewGeometry& g = target_.geometry;
+        constexpr double sensor_mm = 35;
+        const auto widest = static_cast<double>(std::max(target_.width, target_.height));
+        // offset: the disparity in pixels that shifting the cameras has taken away.
+        const std::string text = fmt::format(
+            "[intrinsics]\nfocal_length_mm = {}\nimage_resolution_x_px = {}\nimage_resolution_y_px = {}\n"
+            "sensor_size_mm = {}\n\n[extrinsics]\nnum_cams_x = {}\nnum_cams_y = {}\nbaseline_mm = {}\n"
+            "focus_distance_m = {}\noffset = {}\n",
+            sensor_mm / (widest * g.pixel_tangent), target_.width, target_.height, sensor_mm, target_.columns,
+            target_.rows, g.spacing * 1e3, g.distance, g.spacing / (g.distance * g.pixel_tangent));
+        const fs::path file = target_.path / "parameters.cfg";
+        core::write_file(file, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
+        return {file};
+    }
+
+  private:
+    ViewTarget target_;
+    std::unique_ptr<ViewWriter> files_;
+};
+
+}  // namespace
+
+ViewLayout hci_layout() {
+    return {
+        .name = "hci",
+        .text = "input_Cam000.png, ... row by row from the top left, with parameters.cfg (4D Light Field Benchmark)",
+        .probe = probe,
+        .open = open,
+        .create = [](const ViewTarget& target) -> std::unique_ptr<ViewWriter> {
+            return std::make_unique<Writer>(target);
+        }};
+}
+
+}  // namespace hogel::exchange

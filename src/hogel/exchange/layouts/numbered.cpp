@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures counted by one number in their names, row by row. As in the sets of OpenHolo (OpenHolo_LFCGH) they are
+// orthographic views by their directions: the first shows the rays that go to the left and to the top behind the
+// hologram, which an eye on the right and below sees. With orthographic = false they are those of cameras from the top
+// left.
+#include <fmt/format.h>
+
+#include "hogel/error.h"
+#include "hogel/exchange/file_names.h"
+#include "hogel/exchange/view_set.h"
+
+namespace hogel::exchange {
+namespace fs = std::filesystem;
+namespace {
+
+bool probe(const fs::path& source) {
+    const std::vector<NumberedFiles> groups = numbered_pictures(source);
+    return !groups.empty() && groups.front().varying.size() == 1 && groups.front().files.size() > 2;
+}
+
+ViewSet open(const fs::path& source, const ViewOptions& options) {
+    const std::vector<NumberedFiles> groups = numbered_pictures(source);
+    if (groups.empty() || groups.front().varying.size() != 1)
+        fail_source(source, "has no pictures whose names differ in one number, such as view_001.png");
+    PictureGrid grid = counted(groups.front(), groups.front().varying[0], options.columns, options.rows);
+    ViewSet set;
+    set.columns = grid.columns;
+    set.rows = grid.rows;
+    set.pictures = std::make_shared<FilePictures>(std::move(grid.files), set.columns);
+    set.geometry.orthographic = options.orthographic.value_or(true);
+    if (!options.orthographic) set.notes.emplace_back("numbered views were taken for orthographic ones");
+    return mirrored(std::move(set), set.geometry.orthographic, set.geometry.orthographic);
+}
+
+std::unique_ptr<ViewWriter> create(const ViewTarget& target) {
+    return file_writer(target, [=](std::size_t row, std::size_t column) {
+        const bool by_direction = target.geometry.orthographic;
+        const std::size_t r = by_direction ? target.rows - 1 - row : row;
+        const std::size_t c = by_direction ? target.columns - 1 - column : column;
+        return fmt::format("view_{:0{}}", r * target.columns + c + 1,
+                           std::to_string(target.rows * target.columns).size());
+    });
+}
+
+}  // namespace
+
+ViewLayout numbered_layout() {
+    return {
+        .name = "numbered",
+        .text =
+            "view_001.png, ... row by row: orthographic views by direction (OpenHolo), or cameras from the top left",
+        .cameras_only = false,
+        .probe = probe,
+        .open = open,
+        .create = create};
+}
+
+}  // namespace hogel::exchange

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// Looking Glass quilts: one picture of rows and columns of tiles, name_qs8x6a0.75.png. The tile at the bottom left is
+// what the leftmost of a row of cameras sees; then they run to the right, then up. The number after 'a' is the aspect
+// of one view, which is not that of its tile where pixels are not square. Cameras are shifted, not rotated. A quilt
+// says nothing of their spacing: the cone of the display is the field of view.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <mutex>
+#include <optional>
+
+#include "hogel/core/output_file.h"
+#include "hogel/error.h"
+#include "hogel/exchange/view_set.h"
+#include "hogel/image/picture_bytes.h"
+#include "hogel/image/picture_formats.h"
+
+namespace hogel::exchange {
+namespace fs = std::filesystem;
+namespace {
+
+struct Tiling {
+    std::size_t columns = 0, rows = 0;
+    double aspect = 0;
+};
+
+template <class T>
+bool take(std::string_view& text, T& value) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc()) return false;
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    return true;
+}
+
+bool take_letter(std::string_view& text, char letter) {
+    if (text.empty() || text.front() != letter) return false;
+    text.remove_prefix(1);
+    return true;
+}
+
+// The tiling that a name's last "_qs" tells; nothing without one.
+std::optional<Tiling> tiling_of(const fs::path& path) {
+    const std::string stem = path.stem().string();
+    const std::size_t at = stem.rfind("_qs");
+    if (at == std::string::npos) return {};
+    std::string_view text(stem);
+    text.remove_prefix(at + 3);
+    Tiling tiling;
+    constexpr std::size_t max_tiles = 1000;
+    const bool known = take(text, tiling.columns) && take_letter(text, 'x') && take(text, tiling.rows) &&
+                       take_letter(text, 'a') && take(text, tiling.aspect) && text.empty() && tiling.columns > 0 &&
+                       tiling.rows > 0 && tiling.columns <= max_tiles && tiling.rows <= max_tiles &&
+                       tiling.aspect > 0 && std::isfinite(tiling.aspect);
+    return known ? std::optional(tiling) : std::nullopt;
+}
+
+bool probe(const fs::path& source) {
+    std::error_code none;
+    return fs::is_regular_file(source, none) && image::format_by_extension(source) != nullptr && tiling_of(source);
+}
+
+// The tiles of one picture, which is kept.
+class QuiltPictures final : public ViewPictures {
+  public:
+    QuiltPictures(const fs::path& source, const Tiling& tiling) : source_(source), tiling_(tiling) {
+        whole_ = image::read_picture(source, max_pixels);
+        std::visit(
+            [&](const auto& samples) {
+                height_ = samples.extent(0) / tiling.rows;
+                width_ = samples.extent(1) / tiling.columns;
+                if (height_ == 0 || width_ == 0)
+                    fail_source(source, fmt::format("has {}x{} pixels, fewer than {}x{} views", samples.extent(1),
+                                                    samples.extent(0), tiling.columns, tiling.rows));
+                divides_ = samples.extent(0) % tiling.rows == 0 && samples.extent(1) % tiling.columns == 0;
+            },
+            whole_.samples);
+    }
+
+    std::size_t width() const { return width_; }
+    std::size_t height() const { return height_; }
+    bool divides() const { return divides_; }
+
+    image::Picture read(std::size_t, std::size_t column) const override {
+        const std::size_t row = tiling_.rows - 1 - column / tiling_.columns;
+        return std::visit(
+            [&](const auto& samples) {
+                std::remove_cvref_t<decltype(samples)> view({height_, width_, samples.extent(2)});
+                const std::size_t y0 = row * samples.extent(0) / tiling_.rows,
+                                  x0 = column % tiling_.columns * samples.extent(1) / tiling_.columns;
+                for (std::size_t y = 0; y < height_; ++y)
+                    std::copy_n(&samples(y0 + y, x0, 0), width_ * samples.extent(2), &view(y, 0, 0));
+                return image::Picture{std::move(view), {}, whole_.max_code};
+            },
+            whole_.samples);
+    }
+    std::string name(std::size_t, std::size_t column) const override {
+        return fmt::format("{}, view {}", source_.string(), column);
+    }
+
+  private:
+    fs::path source_;
+    Tiling tiling_;
+    image::Picture whole_;
+    std::size_t width_ = 0, height_ = 0;
+    bool divides_ = true;
+};
+
+ViewSet open(const fs::path& source, const ViewOptions& options) {
+    std::optional<Tiling> tiling = tiling_of(source);
+    if (options.columns > 0) tiling = Tiling{options.columns, options.rows, tiling ? tiling->aspect : 0};
+    if (!tiling)
+        throw Error(ErrorCode::usage,
+                    fmt::format("{}: the name of a quilt ends like _qs8x6a0.75; with another name the "
+                                "number of columns and rows of views is needed",
+                                source.string()));
+    auto pictures = std::make_shared<QuiltPictures>(source, *tiling);
+    ViewSet set;
+    set.columns = tiling->columns * tiling->rows;
+    set.rows = 1;
+    if (!pictures->divides())
+        set.notes.push_back(
+            fmt::format("the picture does not divide into {}x{} views; pixels at their edges are left out",
+                        tiling->columns, tiling->rows));
+    const double width = static_cast<double>(pictures->width()), height = static_cast<double>(pictures->height());
+    if (tiling->aspect > 0) set.geometry.pixel_height = width / height / tiling->aspect;
+    set.pictures = std::move(pictures);
+    return set;
+}
+
+// The number of columns for n views that makes the quilt most nearly square.
+std::size_t best_columns(const ViewTarget& target) {
+    const std::size_t n = target.columns;
+    std::size_t best = n;
+    double least = INFINITY;
+    for (std::size_t columns = 1; columns <= n; ++columns) {
+        if (n % columns != 0) continue;
+        const double ratio =
+            static_cast<double>(columns * target.width) / static_cast<double>(n / columns * target.height);
+        if (std::abs(std::log(ratio)) < least) least = std::abs(std::log(ratio)), best = columns;
+    }
+    return best;
+}
+
+// The columns of tiles that the name of the file asks for. Throws unless it is a name for so many views of this shape,
+// because the name alone tells a reader how the picture is divided.
+std::size_t columns_for(const ViewTarget& target) {
+    const double aspect = static_cast<double>(target.width) / static_cast<double>(target.height);
+    constexpr double max_rounding = 1e-3;  // of the aspect in a name
+    const std::optional<Tiling> named = tiling_of(target.path);
+    if (named && named->columns * named->rows == target.columns && std::abs(named->aspect / aspect - 1) < max_rounding)
+        return named->columns;
+    const std::size_t columns = best_columns(target);
+    throw Error(
+        ErrorCode::usage,
+        fmt::format("{}: the name of this quilt must end like _qs{}x{}a{:.5g}.png, because the name alone says how "
+                    "it is divided",
+                    target.path.string(), columns, target.columns / columns, aspect));
+}
+
+class Writer final : public ViewWriter {
+  public:
+    explicit Writer(const ViewTarget& target)
+        : target_(target), columns_(columns_for(target)), rows_(target.columns / columns_) {
+        const Shape<3> shape{rows_ * target.height, columns_ * target.width, target.channels};
+        if (target.bits <= 8)
+            quilt_ = Array<std::uint8_t, 3>(shape);
+        else if (target.bits <= 16)
+            quilt_ = Array<std::uint16_t, 3>(shape);
+        else
+            quilt_ = Array<float, 3>(shape);
+    }
+
+    fs::path write(std::size_t, std::size_t column, const StoredView& view) override {
+        const std::size_t y0 = (rows_ - 1 - column / columns_) * target_.height, x0 = column % columns_ * target_.width;
+        std::visit(
+            [&](auto& all) {
+                const auto& from = std::get<std::remove_cvref_t<decltype(all)>>(view);
+                for (std::size_t y = 0; y < target_.height; ++y)
+                    std::copy_n(&from(y, 0, 0), target_.width * target_.channels, &all(y0 + y, x0, 0));
+            },
+            quilt_);
+        return {};
+    }
+
+    std::vector<fs::path> finish() override {
+        core::write_file(target_.path, picture_file(target_, quilt_));
+        return {target_.path};
+    }
+
+  private:
+    ViewTarget target_;
+    std::size_t columns_, rows_;
+    StoredView quilt_;
+};
+
+std::unique_ptr<ViewWriter> create(const ViewTarget& target) {
+    if (target.rows > 1)
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("a quilt holds one row of cameras; this light field has {} rows of views", target.rows));
+    return std::make_unique<Writer>(target);
+}
+
+}  // namespace
+
+ViewLayout quilt_layout() {
+    return {.name = "quilt",
+            .text = "NAME_qs8x6a0.75.png: one row of cameras as tiles from the bottom left (Looking Glass)",
+            .is_folder = false,
+            .probe = probe,
+            .open = open,
+            .create = create};
+}
+
+}  // namespace hogel::exchange

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/exchange/view_set.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <bit>
+
+#include "hogel/error.h"
+#include "hogel/image/picture_bytes.h"
+
+namespace hogel {
+
+Table<ViewLayout>& view_layouts() {
+    using namespace exchange;
+    static Table<ViewLayout> table("layout", {hci_layout(), stanford_layout(), quilt_layout(), npy_layout(),
+                                              rows_columns_layout(), numbered_layout()});
+    return table;
+}
+
+bool is_view_set(const std::filesystem::path& source) {
+    for (const ViewLayout& layout : view_layouts().rows())
+        if (layout.probe(source)) return true;
+    return false;
+}
+
+namespace exchange {
+namespace {
+
+class ReorderedPictures final : public ViewPictures {
+  public:
+    using Order = std::function<std::pair<std::size_t, std::size_t>(std::size_t, std::size_t)>;
+    ReorderedPictures(std::shared_ptr<const ViewPictures> pictures, Order order)
+        : pictures_(std::move(pictures)), order_(std::move(order)) {}
+    image::Picture read(std::size_t row, std::size_t column) const override {
+        const auto [r, c] = order_(row, column);
+        return pictures_->read(r, c);
+    }
+    std::string name(std::size_t row, std::size_t column) const override {
+        const auto [r, c] = order_(row, column);
+        return pictures_->name(r, c);
+    }
+
+  private:
+    std::shared_ptr<const ViewPictures> pictures_;
+    Order order_;
+};
+
+ViewLayout layout_of(const std::filesystem::path& source, const ViewOptions& options) {
+    if (!options.layout.empty()) return view_layouts().find(options.layout);
+    for (const ViewLayout& layout : view_layouts().rows())
+        if (layout.probe(source)) return layout;
+    fail_source(source, fmt::format("is no set of views that is recognised; layouts are {}",
+                                    fmt::join(view_layouts().names(), ", ")));
+}
+
+}  // namespace
+
+void fail_source(const std::filesystem::path& source, const std::string& why) {
+    throw Error(ErrorCode::bad_input, fmt::format("{}: {}", source.string(), why));
+}
+
+std::uint32_t max_code_of(const image::Picture& picture) {
+    if (std::holds_alternative<Array<float, 3>>(picture.samples)) return 0;
+    if (picture.max_code > 0) return picture.max_code;
+    return std::holds_alternative<Array<std::uint8_t, 3>>(picture.samples) ? 255 : 65535;
+}
+
+unsigned bits_of(const image::Picture& picture) {
+    const std::uint32_t max = max_code_of(picture);
+    return max == 0 ? 32 : std::max(8u, static_cast<unsigned>(std::bit_width(max)));
+}
+
+image::Picture FilePictures::read(std::size_t row, std::size_t column) const {
+    return image::read_picture(files_[row * columns_ + column], max_pixels);
+}
+
+std::string FilePictures::name(std::size_t row, std::size_t column) const {
+    return files_[row * columns_ + column].string();
+}
+
+ViewSet reordered(ViewSet set, std::size_t rows, std::size_t columns, ReorderedPictures::Order order) {
+    set.pictures = std::make_shared<ReorderedPictures>(std::move(set.pictures), std::move(order));
+    set.rows = rows;
+    set.columns = columns;
+    return set;
+}
+
+ViewSet mirrored(ViewSet set, bool columns, bool rows) {
+    if (!columns && !rows) return set;
+    const std::size_t n = set.columns, m = set.rows;
+    return reordered(std::move(set), m, n, [=](std::size_t row, std::size_t column) {
+        return std::pair(rows ? m - 1 - row : row, columns ? n - 1 - column : column);
+    });
+}
+
+ViewSet transposed(ViewSet set) {
+    const std::size_t n = set.columns, m = set.rows;
+    return reordered(std::move(set), n, m, [](std::size_t row, std::size_t column) { return std::pair(column, row); });
+}
+
+ViewSet open_views(const std::filesystem::path& source, const ViewOptions& options) {
+    const ViewLayout layout = layout_of(source, options);
+    if (!std::filesystem::exists(source)) fail_source(source, "no such file or folder");
+    if (layout.is_folder && !std::filesystem::is_directory(source))
+        fail_source(source, fmt::format("is not a folder, as sets of the layout '{}' are", layout.name));
+    ViewSet set = layout.open(source, options);
+    set.layout = layout.name;
+    set = mirrored(std::move(set), options.mirror_columns, options.mirror_rows);
+    const image::Picture first = set.pictures->read(0, 0);
+    set.bits = bits_of(first);
+    set.max_code = max_code_of(first);
+    std::visit(
+        [&](const auto& samples) {
+            set.height = samples.extent(0);
+            set.width = samples.extent(1);
+            set.channels = samples.extent(2);
+        },
+        first.samples);
+    return set;
+}
+
+}  // namespace exchange
+}  // namespace hogel
