@@ -32,9 +32,12 @@ bool misses(const Session& session, const char* name, std::optional<double> boun
     return true;
 }
 
+// Sets of views are light fields.
+FileKind kind_of(const std::string& path) { return is_view_set(path) ? FileKind::light_field : file_kind(path); }
+
 int compare_files(const Options& options, const Session& session) {
-    const FileKind kind = file_kind(options.a);
-    if (file_kind(options.b) != kind)
+    const FileKind kind = kind_of(options.a);
+    if (kind_of(options.b) != kind)
         throw Error(ErrorCode::bad_input, fmt::format("{} and {} are not files of one kind", options.a, options.b));
     std::optional<double> psnr, sqnr;
     if (kind == FileKind::picture) {

@@ -88,16 +88,22 @@ std::vector<std::string> examples() {
 }
 
 TEST_F(H5py, runs_the_examples_of_the_documentation) {
-    ASSERT_EQ(examples().size(), 3u);
+    ASSERT_EQ(examples().size(), 4u);
     copy(numbered(small_grid()), *create_front(directory_ / "l.h5", small_grid(), {SampleType::half, true, {}}));
     // Largest of the view: sample (2, 3, 4, 1, 1) = 358; mean of hogel (0, 0): mean of 0..5, 120..125 and 240..245.
     EXPECT_EQ(run(examples()[0], directory_ / "l.h5"),
               "(3, 4, 5, 2, 3) float16 -0.002 -0.19999999999999998 358.0 122.5\n");
+    LightFieldGrid focal = small_grid();
+    focal.view = FocalPlane{{0.3, 0.3}, -0.1};
+    copy(numbered(focal), *create_front(directory_ / "p.h5", focal, {SampleType::half, false, {}}));
+    // u = −0.2, 0, 0.2, and s of the outer hogels −2 and 2 mm.
+    EXPECT_EQ(run(examples()[1], directory_ / "p.h5"),
+              "-0.1 [ 0.02 -0.   -0.02] [-0.22 -0.02  0.18] [-0.18  0.02  0.22]\n");
     LightFieldGrid even = small_grid();
     even.directions_u = 4;
     write_hemicube(directory_ / "h.h5", even);
     // 4x2 directions in front and 2x2 or 4x1 at the sides; the direction of the last sample of each.
-    EXPECT_EQ(run(examples()[1], directory_ / "h.h5"),
+    EXPECT_EQ(run(examples()[2], directory_ / "h.h5"),
               "front (3, 4, 5, 2, 4) [0.75, -0.5, 1.0]\n"
               "left (3, 4, 5, 2, 2) [-1.0, -0.5, 0.75]\n"
               "right (3, 4, 5, 2, 2) [1.0, -0.5, 0.25]\n"
@@ -106,7 +112,7 @@ TEST_F(H5py, runs_the_examples_of_the_documentation) {
     const FieldGrid plane{{3, 2, 1e-6, 1e-6, 0, 0}, 5e-7};
     copy(numbered(plane), *create_hologram(directory_ / "f.h5", {&plane, 1})[0]);
     // Mean of 5 i^2 for i = 0..5.
-    EXPECT_EQ(run(examples()[2], directory_ / "f.h5").substr(0, 37), "field0 (2, 3) complex64 5e-07 45.8333");
+    EXPECT_EQ(run(examples()[3], directory_ / "f.h5").substr(0, 37), "field0 (2, 3) complex64 5e-07 45.8333");
 }
 
 TEST_F(H5py, reads_every_value_and_attribute) {
