@@ -88,7 +88,7 @@ CASES = [
     ("fresnel", "hologram m.obj --method fresnel --size 0.2mm --pitch 2um --wavelength 532nm --front -12 --shading shadowed",
      "o.h5", {"method": "edges", "hogels": "10x7", "shading": "vertex", "front": "-14", "as-is": ACTS}),
     ("photo of lines", "photo lines.h5 --eye 0,0,40mm --pupil 1mm --resolution 8 --focus 1mm --diffuser vertical", "o.png",
-     {"diffuser": "none", "camera": ACTS}),
+     {"diffuser": "none", "camera": ACTS, "focus-tilt": ACTS}),
     ("photo of a hologram", f"photo f.h5 {PHOTO} --focus 1mm", "o.png", {"camera": ACTS}),
     ("photo, full camera", f"photo f.h5 {PHOTO} --camera full", "o.png", {"camera": "narrow"}),
     ("photo, f-number", f"photo f.h5 --eye 0,0,40mm --f-number 12 --resolution 8", "o.exr", {}),
