@@ -133,7 +133,7 @@ void with_falling_scale(const Lumigraph& lumigraph, double scale, Code&& code) {
         if (code(scale) < lumigraph.rates().front()) break;
 }
 
-// Of points that are kept.
+// The highest rate of points that are kept.
 double max_rate(const Lumigraph& lumigraph) { return 3 * lumigraph.rates().back(); }
 
 ThesisCurve cosine_curve(const Lumigraph& lumigraph, coding::QuantisationTable table) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t header = 5;
 
-// Of the byte that holds the number of bit planes: set if symbols are coded from alphabets.
+// A bit of the byte with the number of bit planes: set if symbols are coded from alphabets.
 constexpr std::uint8_t with_alphabets = 0x80;
 
 [[noreturn]] void damaged(const char* what) {

@@ -99,6 +99,16 @@ ViewSet transposed(ViewSet set) {
     return reordered(std::move(set), n, m, [](std::size_t row, std::size_t column) { return std::pair(column, row); });
 }
 
+void take_size(const image::Picture& picture, ViewSet& set) {
+    std::visit(
+        [&](const auto& samples) {
+            set.height = samples.extent(0);
+            set.width = samples.extent(1);
+            set.channels = samples.extent(2);
+        },
+        picture.samples);
+}
+
 ViewSet open_views(const std::filesystem::path& source, const ViewOptions& options) {
     const ViewLayout layout = layout_of(source, options);
     if (!std::filesystem::exists(source)) fail_source(source, "no such file or folder");
@@ -110,13 +120,7 @@ ViewSet open_views(const std::filesystem::path& source, const ViewOptions& optio
     const image::Picture first = set.pictures->read(0, 0);
     set.bits = bits_of(first);
     set.max_code = max_code_of(first);
-    std::visit(
-        [&](const auto& samples) {
-            set.height = samples.extent(0);
-            set.width = samples.extent(1);
-            set.channels = samples.extent(2);
-        },
-        first.samples);
+    take_size(first, set);
     return set;
 }
 

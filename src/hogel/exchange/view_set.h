@@ -49,6 +49,9 @@ struct ViewSet {
     std::vector<std::string> notes;  ///< what was found out about the set
 };
 
+/// Takes the height, width and channels of a set from one of its pictures.
+void take_size(const image::Picture& picture, ViewSet& set);
+
 /// Opens a set with the layout that options.layout names or that recognises it, looks at its first picture, and mirrors
 /// it as the options say. Throws as import_views() does.
 ViewSet open_views(const std::filesystem::path& source, const ViewOptions& options);

@@ -65,7 +65,7 @@ class ThinLines final : public FieldSource {
     FieldGrid grid_;
 };
 
-// Of every so many lines, the light of no two overlaps.
+// The distance, in lines, from which on the light of two lines does not overlap.
 std::size_t lines_between(const FieldGrid& hologram, std::span<const Camera> cameras, double apart) {
     const Grid& plane = hologram.plane;
     double distance = 0;

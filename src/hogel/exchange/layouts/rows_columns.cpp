@@ -24,14 +24,7 @@ ViewSet by_numbers(const NumberedFiles& group, std::size_t row_number, std::size
     set.columns = grid.columns;
     set.rows = grid.rows;
     set.pictures = std::make_shared<FilePictures>(std::move(grid.files), set.columns);
-    const image::Picture first = set.pictures->read(0, 0);
-    std::visit(
-        [&](const auto& samples) {
-            set.height = samples.extent(0);
-            set.width = samples.extent(1);
-            set.channels = samples.extent(2);
-        },
-        first.samples);
+    take_size(set.pictures->read(0, 0), set);
     return set;
 }
 
