@@ -14,6 +14,24 @@
 
 namespace hogel {
 
+/// How a texture is read between its texels and beyond its picture: the samplers of glTF 2.0.
+struct TextureSampling {
+    /// What follows at the edge of a picture: the picture again, its mirror image, or its last texels.
+    enum class Wrap : std::uint8_t { repeat, mirror, clamp };
+    Wrap wrap_u = Wrap::repeat;  ///< to the left and right
+    Wrap wrap_v = Wrap::repeat;  ///< below and above
+    bool nearest = false;        ///< texels are squares of one value instead of being interpolated
+
+    friend bool operator==(const TextureSampling&, const TextureSampling&) = default;
+};
+
+/// What the alpha of a surface, from 0 to 1, means.
+enum class AlphaMode : std::uint8_t {
+    opaque,  ///< nothing
+    mask,    ///< the surface is there where alpha is at least the cutoff, and nowhere else
+    blend    ///< the share of a ray's radiance that the surface gives; what is behind it gives the rest
+};
+
 /// How a surface reflects, with the parameters of glTF 2.0: a base colour, which vertices and a texture modulate, and a
 /// glossy lobe. Without the lobe (reflectance and metallic zero) a surface is matt.
 struct Material {
@@ -22,7 +40,17 @@ struct Material {
     float metallic = 0;                               ///< 1: no diffuse light, and a lobe in the base colour
     float roughness = 1;                              ///< of the lobe, whose width is about the square of this
     Rgb emission{0, 0, 0};                            ///< radiance that the surface emits
-    std::shared_ptr<const Image> base_color_texture;  ///< linear, repeats; may be null
+    std::shared_ptr<const Image> base_color_texture;  ///< linear; a fourth channel is alpha; may be null
+    TextureSampling base_color_sampling;              ///< of that texture
+    /// Multiplies the emission; linear. Null: the base-colour texture multiplies it, as it does all light.
+    std::shared_ptr<const Image> emission_texture;
+    TextureSampling emission_sampling;  ///< of that texture
+    /// Its green multiplies the roughness and its blue `metallic`, as numbers without a transfer curve; may be null.
+    std::shared_ptr<const Image> metallic_roughness_texture;
+    TextureSampling metallic_roughness_sampling;  ///< of that texture
+    AlphaMode alpha_mode = AlphaMode::opaque;     ///< what alpha means
+    float alpha = 1;                              ///< multiplied by that of vertices and of the base-colour texture
+    float alpha_cutoff = 0.5f;                    ///< of AlphaMode::mask
 
     /// Whether there is a lobe.
     bool is_glossy() const { return reflectance > 0 || metallic > 0; }
@@ -30,7 +58,7 @@ struct Material {
 
 /// A point of a texture: u to the right, v up, (0, 0) at the bottom left of the picture.
 struct TextureCoordinate {
-    float u = 0;  ///< 0 to 1 across the picture, which repeats
+    float u = 0;  ///< 0 to 1 across the picture
     float v = 0;  ///< 0 to 1 up the picture
 };
 
@@ -40,7 +68,12 @@ struct Mesh {
     std::vector<Vec3> normals;    ///< unit length
     std::vector<Rgb> colors;      ///< linear, multiplied by the base colour
     std::vector<Rgb> radiance;    ///< given radiance, which replaces all lighting (the texture multiplies it)
-    std::vector<TextureCoordinate> texture_coordinates;   ///< of the material's texture
+    std::vector<float> alphas;    ///< multiplied by the material's alpha, where that means something
+    std::vector<TextureCoordinate> texture_coordinates;  ///< of the material's textures
+    /// Those of the emission texture; empty: `texture_coordinates`.
+    std::vector<TextureCoordinate> emission_coordinates;
+    /// Those of the metallic-roughness texture; empty: `texture_coordinates`.
+    std::vector<TextureCoordinate> metallic_roughness_coordinates;
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counterclockwise from outside
     Material material;                                    ///< of all triangles
     std::string name;                                     ///< for messages
@@ -65,6 +98,8 @@ struct Scene {
     Rgb ambient{0, 0, 0};       ///< radiance from all directions, unshadowed
     Rgb background{0, 0, 0};    ///< radiance of rays that meet nothing
     Metadata provenance;        ///< what made it, if its file says so: write_baked_scene()
+    /// What the file of a scene holds that is not shown, or is shown otherwise: a line each, for people.
+    std::vector<std::string> notes;
 };
 
 /// A box with edges along the axes.

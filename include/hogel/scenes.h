@@ -3,8 +3,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "hogel/export.h"
 #include "hogel/progress.h"
@@ -28,14 +31,25 @@ HOGEL_API Table<SceneInfo>& scenes();
 /// name and for a size that is not positive.
 HOGEL_API Scene make_scene(std::string_view name, double hologram_size, const Progress& progress = {});
 
+/// The name of the mesh of discs that a point cloud becomes.
+inline constexpr std::string_view points_name = "points";
+
+/// How import_scene() reads a file.
+struct ImportOptions {
+    /// Size of the discs that the points of a point cloud become, relative to discs that just close the surface.
+    double point_size = 1;
+};
+
 /// Reads any mesh file that assimp reads (OBJ, PLY, STL, glTF/GLB and more): positions, normals, vertex colours, base
-/// colours and base-colour textures, glTF's metallic-roughness materials, with all node transforms applied, in the
-/// file's own units and axes. The colour of an unlit material becomes given radiance. Missing normals are added. Files
-/// outside the mesh's own folder are not opened. The scene has no lights: see add_default_lights(). assimp works in a
+/// colours and base-colour textures, glTF's materials and lights, with all node transforms applied, in the file's own
+/// units and axes. The points of a point cloud (PLY without faces, XYZ) become discs. The colour of an unlit material
+/// becomes given radiance. Missing normals are added. Files outside the mesh's own folder are not opened. What of the
+/// file is not shown is said in Scene::notes. A scene without lights: see add_default_lights(). assimp works in a
 /// child process whose memory and time are limited in proportion to the files (docs/files.md, "Meshes"), so that a
 /// damaged file cannot harm this one. Throws Error(bad_input) with one line: the file, and what is missing, damaged or
 /// out of range; Error(cancelled); and Error(not_built_in) in a build without assimp.
-HOGEL_API Scene import_scene(const std::filesystem::path& path, const Progress& progress = {});
+HOGEL_API Scene import_scene(const std::filesystem::path& path, const Progress& progress = {},
+                             const ImportOptions& options = {});
 
 /// The size and position of a scene that fit_scene() fits to a hologram.
 struct Fit {
@@ -51,6 +65,30 @@ struct Fit {
 /// move along; the intensities of point lights scale with the square of the length, which keeps irradiances. Throws
 /// Error(usage) for sizes that are not positive, and Error(bad_input) for a scene without width and height.
 HOGEL_API void fit_scene(Scene& scene, const Fit& fit);
+
+/// How a person turns, places and lights a scene of their own. Applied in the order of the members.
+struct ScenePose {
+    // Before a scene is fitted to the hologram.
+    Vec3 up{0, 1, 0};    ///< the axis of the scene, or its opposite, that is turned upwards
+    Vec3 rotation = {};  ///< radians about x, then y, then z, as the viewer sees them, after that
+    // After it.
+    double scale = 1;                           ///< about the middle of the hologram
+    Vec3 shift = {};                            ///< metres
+    std::optional<Rgb> color = {};              ///< base colour of all surfaces, in place of their colours and textures
+    std::shared_ptr<const Image> texture = {};  ///< the same as a picture, for meshes that have texture coordinates
+    std::vector<Light> lights = {};             ///< in place of all others, unless empty
+    std::optional<Rgb> background = {};         ///< radiance of rays that meet nothing
+    std::optional<Rgb> ground = {};             ///< colour of a level ground under the scene; none: there is none
+};
+
+/// Turns a scene about the middle of the hologram, with its lights. Throws Error(usage) for an `up` that is no axis.
+HOGEL_API void turn_scene(Scene& scene, const ScenePose& pose);
+
+/// Scales, moves, colours and lights a scene, and adds the ground, which is as wide as the hologram or the scene and
+/// cut finely enough to show shadows. Throws Error(usage) for a scale that is not positive, and for a texture where no
+/// mesh has texture coordinates.
+/// @param hologram_width  metres
+HOGEL_API void place_scene(Scene& scene, const ScenePose& pose, double hologram_width);
 
 /// Adds a key light from the upper left in front, a weaker fill light from the right and a little ambient light, for
 /// scenes without lights. Both are directional, hence independent of the scene's size.

@@ -76,23 +76,31 @@ HOGEL_API void shade_scene_into(const Scene& scene, const ShadingOptions& option
 /// ten-thousandth of the scene's diagonal.
 HOGEL_API ShadedScene shade_scene_vertices(const Scene& scene);
 
-/// A picture on a surface, repeated in both directions, with optional coarser levels for distant views.
+/// A picture on a surface, repeated in both directions unless its sampling says otherwise, with optional coarser levels
+/// for distant views.
 class HOGEL_API Texture {
   public:
     /// If `filtered`, makes coarser levels, each half the size and the mean of the one before, down to a single texel
     /// (a third more memory). Otherwise sample() interpolates the finest level alone.
-    Texture(std::shared_ptr<const Image> finest, bool filtered = false);
+    Texture(std::shared_ptr<const Image> finest, bool filtered = false, const TextureSampling& sampling = {});
 
     /// The picture interpolated between texels, averaged over about `width` texels of the finest level.
     Rgb sample(TextureCoordinate at, double width) const;
+    /// The same of the picture's fourth channel, alpha; 1 for a picture without one.
+    float alpha(TextureCoordinate at, double width) const;
     /// Number of texels of the finest level, which covers the unit square of texture coordinates.
     double texels() const { return static_cast<double>(finest_->width()) * static_cast<double>(finest_->height()); }
     /// Whether there are coarser levels; never for a picture of one texel.
     bool filtered() const { return !coarser_.empty(); }
     /// The finest level.
     const std::shared_ptr<const Image>& picture() const { return finest_; }
+    const TextureSampling& sampling() const { return sampling_; }
 
   private:
+    template <class Value, class Interpolate>
+    Value between_levels(double width, const Interpolate& interpolate) const;
+
+    TextureSampling sampling_;
     std::shared_ptr<const Image> finest_;
     std::vector<Image> coarser_;
 };
@@ -156,7 +164,17 @@ struct ShadedScene {
     /// the first whose front faces the middle of the hologram or else the first; one of each winding if `fronts_only`.
     std::vector<Triangle> triangles;
     std::vector<Texture> textures;  ///< each picture of the scene once
-    Rgb background;                 ///< radiance of rays that meet nothing
+    /// The triangles that are not everywhere opaque, with all of the scene's vertices, textures and lighting; null if
+    /// there are none. `triangles` are the others. make_renderer() draws both.
+    std::shared_ptr<const ShadedScene> layers;
+    /// In a scene of layers, alpha at the vertices, before the texture, and what it means for each mesh.
+    std::vector<float> alphas;
+    struct MeshAlpha {
+        AlphaMode mode = AlphaMode::opaque;
+        float cutoff = 0;
+    };
+    std::vector<MeshAlpha> mesh_alphas;
+    Rgb background;  ///< radiance of rays that meet nothing
     /// Whether triangles are visible only from their front, from where their corners run counterclockwise. Light falls
     /// on both sides, and both sides cast shadows. To be set before the scene is shaded.
     bool fronts_only = false;
@@ -165,6 +183,10 @@ struct ShadedScene {
     /// Where it comes from: the name of the scene, and the shading model unless all radiance was given.
     Metadata provenance;
 
+    /// Whether a triangle of this mesh may let rays through.
+    bool is_layer(std::uint32_t mesh) const {
+        return !mesh_alphas.empty() && mesh_alphas[mesh].mode != AlphaMode::opaque;
+    }
     /// Whether light is evaluated at the samples of this triangle instead of at its vertices.
     bool is_lit(std::size_t index) const {
         return lighting && lighting->size_of_light(triangles[index].mesh).sum() > 0;
@@ -176,5 +198,11 @@ struct ShadedScene {
 /// The radiance at the point of triangle `index` with barycentric weights b0, b1, b2 (of its three vertices).
 HOGEL_API Rgb radiance_at(const ShadedScene& scene, std::size_t index, float b0, float b1, float b2,
                           const ViewSample& view = {});
+
+/// The share of a ray that the point of triangle `index` with these barycentric weights keeps from what is behind it:
+/// alpha where the surface blends, 0 or 1 where it has a mask, 1 where it is opaque. Masks are not averaged over what a
+/// sample covers: whether a surface is there depends on the point alone.
+HOGEL_API float opacity_at(const ShadedScene& scene, std::size_t index, float b0, float b1, float b2,
+                           const ViewSample& view = {});
 
 }  // namespace hogel

@@ -5,7 +5,7 @@
 
 namespace hogel {
 
-Scene import_scene(const std::filesystem::path& path, const Progress&) {
+Scene import_scene(const std::filesystem::path& path, const Progress&, const ImportOptions&) {
     core::refuse_without("assimp", path.string());
 }
 

@@ -18,6 +18,7 @@ namespace {
 
 bool finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 bool finite(Rgb c) { return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b); }
+bool finite(float value) { return std::isfinite(value); }
 bool finite(TextureCoordinate t) { return std::isfinite(t.u) && std::isfinite(t.v); }
 
 template <class T>
@@ -59,7 +60,11 @@ void validate(const Scene& scene) {
         validate_attribute(mesh, mesh.normals, "normals", true);
         validate_attribute(mesh, mesh.colors, "colors", true);
         validate_attribute(mesh, mesh.radiance, "radiances", true);
+        validate_attribute(mesh, mesh.alphas, "alphas", true);
         validate_attribute(mesh, mesh.texture_coordinates, "texture coordinates", true);
+        validate_attribute(mesh, mesh.emission_coordinates, "coordinates of the emission texture", true);
+        validate_attribute(mesh, mesh.metallic_roughness_coordinates, "coordinates of the metallic-roughness texture",
+                           true);
         for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
             for (std::uint32_t vertex : mesh.triangles[i])
                 if (vertex >= mesh.positions.size())

@@ -42,6 +42,31 @@ class Checksums {
     std::map<const Image*, std::uint32_t> pictures_;
 };
 
+// What most scenes do not have; it adds nothing to the checksums of those.
+void add_looks(Checksums& sums, const Mesh& mesh) {
+    const Material& m = mesh.material;
+    const auto add = [&](const TextureSampling& sampling) {
+        if (sampling == TextureSampling{}) return;
+        sums.add(
+            {static_cast<double>(sampling.wrap_u), static_cast<double>(sampling.wrap_v), sampling.nearest ? 1.0 : 0.0});
+    };
+    add(m.base_color_sampling);
+    if (m.alpha_mode != AlphaMode::opaque) {
+        sums.add({static_cast<double>(m.alpha_mode), m.alpha, m.alpha_cutoff});
+        sums.add(std::span(mesh.alphas));
+    }
+    if (m.emission_texture) {
+        sums.add(m.emission_texture);
+        add(m.emission_sampling);
+        sums.add(std::span(mesh.emission_coordinates));
+    }
+    if (m.metallic_roughness_texture) {
+        sums.add(m.metallic_roughness_texture);
+        add(m.metallic_roughness_sampling);
+        sums.add(std::span(mesh.metallic_roughness_coordinates));
+    }
+}
+
 }  // namespace
 
 std::uint32_t checksum(const Scene& scene) {
@@ -57,6 +82,7 @@ std::uint32_t checksum(const Scene& scene) {
         sums.add({m.base_color.r, m.base_color.g, m.base_color.b, m.reflectance, m.metallic, m.roughness, m.emission.r,
                   m.emission.g, m.emission.b});
         sums.add(m.base_color_texture);
+        add_looks(sums, mesh);
     }
     for (const Light& l : scene.lights)
         sums.add({static_cast<double>(l.kind), l.position.x, l.position.y, l.position.z, l.direction.x, l.direction.y,

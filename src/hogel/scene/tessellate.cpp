@@ -19,6 +19,8 @@ TextureCoordinate weighted_sum(TextureCoordinate a, TextureCoordinate b, Texture
 }
 Rgb weighted_sum(Rgb a, Rgb b, Rgb c, float wa, float wb, float wc) { return wa * a + wb * b + wc * c; }
 
+float weighted_sum(float a, float b, float c, float wa, float wb, float wc) { return wa * a + wb * b + wc * c; }
+
 /// Cuts the triangles of one mesh. Vertices keep their indices; new ones on edges and inside triangles are appended.
 class Cutter {
   public:
@@ -86,7 +88,10 @@ class Cutter {
         }
         append(to_.colors, from_.colors);
         append(to_.radiance, from_.radiance);
+        append(to_.alphas, from_.alphas);
         append(to_.texture_coordinates, from_.texture_coordinates);
+        append(to_.emission_coordinates, from_.emission_coordinates);
+        append(to_.metallic_roughness_coordinates, from_.metallic_roughness_coordinates);
         if (to_.positions.size() > std::numeric_limits<Index>::max())
             throw Error(ErrorCode::usage,
                         fmt::format("mesh '{}' with triangles cut {} times along an edge: more than 2^32 vertices",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/bake.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <mutex>
@@ -28,6 +30,14 @@ constexpr std::size_t fewer_rays = 8;  // all rounds but the last divide the num
 // on edges where other surfaces begin.
 constexpr double inside = 0.08;
 
+Rgb emission_at(const Mesh& mesh, std::size_t vertex) {
+    const Material& material = mesh.material;
+    const auto& coordinates = mesh.emission_coordinates.empty() ? mesh.texture_coordinates : mesh.emission_coordinates;
+    if (!material.emission_texture || coordinates.empty()) return material.emission;
+    return material.emission *
+           Texture(material.emission_texture, false, material.emission_sampling).sample(coordinates[vertex], 0);
+}
+
 /// All vertices of a scene in one list, with the points at which they gather light.
 struct Surfaces {
     explicit Surfaces(const Scene& scene, ShadedScene without_light)
@@ -47,7 +57,7 @@ struct Surfaces {
             for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
                 normals.push_back(mesh.normals.empty() ? Vec3{0, 0, 0} : mesh.normals[i]);
                 colors.push_back(vertex_color(mesh, i));
-                emissions.push_back(mesh.material.emission);
+                emissions.push_back(emission_at(mesh, i));
                 given.push_back(mesh.radiance.empty() ? 0 : 1);
             }
     }
@@ -174,6 +184,10 @@ Scene bake_scene(const Scene& scene, const BakeOptions& options, const Progress&
     if (options.rays == 0) throw Error(ErrorCode::usage, "baking with 0 rays a vertex; expected 1 or more");
     validate(scene);
     require_normals(scene);
+    if (unlit(scene).layers)
+        throw Error(
+            ErrorCode::bad_input,
+            fmt::format("scene '{}': has masks or surfaces that blend; expected opaque ones to bake", scene.name));
     Scene baked = scene;
     {
         // Here `radiance` holds the indirect light that arrives, which the tessellation interpolates.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "hogel/shading/gloss.h"
 #include "hogel/shading/illumination.h"
 #include "hogel/shading/lighting.h"
+#include "hogel/shading/maps.h"
 #include "hogel/shading/reflection.h"
 #include "hogel/shading/shadow_maps.h"
 #include "hogel/shading/triangles.h"
@@ -15,16 +17,18 @@ namespace {
 /// Evaluates every light at each sample, through its shadow map, reflected by the material at that point.
 class DirectLighting final : public SampleLighting {
   public:
-    void set_scene(const Scene& scene, const trace::RayCaster& caster, std::size_t texels, const Progress& progress) {
+    void set_scene(const Scene& scene, const trace::RayCaster& caster, const ShadingOptions& options,
+                   const Progress& progress) {
         lights_ = scene.lights;
         lamps_ = LampTable(lights_);
-        maps_.set(make_shadow_maps(scene, caster, texels, maps_.release(), progress));
+        maps_.set(make_shadow_maps(scene, caster, options.shadow_map, maps_.release(), progress));
+        lobes_ = metallic_roughness_textures(scene, options.filter_textures);
         ambient_ = scene.ambient;
         surfaces_.clear();
         normals_.clear();
         colors_.clear();
         for (const Mesh& mesh : scene.meshes) {
-            surfaces_.push_back({mesh.material, !mesh.radiance.empty()});
+            surfaces_.push_back({without_textures(mesh.material), !mesh.radiance.empty()});
             for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
                 normals_.push_back(mesh.normals.empty() ? Vec3{0, 0, 0} : mesh.normals[i]);
                 colors_.push_back(vertex_color(mesh, i));
@@ -50,6 +54,8 @@ class DirectLighting final : public SampleLighting {
         const bool glossy = surface.material.is_glossy();
         const SurfacePoint point(scene, triangle.vertices, weights);
         const Vec3 normal = normal_at(triangle, weights);
+        std::optional<Material> own;
+        const Material& material = material_at(scene, triangle, weights, 0, own);
         LightUnderLobe sum;
         constexpr std::size_t block = 64;
         for (std::size_t first = 0; first < lights_.size(); first += block) {
@@ -67,7 +73,7 @@ class DirectLighting final : public SampleLighting {
             maps_.visibility(std::span(facing).first(count), point.position, point.flat_normal, visible.data());
             for (std::size_t k = 0; k < count; ++k) {
                 if (!(visible[k] > 0)) continue;
-                sum.add(surface.material, visible[k] * static_cast<float>(falloffs[k]) * lights_[facing[k]].intensity,
+                sum.add(material, visible[k] * static_cast<float>(falloffs[k]) * lights_[facing[k]].intensity,
                         cosines[k]);
                 if (glossy) light[6 + facing[k]] = visible[k];
             }
@@ -89,7 +95,9 @@ class DirectLighting final : public SampleLighting {
         const Rgb color = texture * interpolate(colors_, triangle.vertices, weights);
         const Rgb emission = texture * surface.material.emission, arriving = rgb(light.first<3>());
         const Vec3 normal = normal_at(triangle, weights);
-        const Reflection reflection(surface.material, color, dot(normal, view.to_viewer));
+        std::optional<Material> own;
+        const Material& material = material_at(scene, triangle, weights, view.footprint, own);
+        const Reflection reflection(material, color, dot(normal, view.to_viewer));
         Rgb seen = emission + ambient_ * reflection.in_uniform_light() +
                    reflection.diffuse({arriving, rgb(light.subspan<3, 3>())});
         if (const double cos_view = dot(normal, view.to_viewer); cos_view > 0)
@@ -104,6 +112,24 @@ class DirectLighting final : public SampleLighting {
         Material material;
         bool given;
     };
+
+    static Material without_textures(Material material) {
+        material.emission = vertex_emission(material);
+        material.base_color_texture = material.emission_texture = material.metallic_roughness_texture = nullptr;
+        return material;
+    }
+    // The material of a mesh or, where a texture says more of its lobe, `own` with what it says at this point.
+    const Material& material_at(const ShadedScene& scene, const ShadedScene::Triangle& triangle,
+                                const std::array<float, 3>& weights, double footprint,
+                                std::optional<Material>& own) const {
+        const Material& material = surfaces_[triangle.mesh].material;
+        if (!lobes_.has(triangle.mesh)) return material;
+        const Rgb here = lobes_[triangle.mesh].sample(scene, triangle.vertices, weights, footprint);
+        own = material;
+        own->roughness *= here.g;
+        own->metallic *= here.b;
+        return *own;
+    }
 
     static Rgb rgb(std::span<const float, 3> values) { return {values[0], values[1], values[2]}; }
     static void put(Rgb value, std::span<float, 3> values) {
@@ -123,6 +149,7 @@ class DirectLighting final : public SampleLighting {
     std::vector<Light> lights_;
     LampTable lamps_;
     ShadowMaps maps_;
+    MeshTextures lobes_;
     Rgb ambient_;
     std::vector<Surface> surfaces_;  // one per mesh
     std::vector<Vec3> normals_;
@@ -137,7 +164,7 @@ ShadingInfo direct_shading() {
             .make =
                 [](const Scene& scene, const ShadingOptions& options, ShadedScene& shaded, const Progress& progress) {
                     auto lighting = take_lighting<DirectLighting>(shaded);
-                    lighting->set_scene(scene, shadow_caster(scene, shaded, "direct"), options.shadow_map, progress);
+                    lighting->set_scene(scene, shadow_caster(scene, shaded, "direct"), options, progress);
                     return lighting;
                 },
             .shadow_map_bytes = bytes_of_shadow_maps};

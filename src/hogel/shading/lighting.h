@@ -41,6 +41,11 @@ inline Rgb vertex_color(const Mesh& mesh, std::size_t vertex) {
     return mesh.colors.empty() ? mesh.material.base_color : mesh.material.base_color * mesh.colors[vertex];
 }
 
+/// What the vertices of a material emit; with an emission texture nothing, because EmissionLighting adds it.
+inline Rgb vertex_emission(const Material& material) {
+    return material.emission_texture ? Rgb{0, 0, 0} : material.emission;
+}
+
 /// Interpolates a value between a triangle's vertices.
 template <class T>
 T interpolate(const std::vector<T>& values, const std::array<std::uint32_t, 3>& vertices,

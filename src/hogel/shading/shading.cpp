@@ -9,7 +9,9 @@
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/shading/doubled_faces.h"
+#include "hogel/shading/layers.h"
 #include "hogel/shading/lighting.h"
+#include "hogel/shading/maps.h"
 
 namespace hogel {
 
@@ -46,27 +48,30 @@ class Textures {
         textures_.clear();
     }
 
-    std::uint32_t index(const std::shared_ptr<const Image>& picture) {
+    std::uint32_t index(const std::shared_ptr<const Image>& picture, const TextureSampling& sampling) {
         if (!picture || picture->pixels.size() == 0) return ShadedScene::no_texture;
-        const auto [known, is_new] = indices_.emplace(picture.get(), static_cast<std::uint32_t>(textures_.size()));
-        if (is_new) add(picture);
-        return known->second;
+        for (const auto& [texture, number] : indices_[picture.get()])
+            if (texture == sampling) return number;
+        const auto number = static_cast<std::uint32_t>(textures_.size());
+        indices_[picture.get()].emplace_back(sampling, number);
+        add(picture, sampling);
+        return number;
     }
 
   private:
-    void add(const std::shared_ptr<const Image>& picture) {
+    void add(const std::shared_ptr<const Image>& picture, const TextureSampling& sampling) {
         for (Texture& last : last_)
-            if (last.picture() == picture && last.filtered() == filtered_) {
+            if (last.picture() == picture && last.filtered() == filtered_ && last.sampling() == sampling) {
                 textures_.push_back(std::move(last));
                 return;
             }
-        textures_.emplace_back(picture, filtered_);
+        textures_.emplace_back(picture, filtered_, sampling);
     }
 
     std::vector<Texture>& textures_;
     std::vector<Texture> last_;
     bool filtered_;
-    std::map<const Image*, std::uint32_t> indices_;
+    std::map<const Image*, std::vector<std::pair<TextureSampling, std::uint32_t>>> indices_;
 };
 
 void set_geometry(const Scene& scene, bool filter_textures, ShadedScene& shaded) {
@@ -85,7 +90,8 @@ void set_geometry(const Scene& scene, bool filter_textures, ShadedScene& shaded)
         shaded.texture_coordinates.resize(shaded.positions.size());
         shaded.radiance.insert(shaded.radiance.end(), mesh.radiance.begin(), mesh.radiance.end());
         shaded.radiance.resize(shaded.positions.size());
-        const std::uint32_t texture = textures.index(mesh.material.base_color_texture);
+        const std::uint32_t texture =
+            textures.index(mesh.material.base_color_texture, mesh.material.base_color_sampling);
         for (const auto& [a, b, c] : mesh.triangles)
             shaded.triangles.push_back({{base + a, base + b, base + c}, texture, static_cast<std::uint32_t>(m)});
     }
@@ -112,9 +118,12 @@ void shade_scene_into(const Scene& scene, const ShadingOptions& options, ShadedS
     require_normals(scene);
     if (model.shadow_map_bytes) require_memory(scene, options, model.shadow_map_bytes(scene, options));
     shaded.radiance_cache = nullptr;
+    shaded.layers = nullptr;
     set_geometry(scene, options.filter_textures, shaded);
+    set_alphas(scene, shaded);
     keep_one_of_doubled_faces(shaded);
-    shaded.lighting = model.make(scene, options, shaded, progress);
+    shaded.lighting = with_maps(scene, options, model.make(scene, options, shaded, progress));
+    separate_layers(shaded);
     shaded.provenance = {{"scene", scene.name}};
     if (!std::ranges::all_of(scene.meshes, [](const Mesh& mesh) { return !mesh.radiance.empty(); }))
         shaded.provenance.emplace_back("shading", options.model);

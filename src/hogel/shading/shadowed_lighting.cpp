@@ -74,7 +74,7 @@ class ShadowedLighting final : public SampleLighting {
         for (std::size_t i = 0; i < n; ++i) {
             const Rgb color = vertex_color(mesh, i);
             colors_.push_back(color);
-            unshadowed_.push_back(color * scene.ambient + mesh.material.emission);
+            unshadowed_.push_back(color * scene.ambient + vertex_emission(mesh.material));
         }
         irradiance_.resize((base + n) * lights);
         core::parallel_for((n + vertices_per_task - 1) / vertices_per_task, [&](std::size_t task) {

@@ -16,29 +16,67 @@ std::array<float, 3> texel(const Image& image, std::size_t row, std::size_t colu
     return {image.pixels(row, column, 0), image.pixels(row, column, 1), image.pixels(row, column, 2)};
 }
 
-/// The two samples of n next to a position in 0..1 (wrapped around), and the weight of the second.
+using Wrap = TextureSampling::Wrap;
+
+/// The two samples of n next to a position, and the weight of the second.
 struct Neighbours {
     std::size_t first, second;
     float weight;
 };
 
-Neighbours neighbours(double position, std::size_t n) {
+Neighbours repeated(double position, std::size_t n) {
     const double at = (position - std::floor(position)) * static_cast<double>(n) - 0.5;
     const double low = std::floor(at);
     const auto first = static_cast<std::size_t>(low < 0 ? low + static_cast<double>(n) : low);
     return {std::min(first, n - 1), first + 1 < n ? first + 1 : 0, static_cast<float>(at - low)};
 }
 
-Rgb interpolate(const Image& image, TextureCoordinate at) {
-    const Neighbours column = neighbours(at.u, image.width()), row = neighbours(1.0 - at.v, image.height());
+Neighbours neighbours(double position, std::size_t n, Wrap wrap) {
+    if (wrap == Wrap::repeat) return repeated(position, n);
+    if (wrap == Wrap::mirror) {
+        position -= 2 * std::floor(0.5 * position);
+        if (position > 1) position = 2 - position;
+    }
+    // A picture meets its mirror image at equal texels, which is what the last texel continued gives.
+    const double last = static_cast<double>(n - 1), at = std::clamp(position, 0.0, 1.0) * static_cast<double>(n) - 0.5;
+    const double low = std::floor(at);
+    return {static_cast<std::size_t>(std::clamp(low, 0.0, last)),
+            static_cast<std::size_t>(std::clamp(low + 1, 0.0, last)), static_cast<float>(at - low)};
+}
+
+/// The four texels around a point. With `nearest` the weights choose one of them.
+struct Around {
+    Neighbours column, row;
+
+    Around(const Image& image, TextureCoordinate at, const TextureSampling& sampling, bool nearest)
+        : column(neighbours(at.u, image.width(), sampling.wrap_u)),
+          row(neighbours(1.0 - at.v, image.height(), sampling.wrap_v)) {
+        if (!nearest) return;
+        column.weight = column.weight < 0.5f ? 0.0f : 1.0f;
+        row.weight = row.weight < 0.5f ? 0.0f : 1.0f;
+    }
+    float mix(float a, float b, float c, float d) const {
+        const float top = a + column.weight * (b - a), bottom = c + column.weight * (d - c);
+        return top + row.weight * (bottom - top);
+    }
+};
+
+Rgb interpolate(const Image& image, TextureCoordinate at, const TextureSampling& sampling, bool nearest) {
+    const Around around(image, at, sampling, nearest);
+    const auto& [column, row] = around;
     const auto a = texel(image, row.first, column.first), b = texel(image, row.first, column.second);
     const auto c = texel(image, row.second, column.first), d = texel(image, row.second, column.second);
     std::array<float, 3> mixed;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const float top = a[i] + column.weight * (b[i] - a[i]), bottom = c[i] + column.weight * (d[i] - c[i]);
-        mixed[i] = top + row.weight * (bottom - top);
-    }
+    for (std::size_t i = 0; i < 3; ++i) mixed[i] = around.mix(a[i], b[i], c[i], d[i]);
     return {mixed[0], mixed[1], mixed[2]};
+}
+
+float interpolate_alpha(const Image& image, TextureCoordinate at, const TextureSampling& sampling, bool nearest) {
+    const Around around(image, at, sampling, nearest);
+    const auto& [column, row] = around;
+    constexpr std::size_t alpha = 3;
+    return around.mix(image.pixels(row.first, column.first, alpha), image.pixels(row.first, column.second, alpha),
+                      image.pixels(row.second, column.first, alpha), image.pixels(row.second, column.second, alpha));
 }
 
 /// The samples of n that sample i of m covers, m <= n, as weights that sum to one.
@@ -79,21 +117,34 @@ Image halved(const Image& fine) {
 
 }  // namespace
 
-Texture::Texture(std::shared_ptr<const Image> finest, bool filtered) : finest_(std::move(finest)) {
+Texture::Texture(std::shared_ptr<const Image> finest, bool filtered, const TextureSampling& sampling)
+    : sampling_(sampling), finest_(std::move(finest)) {
     if (!filtered) return;
     for (const Image* last = finest_.get(); last->width() > 1 || last->height() > 1; last = &coarser_.back())
         coarser_.push_back(halved(*last));
 }
 
-Rgb Texture::sample(TextureCoordinate at, double width) const {
+template <class Value, class Interpolate>
+Value Texture::between_levels(double width, const Interpolate& interpolate_level) const {
     // Interpolation within a level averages over about one of its texels; two levels are blended for widths between
     // them.
     const double level = width > 1 ? std::min(std::log2(width), static_cast<double>(coarser_.size())) : 0;
     const auto fine = static_cast<std::size_t>(level);
     const auto weight = static_cast<float>(level - static_cast<double>(fine));
-    const Rgb first = interpolate(fine == 0 ? *finest_ : coarser_[fine - 1], at);
+    const Value first = interpolate_level(fine == 0 ? *finest_ : coarser_[fine - 1], fine == 0 && sampling_.nearest);
     if (weight == 0) return first;
-    return (1 - weight) * first + weight * interpolate(coarser_[fine], at);
+    return (1 - weight) * first + weight * interpolate_level(coarser_[fine], false);
+}
+
+Rgb Texture::sample(TextureCoordinate at, double width) const {
+    return between_levels<Rgb>(
+        width, [&](const Image& level, bool nearest) { return interpolate(level, at, sampling_, nearest); });
+}
+
+float Texture::alpha(TextureCoordinate at, double width) const {
+    if (finest_->channels() < 4) return 1;
+    return between_levels<float>(
+        width, [&](const Image& level, bool nearest) { return interpolate_alpha(level, at, sampling_, nearest); });
 }
 
 }  // namespace hogel

@@ -10,9 +10,17 @@
 namespace hogel::shading {
 namespace {
 
+// With room for the rounding of a product of floats.
+constexpr float half_opaque = 0.5f - 1.0f / 1024;
+
 void set_triangles(trace::RayCaster& caster, const ShadedScene& scene, trace::Sides sides) {
     trace::TriangleMesh mesh = caster.release();
     mesh.positions = scene.positions;
+    mesh.is_there = {};
+    if (!scene.mesh_alphas.empty())
+        mesh.is_there = [&scene](std::uint32_t triangle, float b1, float b2) {
+            return opacity_at(scene, triangle, 1 - b1 - b2, b1, b2) >= half_opaque;
+        };
     mesh.triangles.resize(scene.triangles.size());
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) mesh.triangles[i] = scene.triangles[i].vertices;
     caster.set(std::move(mesh), sides);

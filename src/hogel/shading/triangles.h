@@ -6,7 +6,8 @@
 
 namespace hogel::shading {
 
-/// A caster of all triangles with both sides, numbered as in the scene, for light.
+/// A caster of all triangles with both sides, numbered as in the scene, for light. Masks have their holes; a surface
+/// that blends is there where it is at least half opaque. The caster of a scene with layers must not outlive the scene.
 trace::RayCaster all_triangles(const ShadedScene& scene);
 
 /// The caster for the shadows of a scene: of all triangles if a light casts shadows, else of none. Throws

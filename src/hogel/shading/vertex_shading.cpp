@@ -25,7 +25,7 @@ void light_vertices(const Scene& scene, ShadedScene& shaded) {
                 Rgb light = scene.ambient;
                 if (!mesh.normals.empty())
                     light += reflected * irradiance(scene, caster, offset, mesh.positions[i], mesh.normals[i]);
-                shaded.radiance[base + i] = vertex_color(mesh, i) * light + mesh.material.emission;
+                shaded.radiance[base + i] = vertex_color(mesh, i) * light + vertex_emission(mesh.material);
             }
         });
         base += n;

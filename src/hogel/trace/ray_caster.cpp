@@ -58,6 +58,8 @@ struct RayCaster::Device {
     RayHit refine(Vec3 origin, Vec3 direction, double far, std::uint32_t triangle) const;
     bool is_front(Vec3 direction, std::uint32_t triangle) const;
     static void skip_backs(const RTCFilterFunctionNArguments* hits);
+    static void skip_holes(const RTCFilterFunctionNArguments* hits);
+    static void skip_backs_and_holes(const RTCFilterFunctionNArguments* hits);
 };
 
 void RayCaster::Device::set_frame() {
@@ -108,10 +110,12 @@ void RayCaster::Device::build() {
         *vertices++ = static_cast<float>(p.z);
     }
     for (const auto& triangle : mesh.triangles) indices = std::copy(triangle.begin(), triangle.end(), indices);
-    if (sides == Sides::fronts) {
-        rtcSetGeometryUserData(geometry, this);
-        rtcSetGeometryIntersectFilterFunction(geometry, skip_backs);
-    }
+    rtcSetGeometryUserData(geometry, this);
+    if (sides == Sides::fronts)
+        rtcSetGeometryIntersectFilterFunction(geometry, mesh.is_there ? skip_backs_and_holes : skip_backs);
+    else if (mesh.is_there)
+        rtcSetGeometryIntersectFilterFunction(geometry, skip_holes);
+    if (mesh.is_there) rtcSetGeometryOccludedFilterFunction(geometry, skip_holes);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
@@ -134,6 +138,21 @@ void RayCaster::Device::skip_backs(const RTCFilterFunctionNArguments* hits) {
                              RTCRayN_dir_z(hits->ray, hits->N, i)};
         if (!device.is_front(direction, RTCHitN_primID(hits->hit, hits->N, i))) hits->valid[i] = 0;
     }
+}
+
+// Rejects hits where a triangle is not there.
+void RayCaster::Device::skip_holes(const RTCFilterFunctionNArguments* hits) {
+    const auto& device = *static_cast<const Device*>(hits->geometryUserPtr);
+    for (unsigned i = 0; i < hits->N; ++i)
+        if (hits->valid[i] != 0 &&
+            !device.mesh.is_there(RTCHitN_primID(hits->hit, hits->N, i), RTCHitN_u(hits->hit, hits->N, i),
+                                  RTCHitN_v(hits->hit, hits->N, i)))
+            hits->valid[i] = 0;
+}
+
+void RayCaster::Device::skip_backs_and_holes(const RTCFilterFunctionNArguments* hits) {
+    skip_backs(hits);
+    skip_holes(hits);
 }
 
 RayCaster::Device::Segment RayCaster::Device::enter(Vec3 origin, Vec3 direction, double near, double far) const {
@@ -188,7 +207,7 @@ RayCaster::RayCaster() : device_(std::make_unique<Device>()) {}
 RayCaster::RayCaster(std::span<const Vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
                      Sides sides)
     : RayCaster() {
-    set({{positions.begin(), positions.end()}, {triangles.begin(), triangles.end()}}, sides);
+    set({{positions.begin(), positions.end()}, {triangles.begin(), triangles.end()}, {}}, sides);
 }
 
 void RayCaster::set(TriangleMesh mesh, Sides sides) {

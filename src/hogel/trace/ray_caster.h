@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -26,6 +27,9 @@ enum class Sides { both, fronts };
 struct TriangleMesh {
     std::vector<Vec3> positions;
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices of positions
+    /// Whether a triangle is there, at the point with these weights of its second and third vertex; null: everywhere.
+    /// Rays pass where it is not. Called by several threads at once.
+    std::function<bool(std::uint32_t triangle, float b1, float b2)> is_there = {};
 };
 
 /// Intersects rays with triangles, by Embree. Rays may be cast from several threads at once, but not during set().

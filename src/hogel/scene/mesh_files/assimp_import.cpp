@@ -16,6 +16,7 @@
 #include "hogel/error.h"
 #include "hogel/scene/mesh_files/checks.h"
 #include "hogel/scene/mesh_files/files.h"
+#include "hogel/scene/mesh_files/gltf_looks.h"
 #include "hogel/scene/mesh_files/limits.h"
 #include "hogel/scene/mesh_files/materials.h"
 #include "hogel/scene/mesh_files/polygons.h"
@@ -36,8 +37,9 @@ std::uint64_t converted_bytes(const aiMesh& mesh) {
     if (mesh.mNumFaces == 0 || !mesh.HasPositions()) return 0;
     std::uint64_t vertex = sizeof(Vec3);
     if (mesh.HasNormals()) vertex += sizeof(Vec3);
-    if (mesh.HasVertexColors(0)) vertex += sizeof(Rgb);
+    if (mesh.HasVertexColors(0)) vertex += sizeof(Rgb) + sizeof(float);
     if (mesh.HasTextureCoords(0)) vertex += sizeof(TextureCoordinate);
+    if (mesh.HasTextureCoords(1)) vertex += sizeof(TextureCoordinate);
     std::uint64_t triangles = 0;
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) triangles += std::max(mesh.mFaces[i].mNumIndices, 2u) - 2;
     return mesh.mNumVertices * vertex + triangles * 3 * sizeof(std::uint32_t) + sizeof(ImportedMesh);
@@ -124,6 +126,14 @@ void import_triangles(const aiMesh& source, bool mirrored, const std::string& fi
         add_polygon({source.mFaces[i].mIndices, source.mFaces[i].mNumIndices}, mirrored, file, mesh);
 }
 
+std::vector<TextureCoordinate> import_coordinates(const aiMesh& source, unsigned set) {
+    std::vector<TextureCoordinate> coordinates;
+    if (source.HasTextureCoords(set))
+        for (unsigned i = 0; i < source.mNumVertices; ++i)
+            coordinates.push_back({source.mTextureCoords[set][i].x, source.mTextureCoords[set][i].y});
+    return coordinates;
+}
+
 Mesh import_mesh(const Placed& placed, bool linear_colors, const std::string& file) {
     const aiMesh& source = *placed.mesh;
     const NormalTransform transform(placed.to_world);
@@ -137,17 +147,25 @@ Mesh import_mesh(const Placed& placed, bool linear_colors, const std::string& fi
     if (source.HasVertexColors(0))
         for (unsigned i = 0; i < source.mNumVertices; ++i)
             mesh.colors.push_back(import_color(source.mColors[0][i], linear_colors));
-    if (source.HasTextureCoords(0))
-        for (unsigned i = 0; i < source.mNumVertices; ++i)
-            mesh.texture_coordinates.push_back({source.mTextureCoords[0][i].x, source.mTextureCoords[0][i].y});
+    mesh.texture_coordinates = import_coordinates(source, 0);
     return mesh;
+}
+
+/// The alphas of vertex colours; none where they are all 0, which is what assimp makes of colours without alpha.
+std::vector<float> import_alphas(const aiMesh& source) {
+    std::vector<float> alphas;
+    if (!source.HasVertexColors(0)) return alphas;
+    for (unsigned i = 0; i < source.mNumVertices; ++i) alphas.push_back(source.mColors[0][i].a);
+    if (std::ranges::all_of(alphas, [](float alpha) { return alpha == 0; })) alphas.clear();
+    return alphas;
 }
 
 /// Sends meshes, and before the first mesh that needs it each texture.
 class Conversion {
   public:
-    Conversion(const aiScene& source, const std::string& file, bool linear_colors, int pipe)
-        : source_(source), file_(file), linear_colors_(linear_colors), sender_(pipe) {}
+    /// @param numbered  whether materials are only the numbers of those of GltfLooks
+    Conversion(const aiScene& source, const std::string& file, bool linear_colors, bool numbered, int pipe)
+        : source_(source), file_(file), linear_colors_(linear_colors), numbered_(numbered), sender_(pipe) {}
 
     void run(std::uint64_t max_bytes) {
         for (const Placed& placed : place_meshes(source_, file_, max_bytes)) {
@@ -159,6 +177,7 @@ class Conversion {
                 imported.mesh.material = read_material(material);
                 imported.is_unlit = is_unlit(material);
                 imported.texture = send_texture(base_color_texture(material));
+                if (numbered_) add_looks(*placed.mesh, material, imported);
             }
             sender_.send(imported);
         }
@@ -166,6 +185,15 @@ class Conversion {
     }
 
   private:
+    static void add_looks(const aiMesh& mesh, const aiMaterial& material, ImportedMesh& imported) {
+        aiString name;
+        if (material.Get(AI_MATKEY_NAME, name) == AI_SUCCESS)
+            if (const auto number = material_number(name.C_Str()))
+                imported.material = static_cast<std::uint32_t>(*number);
+        imported.mesh.alphas = import_alphas(mesh);
+        imported.second_coordinates = import_coordinates(mesh, 1);
+    }
+
     std::uint32_t send_texture(const std::string& name) {
         if (name.empty()) return ImportedMesh::no_texture;
         const auto [known, is_new] = textures_.emplace(name, static_cast<std::uint32_t>(textures_.size()));
@@ -175,7 +203,7 @@ class Conversion {
 
     const aiScene& source_;
     const std::string& file_;
-    bool linear_colors_;
+    bool linear_colors_, numbered_;
     Sender sender_;
     std::map<std::string, std::uint32_t> textures_;
 };
@@ -186,7 +214,8 @@ const char* const readable = "a mesh file that assimp can read";
     reject_file(file, "needs more memory than a file of its size should", "a smaller or undamaged mesh");
 }
 
-void import_or_throw(const std::filesystem::path& path, const std::string& file, std::string_view contents, int pipe) {
+void import_or_throw(const std::filesystem::path& path, const std::string& file, std::string_view contents,
+                     bool numbered, int pipe) {
     auto* files = new FolderFiles(path, contents);
     Assimp::Importer importer;
     importer.SetIOHandler(files);
@@ -201,7 +230,7 @@ void import_or_throw(const std::filesystem::path& path, const std::string& file,
         reject_file(file, message.empty() ? "not readable" : message, readable);
     }
     for (const auto& opened : files->opened()) Sender(pipe).send_file(opened);
-    Conversion(*source, file, is_gltf(path), pipe).run(max_scene_bytes(files->bytes_opened()));
+    Conversion(*source, file, is_gltf(path) || numbered, numbered, pipe).run(max_scene_bytes(files->bytes_opened()));
     // The process ends: nothing is freed one by one, where a damaged structure would be found.
     _exit(0);
 }
@@ -209,11 +238,11 @@ void import_or_throw(const std::filesystem::path& path, const std::string& file,
 }  // namespace
 
 void import_with_assimp(const std::filesystem::path& path, const std::string& file, std::string_view contents,
-                        int pipe) noexcept {
+                        bool numbered, int pipe) noexcept {
     const Sender sender(pipe);
     try {
         try {
-            import_or_throw(path, file, contents, pipe);
+            import_or_throw(path, file, contents, numbered, pipe);
         } catch (const Error&) {
             throw;
         } catch (const std::bad_alloc&) {

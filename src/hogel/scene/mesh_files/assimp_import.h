@@ -12,7 +12,8 @@ namespace hogel::scene::mesh_files {
 /// @param path  canonical
 /// @param file  name of the mesh for messages, as the caller gave it
 /// @param contents  read instead of what the file holds, unless it is empty
+/// @param numbered  whether materials are only the numbers of those of GltfLooks: of CheckedGltf::contents
 [[noreturn]] void import_with_assimp(const std::filesystem::path& path, const std::string& file,
-                                     std::string_view contents, int pipe) noexcept;
+                                     std::string_view contents, bool numbered, int pipe) noexcept;
 
 }  // namespace hogel::scene::mesh_files

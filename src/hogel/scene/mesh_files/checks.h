@@ -32,10 +32,4 @@ std::uintmax_t check_regular_file(const std::filesystem::path& path);
 /// Error(bad_input) by reject_file().
 void check_ply(const std::string& file, std::string_view bytes);
 
-/// The same for a glTF file, whose buffers lie in `folder` (canonical). Returns the file that assimp is to read
-/// instead: what was checked, without what hogel does not use (skins, animations, morph targets, cameras). Empty for a
-/// document of glTF 1, which is not checked. `provenance` receives what write_baked_scene() stored there, if anything.
-std::string check_gltf(const std::string& file, const std::filesystem::path& folder, std::string_view bytes,
-                       Metadata& provenance);
-
 }  // namespace hogel::scene::mesh_files

@@ -10,39 +10,18 @@
 #include <vector>
 
 #include "hogel/scene/mesh_files/checks.h"
+#include "hogel/scene/mesh_files/ply.h"
 
 namespace hogel::scene::mesh_files {
-namespace {
 
-struct Type {
-    std::string_view name, other_name;
-    std::size_t size;
-    bool is_integer;
-};
+using namespace ply;
+
+namespace {
 
 constexpr std::array types{Type{"char", "int8", 1, true},      Type{"uchar", "uint8", 1, true},
                            Type{"short", "int16", 2, true},    Type{"ushort", "uint16", 2, true},
                            Type{"int", "int32", 4, true},      Type{"uint", "uint32", 4, true},
                            Type{"float", "float32", 4, false}, Type{"double", "float64", 8, false}};
-
-struct Property {
-    Type type;
-    std::optional<Type> count;  ///< type of a list's length; none for a single value
-};
-
-struct Element {
-    std::string name;  ///< for messages
-    std::size_t count = 0;
-    std::vector<Property> properties;
-};
-
-enum class Format { ascii, little_endian, big_endian };
-
-struct Header {
-    Format format = Format::ascii;
-    std::vector<Element> elements;
-    std::size_t size = 0;  ///< bytes up to the data
-};
 
 [[noreturn]] void reject(const std::string& file, std::string_view line, const char* expected) {
     reject_file(file, fmt::format("header line '{}'", one_line(std::string(line))), expected);
@@ -69,11 +48,11 @@ void parse_property(const std::string& file, std::string_view line, const std::v
     if (header.elements.empty()) reject(file, line, "an element before its properties");
     auto& properties = header.elements.back().properties;
     if (words.size() == 3) {
-        properties.push_back({parse_type(file, line, words[1]), std::nullopt});
+        properties.push_back({std::string(words[2]), parse_type(file, line, words[1]), std::nullopt});
     } else if (words.size() == 5 && words[1] == "list") {
         const Type count = parse_type(file, line, words[2]);
         if (!count.is_integer) reject(file, line, "a list length of integer type");
-        properties.push_back({parse_type(file, line, words[3]), count});
+        properties.push_back({std::string(words[4]), parse_type(file, line, words[3]), count});
     } else {
         reject(file, line, "'property TYPE NAME' or 'property list TYPE TYPE NAME'");
     }
@@ -93,7 +72,9 @@ Element parse_element(const std::string& file, std::string_view line, const std:
     return element;
 }
 
-Header parse_header(const std::string& file, std::string_view bytes) {
+}  // namespace
+
+Header ply::parse_header(const std::string& file, std::string_view bytes) {
     constexpr std::size_t max_size = std::size_t{1} << 20;
     Header header;
     bool has_format = false;
@@ -123,6 +104,15 @@ Header parse_header(const std::string& file, std::string_view bytes) {
     }
     reject_file(file, "no end_header", "a PLY file");
 }
+
+std::string_view ply::Words::next() {
+    rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t"), rest_.size()));
+    const std::string_view word = rest_.substr(0, rest_.find_first_of(" \t"));
+    rest_.remove_prefix(word.size());
+    return word;
+}
+
+namespace {
 
 std::uint64_t read_count(std::string_view bytes, const Type& type, Format format) {
     std::array<unsigned char, 4> raw{};
@@ -168,23 +158,6 @@ void check_binary(const std::string& file, const Header& header, std::string_vie
             }
     }
 }
-
-/// The words of a line, one after the other.
-class Words {
-  public:
-    explicit Words(std::string_view line) : rest_(line) {}
-    /// Empty at the end of the line.
-    std::string_view next() {
-        rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t"), rest_.size()));
-        const std::string_view word = rest_.substr(0, rest_.find_first_of(" \t"));
-        rest_.remove_prefix(word.size());
-        return word;
-    }
-    std::size_t bytes_left() const { return rest_.size(); }
-
-  private:
-    std::string_view rest_;
-};
 
 /// Throws unless a line of text has every value of its element, and as many for a list as it announces.
 void check_values(const std::string& file, const Element& element, std::size_t number, std::string_view line) {

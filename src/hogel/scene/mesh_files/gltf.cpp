@@ -4,19 +4,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstring>
 #include <set>
 
 #include "hogel/scene/mesh_files/checks.h"
+#include "hogel/scene/mesh_files/gltf_looks.h"
 
 namespace hogel::scene::mesh_files {
 namespace {
 
 constexpr int max_json_depth = 100;
 
-// Extensions without which hogel shows what it shows anyway: those of looks beyond base colour, metal and roughness,
-// of lights and of metadata. What changes geometry, or where textures come from, is not among them.
-constexpr std::array supported_extensions{"KHR_lights_punctual",
+// Extensions that a file may require: those that hogel shows, and those of looks that a note names. What packs geometry
+// or pictures is not among them.
+constexpr std::array supported_extensions{"EXT_mesh_gpu_instancing",
+                                          "EXT_texture_webp",
+                                          "KHR_lights_punctual",
                                           "KHR_materials_anisotropy",
                                           "KHR_materials_clearcoat",
                                           "KHR_materials_dispersion",
@@ -30,6 +34,8 @@ constexpr std::array supported_extensions{"KHR_lights_punctual",
                                           "KHR_materials_unlit",
                                           "KHR_materials_variants",
                                           "KHR_materials_volume",
+                                          "KHR_mesh_quantization",
+                                          "KHR_texture_transform",
                                           "KHR_xmp_json_ld"};
 
 std::uint32_t read_u32(std::string_view bytes, std::size_t at) {
@@ -119,16 +125,25 @@ void check_extensions(const Gltf& gltf) {
                         "a file that needs no such extension; convert it, for instance without compression");
 }
 
-/// What moves a model, and cameras. assimp crashes on skins that lack what glTF does not ask for.
+/// What moves a model, cameras, lights and looks, which assimp is not to read (read_looks() does). It crashes on skins
+/// that lack what glTF does not ask for, and numbers materials in an order of its own; so each gets its number as name.
 void drop_unused(Json& json) {
-    for (const char* name : {"animations", "cameras", "skins"}) json.erase(name);
+    for (const char* name : {"animations", "cameras", "skins", "textures", "images", "samplers", "extensions",
+                             "extensionsUsed", "extensionsRequired"})
+        json.erase(name);
     if (json.contains("nodes"))
         for (Json& node : json["nodes"])
-            for (const char* name : {"camera", "skin", "weights"}) node.erase(name);
+            for (const char* name : {"camera", "skin", "weights", "extensions"}) node.erase(name);
+    if (json.contains("materials"))
+        for (std::size_t i = 0; i < json["materials"].size(); ++i)
+            json["materials"][i] = {{"name", numbered_material(i)}};
     if (!json.contains("meshes")) return;
     for (Json& mesh : json["meshes"]) {
         mesh.erase("weights");
-        for (Json& primitive : mesh["primitives"]) primitive.erase("targets");
+        for (Json& primitive : mesh["primitives"]) {
+            primitive.erase("targets");
+            primitive.erase("extensions");
+        }
     }
 }
 
@@ -163,6 +178,23 @@ std::string assemble(const Gltf& gltf) {
 }
 
 }  // namespace
+
+std::string numbered_material(std::size_t number) { return fmt::format("material {}", number); }
+
+std::optional<std::size_t> material_number(std::string_view name) {
+    constexpr std::string_view start = "material ";
+    std::size_t number = 0;
+    if (!name.starts_with(start)) return std::nullopt;
+    const auto [end, status] = std::from_chars(name.data() + start.size(), name.data() + name.size(), number);
+    if (status != std::errc{} || end != name.data() + name.size()) return std::nullopt;
+    return number;
+}
+
+bool is_known_extension(const std::string& name) {
+    // Those of which the document itself holds what to show without them.
+    constexpr std::array replaceable{"EXT_meshopt_compression", "KHR_draco_mesh_compression", "KHR_texture_basisu"};
+    return std::ranges::count(supported_extensions, name) > 0 || std::ranges::count(replaceable, name) > 0;
+}
 
 void Gltf::reject(const std::string& where, const std::string& what, const std::string& expected) const {
     reject_file(file, where + " " + what, expected);
@@ -219,18 +251,23 @@ Gltf parse_gltf(const std::string& file, const std::filesystem::path& folder, st
 
 // assimp 5.2 drops faces with indices that do not exist, wraps offsets around, allocates what counts and indexed names
 // announce, and walks trees recursively.
-std::string check_gltf(const std::string& file, const std::filesystem::path& folder, std::string_view bytes,
-                       Metadata& provenance) {
+CheckedGltf check_gltf(const std::string& file, const std::filesystem::path& folder, std::string_view bytes) {
     Gltf gltf = parse_gltf(file, folder, bytes);
     if (!gltf.is_version_2) return {};
-    provenance = stored_provenance(gltf.json);
+    CheckedGltf checked;
+    checked.provenance = stored_provenance(gltf.json);
     {
         const GltfBuffers buffers(gltf);
-        check_primitives(gltf, check_accessors(gltf, buffers));
+        const std::vector<GltfAccessor> accessors = check_accessors(gltf, buffers);
+        check_primitives(gltf, accessors);
+        check_nodes(gltf);
+        checked.looks = read_looks(gltf, buffers);
+        place_instances(gltf, accessors);
+        make_floats(gltf, accessors);
     }
-    check_nodes(gltf);
     drop_unused(gltf.json);
-    return assemble(gltf);
+    checked.contents = assemble(gltf);
+    return checked;
 }
 
 }  // namespace hogel::scene::mesh_files

@@ -73,6 +73,9 @@ struct GltfAccessor {
 
     /// The elements of a scalar accessor of whole numbers.
     std::vector<std::uint32_t> whole_numbers() const;
+    /// The components of all elements, one element after the other.
+    /// @param normalized  whether whole numbers are shares of the largest of their type
+    std::vector<float> floats(bool normalized) const;
 };
 
 /// Checks views and accessors: sizes, offsets, alignment, strides, sparse elements.
@@ -80,6 +83,20 @@ std::vector<GltfAccessor> check_accessors(const Gltf& gltf, const GltfBuffers& b
 
 /// Checks the attributes and indices of all primitives.
 void check_primitives(const Gltf& gltf, const std::vector<GltfAccessor>& accessors);
+
+/// The bytes of a "data:" URI. Throws for one without data or in wrong base64.
+std::string decode_data_uri(const Gltf& gltf, const std::string& uri, const std::string& where);
+
+/// Whether hogel shows what an extension adds, or says that it does not.
+bool is_known_extension(const std::string& name);
+
+/// Makes of each node with EXT_mesh_gpu_instancing one node for each instance. Nodes and accessors must have been
+/// checked.
+void place_instances(Gltf& gltf, const std::vector<GltfAccessor>& accessors);
+
+/// Makes floats of positions, normals and texture coordinates that are stored as whole numbers, which assimp 5.2 takes
+/// for the bytes of floats.
+void make_floats(Gltf& gltf, const std::vector<GltfAccessor>& accessors);
 
 /// Checks that nodes form strict trees that are not too deep, and that scenes name no node twice.
 void check_nodes(const Gltf& gltf);

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <type_traits>
+
+#include <limits>
+
 #include <algorithm>
 #include <cstring>
 
@@ -182,6 +186,31 @@ class Accessors {
     std::vector<View> views_;
 };
 
+template <class T>
+float value_of(const char* from, bool normalized) {
+    T value;
+    std::memcpy(&value, from, sizeof value);
+    if (std::is_floating_point_v<T> || !normalized) return static_cast<float>(value);
+    return std::max(-1.0f, static_cast<float>(static_cast<double>(value) / std::numeric_limits<T>::max()));
+}
+
+float read_component(const char* from, unsigned type, bool normalized) {
+    switch (type) {
+        case 5120:
+            return value_of<std::int8_t>(from, normalized);
+        case GltfAccessor::u8:
+            return value_of<std::uint8_t>(from, normalized);
+        case 5122:
+            return value_of<std::int16_t>(from, normalized);
+        case GltfAccessor::u16:
+            return value_of<std::uint16_t>(from, normalized);
+        case GltfAccessor::u32:
+            return value_of<std::uint32_t>(from, normalized);
+        default:
+            return value_of<float>(from, normalized);
+    }
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> GltfAccessor::whole_numbers() const {
@@ -193,6 +222,20 @@ std::vector<std::uint32_t> GltfAccessor::whole_numbers() const {
         numbers[replaced[i]] =
             static_cast<std::uint32_t>(read_whole_number(replacements.data() + i * element_size, component_size));
     return numbers;
+}
+
+std::vector<float> GltfAccessor::floats(bool normalized) const {
+    const std::size_t components = element_size / component_size;
+    std::vector<float> values(count * components);
+    const auto read = [&](const char* from, float* to) {
+        for (std::size_t c = 0; c < components; ++c)
+            to[c] = read_component(from + c * component_size, component_type, normalized);
+    };
+    if (!data.empty())
+        for (std::uint64_t i = 0; i < count; ++i) read(data.data() + i * stride, &values[i * components]);
+    for (std::size_t i = 0; i < replaced.size(); ++i)
+        read(replacements.data() + i * element_size, &values[replaced[i] * components]);
+    return values;
 }
 
 std::vector<GltfAccessor> check_accessors(const Gltf& gltf, const GltfBuffers& buffers) {

@@ -39,6 +39,16 @@ std::optional<std::string> decode_base64(std::string_view text) {
 
 }  // namespace
 
+std::string decode_data_uri(const Gltf& gltf, const std::string& uri, const std::string& where) {
+    const std::size_t comma = uri.find(',');
+    if (comma == uri.npos) gltf.reject(where + ".uri", "has no data", "data:TYPE;base64,DATA");
+    const std::string_view data = std::string_view(uri).substr(comma + 1);
+    if (!std::string_view(uri).substr(0, comma).ends_with(";base64")) return std::string(data);
+    auto decoded = decode_base64(data);
+    if (!decoded) gltf.reject(where + ".uri", "is not base64", "data:TYPE;base64,DATA");
+    return std::move(*decoded);
+}
+
 std::string_view GltfBuffers::load(const Gltf& gltf, const Json& buffer, const std::string& where, bool is_first) {
     const auto uri = buffer.find("uri");
     if (uri == buffer.end()) {
@@ -47,15 +57,7 @@ std::string_view GltfBuffers::load(const Gltf& gltf, const Json& buffer, const s
     }
     if (!uri->is_string()) gltf.reject(where + ".uri", "is not a text", "a file name or data");
     const std::string& name = uri->get_ref<const std::string&>();
-    if (name.starts_with("data:")) {
-        const std::size_t comma = name.find(',');
-        if (comma == name.npos) gltf.reject(where + ".uri", "has no data", "data:TYPE;base64,DATA");
-        const std::string_view data = std::string_view(name).substr(comma + 1);
-        if (!std::string_view(name).substr(0, comma).ends_with(";base64")) return data;
-        auto decoded = decode_base64(data);
-        if (!decoded) gltf.reject(where + ".uri", "is not base64", "data:TYPE;base64,DATA");
-        return storage_.emplace_back(std::move(*decoded));
-    }
+    if (name.starts_with("data:")) return storage_.emplace_back(decode_data_uri(gltf, name, where));
     const auto path = find_in_folder(gltf.folder, name);
     if (!path)
         gltf.reject(where + ".uri", fmt::format("'{}' not found", one_line(name)), "a file in the folder of the mesh");

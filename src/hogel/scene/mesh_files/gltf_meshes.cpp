@@ -24,7 +24,10 @@ std::optional<std::size_t> set_number(std::string_view attribute) {
 
 class Primitives {
   public:
-    Primitives(const Gltf& gltf, const std::vector<GltfAccessor>& accessors) : gltf_(gltf), accessors_(accessors) {}
+    Primitives(const Gltf& gltf, const std::vector<GltfAccessor>& accessors) : gltf_(gltf), accessors_(accessors) {
+        for (const char* list : {"extensionsUsed", "extensionsRequired"})
+            is_quantized_ = is_quantized_ || std::ranges::count(gltf.list(list), "KHR_mesh_quantization") > 0;
+    }
 
     void check(const Json& primitive, const std::string& where) {
         const auto attributes = primitive.find("attributes");
@@ -59,8 +62,9 @@ class Primitives {
             const std::string place = where + "." + one_line(name);
             if (set_number(name).value_or(attributes.size()) >= attributes.size())
                 gltf_.reject(place, "skips numbers of its set", "numbers that begin with 0 and follow each other");
-            if ((name == "POSITION" || name == "NORMAL") &&
-                (accessor.type != "VEC3" || accessor.component_type != GltfAccessor::f32))
+            const bool has_floats = accessor.component_type == GltfAccessor::f32 ||
+                                    (is_quantized_ && accessor.component_type < GltfAccessor::u32);
+            if ((name == "POSITION" || name == "NORMAL") && (accessor.type != "VEC3" || !has_floats))
                 gltf_.reject(place, "is not three floats", "VEC3 of component type 5126");
             if (vertices && accessor.count != *vertices)
                 gltf_.reject(place, fmt::format("has {} elements", accessor.count),
@@ -89,6 +93,7 @@ class Primitives {
 
     const Gltf& gltf_;
     const std::vector<GltfAccessor>& accessors_;
+    bool is_quantized_ = false;  // whether positions and normals may be whole numbers
     std::map<std::size_t, std::uint32_t> largest_;
 };
 

@@ -9,11 +9,15 @@
 #include "hogel/core/child_process.h"
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/scene/mesh_files/apply_looks.h"
 #include "hogel/scene/mesh_files/assimp_import.h"
 #include "hogel/scene/mesh_files/checks.h"
+#include "hogel/scene/mesh_files/gltf_looks.h"
 #include "hogel/scene/mesh_files/limits.h"
 #include "hogel/scene/mesh_files/materials.h"
+#include "hogel/scene/mesh_files/obj.h"
 #include "hogel/scene/mesh_files/off.h"
+#include "hogel/scene/mesh_files/points.h"
 #include "hogel/scene/mesh_files/transfer.h"
 #include "hogel/scenes.h"
 
@@ -26,54 +30,95 @@ namespace {
 constexpr double crease = 60 * std::numbers::pi / 180;  // missing normals are smooth up to this angle
 
 /// What assimp makes of the file, in a child process: it crashes on damaged files of many formats.
-Imported import_in_child(const std::filesystem::path& path, const std::string& file, std::string_view contents) {
+Imported import_in_child(const std::filesystem::path& path, const std::string& file, std::string_view contents,
+                         bool numbered = false) {
     const std::uint64_t bytes = std::filesystem::file_size(path);
     try {
         return core::with_child(
-            child_limits(bytes), [&](int pipe) { import_with_assimp(path, file, contents, pipe); },
+            child_limits(bytes), [&](int pipe) { import_with_assimp(path, file, contents, numbered, pipe); },
             [&](core::ChildProcess& child) { return receive(child, path.parent_path(), file); });
     } catch (const core::ChildFailure& failure) {
         reject_file(file, fmt::format("the mesh reader {}", failure.what()), "an undamaged mesh file");
     }
 }
 
+/// A file of known kind, with what is to be known of its looks.
+struct Read {
+    Imported imported;
+    GltfLooks looks;
+    bool has_looks = false;
+};
+
+Mesh discs_of(const Points& points, const ImportOptions& options, const std::string& file) {
+    try {
+        return discs(points, options.point_size);
+    } catch (const Error& error) {
+        throw Error(error.code(), fmt::format("{}: {}", file, error.what()));
+    }
+}
+
 /// assimp chooses its reader by the name, and by the first bytes where it knows no such name.
-Imported import_file(const std::filesystem::path& path, std::uintmax_t size, const std::string& file) {
+Read import_file(const std::filesystem::path& path, std::uintmax_t size, const std::string& file,
+                 const ImportOptions& options) {
     std::string start(4096, '\0');
     std::ifstream stream(path, std::ios::binary);
     stream.read(start.data(), static_cast<std::streamsize>(start.size()));
     start.resize(static_cast<std::size_t>(stream.gcount()));
-    if (has_extension(path, {".off"}) || starts_like_off(start)) {
-        Imported imported;
-        imported.meshes.push_back({read_off(file, read_file(path, size, file))});
-        return imported;
-    }
+    Read read;
     const std::size_t first = start.find_first_not_of(" \t\r\n");
-    if (is_gltf(path) || start.starts_with("glTF") || (first != start.npos && start[first] == '{')) {
-        Metadata provenance;
-        Imported imported =
-            import_in_child(path, file, check_gltf(file, path.parent_path(), read_file(path, size, file), provenance));
-        imported.provenance = std::move(provenance);
-        return imported;
+    if (has_extension(path, {".off"}) || starts_like_off(start)) {
+        read.imported.meshes.push_back({read_off(file, read_file(path, size, file))});
+    } else if (is_gltf(path) || start.starts_with("glTF") || (first != start.npos && start[first] == '{')) {
+        CheckedGltf checked = check_gltf(file, path.parent_path(), read_file(path, size, file));
+        read.has_looks = !checked.contents.empty();
+        read.imported = import_in_child(path, file, checked.contents, read.has_looks);
+        read.imported.provenance = std::move(checked.provenance);
+        read.looks = std::move(checked.looks);
+    } else if (has_extension(path, {".obj"})) {
+        read.imported = import_in_child(path, file, with_leading_zeros(read_file(path, size, file)));
+    } else if (has_extension(path, {".ply"}) || starts_like_ply(start)) {
+        const std::string bytes = read_file(path, size, file);
+        check_ply(file, bytes);
+        if (const auto points = read_ply_points(file, bytes))
+            read.imported.meshes.push_back({discs_of(*points, options, file)});
+        else
+            read.imported = import_in_child(path, file, {});
+    } else if (has_extension(path, {".xyz", ".pts", ".asc"})) {
+        read.imported.meshes.push_back({discs_of(read_xyz(file, read_file(path, size, file)), options, file)});
+    } else if (has_extension(path, {".splat", ".ksplat", ".spz"})) {
+        reject_splats(file);
+    } else {
+        read.imported = import_in_child(path, file, {});
     }
-    if (has_extension(path, {".ply"}) || starts_like_ply(start)) check_ply(file, read_file(path, size, file));
-    return import_in_child(path, file, {});
+    return read;
 }
 
-Scene convert(Imported imported, const std::filesystem::path& path, const std::string& file) {
-    Textures textures(std::move(imported.textures), path.parent_path(), file);
+void show_unlit(ImportedMesh& part) {
+    Mesh& mesh = part.mesh;
+    if (!part.is_unlit) return;
+    mesh.radiance.assign(mesh.positions.size(), mesh.material.base_color);
+    for (std::size_t i = 0; i < std::min(mesh.colors.size(), mesh.radiance.size()); ++i)
+        mesh.radiance[i] = mesh.radiance[i] * mesh.colors[i];
+}
+
+Scene convert(Read read, const std::filesystem::path& path, const std::string& file) {
+    Imported& imported = read.imported;
+    Textures textures(read.has_looks ? std::move(read.looks.images) : std::move(imported.textures), path.parent_path(),
+                      file);
     Scene scene;
     scene.name = path.stem().string();
     scene.provenance = std::move(imported.provenance);
+    scene.lights = std::move(read.looks.lights);
+    scene.notes = std::move(read.looks.notes);
     for (ImportedMesh& part : imported.meshes) {
         Mesh& mesh = part.mesh;
-        mesh.material.base_color_texture = textures[part.texture];
-        if (mesh.texture_coordinates.empty()) mesh.material.base_color_texture = nullptr;
-        if (part.is_unlit) {
-            mesh.radiance.assign(mesh.positions.size(), mesh.material.base_color);
-            for (std::size_t i = 0; i < std::min(mesh.colors.size(), mesh.radiance.size()); ++i)
-                mesh.radiance[i] = mesh.radiance[i] * mesh.colors[i];
+        if (read.has_looks) {
+            apply_looks(read.looks, part, textures);
+        } else {
+            mesh.material.base_color_texture = textures.get(part.texture);
+            if (mesh.texture_coordinates.empty()) mesh.material.base_color_texture = nullptr;
         }
+        show_unlit(part);
         if (!mesh.triangles.empty()) scene.meshes.push_back(std::move(mesh));
     }
     if (scene.meshes.empty()) reject_file(file, "no triangles that have an area", "at least one");
@@ -88,13 +133,13 @@ Scene convert(Imported imported, const std::filesystem::path& path, const std::s
 
 }  // namespace
 
-Scene import_scene(const std::filesystem::path& path, const Progress& progress) {
+Scene import_scene(const std::filesystem::path& path, const Progress& progress, const ImportOptions& options) {
     const core::StopScope scope(progress);
     const std::string file = path.string();
     const std::uintmax_t size = check_regular_file(path);
     try {
         const std::filesystem::path real = std::filesystem::canonical(path);
-        return convert(import_file(real, size, file), real, file);
+        return convert(import_file(real, size, file, options), real, file);
     } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {

@@ -42,8 +42,8 @@ Material read_material(const aiMaterial& source) {
          source.Get(AI_MATKEY_COLOR_DIFFUSE, color) == AI_SUCCESS))
         material.base_color = {reflectance(color.r), reflectance(color.g), reflectance(color.b)};
 
-    // Only glTF's materials are glossy. Metallic-roughness textures are not supported; materials with one are treated
-    // as not metallic.
+    // Only glTF's materials are glossy. Those of glTF 2 are read by read_looks(); of glTF 1, metallic-roughness
+    // textures are not, and materials with one are treated as not metallic.
     float metallic = 1;
     if (source.Get(AI_MATKEY_METALLIC_FACTOR, metallic) == AI_SUCCESS) {
         material.reflectance = 0.04f;
@@ -97,22 +97,24 @@ TextureSource find_texture(const aiScene& source, const std::string& name, const
 }
 
 Textures::Textures(std::vector<TextureSource> sources, std::filesystem::path folder, std::string file)
-    : sources_(std::move(sources)), images_(sources_.size()), folder_(std::move(folder)), file_(std::move(file)) {}
+    : sources_(std::move(sources)), folder_(std::move(folder)), file_(std::move(file)) {}
 
-std::shared_ptr<const Image> Textures::operator[](std::uint32_t number) {
+std::shared_ptr<const Image> Textures::get(std::uint32_t number, image::TexturePixels pixels) {
     if (number >= sources_.size()) return nullptr;
-    if (!images_[number]) images_[number] = std::make_shared<Image>(load(sources_[number]));
-    return images_[number];
+    auto& known = images_[{number, pixels}];
+    if (!known) known = std::make_shared<Image>(load(sources_[number], pixels));
+    return known;
 }
 
-Image Textures::load(const TextureSource& source) const {
-    if (source.kind == TextureSource::Kind::encoded) return decode_image(source.bytes, where(file_, source));
+Image Textures::load(const TextureSource& source, image::TexturePixels pixels) const {
+    if (source.kind == TextureSource::Kind::encoded)
+        return image::decode_texture(source.bytes, where(file_, source), pixels);
     if (source.kind == TextureSource::Kind::texels) {
         if (source.bytes.size() != 3 * std::uint64_t{source.width} * source.height)
             throw Error(ErrorCode::bad_input, where(file_, source) + ": damaged; expected a picture");
         return from_texels(source);
     }
-    if (const auto path = find_in_folder(folder_, source.name)) return read_image(*path);
+    if (const auto path = find_in_folder(folder_, source.name)) return image::read_texture(*path, pixels);
     throw Error(
         ErrorCode::bad_input,
         fmt::format("{}: texture '{}' not found; expected a file in the folder of the mesh", file_, source.name));

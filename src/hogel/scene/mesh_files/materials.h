@@ -4,10 +4,13 @@
 #include <assimp/scene.h>
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "hogel/image/texture_picture.h"
 #include "hogel/scene.h"
 #include "hogel/scene/mesh_files/transfer.h"
 
@@ -33,13 +36,13 @@ class Textures {
     /// @param file    name of the mesh for messages, as the caller gave it
     Textures(std::vector<TextureSource> sources, std::filesystem::path folder, std::string file);
     /// Null for a number that does not exist. Throws Error(bad_input) for a missing or damaged picture.
-    std::shared_ptr<const Image> operator[](std::uint32_t number);
+    std::shared_ptr<const Image> get(std::uint32_t number, image::TexturePixels pixels = image::TexturePixels::color);
 
   private:
-    Image load(const TextureSource& source) const;
+    Image load(const TextureSource& source, image::TexturePixels pixels) const;
 
     std::vector<TextureSource> sources_;
-    std::vector<std::shared_ptr<const Image>> images_;
+    std::map<std::pair<std::uint32_t, image::TexturePixels>, std::shared_ptr<const Image>> images_;
     std::filesystem::path folder_;
     std::string file_;
 };

@@ -22,23 +22,26 @@ struct Head {
     Tag tag = Tag::end;
     std::uint32_t texture = 0;
     TextureSource::Kind kind = TextureSource::Kind::file;
-    std::uint32_t is_unlit = 0, width = 0, height = 0;
+    std::uint32_t is_unlit = 0, material = 0, width = 0, height = 0;
     Rgb base_color, emission;
     float reflectance = 0, metallic = 0, roughness = 0;
     std::uint64_t text = 0;                 ///< bytes of the name or message
-    std::array<std::uint64_t, 6> counts{};  ///< elements of the arrays, in the order of arrays_of()
+    std::array<std::uint64_t, 8> counts{};  ///< elements of the arrays, in the order of arrays_of()
 };
 static_assert(std::is_trivially_copyable_v<Head>);
 
 /// Calls f(i, array) for the arrays of a mesh.
 template <class M, class F>
-void for_arrays(M& mesh, const F& f) {
+void for_arrays(M& imported, const F& f) {
+    auto& mesh = imported.mesh;
     f(0, mesh.positions);
     f(1, mesh.normals);
     f(2, mesh.colors);
     f(3, mesh.radiance);
     f(4, mesh.texture_coordinates);
     f(5, mesh.triangles);
+    f(6, mesh.alphas);
+    f(7, imported.second_coordinates);
 }
 
 class Receiver {
@@ -105,6 +108,7 @@ ImportedMesh receive_mesh(Receiver& from, const Head& head) {
     ImportedMesh imported;
     imported.texture = head.texture;
     imported.is_unlit = head.is_unlit != 0;
+    imported.material = head.material;
     Material& material = imported.mesh.material;
     material.base_color = head.base_color;
     material.emission = head.emission;
@@ -112,7 +116,7 @@ ImportedMesh receive_mesh(Receiver& from, const Head& head) {
     material.metallic = head.metallic;
     material.roughness = head.roughness;
     imported.mesh.name = from.text(head);
-    for_arrays(imported.mesh, [&](std::size_t i, auto& array) { from.array(head.counts[i], array); });
+    for_arrays(imported, [&](std::size_t i, auto& array) { from.array(head.counts[i], array); });
     return imported;
 }
 
@@ -145,16 +149,17 @@ void Sender::send(const ImportedMesh& imported) const {
     head.tag = Tag::mesh;
     head.texture = imported.texture;
     head.is_unlit = imported.is_unlit ? 1 : 0;
+    head.material = imported.material;
     head.base_color = mesh.material.base_color;
     head.emission = mesh.material.emission;
     head.reflectance = mesh.material.reflectance;
     head.metallic = mesh.material.metallic;
     head.roughness = mesh.material.roughness;
     head.text = mesh.name.size();
-    for_arrays(mesh, [&](std::size_t i, const auto& array) { head.counts[i] = array.size(); });
+    for_arrays(imported, [&](std::size_t i, const auto& array) { head.counts[i] = array.size(); });
     core::ChildProcess::write(pipe_, &head, sizeof head);
     core::ChildProcess::write(pipe_, mesh.name.data(), mesh.name.size());
-    for_arrays(mesh, [&](std::size_t, const auto& array) {
+    for_arrays(imported, [&](std::size_t, const auto& array) {
         core::ChildProcess::write(pipe_, array.data(), array.size() * sizeof array[0]);
     });
 }

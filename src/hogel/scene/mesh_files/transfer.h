@@ -28,12 +28,16 @@ struct ImportedMesh {
     Mesh mesh;
     std::uint32_t texture = no_texture;  ///< number of a TextureSource that was sent before
     bool is_unlit = false;               ///< the material's colour is its radiance (glTF: KHR_materials_unlit)
+    static constexpr std::uint32_t no_material = ~std::uint32_t{0};
+    std::uint32_t material = no_material;                    ///< number in GltfLooks::materials
+    std::vector<TextureCoordinate> second_coordinates = {};  ///< TEXCOORD_1
 };
 
 struct Imported {
     std::vector<ImportedMesh> meshes;
     std::vector<TextureSource> textures;
-    Metadata provenance;  ///< which the parent reads
+    Metadata provenance;             ///< which the parent reads
+    std::vector<std::string> notes;  ///< the same
 };
 
 /// In the child: sends what was read, piece by piece, so that it is not held twice.

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "hogel/error.h"
+#include "hogel/image.h"
+
+namespace hogel::cli {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+// The irradiance of a light of the command line without a strength: that of the light that comes first where there is
+// none (add_default_lights()).
+constexpr double usual_strength = 2.2;
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    for (std::size_t at = 0;;) {
+        const std::size_t end = text.find(separator, at);
+        parts.push_back(text.substr(at, end - at));
+        if (end == std::string::npos) return parts;
+        at = end + 1;
+    }
+}
+
+[[noreturn]] void refuse(const std::string& option, const std::string& text, const std::string& expected) {
+    throw Error(ErrorCode::usage, fmt::format("{}: '{}' is not {}", option, text, expected));
+}
+
+// @param text  the whole text, for messages
+Vec3 parse_vector(const std::string& numbers, const std::string& text, const std::string& option,
+                  const std::string& expected) {
+    const std::vector<std::string> parts = split(numbers, ',');
+    std::array<double, 3> values{};
+    if (parts.size() != 3) refuse(option, text, expected);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto number = parse_number(parts[i]);
+        if (!number) refuse(option, text, expected);
+        values[i] = *number;
+    }
+    return {values[0], values[1], values[2]};
+}
+
+Rgb parse_color(const std::string& text, const std::string& option) {
+    constexpr std::array<std::pair<std::string_view, std::uint32_t>, 7> names{{{"black", 0x000000},
+                                                                               {"white", 0xffffff},
+                                                                               {"grey", 0x808080},
+                                                                               {"red", 0xff0000},
+                                                                               {"green", 0x00ff00},
+                                                                               {"blue", 0x0000ff},
+                                                                               {"yellow", 0xffff00}}};
+    std::uint32_t code = 0;
+    const auto named = std::ranges::find(names, text, &std::pair<std::string_view, std::uint32_t>::first);
+    if (named != names.end()) {
+        code = named->second;
+    } else if (text.size() == 7 && text[0] == '#' &&
+               text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos) {
+        code = static_cast<std::uint32_t>(std::stoul(text.substr(1), nullptr, 16));
+    } else {
+        refuse(option, text, "a colour; write #rrggbb, or black, white, grey, red, green, blue or yellow");
+    }
+    const auto part = [&](unsigned shift) { return srgb_decode(static_cast<float>(code >> shift & 0xff) / 255); };
+    return {part(16), part(8), part(0)};
+}
+
+Light parse_light(const std::string& text) {
+    constexpr const char* expected =
+        "a light; write where it comes from, X,Y,Z, then :COLOUR and :STRENGTH if you like";
+    const std::vector<std::string> parts = split(text, ':');
+    if (parts.size() > 3) refuse("--light", text, expected);
+    const Vec3 from = parse_vector(parts[0], text, "--light", expected);
+    const double size = length(from);
+    if (!(size > 0 && std::isfinite(size))) refuse("--light", text, "a direction");
+    double strength = usual_strength;
+    if (parts.size() == 3) {
+        const auto number = parse_number(parts[2]);
+        if (!number || !(*number >= 0)) refuse("--light", text, expected);
+        strength = *number;
+    }
+    Light light;
+    light.direction = -1 / size * from;
+    light.intensity =
+        static_cast<float>(strength) * (parts.size() > 1 ? parse_color(parts[1], "--light") : Rgb{1, 1, 1});
+    return light;
+}
+
+Vec3 parse_up(const std::string& text) {
+    const bool opposite = text.starts_with('-');
+    const std::string axis = opposite ? text.substr(1) : text;
+    const double sign = opposite ? -1 : 1;
+    if (axis == "x") return {sign, 0, 0};
+    if (axis == "y") return {0, sign, 0};
+    if (axis == "z") return {0, 0, sign};
+    refuse("--up", text, "an axis; write x, y, z, -x, -y or -z");
+}
+
+Vec3 parse_rotation(const std::string& text) {
+    constexpr const char* expected = "a rotation; write the angles about x, y and z, such as -90,0,0deg";
+    if (!text.ends_with("deg")) refuse("--rotate", text, expected);
+    const Vec3 angles = parse_vector(text.substr(0, text.size() - 3), text, "--rotate", expected);
+    return degree * angles;
+}
+
+}  // namespace
+
+ScenePose SceneOptions::complete_pose() const {
+    ScenePose complete = pose;
+    for (const std::string& light : lights) complete.lights.push_back(parse_light(light));
+    if (!texture.empty()) complete.texture = std::make_shared<const Image>(read_image(texture));
+    return complete;
+}
+
+void SceneOptions::record(RunRecord& record, const Scene& scene) const {
+    if (pose.up != Vec3{0, 1, 0}) record.acted({"up"});
+    if (pose.rotation != Vec3{}) record.acted({"rotate"});
+    if (pose.scale != 1) record.acted({"scale"});
+    if (pose.shift != Vec3{}) record.acted({"move"});
+    if (pose.color) record.acted({"colour"});
+    if (!texture.empty()) record.acted({"texture"});
+    if (pose.background) record.acted({"background"});
+    if (pose.ground) record.acted({"ground"});
+    const bool is_lit = std::ranges::any_of(scene.meshes, [](const Mesh& mesh) { return mesh.radiance.empty(); });
+    if (!lights.empty() && is_lit) record.acted({"light"});
+    const bool has_points =
+        std::ranges::any_of(scene.meshes, [](const Mesh& mesh) { return mesh.name == points_name; });
+    if (point_size != 1 && has_points) record.acted({"point-size"});
+}
+
+void add_scene_options(Command& command, SceneOptions& options) {
+    command.group("Scene");
+    command.parsed("--up", "AXIS", "The axis of the scene that points upwards: y (default), z, x, or -y, -z, -x",
+                   [&options](const std::string& text) { options.pose.up = parse_up(text); });
+    command.parsed("--rotate", "X,Y,Zdeg", "Turn the scene about x (to the right), then y (up), then z (to the viewer)",
+                   [&options](const std::string& text) { options.pose.rotation = parse_rotation(text); });
+    command.number("--scale", options.pose.scale, "F", "Enlarge the scene, after it was fitted to the hologram")
+        .positive()
+        .no_default();
+    command.point("--move", options.pose.shift, "Move the scene, after that: right, up and towards the viewer")
+        .no_default();
+    command.parsed("--colour", "COLOUR", "Colour of all surfaces in place of their own: #rrggbb or a name such as red",
+                   [&options](const std::string& text) { options.pose.color = parse_color(text, "--colour"); });
+    command.text("--texture", options.texture, "FILE", "Picture on all surfaces that have texture coordinates")
+        .no_default();
+    command.texts(
+        "--light", options.lights, "X,Y,Z[:COLOUR[:F]]",
+        fmt::format("A light in place of the scene's own: where it comes from, its colour (default: white) and "
+                    "its strength (default: {}); may be given several times",
+                    usual_strength));
+    command.parsed(
+        "--background", "COLOUR", "Of rays that meet nothing (default: the scene's, of a mesh file black)",
+        [&options](const std::string& text) { options.pose.background = parse_color(text, "--background"); });
+    command.parsed("--ground", "COLOUR", "Put a level ground of this colour under the scene (default: none)",
+                   [&options](const std::string& text) { options.pose.ground = parse_color(text, "--ground"); });
+    command
+        .number("--point-size", options.point_size, "F",
+                "Size of a point cloud's discs; 1 (default) just closes its surface")
+        .positive()
+        .no_default();
+}
+
+}  // namespace hogel::cli

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights of glTF files (KHR_lights_punctual), and notes of what is not shown.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "hogel/scene/mesh_files/checks.h"
+#include "hogel/scene/mesh_files/gltf_looks.h"
+
+namespace hogel::scene::mesh_files {
+namespace {
+
+/// An affine map: the images of the axes, and of the origin.
+struct Affine {
+    std::array<Vec3, 3> axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+    Vec3 origin{0, 0, 0};
+
+    Vec3 turned(Vec3 v) const { return v.x * axes[0] + v.y * axes[1] + v.z * axes[2]; }
+    Affine operator*(const Affine& inner) const {
+        return {{turned(inner.axes[0]), turned(inner.axes[1]), turned(inner.axes[2])}, origin + turned(inner.origin)};
+    }
+};
+
+Affine transform_of(const Gltf& gltf, const Json& node, const std::string& where) {
+    if (node.contains("matrix")) {
+        const auto m = numbers_or(gltf, node, where, "matrix", std::vector<double>(16));
+        return {{Vec3{m[0], m[1], m[2]}, Vec3{m[4], m[5], m[6]}, Vec3{m[8], m[9], m[10]}}, Vec3{m[12], m[13], m[14]}};
+    }
+    const auto t = numbers_or(gltf, node, where, "translation", {0, 0, 0});
+    const auto q = numbers_or(gltf, node, where, "rotation", {0, 0, 0, 1});
+    const auto s = numbers_or(gltf, node, where, "scale", {1, 1, 1});
+    const double x = q[0], y = q[1], z = q[2], w = q[3];
+    return {{s[0] * Vec3{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
+             s[1] * Vec3{2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
+             s[2] * Vec3{2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)}},
+            {t[0], t[1], t[2]}};
+}
+
+Light read_light(const Gltf& gltf, const Json& json, const std::string& where, const Affine& to_world,
+                 GltfLooks& looks) {
+    const auto color = numbers_or(gltf, json, where, "color", {1, 1, 1});
+    const double intensity = std::clamp(number_or(gltf, json, where, "intensity", 1), 0.0, 1e9);
+    Light light;
+    const auto part = [&](std::size_t i) { return static_cast<float>(intensity * std::clamp(color[i], 0.0, 1e3)); };
+    light.intensity = {part(0), part(1), part(2)};
+    const auto type = json.find("type");
+    const bool is_spot = type != json.end() && *type == "spot";
+    if (is_spot || (type != json.end() && *type == "point")) {
+        light.kind = Light::Kind::point;
+        light.position = to_world.origin;
+        if (is_spot) looks.notes.push_back(fmt::format("{} is a spot light: it shines in all directions", where));
+    } else if (type != json.end() && *type == "directional") {
+        light.kind = Light::Kind::directional;
+        const Vec3 direction = -to_world.axes[2];
+        if (!(length(direction) > 0)) gltf.reject(where, "has no direction", "a node that is not flat");
+        light.direction = normalize(direction);
+    } else {
+        gltf.reject(where + ".type", "is unknown", "directional, point or spot");
+    }
+    return light;
+}
+
+/// The nodes of the scene that is shown, each with its transform. Nodes are strict trees (check_nodes()).
+template <class Visit>
+void for_nodes(const Gltf& gltf, const Visit& visit) {
+    const Json &scenes = gltf.list("scenes"), &nodes = gltf.list("nodes");
+    const std::size_t shown = gltf.reference(gltf.json, "document", "scene", "scenes").value_or(0);
+    struct Todo {
+        std::size_t node;
+        Affine parent;
+    };
+    std::vector<Todo> todo;
+    const auto add = [&](const Json& owner, const char* name, const Affine& parent) {
+        if (const auto list = owner.find(name); list != owner.end())
+            for (const Json& number : *list) todo.push_back({number.get<std::size_t>(), parent});
+    };
+    add(scenes[shown], "nodes", {});
+    while (!todo.empty()) {
+        const Todo at = todo.back();
+        todo.pop_back();
+        const std::string where = fmt::format("nodes[{}]", at.node);
+        const Json& node = nodes[at.node];
+        const Affine to_world = at.parent * transform_of(gltf, node, where);
+        visit(node, where, to_world);
+        add(node, "children", to_world);
+    }
+}
+
+/// What the materials of a document have of which nothing is shown, and in how many.
+void note_materials(const Gltf& gltf, GltfLooks& looks) {
+    static const std::map<std::string, std::string> names{
+        {"normalTexture", "normal maps"},
+        {"occlusionTexture", "occlusion maps"},
+        {"KHR_materials_anisotropy", "anisotropy (KHR_materials_anisotropy)"},
+        {"KHR_materials_clearcoat", "clear coats (KHR_materials_clearcoat)"},
+        {"KHR_materials_dispersion", "dispersion (KHR_materials_dispersion)"},
+        {"KHR_materials_iridescence", "iridescence (KHR_materials_iridescence)"},
+        {"KHR_materials_sheen", "sheen (KHR_materials_sheen)"},
+        {"KHR_materials_transmission", "transmission (KHR_materials_transmission)"},
+        {"KHR_materials_volume", "volumes (KHR_materials_volume)"}};
+    std::map<std::string, std::size_t> counts;
+    for (const Json& material : gltf.list("materials")) {
+        const auto count = [&](const Json& object) {
+            for (const auto& [name, text] : names) counts[text] += object.contains(name) ? 1 : 0;
+        };
+        count(material);
+        if (const auto extensions = material.find("extensions");
+            extensions != material.end() && extensions->is_object()) {
+            count(*extensions);
+            const auto has = [&](const char* extension, std::initializer_list<const char*> parts) {
+                const auto object = extensions->find(extension);
+                return object != extensions->end() &&
+                       std::ranges::any_of(parts, [&](const char* part) { return object->contains(part); });
+            };
+            if (has("KHR_materials_specular", {"specularTexture", "specularColorTexture", "specularColorFactor"}))
+                ++counts["specular colours and textures (KHR_materials_specular)"];
+            if (has("KHR_materials_pbrSpecularGlossiness", {"specularGlossinessTexture"}))
+                ++counts["specular-glossiness textures (KHR_materials_pbrSpecularGlossiness)"];
+        }
+    }
+    for (const auto& [text, count] : counts)
+        if (count > 0)
+            looks.notes.push_back(fmt::format("{} of {} material{} are left out", text, count, count == 1 ? "" : "s"));
+}
+
+void note_geometry(const Gltf& gltf, GltfLooks& looks) {
+    std::size_t thin = 0, morphed = 0;
+    for (const Json& mesh : gltf.list("meshes"))
+        for (const Json& primitive : mesh["primitives"]) {
+            const auto mode = primitive.find("mode");
+            thin += mode != primitive.end() && mode->get<std::uint64_t>() < 4 ? 1 : 0;
+            morphed += primitive.contains("targets") ? 1 : 0;
+        }
+    if (thin > 0) looks.notes.push_back(fmt::format("{} primitives of points or lines are left out", thin));
+    if (morphed > 0) looks.notes.push_back("morph targets are left out: meshes have the shape that they begin with");
+    if (!gltf.list("skins").empty())
+        looks.notes.push_back("skins are left out: meshes have the pose in which they were modelled");
+    if (!gltf.list("animations").empty()) looks.notes.push_back("animations are left out: it stands still");
+    if (const std::size_t cameras = gltf.list("cameras").size(); cameras > 0)
+        looks.notes.push_back(fmt::format("{} camera{} left out: the hologram is seen from its front", cameras,
+                                          cameras == 1 ? " is" : "s are"));
+}
+
+}  // namespace
+
+void read_lights(const Gltf& gltf, GltfLooks& looks) {
+    const Json* extension = find_object(gltf, gltf.json, "document", {"extensions", "KHR_lights_punctual"});
+    if (extension == nullptr) return;
+    const auto list = extension->find("lights");
+    if (list == extension->end() || !list->is_array())
+        gltf.reject("extensions.KHR_lights_punctual.lights", "missing", "an array");
+    for_nodes(gltf, [&](const Json& node, const std::string& where, const Affine& to_world) {
+        const Json* held = find_object(gltf, node, where, {"extensions", "KHR_lights_punctual"});
+        if (held == nullptr) return;
+        const std::string place = where + ".extensions.KHR_lights_punctual";
+        if (list->empty()) gltf.reject(place, "names a light", "lights in the document");
+        const std::uint64_t number = gltf.number(*held, place, "light", list->size() - 1);
+        const std::string light = fmt::format("lights[{}]", number);
+        looks.lights.push_back(read_light(gltf, gltf.object(*list, number, light), light, to_world, looks));
+    });
+}
+
+void note_what_is_left_out(const Gltf& gltf, GltfLooks& looks) {
+    note_materials(gltf, looks);
+    note_geometry(gltf, looks);
+    if (find_object(gltf, gltf.json, "document", {"extensions", "KHR_materials_variants"}) != nullptr)
+        looks.notes.push_back("variants of materials (KHR_materials_variants) are left out: the first is shown");
+    std::set<std::string> unknown;
+    for (const Json& name : gltf.list("extensionsUsed"))
+        if (name.is_string() && !is_known_extension(name.get<std::string>())) unknown.insert(one_line(name));
+    if (!unknown.empty())
+        looks.notes.push_back(
+            fmt::format("extensions that hogel does not know are left out: {}", fmt::join(unknown, ", ")));
+}
+
+}  // namespace hogel::scene::mesh_files
