@@ -21,7 +21,7 @@ constexpr double panel_width = 345, panel_height = 300, left = 46, right = 92, t
 constexpr double label_distance = 15;
 
 // Colours that are legible on white and on black, and distinguishable with red-green colour blindness.
-constexpr std::array colours{"#2f81f7", "#e5534b", "#2da44e", "#a371f7", "#bf8700"};
+constexpr std::array colours{"#2f81f7", "#e5534b", "#2da44e", "#a371f7", "#bf8700", "#1b9aaa", "#d664a8"};
 
 const char* const style = R"(<style>
   text { font: 12px system-ui, 'Liberation Sans', Helvetica, sans-serif; fill: #24292f }
@@ -44,8 +44,9 @@ struct Frame {
                std::log2(x / axes.min_x) / std::log2(axes.max_x / axes.min_x) * (panel_width - left - right);
     }
     double row(double y) const {
-        return y0 + panel_height - bottom -
-               (y - axes.min_y) / (axes.max_y - axes.min_y) * (panel_height - top - bottom);
+        const double part = axes.y_logarithmic ? std::log(y / axes.min_y) / std::log(axes.max_y / axes.min_y)
+                                               : (y - axes.min_y) / (axes.max_y - axes.min_y);
+        return y0 + panel_height - bottom - part * (panel_height - top - bottom);
     }
     bool holds(const std::pair<double, double>& point) const {
         return point.first >= axes.min_x && point.first <= axes.max_x && point.second >= axes.min_y &&
@@ -88,7 +89,7 @@ std::string polyline(const std::vector<std::pair<double, double>>& points, const
 // Markers differ in shape, so that curves are told apart without colours.
 std::string marker(std::size_t number, double x, double y) {
     const char* colour = colours[number % colours.size()];
-    switch (number % 5) {
+    switch (number % colours.size()) {
         case 0:
             return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.2\" fill=\"{}\"/>\n", x, y, colour);
         case 1:
@@ -99,6 +100,14 @@ std::string marker(std::size_t number, double x, double y) {
         case 3:
             return fmt::format("<path d=\"M{:.1f} {:.1f}l4.2 4.2l-4.2 4.2l-4.2 -4.2z\" fill=\"{}\"/>\n", x, y - 4.2,
                                colour);
+        case 4:
+            return fmt::format(
+                "<path d=\"M{:.1f} {:.1f}l7 7m-7 0l7 -7\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\"/>\n",
+                x - 3.5, y - 3.5, colour);
+        case 5:
+            return fmt::format(
+                "<path d=\"M{:.1f} {:.1f}h8m-4 -4v8\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\"/>\n", x - 4, y,
+                colour);
         default:
             return fmt::format(
                 "<circle class=\"hole\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.2\" stroke=\"{}\" stroke-width=\"1.6\"/>\n",
@@ -109,7 +118,7 @@ std::string marker(std::size_t number, double x, double y) {
 std::string grid_svg(const Frame& frame) {
     const PanelAxes& axes = frame.axes;
     std::string svg;
-    for (double y = axes.min_y; y <= axes.max_y; y += axes.y_step) {
+    for (double y = axes.min_y; y <= axes.max_y * (1 + 1e-9); axes.y_logarithmic ? y *= 10 : y += axes.y_step) {
         svg += fmt::format("<line class=\"grid\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>\n",
                            frame.column(axes.min_x), frame.row(y), frame.column(axes.max_x), frame.row(y));
         svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{:g}</text>\n",
@@ -145,7 +154,7 @@ std::string panel_svg(const Frame& frame, const Panel& panel, const std::vector<
     svg += fmt::format("<text class=\"title\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", frame.x0 + left,
                        frame.y0 + top - 12, panel.title);
     for (const Panel& other : all)
-        if (&other != &panel)
+        if (&other != &panel && !panel.axes && !other.axes)
             for (const Curve& curve : other.curves)
                 svg += polyline(frame.line(curve), "class=\"other\" stroke-width=\"1\"");
     std::vector<std::vector<std::pair<double, double>>> lines;
@@ -183,8 +192,9 @@ std::string base64(const std::vector<char>& bytes) {
 }  // namespace
 
 std::string panels_svg(const std::string& title, const std::string& subtitle, const PanelAxes& axes,
-                       const std::vector<Panel>& panels) {
-    const std::size_t columns = std::min<std::size_t>(3, panels.size()), rows = (panels.size() + columns - 1) / columns;
+                       const std::vector<Panel>& panels, std::size_t panels_in_a_row) {
+    const std::size_t columns = std::min(panels_in_a_row, panels.size()),
+                      rows = (panels.size() + columns - 1) / columns;
     const double width = panel_width * static_cast<double>(columns),
                  height = head + panel_height * static_cast<double>(rows);
     std::string svg = fmt::format(
@@ -193,18 +203,20 @@ std::string panels_svg(const std::string& title, const std::string& subtitle, co
         "<text class=\"mute\" x=\"16\" y=\"47\">{4}</text>\n",
         width, height, style, title, subtitle);
     for (std::size_t i = 0; i < panels.size(); ++i) {
-        const Frame frame{axes, panel_width * static_cast<double>(i % columns),
+        const PanelAxes& own = panels[i].axes ? *panels[i].axes : axes;
+        const Frame frame{own, panel_width * static_cast<double>(i % columns),
                           head + panel_height * static_cast<double>(i / columns)};
         svg += panel_svg(frame, panels[i], panels);
         if (i + columns >= panels.size())
             svg += fmt::format("<text class=\"mute\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
-                               frame.x0 + (left + panel_width - right) / 2, frame.y0 + panel_height - 10, axes.x_name);
-        if (i % columns == 0) {
+                               frame.x0 + (left + panel_width - right) / 2, frame.y0 + panel_height - 10, own.x_name);
+        if (i % columns == 0 || panels[i].axes) {
             const double middle = frame.y0 + (top + panel_height - bottom) / 2;
             svg += fmt::format(
-                "<text class=\"mute\" x=\"13\" y=\"{0:.1f}\" text-anchor=\"middle\" transform=\"rotate(-90 13 "
+                "<text class=\"mute\" x=\"{2:.1f}\" y=\"{0:.1f}\" text-anchor=\"middle\" transform=\"rotate(-90 "
+                "{2:.1f} "
                 "{0:.1f})\">{1}</text>\n",
-                middle, axes.y_name);
+                middle, own.y_name, frame.x0 + 13);
         }
     }
     return svg + "</svg>\n";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,22 +9,25 @@
 
 namespace hogel::bench {
 
-/// One of several small plots with the same axes.
-struct Panel {
-    std::string title;
-    std::vector<Curve> curves;
-};
-
-/// The axes that all panels share: x logarithmic to base 2, y linear.
+/// The axes of a panel: x logarithmic to base 2, y linear or logarithmic with a line at each power of ten.
 struct PanelAxes {
     std::string x_name, y_name;
     double min_x, max_x, min_y, max_y, y_step;
+    bool y_logarithmic = false;
 };
 
-/// An SVG picture of panels, three to a row. Every curve has a marker of its own and its name at its end; the curves of
-/// the other panels stand behind in grey. Points beyond the axes are left out. Light or dark as the page that shows it.
+/// One of several small plots.
+struct Panel {
+    std::string title;
+    std::vector<Curve> curves;
+    std::optional<PanelAxes> axes = {};  ///< none: those that panels share
+};
+
+/// An SVG picture of panels in rows. Every curve has a marker of its own and its name at its end; behind panels with
+/// shared axes the curves of the others stand in grey. Points beyond the axes are left out. Light or dark as the page
+/// that shows it.
 std::string panels_svg(const std::string& title, const std::string& subtitle, const PanelAxes& axes,
-                       const std::vector<Panel>& panels);
+                       const std::vector<Panel>& panels, std::size_t panels_in_a_row = 3);
 
 /// A picture of named pictures of grey levels, all of the same size, as SVG with the names as text.
 struct SheetPicture {

@@ -5,6 +5,10 @@
 #include <cmath>
 
 #include "bench/measure.h"
+#include "bench/session.h"
+#include "hogel/core/parallel.h"
+#include "hogel/render/layers.h"
+#include "hogel/render/visits.h"
 #include "hogel/renderer.h"
 
 namespace hogel::bench {
@@ -13,10 +17,23 @@ namespace {
 // Processor time of reading a tile on the calling thread.
 // @param cached  whether the scene has a radiance cache, which a first, unmeasured reading fills
 double time_of_reading(const LightFieldSource& source, LightFieldTile& tile, bool cached) {
+    const core::StopScope scope(until_interrupted());
     if (cached) source.read(tile);
     const double began = thread_seconds();
     source.read(tile);
     return thread_seconds() - began;
+}
+
+std::shared_ptr<const LightFieldSource> make_source(const std::string& algorithm,
+                                                    std::shared_ptr<const ShadedScene> scene,
+                                                    const LightFieldGrid& grid, std::size_t side) {
+    if (algorithm == interpolated_simplex) return make_interpolating_renderer(std::move(scene), grid, side);
+    return make_renderer(algorithm, std::move(scene), grid);
+}
+
+render::Visits visits_of(const LightFieldSource& source) {
+    const auto* counter = dynamic_cast<const render::CountsVisits*>(&render::without_layers(source));
+    return counter ? counter->visits() : render::Visits{};
 }
 
 // Mean seconds for single hogels, spread evenly over the hologram.
@@ -56,7 +73,7 @@ std::shared_ptr<const ShadedScene> thinned(const ShadedScene& scene, std::size_t
 std::size_t affordable_part(const std::string& algorithm, const ShadedScene& scene, const LightFieldGrid& grid,
                             double seconds) {
     constexpr std::size_t guess = 64;
-    const auto source = make_renderer(algorithm, thinned(scene, guess), grid);
+    const auto source = make_source(algorithm, thinned(scene, guess), grid, 1);
     LightFieldTile tile(grid, {grid.hogels_s / 2, grid.hogels_t / 2, 1, 1}, false);
     const double whole = guess * time_of_reading(*source, tile, false);
     std::size_t part = 1;
@@ -84,16 +101,31 @@ RegionTimes time_regions(const std::string& algorithm, const std::shared_ptr<con
     }
     times.part = affordable_part(algorithm, *scene, grid, limits.seconds);
     times.curve.dashed = times.part > 1;
-    const auto source = make_renderer(algorithm, times.part > 1 ? thinned(*scene, times.part) : scene, grid);
-    const auto empty = make_renderer(algorithm, thinned(*scene, 0), grid);
+    const auto measured = times.part > 1 ? thinned(*scene, times.part) : scene;
+    const bool by_region = algorithm == interpolated_simplex;
+    auto source = make_source(algorithm, measured, grid, 1);
+    const auto empty = make_source(algorithm, thinned(*scene, 0), grid, 1);
     double last = 0;
     for (std::size_t side = 1; side <= max_side; side *= 2) {
+        if (by_region) source = make_source(algorithm, measured, grid, side);
         const std::size_t rows = row_by_row ? 1 : side, hogels = side * rows;
         constexpr double bytes_per_ray = 20, min_growth = 1.5;
         const double bytes = static_cast<double>(hogels * grid.directions()) * bytes_per_ray;
         if (bytes > limits.bytes || last * min_growth > limits.seconds) break;
-        LightFieldTile tile(grid, {(grid.hogels_s - side) / 2, (grid.hogels_t - rows) / 2, side, rows}, false);
+        // Interpolation has regions that begin at multiples of their side.
+        const auto middle = [&](std::size_t hogels_there, std::size_t across) {
+            return by_region ? hogels_there / 2 / across * across : (hogels_there - across) / 2;
+        };
+        const HogelRange range{middle(grid.hogels_s, side), middle(grid.hogels_t, rows), side, rows};
+        if (range.s0 + side > grid.hogels_s || range.t0 + rows > grid.hogels_t) break;
+        LightFieldTile tile(grid, range, false);
+        const render::Visits earlier = visits_of(*source);
         last = time_of_reading(*source, tile, cached && times.part == 1);
+        const render::Visits now = visits_of(*source);
+        const double rays =
+            static_cast<double>(hogels * grid.directions()) * (cached && times.part == 1 ? 2 : 1);  // read twice
+        times.slices_a_ray = static_cast<double>(now.slices - earlier.slices) / rays;
+        times.tests_a_ray = static_cast<double>(now.samples - earlier.samples) / rays;
         // Short times vary, and the first includes that of getting memory from the system.
         if (last < 0.02 * limits.seconds) last = std::min(last, time_of_reading(*source, tile, false));
         const auto part = static_cast<double>(times.part);

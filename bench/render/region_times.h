@@ -22,11 +22,16 @@ struct RegionTimes {
     Curve curve;           ///< side of the region, milliseconds for each hogel
     double bytes = 0;      ///< maximum memory without the scene
     std::size_t part = 1;  ///< one in this number of triangles was rendered
+    /// Last slices, and tests of a ray against a triangle, for each ray of the largest region; 0 if not counted.
+    double slices_a_ray = 0, tests_a_ray = 0;
 };
+
+/// The name by which time_regions() knows make_interpolating_renderer(), with the region that is measured.
+inline constexpr const char* interpolated_simplex = "simplex, interpolated";
 
 /// Measures milliseconds of one core per hogel of a light field, including shading, against the side of the region that
 /// is rendered at once. The regions are
-///   - squares of 1, 2, 4 … hogels in the middle of the hologram, for most renderers;
+///   - squares of 1, 2, 4 … hogels in or near the middle of the hologram, for most renderers;
 ///   - rows of 1, 2, 4 … hogels, for `simplex3d` and `mvr`, which render each row by itself;
 ///   - single hogels all over the hologram, whose mean is taken, for `raytrace` and `zbuffer`.
 /// Times are processor time, so that other work on the machine has little influence. If the scene has a radiance cache,

@@ -112,7 +112,7 @@ void measure_scene(const std::string& name, std::vector<std::string> algorithms,
     light_field.shading = options.shading_of(name);
     light_field.cache_spacing = options.cache_spacing.value_or(0);  // as in [K]
     const LightFieldGrid grid = light_field.grid();
-    const RegionLimits limits{options.max_side, options.seconds.value_or(render_defaults.seconds),
+    const RegionLimits limits{options.max_side.value_or(128), options.seconds.value_or(render_defaults.seconds),
                               1e9 * options.gigabytes};
     // The others are compared with it.
     const auto zbuffer = std::ranges::find(algorithms, "zbuffer");
@@ -142,6 +142,12 @@ void measure_scene(const std::string& name, std::vector<std::string> algorithms,
 }
 
 }  // namespace
+
+std::vector<std::string> thesis_scene_names() {
+    std::vector<std::string> names;
+    for (const ThesisScene& scene : thesis_scenes) names.emplace_back(scene.name);
+    return names;
+}
 
 LightFieldOptions RenderOptions::light_field(std::size_t default_hogels, std::size_t default_directions) const {
     LightFieldOptions light_field;
@@ -180,8 +186,7 @@ std::shared_ptr<const ShadedScene> bench_scene(const Session& session, const std
 
 void measure_regions(const RenderOptions& options, const Session& session) {
     std::vector<std::string> scenes = options.scenes, algorithms = options.algorithms;
-    if (scenes.empty())
-        for (const ThesisScene& scene : thesis_scenes) scenes.emplace_back(scene.name);
+    if (scenes.empty()) scenes = thesis_scene_names();
     if (algorithms.empty())
         for (const RendererInfo& info : renderers().rows()) algorithms.emplace_back(info.name);
     // Fails for unknown names before anything is measured.

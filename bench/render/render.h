@@ -18,6 +18,8 @@ struct RenderDefaults {
     std::size_t stream_hogels = 512;
     std::size_t many_directions = 256;  ///< --peers, --stream
     double seconds = 8;                 ///< limit for a region
+    std::size_t dense_across = 1440;    ///< --dense: hogels that would fill the width
+    std::size_t dense_side = 64;        ///< --dense: the largest region
     double peer_seconds = 1;            ///< limit for a peer in a round
 };
 inline constexpr RenderDefaults render_defaults;
@@ -32,8 +34,8 @@ struct RenderOptions {
     std::optional<double> seconds, cache_spacing;
     double size = 20_mm;
     Angles field_of_view{40_deg, 40_deg};
-    std::size_t max_side = 128;  ///< of a region, in hogels
-    double gigabytes = 6;        ///< limit for a region, see RegionLimits
+    std::optional<std::size_t> max_side;  ///< of a region, in hogels; 128 where none is given, with --dense 64
+    double gigabytes = 6;                 ///< limit for a region, see RegionLimits
     std::size_t rounds = 5;
 
     /// @param hogels, directions  along a side, where they are not given
@@ -56,6 +58,15 @@ std::shared_ptr<const ShadedScene> bench_scene(const Session& session, const std
 
 /// Prints the time of renderers per hogel against the side of the region that is rendered at once.
 void measure_regions(const RenderOptions& options, const Session& session);
+/// `--dense`: as measure_regions() with hogels so close that a point moves less than a direction from one to the next,
+/// the case that [K] 5.8 argues for; draws its three curves in one panel and the other renderers in another, with
+/// linear and logarithmic times.
+void measure_dense(const RenderOptions& options, const Session& session);
+/// The scenes of [K] fig. 5.26 to 5.30.
+std::vector<std::string> thesis_scene_names();
+/// `--interpolation`: prints what interpolation between viewpoints, make_interpolating_renderer(), costs in quality and
+/// time against `simplex`, by shading model and side of the regions.
+void measure_interpolation(const RenderOptions& options, const Session& session);
 /// `--peers`: prints the speed of other projects' renderers beside that of one of hogel's, row by row.
 void measure_peers(const RenderOptions& options, const Session& session);
 /// `--scaling`: prints how the time grows with hogels, directions and triangles, the gain of a second thread, and the

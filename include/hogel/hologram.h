@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
@@ -74,12 +75,15 @@ struct Lines {
 };
 
 /// A sum of basis fringes per hogel, weighted with the coefficients of a transform of its amplitudes √L: [K] (3.24).
+/// Works for hemicubes too, each of whose faces is transformed by itself.
 struct Basis {
     /// The name of a transform, such as "haar" or "cdf97", or "pieces" for Lucente's piecewise constant basis.
     std::string transform = "cdf97";
     /// The smallest coefficients, which together carry about this share of a hogel's amplitude, are left out.
     double tolerance = 0;
     SharedPhases phases = SharedPhases::fixed;
+    /// Horizontal parallax only, as by Lines, which says what the distance of lines means; none: both parallaxes.
+    std::optional<double> line_pitch = {};
 
     friend bool operator==(const Basis&, const Basis&) = default;
 };
@@ -118,6 +122,9 @@ struct OwnMethod {
 /// The method that turns a light field into fringes; docs/holograms.md compares them.
 using HologramMethod = std::variant<Fourier, Lines, Basis, PhaseAdded, OverlapAdd, OwnMethod>;
 
+/// The distance of lines, as Lines::line_pitch, of a method with horizontal parallax only; none for any other.
+HOGEL_API std::optional<double> line_pitch(const HologramMethod& method);
+
 /// Whether a method needs the depth of every ray.
 HOGEL_API bool needs_depth(const HologramMethod& method);
 
@@ -129,7 +136,8 @@ struct HologramMethodInfo {
     bool needs_depth = false;
 };
 
-/// All methods by name: fourier, lines, basis, phase-added, phase-added-exact, olas, and those that a program adds.
+/// All methods by name: fourier, lines, basis, basis-lines, phase-added, phase-added-exact, olas, and those that a
+/// program adds.
 HOGEL_API Table<HologramMethodInfo>& hologram_methods();
 
 /// Options of a hologram of one wavelength.
@@ -147,10 +155,10 @@ struct HologramOptions {
 /// - for a pitch, wavelength or line pitch that is not positive, and a channel that the light field does not have;
 /// - for a front alone whose field of view exceeds the diffraction half-angle asin(λ/2Δ), naming a pitch that suffices.
 ///   A hemicube has all directions, and the hologram shows those to which its pitch diffracts;
-/// - for more than one face, unless the method is Fourier or Lines;
+/// - for more than one face, unless the method is Fourier, Lines or Basis;
 /// - PhaseAdded: for fewer directions than a hogel shows, naming how many suffice;
 /// - PhaseAdded and OverlapAdd: for directions that are not in perspective;
-/// - Lines: for more than one row of directions, and the faces top and bottom.
+/// - Lines, and Basis with lines: for more than one row of directions, and the faces top and bottom.
 HOGEL_API FieldGrid hologram_grid(std::span<const LightFieldGrid> faces, const HologramOptions& options);
 
 /// The hologram of a light field, a holographic stereogram. It is computed on demand, region by region; samples do not
@@ -161,7 +169,8 @@ HOGEL_API std::shared_ptr<const FieldSource> make_hologram(const LightField& lig
 
 /// The hologram of a light field given by coefficients (see open_coefficients()), with the method Basis. Only
 /// coefficients that are not zero take time. The values of the source are not radiances but, for each hogel and
-/// channel, the coefficients of √L: an array [n_V][n_U], transformed by Basis::transform over both axes together.
+/// channel, the coefficients of √L: for each face an array [n_V][n_U], transformed by Basis::transform over both axes
+/// together.
 /// Throws Error(usage) as make_hologram() does, and for other methods.
 HOGEL_API std::shared_ptr<const FieldSource> make_hologram_of_coefficients(const LightField& coefficients,
                                                                            const HologramOptions& options);

@@ -55,6 +55,17 @@ HOGEL_API Table<RendererInfo>& renderers();
 HOGEL_API std::unique_ptr<Renderer> make_renderer(std::string_view name, std::shared_ptr<const ShadedScene> scene,
                                                   const LightFieldGrid& grid);
 
+/// The four-dimensional depth buffer of [K] 5.5 to 5.7 to the letter. Where the renderer `simplex` computes what a ray
+/// sees from the ray and the triangle, this one computes shading where the corners of a square region of hogels see the
+/// corners of a triangle, and interpolates it, with depth, in four dimensions. Radiance that is given at vertices is
+/// the same to rounding; what depends on the viewer, or on light that is evaluated at samples, is an approximation that
+/// is the coarser the larger the region. Textures are looked up at each sample.
+/// @param region  side of a region, in hogels; regions begin at multiples of it
+/// Throws Error(usage) for a region of 0, for directions that are not a perspective's front, and for a scene that is
+/// not wholly behind the hologram plane.
+HOGEL_API std::unique_ptr<Renderer> make_interpolating_renderer(std::shared_ptr<const ShadedScene> scene,
+                                                                const LightFieldGrid& grid, std::size_t region);
+
 /// Supersampling factors along each side of a hogel and along each side of the cell around a direction. Together they
 /// make hogel² · direction² samples per ray, on a regular grid.
 struct SamplesPerRay {

@@ -23,7 +23,7 @@ except ImportError as missing:
     sys.exit(77)
 from common.checks import Checks, run
 
-ALGORITHMS = ("epi", "raytrace", "zbuffer", "simplex", "simploid", "simplex3d", "oblique", "mvr")
+ALGORITHMS = ("epi", "raytrace", "zbuffer", "simplex", "simplex-strips", "simploid", "simplex3d", "oblique", "mvr")
 HOGELS, DIRECTIONS, SIZE, FIELD = 12, 12, 4e-3, 40  # degrees
 # The way to each of the two lights of mesh files, and its irradiance at normal incidence.
 LIGHTS = [(np.array(way) / np.linalg.norm(way), np.array(irradiance))

@@ -1,14 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include "hogel/direct/scene_points.h"
+#include "hogel/error.h"
 
 namespace hogel {
 
 using namespace direct;
 
+namespace {
+
+// These methods know surfaces that are there or not, and no rays that pass.
+std::vector<SceneHologramMethod> of_opaque_scenes(std::vector<SceneHologramMethod> methods) {
+    for (SceneHologramMethod& method : methods)
+        method.make = [make = method.make, name = method.name](const ShadedScene& scene, const FieldGrid& grid,
+                                                               const SceneHologramOptions& options,
+                                                               const Progress& progress) {
+            if (scene.layers)
+                throw Error(
+                    ErrorCode::usage,
+                    fmt::format("{} shows no masks and no surfaces that blend; expected a scene without them, or "
+                                "a method that works on light fields",
+                                name));
+            return make(scene, grid, options, progress);
+        };
+    return methods;
+}
+
+}  // namespace
+
 Table<SceneHologramMethod>& scene_hologram_methods() {
     static Table<SceneHologramMethod> methods(
         "method from a scene to a hologram",
-        {
+        of_opaque_scenes({
             {"points", "spherical waves of points on all surfaces, exact, without occlusion", exact_points, true},
             {"points-visible", "spherical waves of points, with occlusion by a ray for each point and sample",
              exact_visible_points, true},
@@ -22,7 +46,7 @@ Table<SceneHologramMethod>& scene_hologram_methods() {
             {"planes", "depth planes from back to front, each hiding those behind it", occluding_planes, false, true},
             {"polygons", "tilted polygons, rotated in frequency space, without occlusion", tilted_polygons},
             {"polygons-visible", "tilted polygons from back to front, each hiding those behind it", occluding_polygons},
-        });
+        }));
     return methods;
 }
 

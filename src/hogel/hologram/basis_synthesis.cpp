@@ -22,47 +22,49 @@ using Complex = std::complex<float>;
 
 constexpr double max_bytes = 4.0 * (std::size_t{1} << 30);
 
-// A hogel is a sum of fringes, one for each basis function of a transform of the directions, weighted with the
-// coefficients of its amplitudes √L. Sources: [K] (3.24) and 4.2; Lucente 1994 for the piecewise constant basis, whose
+// A hogel is a sum of fringes, one for each basis function of a transform of the directions of a face, weighted with
+// the coefficients of its amplitudes √L. With horizontal parallax only, fringes are those of a line, and the lines of a
+// hogel differ in a phase. Sources: [K] (3.24) and 4.2; Lucente 1994 for the piecewise constant basis, whose
 // coefficients are the samples.
 class BasisSynthesis final : public HogelSynthesis {
   public:
-    BasisSynthesis(const LightFieldGrid& light_field, std::size_t samples, const HologramOptions& options,
-                   const Basis& method, RayValues values)
-        : light_field_(light_field),
+    BasisSynthesis(std::span<const LightFieldGrid> faces, FrequencyGrid frequencies, std::size_t lines,
+                   const HologramOptions& options, const Basis& method, RayValues values)
+        : faces_(faces.begin(), faces.end()),
+          options_(options),
+          lines_(lines),
           values_(values),
           pieces_(method.transform == "pieces"),
           tolerance_(method.tolerance),
           transform_(hogel::transform::transform(pieces_ ? "haar" : method.transform)),
-          frequencies_(light_field, samples, options.channel.wavelength,
-                       pieces_ ? Interpolation::constant : Interpolation::linear),
-          fft_(samples, samples),
+          frequencies_(std::move(frequencies)),
+          fft_(frequencies_.rows(), frequencies_.columns()),
           phases_(direction_phases(frequencies_, fft_, options, method.phases == SharedPhases::designed)) {
-        const double bytes =
-            static_cast<double>(light_field.directions() * samples * samples * options.looks) * sizeof(Complex);
+        const std::size_t rays = frequencies_.rays(), samples = frequencies_.coefficients();
+        const double bytes = static_cast<double>(rays * samples * options.looks) * sizeof(Complex);
         if (bytes > max_bytes)
             throw Error(ErrorCode::usage,
-                        fmt::format("basis fringes of {0}x{0} samples for {1}x{2} directions take {3}, more than {4}; "
+                        fmt::format("basis fringes of {}x{} samples for {} directions take {}, more than {}; "
                                     "expected fewer directions or smaller hogels",
-                                    samples, light_field.directions_u, light_field.directions_v, format_bytes(bytes),
+                                    frequencies_.columns(), frequencies_.rows(), rays, format_bytes(bytes),
                                     format_bytes(max_bytes)));
+        const Shape<2> shape{frequencies_.rows(), frequencies_.columns()};
         for (std::size_t look = 0; look < options.looks; ++look)
-            fringes_.emplace_back(light_field.directions(), samples * samples,
-                                  [this, look, samples](std::size_t number, std::span<Complex> fringe) {
-                                      make_fringe(number, look, {fringe.data(), {samples, samples}});
-                                  });
+            fringes_.emplace_back(rays, samples, [this, look, shape](std::size_t number, std::span<Complex> fringe) {
+                make_fringe(number, look, {fringe.data(), shape});
+            });
         if (tolerance_ > 0) {
-            norms_.resize(light_field.directions());
+            norms_.resize(rays);
             for (std::size_t i = 0; i < norms_.size(); ++i) {
                 const Complex* fringe = fringes_[0][i];
                 double sum = 0;
-                for (std::size_t j = 0; j < samples * samples; ++j) sum += std::norm(fringe[j]);
+                for (std::size_t j = 0; j < samples; ++j) sum += std::norm(fringe[j]);
                 norms_[i] = static_cast<float>(std::sqrt(sum));
             }
         }
     }
 
-    std::size_t prepared_size() const override { return light_field_.directions(); }
+    std::size_t prepared_size() const override { return frequencies_.rays(); }
 
     void prepare(View<const float, 2> values, View<const float, 2>, View<float, 2> prepared) const override {
         if (values_ == RayValues::coefficients) {
@@ -70,7 +72,7 @@ class BasisSynthesis final : public HogelSynthesis {
         } else {
             for (std::size_t i = 0; i < values.size(); ++i)
                 prepared.data()[i] = std::sqrt(std::max(values.data()[i], 0.0f));
-            if (!pieces_) transform_.forward(pyramid(values.extent(0)), prepared.elements());
+            if (!pieces_) transform_faces(prepared);
         }
         if (tolerance_ > 0)
             for (std::size_t hogel = 0; hogel < prepared.extent(0); ++hogel) drop_small(prepared[hogel].elements());
@@ -81,19 +83,47 @@ class BasisSynthesis final : public HogelSynthesis {
         std::vector<WeightedFringe> sum;
         for (std::size_t i = 0; i < coefficients.size(); ++i)
             if (coefficients[i] != 0) sum.push_back({fringes_[place.look][i], coefficients[i]});
-        sum_fringes(sum, hogel.elements());
+        if (lines_ == 0) return sum_fringes(sum, hogel.elements());
+        const std::span<Complex> line(hogel.data(), hogel.extent(1));
+        sum_fringes(sum, line);
+        write_lines(options_, place, lines_, line, hogel.data(), hogel.extent(1));
     }
 
   private:
-    // The transform of the directions, without the hogels, for some hogels at once.
-    transform::Pyramid pyramid(std::size_t hogels) const {
-        return transform::Pyramid::separate({hogels, light_field_.directions_v, light_field_.directions_u}, {{1, 2}});
+    // The transform of the directions of a face, without the hogels, for some hogels at once.
+    static transform::Pyramid pyramid(const LightFieldGrid& face, std::size_t hogels) {
+        return transform::Pyramid::separate({hogels, face.directions_v, face.directions_u}, {{1, 2}});
+    }
+
+    // Transforms the amplitudes of some hogels, face by face.
+    void transform_faces(View<float, 2> amplitudes) const {
+        const std::size_t hogels = amplitudes.extent(0);
+        if (faces_.size() == 1) return transform_.forward(pyramid(faces_.front(), hogels), amplitudes.elements());
+        std::size_t first = 0;
+        for (const LightFieldGrid& face : faces_) {
+            const std::size_t directions = face.directions();
+            Array<float, 2> part({hogels, directions});
+            for (std::size_t i = 0; i < hogels; ++i) std::copy_n(&amplitudes(i, first), directions, &part(i, 0));
+            transform_.forward(pyramid(face, hogels), part.elements());
+            for (std::size_t i = 0; i < hogels; ++i) std::copy_n(&part(i, 0), directions, &amplitudes(i, first));
+            first += directions;
+        }
+    }
+
+    // Replaces the coefficient `number` of a hogel by the amplitudes of the face that it belongs to.
+    void invert_face_of(std::size_t number, std::span<float> rays) const {
+        std::size_t first = 0;
+        for (const LightFieldGrid& face : faces_) {
+            if (number < first + face.directions())
+                return transform_.inverse(pyramid(face, 1), rays.subspan(first, face.directions()));
+            first += face.directions();
+        }
     }
 
     void make_fringe(std::size_t number, std::size_t look, View<Complex, 2> fringe) const {
-        Array<float, 2> function({1, light_field_.directions()}), moduli({1, fringe.size()});
+        Array<float, 2> function({1, frequencies_.rays()}), moduli({1, fringe.size()});
         function.data()[number] = 1;
-        if (!pieces_) transform_.inverse(pyramid(1), function.elements());
+        if (!pieces_) invert_face_of(number, function.elements());
         frequencies_.amplitudes_of_roots(function, moduli);
         for (std::size_t i = 0; i < fringe.size(); ++i) fringe.data()[i] = moduli.data()[i] * phases_[look].data()[i];
         fft_.backward(fringe);
@@ -119,7 +149,9 @@ class BasisSynthesis final : public HogelSynthesis {
             if (half_octave(energy_of(i)) < dropped) coefficients[i] = 0;
     }
 
-    LightFieldGrid light_field_;
+    std::vector<LightFieldGrid> faces_;
+    HologramOptions options_;
+    std::size_t lines_;  // per hogel, for horizontal parallax only; 0: a square with both parallaxes
     RayValues values_;
     bool pieces_;
     double tolerance_;
@@ -133,10 +165,21 @@ class BasisSynthesis final : public HogelSynthesis {
 
 }  // namespace
 
-std::unique_ptr<HogelSynthesis> make_basis_synthesis(const LightFieldGrid& light_field, std::size_t samples,
-                                                     const HologramOptions& options, const Basis& method,
-                                                     RayValues values) {
-    return std::make_unique<BasisSynthesis>(light_field, samples, options, method, values);
+std::unique_ptr<HogelSynthesis> make_basis_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
+                                                     std::size_t rows, const HologramOptions& options,
+                                                     const Basis& method, RayValues values) {
+    const double wavelength = options.channel.wavelength;
+    const Interpolation between = method.transform == "pieces" ? Interpolation::constant : Interpolation::linear;
+    if (method.line_pitch) {
+        const double pitch = faces.front().pitch / static_cast<double>(rows);
+        return std::make_unique<BasisSynthesis>(
+            faces, FrequencyGrid::of_line(faces, samples, pitch, wavelength, between), rows, options, method, values);
+    }
+    return std::make_unique<BasisSynthesis>(faces,
+                                            faces.size() == 1
+                                                ? FrequencyGrid(faces.front(), samples, wavelength, between)
+                                                : FrequencyGrid(faces, samples, wavelength, between),
+                                            0, options, method, values);
 }
 
 }  // namespace hogel::hologram

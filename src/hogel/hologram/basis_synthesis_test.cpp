@@ -9,6 +9,7 @@
 #include "hogel/hologram.h"
 #include "hogel/hologram/frequency_grid.h"
 #include "hogel/hologram/fringe_table.h"
+#include "hogel/hologram/test_light_fields.h"
 #include "hogel/math/fft.h"
 #include "hogel/transform/transform.h"
 #include "hogel/units.h"
@@ -73,6 +74,104 @@ TEST(BasisSynthesis, equals_one_fourier_transform_a_hogel_for_every_transform_of
                 EXPECT_LT(difference(whole(*expected, look), whole(*basis, look)), 1e-5) << name << " " << look;
         }
     }
+}
+
+// Light that differs from hogel to hogel, from face to face and along both directions.
+double varied(Vec3 hogel, Vec3 direction) {
+    const Vec3 d = normalize(direction);
+    const double wave = std::sin(5 * d.x + 3 * d.y * d.z + 4e4 * hogel.x) + std::cos(4 * d.y - 5e4 * hogel.y);
+    return std::pow(0.5 + 0.2 * wave, 2);
+}
+
+// The coefficients of every face, in place of its radiances.
+LightField coefficients_of(const LightField& light_field, std::string_view transform) {
+    std::vector<LightField::Source> faces;
+    for (const LightField::Source& face : light_field.faces()) {
+        auto part = std::make_shared<LightFieldBuffer>(face->grid());
+        copy(*face, *part);
+        for (float& value : part->radiance.elements()) value = std::sqrt(value);
+        const LightFieldGrid& grid = face->grid();
+        transform::transform(transform).forward(
+            transform::Pyramid::separate({grid.hogels(), grid.directions_v, grid.directions_u}, {{1, 2}}),
+            part->radiance.elements());
+        faces.push_back(part);
+    }
+    return LightField(std::move(faces));
+}
+
+struct Sides {
+    const char* name;
+    LightField light_field;
+    double pitch;
+    std::optional<double> line_pitch;
+};
+
+// A hemicube, one whose sides shrink, lines of a front, and of a hemisquare.
+std::vector<Sides> beyond_a_front() {
+    const LightFieldGrid square{3, 2, 18_um, 12, 12, Perspective{1, 1}, 1};
+    const LightFieldGrid row{3, 2, 48_um, 20, 1, Perspective{0.14, 0.01}, 1};
+    const LightFieldGrid wide_row{3, 2, 18_um, 16, 1, Perspective{1, 0.1}, 1};
+    return {{"hemicube", hemicube_of(square, varied), 0.36_um, {}},
+            {"shrunk hemicube", light_field_of_faces(hemicube(square, 130_deg, 120_deg), varied), 0.36_um, {}},
+            {"lines", light_field_of_faces({&row, 1}, varied), 2_um, 6_um},
+            {"lines of a hemisquare", hemicube_of(wide_row, varied), 0.36_um, 3_um}};
+}
+
+TEST(BasisSynthesis, of_hemicubes_and_of_lines_equals_one_fourier_transform_a_hogel) {
+    for (const Sides& sides : beyond_a_front())
+        for (const SharedPhases phases : {SharedPhases::fixed, SharedPhases::designed}) {
+            const bool designed = phases == SharedPhases::designed;
+            const Phases same = designed ? Phases::designed : Phases::fixed;
+            HologramOptions options = options_for(Fourier{same, LobeAverage::amplitude});
+            if (sides.line_pitch) options.method = Lines{*sides.line_pitch, same, LobeAverage::amplitude};
+            options.pitch = sides.pitch;
+            const auto expected = make_hologram(sides.light_field, options);
+            for (const char* name : {"haar", "cdf97", "ai33", "dct8"}) {
+                if (designed && std::string_view(name) != "ai33") continue;
+                options.method = Basis{name, 0, phases, sides.line_pitch};
+                const auto basis = make_hologram(sides.light_field, options);
+                ASSERT_EQ(basis->grid().plane, expected->grid().plane) << sides.name;
+                for (std::size_t look : {0, 1})
+                    EXPECT_LT(difference(whole(*expected, look), whole(*basis, look)), 1e-5)
+                        << sides.name << " " << name << " " << look;
+                const auto of_coefficients =
+                    make_hologram_of_coefficients(coefficients_of(sides.light_field, name), options);
+                EXPECT_LT(difference(whole(*basis, 1), whole(*of_coefficients, 1)), 1e-6) << sides.name << " " << name;
+            }
+        }
+}
+
+// Every direction of every face has its cell, so that the fringes of uniform light add up to that of interpolation.
+TEST(BasisSynthesis, pieces_of_all_faces_add_up_to_uniform_light) {
+    for (const Sides& sides : beyond_a_front()) {
+        std::vector<LightFieldGrid> grids;
+        for (const LightField::Source& face : sides.light_field.faces()) grids.push_back(face->grid());
+        const LightField uniform = light_field_of_faces(grids, [](Vec3, Vec3) { return 2.0; });
+        HologramOptions options = options_for(fixed_amplitudes);
+        if (sides.line_pitch) options.method = Lines{*sides.line_pitch, Phases::fixed, LobeAverage::amplitude};
+        options.pitch = sides.pitch;
+        const auto expected = make_hologram(uniform, options);
+        options.method = Basis{"pieces", 0, SharedPhases::fixed, sides.line_pitch};
+        EXPECT_LT(difference(whole(*expected, 0), whole(*make_hologram(uniform, options), 0)), 1e-5) << sides.name;
+    }
+}
+
+// Equal lines would send light only straight ahead.
+TEST(BasisSynthesis, lines_have_phases_of_their_own) {
+    const LightFieldGrid grid{1, 3, 48_um, 20, 1, Perspective{0.14, 0.01}, 1};
+    HologramOptions options = options_for(Basis{"haar", 0, SharedPhases::fixed, 4_um});
+    const auto field =
+        whole(*make_hologram(light_field_of_faces({&grid, 1}, [](Vec3, Vec3) { return 1.0; }), options), 0);
+    ASSERT_EQ(field.extent(0), std::size_t{3 * 12});
+    std::complex<double> mean = 0;
+    for (std::size_t line = 0; line < field.extent(0); ++line) {
+        const std::complex<double> turn = std::complex<double>(field(line, 5)) / std::complex<double>(field(0, 5));
+        EXPECT_NEAR(std::abs(turn), 1, 1e-5);
+        for (std::size_t x = 0; x < field.extent(1); ++x)
+            EXPECT_LT(std::abs(std::complex<double>(field(line, x)) - turn * std::complex<double>(field(0, x))), 1e-4);
+        mean += turn / double(field.extent(0));
+    }
+    EXPECT_LT(std::abs(mean), 0.5);
 }
 
 // The error of the fringes is about the share of the amplitude that the omitted coefficients carry.

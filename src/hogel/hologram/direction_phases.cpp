@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/hologram/direction_phases.h"
+
+#include <algorithm>
+
 #include "hogel/hologram/designed_phase.h"
 
 namespace hogel::hologram {
@@ -24,6 +27,21 @@ DirectionPhases direction_phases(const FrequencyGrid& frequencies, const math::F
         if (flat) flatten_fringe(moduli, fft, phases);
     }
     return all;
+}
+
+void write_lines(const HologramOptions& options, const HogelPlace& hogel, std::size_t lines,
+                 std::span<const std::complex<float>> line, std::complex<float>* to, std::size_t to_row) {
+    for (std::size_t i = lines; i-- > 0;) {
+        const float one = 1;
+        std::complex<float> phase;
+        spread_random_phases(phase_series(options, 0xffffffff, hogel.t * lines + i, hogel.look), {&one, 1},
+                             {&phase, 1});
+        std::ranges::transform(line, to + i * to_row, [phase](std::complex<float> x) {
+            // Without the tests for infinities of a product of std::complex.
+            return std::complex<float>(x.real() * phase.real() - x.imag() * phase.imag(),
+                                       x.real() * phase.imag() + x.imag() * phase.real());
+        });
+    }
 }
 
 }  // namespace hogel::hologram

@@ -6,6 +6,7 @@
 
 #include "hogel/hologram.h"
 #include "hogel/hologram/frequency_grid.h"
+#include "hogel/hologram/hogel_synthesis.h"
 #include "hogel/hologram/random_phase.h"
 #include "hogel/math/fft.h"
 
@@ -19,5 +20,11 @@ PhaseSeries phase_series(const HologramOptions& options, std::size_t s, std::siz
 using DirectionPhases = std::vector<Array<std::complex<float>, 2>>;
 DirectionPhases direction_phases(const FrequencyGrid& frequencies, const math::Fft2& fft,
                                  const HologramOptions& options, bool flat);
+
+/// Writes the lines of a hologram with horizontal parallax only whose hogels share phases: line number i of the hogel
+/// is `line` times e^{iφ} with a phase of that line's own, because equal lines would send light only straight ahead.
+/// @param to  the first line; line number i begins at to + i·to_row; `line` may be the first
+void write_lines(const HologramOptions& options, const HogelPlace& hogel, std::size_t lines,
+                 std::span<const std::complex<float>> line, std::complex<float>* to, std::size_t to_row);
 
 }  // namespace hogel::hologram

@@ -47,6 +47,10 @@ class FourierSynthesis final : public HogelSynthesis, public HogelWaves {
             return fast_->synthesise(moduli, phase_series(options_, place.s, place.t, place.look), place.look, to,
                                      to_row);
         if (lines_ == 0) return transform(moduli, place, scratch, to, to_row);
+        if (!directions_.empty()) {
+            transform(moduli, place, {scratch.data(), {1, frequencies_.columns()}}, to, to_row);
+            return write_lines(options_, place, lines_, {to, frequencies_.columns()}, to, to_row);
+        }
         // Lines are independent.
         for (std::size_t line = 0; line < lines_; ++line)
             transform(moduli, {place.s, place.t * lines_ + line, place.look},
@@ -100,19 +104,9 @@ class FourierSynthesis final : public HogelSynthesis, public HogelWaves {
         if (directions_.empty()) {
             spread_random_phases(phase_series(options_, place.s, place.t, place.look), moduli, values.elements());
         } else {
-            const Complex own = lines_ > 0 ? phase_of_line(place) : Complex(1);
             for (std::size_t i = 0; i < moduli.size(); ++i)
-                values.data()[i] = moduli[i] * directions_[place.look].data()[i] * own;
+                values.data()[i] = moduli[i] * directions_[place.look].data()[i];
         }
-    }
-
-    // If all hogels share phases, each line has an additional phase of its own, because equal lines would send light
-    // only straight ahead.
-    Complex phase_of_line(const HogelPlace& place) const {
-        const float one = 1;
-        Complex phase;
-        spread_random_phases(phase_series(options_, 0xffffffff, place.t, place.look), {&one, 1}, {&phase, 1});
-        return phase;
     }
 
     HologramOptions options_;

@@ -80,22 +80,23 @@ FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t samp
                              Interpolation between)
     : FrequencyGrid(light_field, samples, samples, wavelength / light_field.pitch, wavelength, between) {}
 
-FrequencyGrid::FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t samples, double wavelength)
-    : FrequencyGrid(faces, samples, samples, wavelength / faces.front().pitch, wavelength) {}
+FrequencyGrid::FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t samples, double wavelength,
+                             Interpolation between)
+    : FrequencyGrid(faces, samples, samples, wavelength / faces.front().pitch, wavelength, between) {}
 
 FrequencyGrid::FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t rows, std::size_t columns,
-                             double step_up, double wavelength)
+                             double step_up, double wavelength, Interpolation between)
     : rows_(rows), columns_(columns), rays_(0), row_length_(0) {
     for (const LightFieldGrid& face : faces) rays_ += face.directions();
-    resampling_ = scatter_lobes(faces, columns, step_up, rows == 1, wavelength);
+    resampling_ = scatter_lobes(faces, columns, step_up, rows == 1, wavelength, between);
     bands_ = {{0, resampling_.lobes.size(), 0, rays_}};
     list_runs();
 }
 
 FrequencyGrid FrequencyGrid::of_line(std::span<const LightFieldGrid> faces, std::size_t samples, double line_pitch,
-                                     double wavelength) {
-    if (faces.size() > 1) return {faces, 1, samples, wavelength / line_pitch, wavelength};
-    return {faces.front(), 1, samples, wavelength / line_pitch, wavelength, Interpolation::linear};
+                                     double wavelength, Interpolation between) {
+    if (faces.size() > 1) return {faces, 1, samples, wavelength / line_pitch, wavelength, between};
+    return {faces.front(), 1, samples, wavelength / line_pitch, wavelength, between};
 }
 
 FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows, std::size_t columns, double step_up,

@@ -12,12 +12,6 @@
 
 namespace hogel::hologram {
 
-/// The interpolation of a light field between its samples.
-enum class Interpolation {
-    linear,    ///< linear interpolation
-    constant,  ///< the nearest sample, constant over the sample's cell
-};
-
 /// Resamples the directions of one hogel from the light field's uniform U, V to the frequency grid j/d of the hogel's
 /// Fourier transform ([K] 4.1, Lucente's grid), as amplitudes. A light field that is already sampled on that grid is
 /// not resampled.
@@ -32,14 +26,15 @@ class FrequencyGrid {
                   Interpolation between = Interpolation::linear);
 
     /// From several faces of a hemicube. The rays of a hogel are those of all faces, one after the other.
-    FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t samples, double wavelength);
+    FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t samples, double wavelength,
+                  Interpolation between = Interpolation::linear);
 
     /// The grid of one line of a hologram with horizontal parallax only, whose light field has one row of directions:
     /// frequencies along x alone. The amplitude has the factor √(λ/d · λ/line_pitch), so that lines with independent
     /// phases have the right radiance in all vertical directions. `faces` is a front, optionally with the sides left
     /// and right, which also have one row.
     static FrequencyGrid of_line(std::span<const LightFieldGrid> faces, std::size_t samples, double line_pitch,
-                                 double wavelength);
+                                 double wavelength, Interpolation between = Interpolation::linear);
 
     /// Converts the radiances L[v][u] of a hogel into the moduli of its DFT coefficients, in the order in which a
     /// backward FFT takes them ([j_y mod n][j_x mod n], rows running down): (λ/d) √(L cos θ) / cos θ. This is [K] (4.2)
@@ -81,7 +76,7 @@ class FrequencyGrid {
     FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows, std::size_t columns, double step_up,
                   double wavelength, Interpolation between);
     FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t rows, std::size_t columns, double step_up,
-                  double wavelength);
+                  double wavelength, Interpolation between);
     void average(View<const float, 2> values, bool of_roots, View<float, 2> moduli) const;
     void average_run(std::size_t lobe, std::size_t count, View<const float, 2> beside, bool of_roots, float* out) const;
 

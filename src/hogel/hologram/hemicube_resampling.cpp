@@ -26,15 +26,19 @@ double width_in_rays(const LightFieldGrid& face, Vec3 direction, double step, bo
            little;
 }
 
-// Adds the four rays around a direction with their bilinear weights. Rays at the border extend to the face's edge.
-void add_rays(const LightFieldGrid& face, std::size_t first, Vec3 direction, double weight,
+// Adds the four rays around a direction with their bilinear weights, or the nearest one. Rays at the border extend to
+// the face's edge.
+void add_rays(const LightFieldGrid& face, std::size_t first, Vec3 direction, Interpolation between, double weight,
               std::map<std::uint32_t, double>& sum) {
     const Vec3 q = to_face(face.face(), direction);
     const auto inside = [](double at, std::size_t count) {
         return std::clamp(at, 0.0, static_cast<double>(count) - 1);
     };
-    const double k = inside(face.column(q.x / q.z), face.directions_u),
-                 l = inside(face.row(q.y / q.z), face.directions_v);
+    double k = inside(face.column(q.x / q.z), face.directions_u), l = inside(face.row(q.y / q.z), face.directions_v);
+    if (between == Interpolation::constant) {
+        k = std::round(k);
+        l = std::round(l);
+    }
     const auto k0 = static_cast<std::size_t>(k), l0 = static_cast<std::size_t>(l);
     const double a = k - static_cast<double>(k0), b = l - static_cast<double>(l0);
     for (const std::size_t j : {0, 1})
@@ -47,7 +51,7 @@ void add_rays(const LightFieldGrid& face, std::size_t first, Vec3 direction, dou
 }  // namespace
 
 HemicubeResampling scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t samples, double step_up, bool line,
-                                 double wavelength) {
+                                 double wavelength, Interpolation between) {
     const double step = wavelength / faces.front().pitch;
     const auto n = static_cast<std::ptrdiff_t>(samples);
     const std::ptrdiff_t reach = (n - 1) / 2;
@@ -74,7 +78,7 @@ HemicubeResampling scatter_lobes(std::span<const LightFieldGrid> faces, std::siz
                 std::size_t first = 0;
                 for (const LightFieldGrid& face : faces) {
                     if (face.covers(direction)) {
-                        add_rays(face, first, direction, 1.0 / all, sum);
+                        add_rays(face, first, direction, between, 1.0 / all, sum);
                         break;
                     }
                     first += face.directions();

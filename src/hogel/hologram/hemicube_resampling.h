@@ -10,9 +10,15 @@
 
 namespace hogel::hologram {
 
+/// The interpolation of a light field between its samples.
+enum class Interpolation {
+    linear,    ///< linear interpolation
+    constant,  ///< the nearest sample, constant over the sample's cell
+};
+
 /// Resamples the rays of several faces of a hemicube to the lobes of a hogel's frequencies. A lobe is the mean over
-/// points of its cell in frequency, two or more for each ray that it covers; each point is looked up, with bilinear
-/// interpolation, in the first face that has its direction. Points in no face, and evanescent frequencies, are dark.
+/// points of its cell in frequency, two or more for each ray that it covers; each point is looked up, interpolated, in
+/// the first face that has its direction. Points in no face, and evanescent frequencies, are dark.
 struct HemicubeResampling {
     struct Lobe {
         std::uint32_t coefficient;   // of the DFT: [j_y mod n][j_x mod n], rows counted downwards
@@ -27,7 +33,7 @@ struct HemicubeResampling {
 /// @param step_up  the height of a cell as a direction sine; for a line of frequencies a factor in the scale
 /// @param line     frequencies along x only, from faces with one row of directions
 HemicubeResampling scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t samples, double step_up, bool line,
-                                 double wavelength);
+                                 double wavelength, Interpolation between);
 
 /// out[lobe][hogel] = √(scale · Σ weight · values[ray][hogel]) for `count` lobes from number `first` on; if the values
 /// are already roots, √scale · Σ.

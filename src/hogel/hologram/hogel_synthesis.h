@@ -95,11 +95,13 @@ enum class RayValues {
     coefficients,  ///< of a transform of √L over the directions of each hogel
 };
 
-/// A sum of basis fringes weighted with coefficients: [K] (3.24).
-/// Throws Error(usage) for a transform that does not exist and for fringes that would not fit into memory.
-std::unique_ptr<HogelSynthesis> make_basis_synthesis(const LightFieldGrid& light_field, std::size_t samples,
-                                                     const HologramOptions& options, const Basis& method,
-                                                     RayValues values);
+/// A sum of basis fringes weighted with coefficients: [K] (3.24). The rays of a hogel, or their coefficients, are those
+/// of all faces, face after face. Throws Error(usage) for a transform that does not exist and for fringes that would
+/// not fit into memory.
+/// @param rows  samples of a hogel from top to bottom; for horizontal parallax only, its lines
+std::unique_ptr<HogelSynthesis> make_basis_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
+                                                     std::size_t rows, const HologramOptions& options,
+                                                     const Basis& method, RayValues values);
 
 /// One plane wave per ray, with the phase of a spherical wave from the point that the ray meets.
 std::unique_ptr<HogelSynthesis> make_phase_added_synthesis(const LightFieldGrid& light_field, std::size_t samples,

@@ -29,7 +29,7 @@ struct Prepared {
 std::unique_ptr<HogelSynthesis> make_synthesis(std::span<const LightFieldGrid> faces, std::size_t columns,
                                                std::size_t rows, const HologramOptions& options, RayValues values) {
     if (const auto* basis = std::get_if<Basis>(&options.method))
-        return make_basis_synthesis(faces.front(), columns, options, *basis, values);
+        return make_basis_synthesis(faces, columns, rows, options, *basis, values);
     if (const auto* added = std::get_if<PhaseAdded>(&options.method))
         return make_phase_added_synthesis(faces.front(), columns, options, added->exact);
     if (const auto* lines = std::get_if<Lines>(&options.method))

@@ -77,20 +77,21 @@ void require_one_row(std::span<const LightFieldGrid> faces) {
 }
 
 // The number of lines of a hogel that has `samples` along each line.
-std::size_t lines_per_hogel(std::span<const LightFieldGrid> faces, const Lines& lines, std::size_t samples) {
-    if (!(lines.line_pitch >= 0)) throw Error(ErrorCode::usage, "the distance of a hologram's lines must be positive");
+std::size_t lines_per_hogel(std::span<const LightFieldGrid> faces, double line_pitch, std::size_t samples) {
+    if (!(line_pitch >= 0)) throw Error(ErrorCode::usage, "the distance of a hologram's lines must be positive");
     require_one_row(faces);
-    if (lines.line_pitch == 0) return samples;
-    return samples_per_hogel(faces.front(), lines.line_pitch);
+    if (line_pitch == 0) return samples;
+    return samples_per_hogel(faces.front(), line_pitch);
 }
 
 // Throws if the method cannot make a hologram of these faces.
 void require_supported(std::span<const LightFieldGrid> faces, const HologramOptions& options) {
-    const bool sides = std::holds_alternative<Fourier>(options.method) || std::holds_alternative<Lines>(options.method);
+    const bool sides = std::holds_alternative<Fourier>(options.method) ||
+                       std::holds_alternative<Lines>(options.method) || std::holds_alternative<Basis>(options.method);
     if (faces.size() > 1 && !sides)
         throw Error(ErrorCode::usage,
-                    fmt::format("a hemicube of {} faces needs the method fourier or lines; others take a light field "
-                                "of one face",
+                    fmt::format("a hemicube of {} faces needs the method fourier, lines, basis or basis-lines; others "
+                                "take a light field of one face",
                                 faces.size()));
     if (needs_depth(options.method))
         require_perspective(faces.front(), ErrorCode::usage, "a hologram with phases by depth");
@@ -114,7 +115,7 @@ FieldGrid hologram_grid(std::span<const LightFieldGrid> faces, const HologramOpt
     const std::size_t n = samples_per_hogel(front, options.pitch);
     const double pitch = front.pitch / static_cast<double>(n);
     if (faces.size() == 1) require_diffraction(front, wavelength, pitch);
-    const auto* lines = std::get_if<Lines>(&options.method);
+    const std::optional<double> lines = line_pitch(options.method);
     const std::size_t rows = lines ? lines_per_hogel(faces, *lines, n) : n;
     if (std::holds_alternative<PhaseAdded>(options.method)) require_enough_directions(front, wavelength);
     FieldGrid grid;

@@ -7,6 +7,12 @@ std::vector<Channel> mono(double wavelength) { return {{wavelength, 0}}; }
 
 std::vector<Channel> rgb(double red, double green, double blue) { return {{red, 0}, {green, 1}, {blue, 2}}; }
 
+std::optional<double> line_pitch(const HologramMethod& method) {
+    if (const auto* lines = std::get_if<Lines>(&method)) return lines->line_pitch;
+    if (const auto* basis = std::get_if<Basis>(&method)) return basis->line_pitch;
+    return std::nullopt;
+}
+
 bool needs_depth(const HologramMethod& method) {
     if (const auto* own = std::get_if<OwnMethod>(&method)) return own->needs_depth;
     return std::holds_alternative<PhaseAdded>(method) || std::holds_alternative<OverlapAdd>(method);
@@ -22,6 +28,8 @@ Table<HologramMethodInfo>& hologram_methods() {
             row("fourier", "one Fourier transform a hogel, hogels side by side", Fourier{}),
             row("lines", "horizontal parallax only, one Fourier transform for each line of a hogel", Lines{}),
             row("basis", "basis fringes, weighted with the coefficients of a transform of each hogel", Basis{}),
+            row("basis-lines", "horizontal parallax only, basis fringes of lines, each weighted for a whole hogel",
+                Basis{.line_pitch = 0}),
             row("phase-added", "a wave a ray in the phase of its point, on the nearest frequency", PhaseAdded{false}),
             row("phase-added-exact", "a wave a ray in the phase of its point, on its own frequency", PhaseAdded{true}),
             row("olas", "overlapping windows around the hogels, added up", OverlapAdd{}),

@@ -68,8 +68,8 @@ void expect_agreement(const LightFieldBuffer& first, const LightFieldBuffer& sec
 TEST_P(Agreement, with_ray_casting_on_random_scenes) {
     std::mt19937 random(1);
     Compared compared;
-    // simplex is slow.
-    const int rounds = GetParam() == "simplex" ? 8 : 40;
+    // Simplices are slow.
+    const int rounds = cuts_simplices(GetParam()) ? 8 : 40;
     for (int round = 0; round < rounds; ++round) {
         const bool behind = round % 2 == 0 || !crosses_plane(GetParam());
         ShadedScene scene = random_scene(random, 16, behind);
@@ -108,14 +108,14 @@ TEST_P(Agreement, with_ray_casting_on_2000_random_scenes) {
 // pass through vertices and along edges.
 class SampleFindingRenderer : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Renderers, SampleFindingRenderer,
-                         ::testing::Values("simplex", "simploid", "simplex3d", "oblique", "mvr"),
+                         ::testing::Values("simplex", "simplex-strips", "simploid", "simplex3d", "oblique", "mvr"),
                          [](const auto& parameter) { return test_name(parameter.param); });
 
 TEST_P(SampleFindingRenderer, finds_what_a_test_of_every_ray_against_every_triangle_finds) {
     const LightFieldGrid odd{3, 5, 1_mm, 21, 19, Perspective{0.5, 0.4}, 3};
     std::mt19937 random(5);
     std::uniform_int_distribution<int> step(-4, 4), deeper(1, 6);
-    const int rounds = GetParam() == "simplex" ? 10 : 40;
+    const int rounds = cuts_simplices(GetParam()) ? 10 : 40;
     for (int round = 0; round < rounds; ++round) {
         const bool behind = !crosses_plane(GetParam()) || round % 4 < 2;
         ShadedScene scene = random_scene(random, 16, behind);

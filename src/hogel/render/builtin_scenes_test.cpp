@@ -124,7 +124,7 @@ TEST_P(Showpieces, agree_with_ray_casting_away_from_silhouettes) {
     LightFieldGrid grid{5, 5, size / 5, 64, 64, Perspective{0.1, 0.1}, 3};
     if (algorithm == "oblique") grid = {5, 5, size / 5, 24, 24, Perspective{0.0375, 0.0375}, 3};
     if (algorithm == "simplex3d") grid = {3, 3, size / 30, 24, 24, Perspective{0.09, 0.09}, 3};
-    if (algorithm == "simplex") grid = {2, 2, size / 20, 8, 8, Perspective{0.03, 0.03}, 3};
+    if (cuts_simplices(algorithm)) grid = {2, 2, size / 20, 8, 8, Perspective{0.03, 0.03}, 3};
     const bool behind = !crosses_plane(algorithm);
     const LightFieldBuffer rays = render_scene("raytrace", scene, grid, behind),
                            other = render_scene(algorithm, scene, grid, behind);

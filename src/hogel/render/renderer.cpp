@@ -11,7 +11,9 @@
 #include "hogel/render/baselines/raytrace.h"
 #include "hogel/render/baselines/zbuffer.h"
 #include "hogel/render/epi/epi.h"
+#include "hogel/render/layers.h"
 #include "hogel/render/projected.h"
+#include "hogel/render/simplex/interpolated.h"
 #include "hogel/render/simplex/simplex.h"
 #include "hogel/render/simplex/simplex3d.h"
 #include "hogel/render/simplex/simploid.h"
@@ -62,12 +64,19 @@ Table<RendererInfo>& renderers() {
     static Table<RendererInfo> table("renderer", {render::baselines::raytrace_renderer(),  //
                                                   render::baselines::zbuffer_renderer(),   //
                                                   render::simplex::simplex_renderer(),     //
-                                                  render::simplex::simploid_renderer(),    //
-                                                  render::simplex::simplex3d_renderer(),   //
-                                                  render::baselines::oblique_renderer(),   //
-                                                  render::baselines::mvr_renderer(),       //
+                                                  render::simplex::simplex_strips_renderer(),
+                                                  render::simplex::simploid_renderer(),   //
+                                                  render::simplex::simplex3d_renderer(),  //
+                                                  render::baselines::oblique_renderer(),  //
+                                                  render::baselines::mvr_renderer(),      //
                                                   render::epi::epi_renderer()});
     return table;
+}
+
+std::unique_ptr<Renderer> make_interpolating_renderer(std::shared_ptr<const ShadedScene> scene,
+                                                      const LightFieldGrid& grid, std::size_t region) {
+    validate(grid, ErrorCode::usage, "light field to render");
+    return render::with_layers(render::simplex::interpolating_renderer(scene, grid, region), scene);
 }
 
 std::unique_ptr<Renderer> make_renderer(std::string_view name, std::shared_ptr<const ShadedScene> scene,
@@ -76,13 +85,14 @@ std::unique_ptr<Renderer> make_renderer(std::string_view name, std::shared_ptr<c
     const RendererInfo& info = renderers().find(name);
     if (grid.focal_plane() && !info.takes_focal_plane) {
         const std::string needs = only(info, &RendererInfo::takes_focal_plane);
-        return render::unprojected(
-            make_as_it_is(info, render::projected_scene(scene, grid, needs), render::projected_grid(grid)), grid,
-            needs);
+        return render::with_layers(render::unprojected(make_as_it_is(info, render::projected_scene(scene, grid, needs),
+                                                                     render::projected_grid(grid)),
+                                                       grid, needs),
+                                   scene);
     }
     if (grid.has_frequencies() && !info.takes_frequencies)
         require_perspective(grid, ErrorCode::usage, only(info, &RendererInfo::takes_frequencies));
-    return make_as_it_is(info, std::move(scene), grid);
+    return render::with_layers(make_as_it_is(info, scene, grid), scene);
 }
 
 }  // namespace hogel

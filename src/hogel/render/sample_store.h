@@ -30,7 +30,20 @@ inline ViewSample view_sample(const LightFieldGrid& grid, double U, double V, do
     return {normalize({-direction.x, -direction.y, direction.z}), std::max(grid.pitch, spread)};
 }
 
-/// Shades a visible point and stores it as sample (t, s, v, u) of a tile; t and s are relative to the tile's corner.
+/// Stores a sample (t, s, v, u) of a tile; t and s are relative to the tile's corner.
+inline void store(LightFieldTile& tile, Rgb radiance, double depth, std::size_t t, std::size_t s, std::size_t v,
+                  std::size_t u) {
+    if (tile.radiance.extent(0) == 3) {
+        tile.radiance(0, t, s, v, u) = radiance.r;
+        tile.radiance(1, t, s, v, u) = radiance.g;
+        tile.radiance(2, t, s, v, u) = radiance.b;
+    } else {
+        tile.radiance(0, t, s, v, u) = luminance(radiance);
+    }
+    if (tile.depth.size() > 0) tile.depth(t, s, v, u) = static_cast<float>(depth);
+}
+
+/// Shades a visible point and stores it as sample (t, s, v, u) of a tile.
 inline void store(LightFieldTile& tile, const ShadedScene& scene, const LightFieldGrid& grid, const VisiblePoint& point,
                   std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
     Rgb radiance = scene.background;
@@ -40,14 +53,7 @@ inline void store(LightFieldTile& tile, const ShadedScene& scene, const LightFie
             view = view_sample(grid, grid.u(static_cast<double>(u)), grid.v(static_cast<double>(v)), point.depth);
         radiance = radiance_at(scene, point.triangle, point.b0, point.b1, point.b2, view);
     }
-    if (tile.radiance.extent(0) == 3) {
-        tile.radiance(0, t, s, v, u) = radiance.r;
-        tile.radiance(1, t, s, v, u) = radiance.g;
-        tile.radiance(2, t, s, v, u) = radiance.b;
-    } else {
-        tile.radiance(0, t, s, v, u) = luminance(radiance);
-    }
-    if (tile.depth.size() > 0) tile.depth(t, s, v, u) = static_cast<float>(point.depth);
+    store(tile, radiance, point.depth, t, s, v, u);
 }
 
 }  // namespace hogel::render

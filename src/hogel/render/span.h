@@ -13,6 +13,8 @@ constexpr double scan_margin = 1e-6;
 /// Consecutive samples: first <= i < end.
 struct Span {
     std::size_t first = 0, end = 0;
+
+    std::size_t size() const { return end - first; }
 };
 
 /// The whole numbers of [0, n) from `low` to `high`, both widened by the margin.

@@ -22,6 +22,9 @@ inline std::vector<std::string> renderer_names(std::string_view without = "") {
 
 inline bool crosses_plane(std::string_view name) { return renderers().find(name).crosses_plane; }
 
+/// Whether a renderer cuts simplices for every sample, and so is slow where triangles are large.
+inline bool cuts_simplices(std::string_view name) { return name == "simplex" || name == "simplex-strips"; }
+
 /// A name in the form that gtest accepts, without hyphens.
 inline std::string test_name(std::string name) {
     std::ranges::replace(name, '-', '_');

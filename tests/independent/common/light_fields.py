@@ -23,6 +23,18 @@ def write_light_field(path, radiance, hogel_pitch, half_u, half_v=None, depth=No
             data.attrs["axis_order"], data.attrs["unit"] = "t,s,v,u", "m"
 
 
+def add_side(path, name, radiance, hogel_pitch, half, centre):
+    """A side of a hemicube; `half` and `centre` are pairs, along U and V."""
+    with h5py.File(path, "a", libver="v108") as file:
+        data = file.create_dataset(f"{name}/radiance", data=np.asarray(radiance, "f4"))
+        data.attrs["axis_order"], data.attrs["face"] = "c,t,s,v,u", name
+        for key, count in zip(("channels", "hogels_t", "hogels_s", "directions_v", "directions_u"), data.shape):
+            data.attrs[key] = np.uint64(count)
+        data.attrs["hogel_pitch_m"] = float(hogel_pitch)
+        for axis, width, middle in zip("uv", half, centre):
+            data.attrs[f"tan_half_{axis}"], data.attrs[f"center_{axis}"] = float(width), float(middle)
+
+
 def read_radiance(path):
     with h5py.File(path) as file:
         return file["radiance"][()].astype(float)

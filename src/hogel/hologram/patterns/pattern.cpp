@@ -102,13 +102,18 @@ Array<float, 2> encode_phase(View<const Complex, 2> field, const PatternOptions&
     return cycles;
 }
 
-Array<std::uint8_t, 2> round_to_levels(View<const float, 2> values, unsigned levels, bool phases) {
+Array<std::uint8_t, 2> round_to_levels(View<const float, 2> values, unsigned levels, bool phases,
+                                       const PhaseCode& code) {
     Array<std::uint8_t, 2> rounded(values.shape());
     for (std::size_t i = 0; i < values.size(); ++i) {
         const float value = values.data()[i];
         if (phases) {  // phases wrap around from the last level to the first
-            const auto level = static_cast<unsigned>(std::lround(value * static_cast<float>(levels))) % levels;
-            rounded.data()[i] = static_cast<std::uint8_t>(level * 256 / levels);
+            double turns = value;
+            if (levels < 256) {
+                const auto level = static_cast<unsigned>(std::lround(value * static_cast<float>(levels))) % levels;
+                turns = level * 256 / levels / 256.0;
+            }
+            rounded.data()[i] = static_cast<std::uint8_t>(code.level(2 * std::numbers::pi * turns, 255));
         } else {
             const auto level = static_cast<unsigned>(std::lround(value * static_cast<float>(levels - 1)));
             rounded.data()[i] = static_cast<std::uint8_t>(std::lround(level * 255.0 / (levels - 1)));
@@ -195,8 +200,8 @@ Pattern encode_pattern(const FieldSource& source, const PatternOptions& options,
     pattern.values = phases
                          ? encode_phase(field, options, convergence, progress)
                          : encode_amplitude(field, options, source.grid().wavelength, carrier, pattern.reference_angle);
-    pattern.levels = round_to_levels(pattern.values, options.modulator.levels, phases);
-    const Array<Complex, 2> transmitted = transmission(pattern, options.encoding);
+    pattern.levels = round_to_levels(pattern.values, options.modulator.levels, phases, options.phase_code);
+    const Array<Complex, 2> transmitted = transmission(pattern, options.encoding, options.phase_code);
     pattern.efficiency = efficiency_of(transmitted, field, carrier);
     if (!phases) return pattern;
     pattern.light_field_efficiency = light_field_efficiency_of(transmitted, field, options.window);
@@ -215,11 +220,11 @@ Encoding suitable_encoding(const FieldSource& source, const PatternOptions& opti
     return std::sqrt(1 - error) >= phase_alone_correlation ? Encoding::phase : Encoding::gradient;
 }
 
-Array<Complex, 2> transmission(const Pattern& pattern, Encoding encoding) {
+Array<Complex, 2> transmission(const Pattern& pattern, Encoding encoding, const PhaseCode& phase_code) {
     Array<Complex, 2> result(pattern.levels.shape());
     for (std::size_t i = 0; i < result.size(); ++i) {
         const double level = pattern.levels.data()[i];
-        result.data()[i] = is_phase_only(encoding) ? Complex(std::polar(1.0, 2 * std::numbers::pi * level / 256))
+        result.data()[i] = is_phase_only(encoding) ? Complex(std::polar(1.0, phase_code.phase(level, 255)))
                                                    : Complex(static_cast<float>(level / 255));
     }
     return result;

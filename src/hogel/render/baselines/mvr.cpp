@@ -10,6 +10,7 @@
 #include "hogel/render/row_axes.h"
 #include "hogel/render/row_tile.h"
 #include "hogel/render/span.h"
+#include "hogel/render/visits.h"
 
 namespace hogel::render::baselines {
 namespace {
@@ -37,7 +38,7 @@ struct Slice {
     }
 };
 
-class MvrRenderer final : public Renderer {
+class MvrRenderer final : public Renderer, public CountsVisits {
   public:
     MvrRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid) : grid_(grid), axes_(grid) {
         MvrRenderer::set_scene(std::move(scene));
@@ -57,6 +58,7 @@ class MvrRenderer final : public Renderer {
         const std::size_t hogels = axes_.fast_hogels(tile.range);
         std::vector<std::vector<Slice>> tables(axes_.slow_directions());
         Array<NearestTriangle, 2> picture({axes_.fast_directions(), hogels});
+        Visits visits;
         for (std::size_t row = 0; row < axes_.slow_hogels(tile.range); ++row) {
             const double slow_hogel = axes_.slow_hogel(tile.range, row);
             for (std::vector<Slice>& table : tables) table.clear();
@@ -64,7 +66,7 @@ class MvrRenderer final : public Renderer {
             for (std::size_t slow = 0; slow < tables.size(); ++slow) {
                 core::throw_if_stopped();
                 std::ranges::fill(picture.elements(), NearestTriangle{});
-                for (const Slice& slice : tables[slow]) scan_convert(slice, slow, row, tile.range, picture);
+                for (const Slice& slice : tables[slow]) scan_convert(slice, slow, row, tile.range, picture, visits);
                 for (std::size_t i = 0; i < hogels; ++i)
                     for (std::size_t fast = 0; fast < axes_.fast_directions(); ++fast) {
                         const auto [t, s, v, u] = axes_.sample(row, i, slow, fast);
@@ -72,6 +74,7 @@ class MvrRenderer final : public Renderer {
                     }
             }
         }
+        add_visits(visits);
     }
 
   private:
@@ -123,7 +126,8 @@ class MvrRenderer final : public Renderer {
 
     // Draws a slice's track: for each U the slice covers s from the smallest to the largest x − Uζ of its corners.
     void scan_convert(const Slice& slice, std::size_t slow, std::size_t row, const HogelRange& range,
-                      Array<NearestTriangle, 2>& picture) const {
+                      Array<NearestTriangle, 2>& picture, Visits& visits) const {
+        ++visits.pieces;
         const std::size_t count = axes_.fast_hogels(range);
         const double first = axes_.fast_hogel(range, 0);
         const Span columns = columns_of_directions(slice, first, axes_.fast_hogel(range, count - 1));
@@ -134,6 +138,8 @@ class MvrRenderer final : public Renderer {
                 s.include(axes_.fast_sign() * (slice.x[i] - U * slice.depth[i] - first) / grid_.pitch);
             const Span hogels = samples_between(s.low, s.high, count);
             if (hogels.first == hogels.end) continue;
+            ++visits.slices;
+            visits.samples += hogels.size();
             const auto [t0, s0, v, u] = axes_.sample(row, 0, slow, fast);
             const ObliqueTriangle triangle(*scene_, slice.triangle, grid_, static_cast<double>(u),
                                            static_cast<double>(v));

@@ -8,6 +8,7 @@
 #include "hogel/render/oblique_triangle.h"
 #include "hogel/render/region_memory.h"
 #include "hogel/render/span.h"
+#include "hogel/render/visits.h"
 
 namespace hogel::render::baselines {
 namespace {
@@ -47,7 +48,7 @@ struct TriangleInHogels {
     }
 };
 
-class ObliqueRenderer final : public Renderer {
+class ObliqueRenderer final : public Renderer, public CountsVisits {
   public:
     ObliqueRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid) : grid_(grid) {
         ObliqueRenderer::set_scene(std::move(scene));
@@ -63,26 +64,31 @@ class ObliqueRenderer final : public Renderer {
 
     void read(LightFieldTile& tile) const override {
         Array<NearestTriangle, 2> picture(oblique_buffer(tile.range));
+        Visits visits;
         for (std::size_t v = 0; v < grid_.directions_v; ++v)
             for (std::size_t u = 0; u < grid_.directions_u; ++u) {
                 core::throw_if_stopped();
                 std::ranges::fill(picture.elements(), NearestTriangle{});
                 for (std::uint32_t index : triangles_)
                     scan_convert(ObliqueTriangle(*scene_, index, grid_, static_cast<double>(u), static_cast<double>(v)),
-                                 index, tile.range, picture);
+                                 index, tile.range, picture, visits);
                 for (std::size_t t = 0; t < tile.range.nt; ++t)
                     for (std::size_t s = 0; s < tile.range.ns; ++s)
                         store(tile, *scene_, grid_, picture(t, s), t, s, v, u);
             }
+        add_visits(visits);
     }
 
   private:
     void scan_convert(const ObliqueTriangle& triangle, std::uint32_t index, const HogelRange& range,
-                      Array<NearestTriangle, 2>& picture) const {
+                      Array<NearestTriangle, 2>& picture, Visits& visits) const {
         const TriangleInHogels in_hogels(triangle, grid_, range);
         const Span rows = in_hogels.rows(range.nt);
+        ++visits.pieces;
+        visits.slices += rows.size();
         for (std::size_t t = rows.first; t < rows.end; ++t) {
             const Span columns = in_hogels.columns(t, range.ns);
+            visits.samples += columns.size();
             for (std::size_t s = columns.first; s < columns.end; ++s)
                 see(picture(t, s), index, triangle, grid_.s(static_cast<double>(range.s0 + s)),
                     grid_.t(static_cast<double>(range.t0 + t)));

@@ -7,13 +7,6 @@
 
 namespace hogel::render::simplex {
 
-double crossing(const ProjectedPoint& a, const ProjectedPoint& b, double t) {
-    const double from_a = t * a[axis::q] - a[axis::t], from_b = t * b[axis::q] - b[axis::t];
-    if (from_a == from_b) return a[axis::s] / a[axis::q];
-    const double weight_a = std::clamp(from_b / (from_b - from_a), 0.0, 1.0), weight_b = 1 - weight_a;
-    return (weight_a * a[axis::s] + weight_b * b[axis::s]) / (weight_a * a[axis::q] + weight_b * b[axis::q]);
-}
-
 SliceInHogels::SliceInHogels(const Simplex<2>& slice) : slice_(slice) {
     for (std::size_t i = 0; i < 3; ++i) {
         const double depth = 1 / slice[i][axis::q];

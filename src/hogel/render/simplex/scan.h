@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -11,7 +12,13 @@ namespace hogel::render::simplex {
 
 /// The column s where row t crosses the edge between two projected points, which are on different sides of the row or
 /// on it. Source: [K] 5.7.4, the equation below (5.7).
-double crossing(const ProjectedPoint& a, const ProjectedPoint& b, double t);
+template <std::size_t Size>
+double crossing(const std::array<double, Size>& a, const std::array<double, Size>& b, double t) {
+    const double from_a = t * a[axis::q] - a[axis::t], from_b = t * b[axis::q] - b[axis::t];
+    if (from_a == from_b) return a[axis::s] / a[axis::q];
+    const double weight_a = std::clamp(from_b / (from_b - from_a), 0.0, 1.0), weight_b = 1 - weight_a;
+    return (weight_a * a[axis::s] + weight_b * b[axis::s]) / (weight_a * a[axis::q] + weight_b * b[axis::q]);
+}
 
 /// The rows and columns of hogels that a slice of a projected volume at one U and one V covers.
 ///

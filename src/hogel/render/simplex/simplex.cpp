@@ -6,21 +6,24 @@
 #include "hogel/render/region_memory.h"
 #include "hogel/render/simplex/scan.h"
 #include "hogel/render/simplex/slice.h"
+#include "hogel/render/simplex/strip.h"
 #include "hogel/render/simplex/volume.h"
+#include "hogel/render/visits.h"
 
 namespace hogel::render::simplex {
 namespace {
 
-class SimplexRenderer final : public Renderer {
+class SimplexRenderer final : public Renderer, public CountsVisits {
   public:
-    SimplexRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid) : grid_(grid) {
+    SimplexRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid, bool strips)
+        : grid_(grid), strips_(strips) {
         SimplexRenderer::set_scene(std::move(scene));
     }
 
     const LightFieldGrid& grid() const override { return grid_; }
     bool has_depth() const override { return true; }
     void set_scene(std::shared_ptr<const ShadedScene> scene) override {
-        near_ = near_plane(*scene, "simplex");
+        near_ = near_plane(*scene, strips_ ? "simplex-strips" : "simplex");
         // On the front the triangles are clipped at the near plane; on a side simplices are clipped before the
         // division.
         if (grid_.face() != Face::front) min_forward_ = min_forward_distance(grid_, 0.5 * near_);
@@ -32,19 +35,29 @@ class SimplexRenderer final : public Renderer {
     void read(LightFieldTile& tile) const override {
         Array<NearestTriangle, 4> buffer(simplex_buffer(grid_, tile.range));
         std::vector<Simplex<4>> simplices;
+        StripSlices slices;
+        Visits visits;
         for (std::uint32_t index : triangles_) {
             core::throw_if_stopped();
             // Clips at half the depth of the near plane, so that the visibility of every ray is decided by see(), not
             // by the clip.
             for (const DeepTriangle& part : clip_to_near_plane(deep_triangle(*scene_, index), 0.5 * near_)) {
                 const RegionSides sides = split_at_back_face(part, grid_, tile.range);
-                simplices.clear();
-                append_projected_volume(part, sides.front, grid_, tile.range, simplices, min_forward_);
-                if (!scene_->fronts_only)
-                    append_projected_volume(part, sides.back, grid_, tile.range, simplices, min_forward_);
-                for (const Simplex<4>& simplex : simplices) scan_convert(index, simplex, tile.range, buffer);
+                // From either side the volume is convex.
+                for (const auto* side : {&sides.front, &sides.back}) {
+                    if (side == &sides.back && scene_->fronts_only) continue;
+                    simplices.clear();
+                    append_projected_volume(part, *side, grid_, tile.range, simplices, min_forward_);
+                    visits.pieces += simplices.size();
+                    if (strips_)
+                        scan_convert(index, simplices, slices, tile.range, buffer, visits);
+                    else
+                        for (const Simplex<4>& simplex : simplices)
+                            scan_convert(index, simplex, tile.range, buffer, visits);
+                }
             }
         }
+        add_visits(visits);
         for (std::size_t t = 0; t < tile.range.nt; ++t)
             for (std::size_t s = 0; s < tile.range.ns; ++s) {
                 core::throw_if_stopped();
@@ -57,43 +70,75 @@ class SimplexRenderer final : public Renderer {
   private:
     // Source: [K] 5.7.3, 5.7.4.
     void scan_convert(std::uint32_t index, const Simplex<4>& simplex, const HogelRange& range,
-                      Array<NearestTriangle, 4>& buffer) const {
+                      Array<NearestTriangle, 4>& buffer, Visits& visits) const {
         slice_at_samples(simplex, axis::v, grid_.directions_v, [&](double v, const Simplex<3>& at_v) {
             slice_at_samples(at_v, axis::u, grid_.directions_u, [&](double u, const Simplex<2>& at_uv) {
                 const SliceInHogels slice(at_uv);
                 const Span rows = slice.rows(range.nt);
                 if (rows.first == rows.end) return;
+                ++visits.slices;
                 const ObliqueTriangle triangle(*scene_, index, grid_, u, v);
                 const View<NearestTriangle, 2> hogels =
                     buffer[static_cast<std::size_t>(v)][static_cast<std::size_t>(u)];
-                for (std::size_t t = rows.first; t < rows.end; ++t) {
-                    const Span columns = slice.columns(t, range.ns);
-                    for (std::size_t s = columns.first; s < columns.end; ++s)
-                        see(hogels(t, s), index, triangle, grid_.s(static_cast<double>(range.s0 + s)),
-                            grid_.t(static_cast<double>(range.t0 + t)), near_);
-                }
+                for (std::size_t t = rows.first; t < rows.end; ++t)
+                    see_row(index, triangle, t, slice.columns(t, range.ns), range, hogels, visits);
             });
         });
     }
 
+    // As above for all simplices of a volume, which is convex: a row of hogels is covered from the first to the last.
+    // Source: [K] 7.2.2.
+    void scan_convert(std::uint32_t index, const std::vector<Simplex<4>>& simplices, StripSlices& slices,
+                      const HogelRange& range, Array<NearestTriangle, 4>& buffer, Visits& visits) const {
+        slices.for_each(simplices, {grid_.directions_v, grid_.directions_u},
+                        [&](std::size_t v, std::size_t u, const Strip<2>& at_uv) {
+                            const StripInHogels slice(at_uv);
+                            const Span rows = slice.rows(range.nt);
+                            if (rows.first == rows.end) return;
+                            ++visits.slices;
+                            const ObliqueTriangle triangle(*scene_, index, grid_, static_cast<double>(u),
+                                                           static_cast<double>(v));
+                            for (std::size_t t = rows.first; t < rows.end; ++t)
+                                see_row(index, triangle, t, slice.columns(t, range.ns), range, buffer[v][u], visits);
+                        });
+    }
+
+    void see_row(std::uint32_t index, const ObliqueTriangle& triangle, std::size_t t, const Span& columns,
+                 const HogelRange& range, View<NearestTriangle, 2> hogels, Visits& visits) const {
+        visits.samples += columns.size();
+        const double hogel_t = grid_.t(static_cast<double>(range.t0 + t));
+        for (std::size_t s = columns.first; s < columns.end; ++s)
+            see(hogels(t, s), index, triangle, grid_.s(static_cast<double>(range.s0 + s)), hogel_t, near_);
+    }
+
     std::shared_ptr<const ShadedScene> scene_;
     LightFieldGrid grid_;
+    bool strips_;
     std::vector<std::uint32_t> triangles_;
     double near_ = 0;  // ζ
     double min_forward_ = 0;
 };
 
+RendererInfo info(const char* name, const char* text, bool strips) {
+    return {.name = name,
+            .text = text,
+            .make =
+                [strips](std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid) {
+                    return std::make_unique<SimplexRenderer>(std::move(scene), grid, strips);
+                },
+            .crosses_plane = false,
+            .depth_buffer_bytes = [](const LightFieldGrid& grid,
+                                     const HogelRange& region) { return buffer_bytes(simplex_buffer(grid, region)); }};
+}
+
 }  // namespace
 
 RendererInfo simplex_renderer() {
-    return {
-        .name = "simplex",
-        .text = "a four-dimensional depth buffer for all hogels of a tile at once",
-        .make = [](std::shared_ptr<const ShadedScene> scene,
-                   const LightFieldGrid& grid) { return std::make_unique<SimplexRenderer>(std::move(scene), grid); },
-        .crosses_plane = false,
-        .depth_buffer_bytes = [](const LightFieldGrid& grid,
-                                 const HogelRange& region) { return buffer_bytes(simplex_buffer(grid, region)); }};
+    return info("simplex", "a four-dimensional depth buffer for all hogels of a tile at once", false);
+}
+
+RendererInfo simplex_strips_renderer() {
+    return info("simplex-strips", "as simplex, in strips of simplices that share corners", true);
 }
 
 }  // namespace hogel::render::simplex

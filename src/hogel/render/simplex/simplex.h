@@ -14,4 +14,8 @@ namespace hogel::render::simplex {
 /// on the range. Shading is done once per ray, at the end.
 RendererInfo simplex_renderer();
 
+/// `simplex` in strips of simplices, which share corners and are sliced together: the first idea of [K] 7.2.2. The same
+/// samples.
+RendererInfo simplex_strips_renderer();
+
 }  // namespace hogel::render::simplex

@@ -10,11 +10,12 @@
 #include "hogel/render/simplex/slice.h"
 #include "hogel/render/simplex/volume.h"
 #include "hogel/render/span.h"
+#include "hogel/render/visits.h"
 
 namespace hogel::render::simplex {
 namespace {
 
-class Simplex3dRenderer final : public Renderer {
+class Simplex3dRenderer final : public Renderer, public CountsVisits {
   public:
     Simplex3dRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid) : grid_(grid) {
         Simplex3dRenderer::set_scene(std::move(scene));
@@ -35,6 +36,7 @@ class Simplex3dRenderer final : public Renderer {
     void read(LightFieldTile& tile) const override {
         Array<NearestTriangle, 3> buffer(simplex3d_buffer(grid_, tile.range));
         std::vector<Simplex<3>> simplices;
+        Visits visits;
         for (std::size_t t = 0; t < tile.range.nt; ++t) {
             std::ranges::fill(buffer.elements(), NearestTriangle{});
             for (std::uint32_t index : triangles_) {
@@ -44,7 +46,8 @@ class Simplex3dRenderer final : public Renderer {
                     for (const CameraLine& line : split_row_at_back_face(part, t, grid_, tile.range))
                         if (line.front_visible || !scene_->fronts_only)
                             append_projected_volume(part, line, grid_, tile.range, simplices, min_forward_);
-                    for (const Simplex<3>& simplex : simplices) scan_convert(index, simplex, t, tile.range, buffer);
+                    for (const Simplex<3>& simplex : simplices)
+                        scan_convert(index, simplex, t, tile.range, buffer, visits);
                 }
             }
             for (std::size_t s = 0; s < tile.range.ns; ++s)
@@ -52,17 +55,21 @@ class Simplex3dRenderer final : public Renderer {
                     for (std::size_t u = 0; u < grid_.directions_u; ++u)
                         store(tile, *scene_, grid_, buffer(v, u, s), t, s, v, u);
         }
+        add_visits(visits);
     }
 
   private:
     void scan_convert(std::uint32_t index, const Simplex<3>& simplex, std::size_t t, const HogelRange& range,
-                      Array<NearestTriangle, 3>& buffer) const {
+                      Array<NearestTriangle, 3>& buffer, Visits& visits) const {
+        ++visits.pieces;
         const double hogel_t = grid_.t(static_cast<double>(range.t0 + t));
         slice_at_samples(simplex, axis::v, grid_.directions_v, [&](double v, const Simplex<2>& at_v) {
             slice_at_samples(at_v, axis::u, grid_.directions_u, [&](double u, const Simplex<1>& at_uv) {
                 const double s0 = at_uv[0][axis::s] / at_uv[0][axis::q], s1 = at_uv[1][axis::s] / at_uv[1][axis::q];
                 const Span columns = samples_between(std::min(s0, s1), std::max(s0, s1), range.ns);
                 if (columns.first == columns.end) return;
+                ++visits.slices;
+                visits.samples += columns.size();
                 const ObliqueTriangle triangle(*scene_, index, grid_, u, v);
                 const View<NearestTriangle, 1> hogels =
                     buffer[static_cast<std::size_t>(v)][static_cast<std::size_t>(u)];

@@ -12,6 +12,7 @@
 #include "hogel/render/region_memory.h"
 #include "hogel/render/row_axes.h"
 #include "hogel/render/span.h"
+#include "hogel/render/visits.h"
 
 namespace hogel::render::simplex {
 namespace {
@@ -55,7 +56,7 @@ struct ProjectedTriangle {
 
 // In this file t and V stand for the slow axis of RowAxes, s and U for the fast one: on the left and right of a
 // hemicube they are s, U, t and V.
-class SimploidRenderer final : public Renderer {
+class SimploidRenderer final : public Renderer, public CountsVisits {
   public:
     SimploidRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid) : grid_(grid), axes_(grid) {
         SimploidRenderer::set_scene(std::move(scene));
@@ -74,11 +75,14 @@ class SimploidRenderer final : public Renderer {
         const std::size_t directions = axes_.fast_directions();
         // Processes one V at a time, so that neighbouring triangles write to neighbouring memory.
         Array<NearestTriangle, 3> buffer(simploid_buffer(axes_, tile.range));
+        Visits visits;
+        const std::vector<Directions> seen_in = slow_directions_of_triangles(tile.range);
         for (std::size_t slow = 0; slow < axes_.slow_directions(); ++slow) {
             core::throw_if_stopped();
             std::ranges::fill(buffer.elements(), NearestTriangle{});
             const Slab slab(*this, tile.range, slow);
-            for (std::uint32_t index : triangles_) slab.scan_convert(index, buffer);
+            for (std::size_t i = 0; i < triangles_.size(); ++i)
+                if (seen_in[i].first <= slow && slow < seen_in[i].end) slab.scan_convert(triangles_[i], buffer, visits);
             for (std::size_t row = 0; row < rows; ++row)
                 for (std::size_t i = 0; i < hogels; ++i)
                     for (std::size_t fast = 0; fast < directions; ++fast) {
@@ -86,9 +90,54 @@ class SimploidRenderer final : public Renderer {
                         store(tile, *scene_, grid_, buffer(row, i, fast), t, s, v, u);
                     }
         }
+        add_visits(visits);
     }
 
   private:
+    // Rows of directions, along the slow axis: first <= V < end.
+    struct Directions {
+        std::uint32_t first = 0, end = 0;
+    };
+
+    // dx/dζ or dy/dζ along the slow axis of the rays of one V.
+    double slow_slope(std::size_t slow) const {
+        const auto [t, s, v, u] = axes_.sample(0, 0, slow, 0);
+        const Vec3 direction = grid_.direction_of(grid_.u(static_cast<double>(u)), grid_.v(static_cast<double>(v)));
+        return (axes_.transposed() ? direction.x : direction.y) / direction.z;
+    }
+
+    // The V in which hogels of a region may see each triangle. Slopes (y − t)/ζ of lines from a triangle to a row of
+    // hogels are extreme at corners and at the first and last row; all may be seen of what comes close to the hologram.
+    std::vector<Directions> slow_directions_of_triangles(const HogelRange& range) const {
+        const std::size_t count = axes_.slow_directions();
+        std::vector<double> slopes(count);
+        for (std::size_t slow = 0; slow < count; ++slow) slopes[slow] = slow_slope(slow);
+        const bool rising = slopes.front() <= slopes.back();
+        const double from = axes_.slow_hogel(range, 0), to = axes_.slow_hogel(range, axes_.slow_hogels(range) - 1);
+        const double near = 1e-3 * grid_.pitch, margin = 1e-4 * grid_.pitch;
+        std::vector<Directions> seen(triangles_.size(), {0, static_cast<std::uint32_t>(count)});
+        for (std::size_t i = 0; i < triangles_.size(); ++i) {
+            double low = std::numeric_limits<double>::infinity(), high = -low, shallow = low, deep = high;
+            for (const std::uint32_t vertex : scene_->triangles[triangles_[i]].vertices) {
+                const Vec3& p = scene_->positions[vertex];
+                const double slow = axes_.transposed() ? p.x : p.y, a = (slow - from) / -p.z, b = (slow - to) / -p.z;
+                low = std::min({low, a, b});
+                high = std::max({high, a, b});
+                shallow = std::min(shallow, -p.z);
+                deep = std::max(deep, -p.z);
+            }
+            if (shallow < near && deep > -near) continue;
+            const double wider = margin / std::min(std::abs(shallow), std::abs(deep));
+            const auto before = [&](double slope) { return rising ? slope < low - wider : slope > high + wider; };
+            const auto not_beyond = [&](double slope) { return rising ? slope <= high + wider : slope >= low - wider; };
+            const auto first = std::ranges::partition_point(slopes, before),
+                       end = std::partition_point(first, slopes.end(), not_beyond);
+            seen[i] = {static_cast<std::uint32_t>(first - slopes.begin()),
+                       static_cast<std::uint32_t>(end - slopes.begin())};
+        }
+        return seen;
+    }
+
     // The rays of a tile with one V.
     class Slab {
       public:
@@ -100,23 +149,25 @@ class SimploidRenderer final : public Renderer {
                 const Vec3 direction =
                     grid_.direction_of(grid_.u(static_cast<double>(u)), grid_.v(static_cast<double>(v)));
                 slopes_.push_back({direction.x / direction.z, direction.y / direction.z});
-                // The slope along the fast axis, and along the slow one, which is the same for all k.
+                // The slope along the fast axis; that along the slow one is the same for all k.
                 fast_slopes_.push_back((axes_.transposed() ? slopes_[k].y : slopes_[k].x) * axes_.fast_sign());
-                slow_slope_ = axes_.transposed() ? slopes_[k].x : slopes_[k].y;
             }
+            slow_slope_ = renderer.slow_slope(slow);
+            per_pitch_ = 1 / pitch;
             first_row_ = axes_.slow_hogel(range, 0) / pitch;
             first_hogel_ = axes_.fast_hogel(range, 0) / pitch * axes_.fast_sign();
             rows_ = axes_.slow_hogels(range);
             hogels_ = axes_.fast_hogels(range);
         }
 
-        void scan_convert(std::uint32_t index, Array<NearestTriangle, 3>& buffer) const {
+        void scan_convert(std::uint32_t index, Array<NearestTriangle, 3>& buffer, Visits& visits) const {
+            ++visits.pieces;
             const ProjectedTriangle triangle = project(index);
             const auto [low, high] = std::minmax({triangle.row[0], triangle.row[1], triangle.row[2]});
             const Span rows = samples_between(low, high, rows_);
             for (std::size_t row = rows.first; row < rows.end; ++row) {
                 const Segment segment = triangle.slice(static_cast<double>(row));
-                if (segment.count > 0) scan_convert(index, segment, row, buffer[row]);
+                if (segment.count > 0) scan_convert(index, segment, row, buffer[row], visits);
             }
         }
 
@@ -127,17 +178,17 @@ class SimploidRenderer final : public Renderer {
             const double row_sign = -axes_.fast_sign();  // t is counted downwards, s to the right
             for (std::size_t i = 0; i < 3; ++i) {
                 const Vec3& p = scene_.positions[vertices[i]];
-                const double depth = -p.z / grid_.pitch;
-                const double fast = (axes_.transposed() ? p.y : p.x) / grid_.pitch;
-                const double slow = (axes_.transposed() ? p.x : p.y) / grid_.pitch;
+                const double depth = -p.z * per_pitch_;
+                const double fast = (axes_.transposed() ? p.y : p.x) * per_pitch_;
+                const double slow = (axes_.transposed() ? p.x : p.y) * per_pitch_;
                 projected.row[i] = row_sign * (slow - slow_slope_ * depth - first_row_);
                 projected.at[i] = {axes_.fast_sign() * fast - first_hogel_, depth};
             }
             return projected;
         }
 
-        void scan_convert(std::uint32_t index, const Segment& segment, std::size_t row,
-                          View<NearestTriangle, 2> buffer) const {
+        void scan_convert(std::uint32_t index, const Segment& segment, std::size_t row, View<NearestTriangle, 2> buffer,
+                          Visits& visits) const {
             const Span columns = columns_of_directions(segment);
             for (std::size_t k = columns.first; k < columns.end; ++k) {
                 double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -148,6 +199,8 @@ class SimploidRenderer final : public Renderer {
                 }
                 const Span hogels = samples_between(low, high, hogels_);
                 if (hogels.first == hogels.end) continue;
+                ++visits.slices;
+                visits.samples += hogels.size();
                 const ObliqueTriangle triangle(scene_, index, slopes_[k].x, slopes_[k].y);
                 for (std::size_t i = hogels.first; i < hogels.end; ++i) {
                     const auto [at_t, at_s, at_v, at_u] = axes_.sample(row, i, slow_, k);
@@ -182,7 +235,7 @@ class SimploidRenderer final : public Renderer {
         const HogelRange& range_;
         std::size_t slow_;
         std::size_t rows_ = 0, hogels_ = 0;
-        double first_row_ = 0, first_hogel_ = 0, slow_slope_ = 0;
+        double first_row_ = 0, first_hogel_ = 0, slow_slope_ = 0, per_pitch_ = 0;
         struct Slopes {
             double x, y;  // dx/dζ and dy/dζ
         };

@@ -9,20 +9,25 @@
 
 namespace hogel::render::simplex {
 
+// Points have `Size` coordinates, those of ProjectedPoint and perhaps values that are interpolated with them.
+
 /// Sorts the corners of a simplex along an axis, equal ones by their other coordinates. Simplices that share corners
 /// then have them in the same order, so slices through shared faces are bit for bit equal.
-template <std::size_t N>
-void sort_along(std::size_t axis, std::array<ProjectedPoint, N>& corners) {
-    std::sort(corners.begin(), corners.end(), [axis](const ProjectedPoint& a, const ProjectedPoint& b) {
+template <std::size_t Size, std::size_t N>
+void sort_along(std::size_t axis, std::array<std::array<double, Size>, N>& corners) {
+    using Point = std::array<double, Size>;
+    std::sort(corners.begin(), corners.end(), [axis](const Point& a, const Point& b) {
         // Moved-from arrays of numbers keep their values. NOLINTNEXTLINE(clang-analyzer-cplusplus.Move)
         return a[axis] != b[axis] ? a[axis] < b[axis] : a < b;
     });
 }
 
 /// The point between a and b where the coordinate of that axis is `value`; a[axis] < value <= b[axis].
-inline ProjectedPoint point_between(const ProjectedPoint& a, const ProjectedPoint& b, std::size_t axis, double value) {
+template <std::size_t Size>
+std::array<double, Size> point_between(const std::array<double, Size>& a, const std::array<double, Size>& b,
+                                       std::size_t axis, double value) {
     const double f = (value - a[axis]) / (b[axis] - a[axis]);
-    ProjectedPoint p;
+    std::array<double, Size> p;
     for (std::size_t i = 0; i < p.size(); ++i) p[i] = a[i] + f * (b[i] - a[i]);
     p[axis] = value;
     return p;
@@ -31,18 +36,18 @@ inline ProjectedPoint point_between(const ProjectedPoint& a, const ProjectedPoin
 /// Calls use(Simplex<N − 1>) for the one to three simplices in which the plane axis = value meets a simplex whose
 /// corners are sorted along that axis; for none if no corner lies below the plane, or all do.
 /// Source: [K] 5.6.2, fig. 5.19 and 5.20.
-template <std::size_t N, class Use>
-void slice(const std::array<ProjectedPoint, N>& sorted, std::size_t axis, double value, const Use& use) {
+template <std::size_t Size, std::size_t N, class Use>
+void slice(const std::array<std::array<double, Size>, N>& sorted, std::size_t axis, double value, const Use& use) {
     std::size_t below = 0;
     while (below < N && sorted[below][axis] < value) ++below;
     if (below == 0 || below == N) return;
     // The points in which edges from below to above meet the plane form a (below − 1, above − 1)-simploid.
-    std::array<std::array<ProjectedPoint, N>, N> crossing;
+    std::array<std::array<std::array<double, Size>, N>, N> crossing;
     for (std::size_t i = 0; i < below; ++i)
         for (std::size_t j = below; j < N; ++j)
             crossing[i][j - below] = point_between(sorted[i], sorted[j], axis, value);
     for (const auto& path : product_paths<N - 1>(below - 1)) {
-        std::array<ProjectedPoint, N - 1> piece;
+        std::array<std::array<double, Size>, N - 1> piece;
         for (std::size_t k = 0; k < piece.size(); ++k) piece[k] = crossing[path[k].first][path[k].second];
         use(piece);
     }
@@ -51,12 +56,13 @@ void slice(const std::array<ProjectedPoint, N>& sorted, std::size_t axis, double
 /// Calls use(value, Simplex<N − 1>) for the slices of a simplex at the samples 0 to `samples` − 1 of an axis that it
 /// reaches. Source: [K] 5.7.3. Differs: [K] 5.7.2 first clips simplices to the field of view, which cuts one into up to
 /// six at each of four edges. No sample lies outside, so that leaving out the slices there is the same.
-template <std::size_t N, class Use>
-void slice_at_samples(std::array<ProjectedPoint, N> simplex, std::size_t axis, std::size_t samples, const Use& use) {
+template <std::size_t Size, std::size_t N, class Use>
+void slice_at_samples(std::array<std::array<double, Size>, N> simplex, std::size_t axis, std::size_t samples,
+                      const Use& use) {
     sort_along(axis, simplex);
     const double last = std::min(std::floor(simplex.back()[axis]), static_cast<double>(samples) - 1);
     for (double value = std::max(std::floor(simplex.front()[axis]) + 1, 0.0); value <= last; ++value)
-        slice(simplex, axis, value, [&](const std::array<ProjectedPoint, N - 1>& piece) { use(value, piece); });
+        slice(simplex, axis, value, [&](const auto& piece) { use(value, piece); });
 }
 
 /// Replaces simplices of four or five corners by their parts where axis >= bound (keep_above) or axis < bound
