@@ -99,13 +99,14 @@ void add_render_light_field(CLI::App* command, RenderOptions& options) {
     const RenderDefaults& d = render_defaults;
     add_parsed(command, "--hogels", options.hogels,
                fmt::format("Hogels across and down ({0}x{0}; with --peers {1}x{1} and {0}x{0}, with --scaling {1}x{1}, "
-                           "with --stream {2}x{2})",
-                           d.hogels, d.few_hogels, d.stream_hogels),
+                           "with --stream {2}x{2}; with --dense those that fill the width, {3})",
+                           d.hogels, d.few_hogels, d.stream_hogels, d.dense_across),
                "WxH", "", parse_counts);
-    add_parsed(command, "--directions", options.directions,
-               fmt::format("Directions across and down in each hogel ({0}x{0}; with --peers and --stream {1}x{1})",
-                           d.directions, d.many_directions),
-               "WxH", "", parse_counts);
+    add_parsed(
+        command, "--directions", options.directions,
+        fmt::format("Directions across and down in each hogel ({0}x{0}; with --peers, --stream and --dense {1}x{1})",
+                    d.directions, d.many_directions),
+        "WxH", "", parse_counts);
     add_size(command, options.size);
     add_field_of_view(command, options.field_of_view);
     command
@@ -119,7 +120,7 @@ void add_render_light_field(CLI::App* command, RenderOptions& options) {
 }
 
 struct RenderChoice : RenderOptions {
-    bool scaling = false, stream = false;
+    bool scaling = false, stream = false, dense = false, interpolation = false;
     CLI::Option* peers_option = nullptr;
 };
 
@@ -130,6 +131,10 @@ void measure_render(const RenderChoice& choice, const Session& session) {
         measure_scaling(choice, session);
     else if (choice.stream)
         measure_stream(choice, session);
+    else if (choice.dense)
+        measure_dense(choice, session);
+    else if (choice.interpolation)
+        measure_interpolation(choice, session);
     else
         measure_regions(choice, session);
 }
@@ -155,6 +160,19 @@ void add_render_measurements(CLI::App* command, RenderChoice& options) {
                                             "sink that keeps nothing of them");
     scaling->excludes(options.peers_option);
     stream->excludes(options.peers_option)->excludes(scaling);
+    command
+        ->add_flag("--dense", options.dense,
+                   "Instead: the regions with hogels so close that a point moves less than a direction from one to the "
+                   "next, and the three curves of Kartch's thesis in a plot of their own")
+        ->excludes(options.peers_option)
+        ->excludes(scaling)
+        ->excludes(stream);
+    command
+        ->add_flag("--interpolation", options.interpolation,
+                   "Instead: error and time of shading that is interpolated between viewpoints")
+        ->excludes(options.peers_option)
+        ->excludes(scaling)
+        ->excludes(stream);
 }
 
 void add_render(CLI::App& app, Program& program) {
@@ -167,6 +185,7 @@ void add_render(CLI::App& app, Program& program) {
         "  hogel-bench render -o plots\n"
         "  hogel-bench render --scenes pumpkin --algorithms zbuffer,simplex,epi --largest 32\n"
         "  hogel-bench render --peers --scenes church,pumpkin:10 --threads 2\n"
+        "  hogel-bench render --dense --scenes church-radiance,pumpkin -o plots\n"
         "  hogel-bench render --scaling -o plots\n"
         "  hogel-bench render --stream --scenes pumpkin --hogels 512 --directions 256");
     add_session_options(command, program.session);
@@ -181,7 +200,9 @@ void add_render(CLI::App& app, Program& program) {
               fmt::format("Renderers; all if none are named; with --peers, --scaling and --stream the first, or {}",
                           default_algorithm));
     add_render_light_field(command, *options);
-    add_count(command, "--largest", options->max_side, "Largest side of a region, in hogels");
+    add_parsed(command, "--largest", options->max_side,
+               fmt::format("Largest side of a region, in hogels (128; with --dense {})", render_defaults.dense_side),
+               "N", "", parse_count);
     add_number(command, "--seconds", options->seconds, CLI::Range(1e-3, 1e6),
                fmt::format("Stop enlarging regions that would take longer ({:g}); with --peers, time of each peer in a "
                            "round ({:g})",
@@ -299,6 +320,20 @@ void add_studies(CLI::App& app, Program& program) {
     add_count(command, "--looks", eye->looks, "Photographs of independent phases that are averaged");
     add_count(command, "--rounds", eye->rounds, "Rounds of which medians are taken");
 
+    const auto rays = std::make_shared<RaysStudy>();
+    command = add_command<RaysStudy>(
+        app, program, "rays", "Photographs by rays of a light field in memory: pictures a second", 0, rays, study_rays);
+    command->add_option("--scene", rays->scene, "A built-in scene")->type_name("NAME")->capture_default_str();
+    add_count(command, "--hogels", rays->hogels, "Hogels along a side");
+    add_count(command, "--directions", rays->directions, "Directions along a side");
+    add_count(command, "--pixels", rays->pixels, "Pixels along a side of the picture");
+    add_count(command, "--pictures", rays->pictures, "Pictures, each from another eye");
+    command->add_option("--pupil-samples", rays->pupil_samples, "Points of the pupil")
+        ->type_name("N,...")
+        ->delimiter(',')
+        ->check(CLI::PositiveNumber.description(""))
+        ->capture_default_str();
+
     const auto pattern = std::make_shared<PatternStudy>();
     command = add_command<PatternStudy>(app, program, "pattern",
                                         "Encodings for modulators: quality of photographs, light and time", 0, pattern,
@@ -312,6 +347,21 @@ void add_studies(CLI::App& app, Program& program) {
                                            stereogram, study_stereogram);
     add_count(command, "--samples", stereogram->samples, "Samples along a side of the hologram");
     add_count(command, "--rounds", stereogram->rounds, "Rounds of which the best counts");
+
+    const auto fringes = std::make_shared<FringeStudy>();
+    command = add_command<FringeStudy>(app, program, "fringes",
+                                       "Basis fringes against Fourier transforms, by coefficients kept, on one thread",
+                                       std::nullopt, fringes, study_fringes);
+    command->add_option("--scene", fringes->scene, "Scene whose coefficients are counted")
+        ->type_name("SCENE")
+        ->capture_default_str();
+    command->add_option("--transform", fringes->transform, "Transform of the directions")
+        ->type_name("NAME")
+        ->check(CLI::IsMember(transform::transform_names()).description(""))
+        ->capture_default_str();
+    command->add_option("--only", fringes->only, "Measure holograms whose name holds this text, such as lines")
+        ->type_name("TEXT");
+    add_count(command, "--rounds", fringes->rounds, "Rounds of which the best counts");
 
     const auto fourier = std::make_shared<FourierStudy>();
     command = add_command<FourierStudy>(app, program, "fourier", "Fourier transforms: speed, beside FFTW", 1, fourier,

@@ -133,7 +133,7 @@ std::vector<MeasuredMethod> methods() {
         all.push_back({name, "", options});
     };
     for (const HologramMethodInfo& info : hologram_methods().rows()) {
-        if (std::holds_alternative<Lines>(info.method)) continue;  // horizontal parallax only: another light field
+        if (line_pitch(info.method)) continue;  // horizontal parallax only: another light field
         add(info.name, info.method);
         if (std::holds_alternative<Fourier>(info.method))
             add(info.name + ", designed", Fourier{.phases = Phases::designed});

@@ -52,6 +52,20 @@ struct EyeStudy {
 /// mean of infinitely many looks, of a new eye of EyePhotographer, and of another focus of the same eye.
 void study_eye(const EyeStudy& study);
 
+struct RaysStudy {
+    std::string scene = "pumpkin";  ///< a name in scenes()
+    std::size_t hogels = 400;       ///< along a side of a hologram with the size and angles of hogel make
+    std::size_t directions = 32;    ///< along a side
+    std::size_t pixels = 512;       ///< along a side of the picture
+    std::size_t pictures = 40;      ///< from eyes that walk over the cone of directions
+    std::vector<std::size_t> pupil_samples{1, 4, 16, 64};
+};
+/// Photographs by rays of a light field in memory, as a viewer takes them: each from another eye and with another
+/// focus, with a pupil of 4 mm, into the memory of the picture before; by photograph(), and by RayPhotographer from
+/// floats and from halves. Prints pictures a second, the median and the longest wall time of a picture, and its
+/// processor time.
+void study_rays(const RaysStudy& study);
+
 struct PatternStudy {
     std::size_t samples = 512;  ///< along a side of the hologram
     std::size_t iterations = 40;
@@ -72,6 +86,18 @@ struct StereogramStudy {
 /// from a light field of noise in memory to a field in memory, whose directions fill what the pitch diffracts to; and
 /// of the transforms of as many squares of that size, one after the other over a whole hologram, in place.
 void study_stereogram(const StereogramStudy& study);
+
+struct FringeStudy {
+    std::string scene = "pumpkin";
+    std::string transform = "ai33";
+    std::string only;  ///< measures kinds of holograms whose name holds this text
+    std::size_t rounds = 5;
+};
+/// Basis fringes against Fourier transforms, [K] fig. 4.1b, on one thread, from coefficients of the directions: sums of
+/// fringes by the number of coefficients that each hogel keeps, beside inverting the transform, resampling and one
+/// Fourier transform a hogel or line. Prints nanoseconds a sample of processor time, the best of the rounds, which
+/// alternate; up to how many coefficients fringes are faster; and how many the light field of a scene needs.
+void study_fringes(const FringeStudy& study);
 
 struct FourierStudy {
     std::size_t rounds = 9;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -30,5 +32,36 @@ HOGEL_API std::vector<Image> photograph(const LightField& light_field, std::span
 HOGEL_API void photograph_into(const LightField& light_field, std::span<const Camera> cameras,
                                const RayPhotographOptions& options, std::span<Image> pictures,
                                const Progress& progress = {});
+
+/// Options of RayPhotographer.
+struct RayPhotographerOptions {
+    std::size_t memory = std::size_t{2} << 30;  ///< bytes for the samples of the light field
+};
+
+/// Photographs a light field by rays from one eye after the other, for interactive use. It keeps all samples in memory,
+/// ordered by direction, because an eye sees neighbouring hogels in nearly the same direction: floats if they fit,
+/// otherwise halves (binary16). Pictures are those of photograph(), to the last bit from floats. For one thread at a
+/// time.
+class HOGEL_API RayPhotographer {
+  public:
+    /// Reads the whole light field. One with the sides of a hemicube or with directions uniform in sines is kept and
+    /// read as it is, by each photograph. Throws Error(usage) if halves need more than options.memory, naming what they
+    /// need.
+    explicit RayPhotographer(LightField light_field, const RayPhotographerOptions& options = {},
+                             const Progress& progress = {});
+    ~RayPhotographer();
+    RayPhotographer(RayPhotographer&&) noexcept;
+    RayPhotographer& operator=(RayPhotographer&&) noexcept;
+
+    /// Throws Error(usage) as hogel::photograph() does, and Error(cancelled).
+    Image photograph(const Camera& camera, const RayPhotographOptions& options = {}, const Progress& progress = {});
+    /// As photograph() into `picture`, whose memory is reused if it has the camera's shape.
+    void photograph_into(const Camera& camera, const RayPhotographOptions& options, Image& picture,
+                         const Progress& progress = {});
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 }  // namespace hogel

@@ -308,8 +308,9 @@ Work work(const FieldGrid& hologram, const WavePowers::Counts& counts, std::span
     Work work;
     for (const SharedEye& eye : eyes_of(cameras)) {
         const double band = half_band(hogels, cameras[eye.members.front()].eye, eye.pupil);
-        const SpotBasis basis(counts.samples, band * (1 + guard));
-        const Pairs list(basis, band);
+        const SpotNodes nodes(counts.samples, band * (1 + guard));
+        const Pairs list(nodes, band);
+        work.products += nodes.products();
         const auto pairs = static_cast<double>(list.padded_count());
         work.bytes += pairs * static_cast<double>(hogels.plane.samples()) * sizeof(float);
         for (const std::size_t member : eye.members) {

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "hogel/core/parallel.h"
 #include "hogel/math/quadrature.h"
 #include "hogel/optics/dirichlet.h"
 
@@ -60,11 +62,19 @@ class Cholesky {
 
 }  // namespace
 
-SpotBasis::SpotBasis(std::size_t samples, double half_band)
-    : samples_(samples), nodes_(choose_nodes(samples, half_band)) {
-    const math::Quadrature pupil =
-        math::gauss_legendre(20 + static_cast<std::size_t>(std::ceil(6 * half_band)), half_band);
-    const std::size_t points = pupil.points.size(), count = nodes_.size();
+SpotNodes::SpotNodes(std::size_t samples, double half_band)
+    : samples_(samples), half_band_(half_band), nodes_(choose_nodes(samples, half_band)) {}
+
+std::size_t SpotNodes::points() const { return 20 + static_cast<std::size_t>(std::ceil(6 * half_band_)); }
+
+double SpotNodes::products() const {
+    const auto n = static_cast<double>(count());
+    return static_cast<double>(SpotBasis::fractions * samples_) * (static_cast<double>(points()) * n + n * n);
+}
+
+SpotBasis::SpotBasis(std::size_t samples, double half_band) : SpotNodes(samples, half_band) {
+    const math::Quadrature pupil = math::gauss_legendre(SpotNodes::points(), half_band);
+    const std::size_t points = pupil.points.size(), count = this->count();
     const auto light = [&](double y) {
         std::vector<double> values(points);
         for (std::size_t i = 0; i < points; ++i)
@@ -78,8 +88,8 @@ SpotBasis::SpotBasis(std::size_t samples, double half_band)
     };
     std::vector<std::vector<double>> lights;
     std::vector<double> sizes;
-    for (const double y : nodes_) {
-        lights.push_back(light(y));
+    for (std::size_t q = 0; q < count; ++q) {
+        lights.push_back(light(node(q)));
         sizes.push_back(std::sqrt(product(lights.back(), lights.back())));
     }
     Array<double, 2> normal({count, count});
@@ -89,30 +99,32 @@ SpotBasis::SpotBasis(std::size_t samples, double half_band)
     const Cholesky equations(std::move(normal));
 
     table_ = Array<float, 3>({fractions, 2 * samples, padded_count()});
-    double wrong = 0, all = 0;
-    std::vector<double> b(count);
-    for (std::size_t fraction = 0; fraction < fractions; ++fraction)
+    std::vector<double> wrong(fractions), all(fractions);
+    core::parallel_for(fractions, [&](std::size_t fraction) {
+        std::vector<double> b(count), right(count);
         for (std::size_t m = 0; m < samples; ++m) {
+            if (m % 64 == 0) core::throw_if_stopped();
             const std::vector<double> own =
                 light(static_cast<double>(m) + static_cast<double>(fraction) / static_cast<double>(fractions));
-            std::vector<double> right(count);
             for (std::size_t q = 0; q < count; ++q) b[q] = right[q] = product(own, lights[q]) / sizes[q];
             equations.solve(b);
             const double square = product(own, own);
             double left = square;
             for (std::size_t q = 0; q < count; ++q) left -= b[q] * right[q];
-            wrong += std::max(left, 0.0);
-            all += square;
+            wrong[fraction] += std::max(left, 0.0);
+            all[fraction] += square;
             for (std::size_t q = 0; q < count; ++q)
                 table_(fraction, m, q) = table_(fraction, samples + m, q) = static_cast<float>(b[q] / sizes[q]);
         }
-    error_ = std::sqrt(wrong / all);
+    });
+    error_ = std::sqrt(std::reduce(wrong.begin(), wrong.end()) / std::reduce(all.begin(), all.end()));
 }
 
 SpotBasis::Weights SpotBasis::weights(double frequency) const {
-    const auto n = static_cast<double>(samples_);
+    const std::size_t samples = this->samples();
+    const auto n = static_cast<double>(samples);
     const double steps = std::round((frequency - n * std::floor(frequency / n)) * static_cast<double>(fractions));
-    const auto whole = static_cast<std::size_t>(steps) / fractions % samples_,
+    const auto whole = static_cast<std::size_t>(steps) / fractions % samples,
                fraction = static_cast<std::size_t>(steps) % fractions;
     return {&table_(fraction, whole, 0), padded_count()};
 }

@@ -2,6 +2,7 @@
 #include "hogel/optics/expected/spots.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -145,7 +146,7 @@ double half_band(const HogelGrid& hogels, Vec3 eye, double pupil) {
     return 0.5 * pupil * plane.pitch_x / path;
 }
 
-Pairs::Pairs(const SpotBasis& basis, double half_band) : of_column(basis.count()) {
+Pairs::Pairs(const SpotNodes& basis, double half_band) : of_column(basis.count()) {
     constexpr std::size_t points = 32;
     const std::size_t nodes = basis.count();
     Array<double, 2> squares({nodes, points}), light({nodes, nodes});
@@ -158,13 +159,16 @@ Pairs::Pairs(const SpotBasis& basis, double half_band) : of_column(basis.count()
             squares(q, i) = value * value;
         }
     double strongest = 0;
-    for (std::size_t x = 0; x < nodes; ++x)
-        for (std::size_t y = 0; y < nodes; ++y) {
+    for (std::size_t x = 0; x < nodes; ++x) {
+        std::array<double, points> across{};  // summed over the part of the disc at each place down
+        for (std::size_t j = 0; j < points; ++j)
             for (std::size_t i = 0; i < points; ++i)
-                for (std::size_t j = 0; j < points; ++j)
-                    if (std::hypot(place(i), place(j)) < half_band) light(x, y) += squares(x, i) * squares(y, j);
+                if (std::hypot(place(i), place(j)) < half_band) across[j] += squares(x, i);
+        for (std::size_t y = 0; y < nodes; ++y) {
+            for (std::size_t j = 0; j < points; ++j) light(x, y) += across[j] * squares(y, j);
             strongest = std::max(strongest, light(x, y));
         }
+    }
     for (std::size_t x = 0; x < nodes; ++x) {
         Range& range = of_column[x];
         while (range.begin < nodes && light(x, range.begin) < min_share * strongest) ++range.begin;

@@ -32,7 +32,7 @@ struct Pairs {
     /// With zeros, so that those of each hogel begin at a cache line.
     std::size_t padded_count() const { return (count + SpotBasis::lanes - 1) / SpotBasis::lanes * SpotBasis::lanes; }
 
-    Pairs(const SpotBasis& basis, double half_band);
+    Pairs(const SpotNodes& basis, double half_band);
 };
 
 /// Where the pixels of a picture lie among hogels along one axis, as far as they are on the hologram. A pixel around
