@@ -2,59 +2,262 @@
 #include "fields.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "concerns.h"
 #include "hogel/error.h"
+#include "hogel/pipeline.h"
+#include "hogel/reconstruct.h"
+#include "hogel/units.h"
 
 namespace hogel::cli {
-void add_field_options(Command& command, FieldOptions& options) {
+namespace {
+
+// Work on another program's field, whose errors then name the options that say what is missing.
+template <class Work>
+auto with_field_options(const FieldOptions& options, const Work& work) {
+    return with_options({{"amplitudes or phases", "--values"},
+                         {"phase code", options.code_option},
+                         {"holds complex numbers", "--values"},
+                         {"holds amplitudes and phases", "--values"},
+                         {"says itself what", "--values"},
+                         {"which one is meant", "--variable"},
+                         {"zero level", "--zero"},
+                         {"imaginary parts", "--imaginary"},
+                         {"phases of their own", "--phases"},
+                         {"pitch", "--pitch"},
+                         {"wavelength", "--wavelength"}},
+                        work);
+}
+
+// Throws where options of other programs' fields are given for a hologram of hogel.
+void refuse_options(const std::string& name, const FieldOptions& options, const Command& command) {
+    for (const std::string& option :
+         {std::string("--values"), options.code_option, std::string("--imaginary"), std::string("--phases"),
+          std::string("--zero"), std::string("--variable"), std::string("--conjugate")})
+        if (command.given(option))
+            throw Error(ErrorCode::usage,
+                        fmt::format("{}: is for fields of other programs; {} is a hologram", option, name));
+    for (const char* option : {"--pitch", "--wavelength"})
+        if (command.given(option))
+            throw Error(ErrorCode::usage, fmt::format("{}: {} comes from the file itself", name, option));
+}
+
+// The pitch and the wavelengths of a field, from the options or else from the file.
+void complete_sampling(const std::string& name, const ExternalFacts& facts, const Command& command, double pitch,
+                       std::vector<double>& wavelengths, ExternalField& what, RunRecord& record) {
+    const std::string why = facts.complaint.empty() ? "" : fmt::format(": {}", facts.complaint);
+    if (command.given("--pitch")) {
+        what.pitch_x = what.pitch_y = pitch;
+        record.acted({"pitch"});
+    } else if (facts.pitch_x > 0 && facts.pitch_y > 0) {
+        what.pitch_x = facts.pitch_x;
+        what.pitch_y = facts.pitch_y;
+        if (facts.pitch_x == facts.pitch_y) record.acted("pitch", compact_length(facts.pitch_x));
+    } else {
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("--pitch: is needed, because {} does not say how far its samples are apart{}", name, why));
+    }
+    if (command.given("--wavelength")) {
+        record.acted({"wavelength"});
+    } else if (!facts.wavelengths.empty()) {
+        wavelengths = facts.wavelengths;
+        std::vector<std::string> texts;
+        for (const double wavelength : wavelengths) texts.push_back(compact_length(wavelength));
+        record.acted("wavelength", fmt::format("{}", fmt::join(texts, ",")));
+    } else {
+        throw Error(ErrorCode::usage,
+                    fmt::format("--wavelength: is needed, because {} does not say of which light it is{}", name, why));
+    }
+    if (wavelengths.size() != facts.colours)
+        throw Error(ErrorCode::usage,
+                    fmt::format("--wavelength: {} given, but {} holds {} ({})",
+                                wavelengths.size() == 1 ? "one is" : fmt::format("{} are", wavelengths.size()), name,
+                                facts.colours == 1 ? "one field" : fmt::format("{} fields", facts.colours),
+                                facts.colours == 1 ? "one is needed" : "e.g. 638nm,520nm,450nm"));
+}
+
+OrderSelection selection_of(const FieldOptions& options, const Command& command) {
+    using Which = OrderSelection::Which;
+    OrderSelection selection;
+    selection.without_mean = options.values == "intensity";
+    if (command.given("--reference-source")) selection.reference_source = options.reference_source;
+    selection.radius = options.aperture;
+    if (options.order == "+1") selection.which = Which::right;
+    if (options.order == "-1") selection.which = Which::left;
+    const std::size_t comma = options.order.find(',');
+    if (comma != std::string::npos) {
+        const std::optional<double> x = parse_number(options.order.substr(0, comma)),
+                                    y = parse_number(options.order.substr(comma + 1));
+        if (x && y) {
+            selection.which = Which::at;
+            selection.frequency_x = *x;
+            selection.frequency_y = *y;
+            return selection;
+        }
+    }
+    for (const char* known : {"", "0", "+1", "-1"})
+        if (options.order == known) return selection;
+    throw Error(
+        ErrorCode::usage,
+        fmt::format("--order: '{}' is none of +1, -1, 0 and FX,FY in cycles per sample, e.g. 0.25,0", options.order));
+}
+
+}  // namespace
+
+void add_field_options(Command& command, FieldOptions& options, bool sampling) {
     command.group("Fields of other programs");
-    command.choice(
-        "--values", options.values, {"amplitude", "phase"}, "amplitude|phase",
-        "What real numbers are, in arrays and pictures:\nphase: radians, or whole numbers that divide a turn");
-    command.text("--imaginary", options.imaginary, "P.exr", "Picture of imaginary parts; the input has the real ones");
-    command.text("--variable", options.variable, "NAME", "Array of a MAT file that has several");
+    if (sampling) {
+        command.positive_length("--pitch", options.pitch, "Of another program's samples")
+            .default_text("what the file says");
+        command.wavelengths(options.wavelengths).default_text("what the file says");
+    }
+    command.choice("--values", options.values, {"amplitude", "phase", "intensity"}, "amplitude|phase|intensity",
+                   "What real numbers are, in arrays and pictures:\n"
+                   "phase: radians, or whole numbers in a phase code\n"
+                   "intensity: light that a camera recorded; its mean is subtracted");
+    std::string codes = "How numbers stand for phases:";
+    for (const PhaseCodeInfo& code : phase_codes().rows()) codes += fmt::format("\n{}: {}", code.name, code.text);
+    command.text(options.code_option, options.phase_code, "CODE",
+                 codes + "\nany other: range=ANGLE,offset=ANGLE,invert, in deg, rad or pi (2pi)");
+    command.text("--imaginary", options.imaginary, "P", "Picture of imaginary parts; the input has the real ones");
+    command.text("--phases", options.phases, "P", "Picture of phases; the input has the amplitudes");
+    command.text("--zero", options.zero, "LEVEL|median",
+                 "Level of 0 in pictures of real and imaginary parts; median: that of each");
+    command.text("--variable", options.variable, "NAME", "Array of a file that has several, or two: re,im");
     command.flag("--conjugate", options.conjugate, "Its waves go as e^(+iwt)");
+}
+
+void add_reconstruction_options(Command& command, FieldOptions& options) {
+    command.group("Reconstruction");
+    command.text("--order", options.order, "0|+1|-1|FX,FY",
+                 "Diffraction order that is the object's, cut out and moved to the middle of the spectrum:\n"
+                 "+1, -1: the brightest to the right or left of frequency zero\n"
+                 "FX,FY: about this frequency, cycles per sample to the right and upwards");
+    command
+        .number("--aperture", options.aperture, "CYCLES",
+                "Radius of the opening around the order, cycles per sample (default: half its distance from 0)")
+        .no_default();
+    command
+        .point("--reference-source", options.reference_source,
+               "Source of the spherical reference wave; in front of the hologram (z > 0): where it converges")
+        .no_default();
+    command
+        .choice("--reconstruct", options.reconstruct, {"none", "fourier", "fresnel"}, "none|fourier|fresnel",
+                "What stands between the hologram and its image, which is then in the plane of depth 0:\n"
+                "fourier: a lens, at its focal length --focal from both\n"
+                "fresnel: the distance --focal, by one Fourier transform")
+        .no_default();
+    command.length("--focal", options.focal, "Focal length of that lens, or that distance").no_default();
 }
 
 bool is_external(const std::string& name, const FieldOptions& options) {
     std::error_code status;
     if (!std::filesystem::is_regular_file(name, status)) return false;
-    if (is_external_array(name)) return true;
-    return (!options.values.empty() || !options.imaginary.empty()) && file_kind(name) == FileKind::picture;
+    if (is_external_field(name)) return true;
+    const bool described =
+        !options.values.empty() || !options.phase_code.empty() || !options.imaginary.empty() || !options.phases.empty();
+    return described && file_kind(name) == FileKind::picture;
+}
+
+void require_described(const std::string& name, const FieldOptions& options) {
+    std::error_code status;
+    if (std::filesystem::is_regular_file(name, status) && file_kind(name) == FileKind::picture)
+        throw Error(ErrorCode::usage,
+                    fmt::format("{}: is a picture; say what its numbers are by {}, --values, --imaginary or --phases",
+                                name, options.code_option));
+}
+
+ExternalField external_field(const FieldOptions& options) {
+    using Values = ExternalField::Values;
+    ExternalField what;
+    what.values = options.values == "phase" ? Values::phase
+                  : options.values.empty()  ? Values::complex
+                                            : Values::amplitude;
+    if (!options.phase_code.empty()) {
+        what.phase_code =
+            with_options({{"", options.code_option}}, [&] { return parse_phase_code(options.phase_code); });
+        if (options.values.empty() && options.phases.empty()) what.values = Values::phase;
+    }
+    what.imaginary = options.imaginary;
+    what.phases = options.phases;
+    if (options.zero != "median") {
+        what.zero = parse_number(options.zero);
+        if (!what.zero)
+            throw Error(ErrorCode::usage, fmt::format("--zero: '{}' is neither median nor a number", options.zero));
+    }
+    what.variable = options.variable;
+    what.conjugate = options.conjugate;
+    return what;
 }
 
 Fields open_fields(const std::string& name, const FieldOptions& options, const Command& command, double pitch,
-                   const std::vector<double>& wavelengths, RunRecord& record) {
-    const bool pitch_given = command.given("--pitch"), wavelength_given = command.given("--wavelength");
+                   const std::vector<double>& given_wavelengths, RunRecord& record) {
     if (!is_external(name, options)) {
-        for (const char* option : {"--values", "--imaginary", "--variable", "--conjugate"})
-            if (command.given(option))
-                throw Error(ErrorCode::usage,
-                            fmt::format("{}: is for fields of other programs; {} is a hologram", option, name));
-        if (pitch_given || wavelength_given)
-            throw Error(ErrorCode::usage, fmt::format("{}: {} comes from the file itself", name,
-                                                      pitch_given ? "--pitch" : "--wavelength"));
+        require_described(name, options);
+        refuse_options(name, options, command);
         return open_hologram(name);
     }
-    const std::size_t colours = external_colours(name);
-    if (!pitch_given || !wavelength_given || wavelengths.size() != colours)
-        throw Error(ErrorCode::usage,
-                    fmt::format("{}: does not say how it is sampled; give --pitch and {} --wavelength", name,
-                                colours == 1 ? "one" : "three wavelengths with"));
-    ExternalField what;
-    what.pitch_x = what.pitch_y = pitch;
-    what.values = options.values == "phase"       ? ExternalField::Values::phase
-                  : options.values == "amplitude" ? ExternalField::Values::amplitude
-                                                  : ExternalField::Values::complex;
-    what.imaginary = options.imaginary;
-    what.variable = options.variable;
-    what.conjugate = options.conjugate;
-    record.acted({"pitch", "wavelength", "values", "imaginary", "conjugate"});
-    if (std::filesystem::path(name).extension() == ".mat") record.acted({"variable"});
-    Fields fields;
-    for (what.colour = 0; what.colour < colours; ++what.colour) {
-        what.wavelength = wavelengths[what.colour];
-        fields.push_back(open_external_field(name, what));
+    return with_field_options(options, [&] {
+        ExternalField what = external_field(options);
+        const ExternalFacts facts = external_facts(name, what);
+        if (!what.variable.empty() && facts.format != "npz" && facts.format != "mat" && facts.format != "exr")
+            throw Error(ErrorCode::usage, fmt::format("--variable: {} has no variables with names", name));
+        std::vector<double> wavelengths = given_wavelengths;
+        complete_sampling(name, facts, command, pitch, wavelengths, what, record);
+        for (const std::string& option :
+             {options.code_option, std::string("--imaginary"), std::string("--phases"), std::string("--variable")})
+            if (command.given(option)) record.acted({std::string_view(option).substr(2)});
+        // A phase code alone says that numbers are phases.
+        if (command.given("--values") && !command.given(options.code_option)) record.acted({"values"});
+        record.acted({"conjugate"});
+        // Numbers that are not whole have the zero 0 by default.
+        const bool whole = facts.numbers.starts_with("whole");
+        if (!what.imaginary.empty() && (whole || command.given("--zero")))
+            record.acted({"zero"});
+        else if (!what.imaginary.empty())
+            record.acted("zero", "0");
+        Fields fields;
+        for (what.colour = 0; what.colour < facts.colours; ++what.colour) {
+            what.wavelength = wavelengths[what.colour];
+            fields.push_back(open_external_field(name, what));
+        }
+        return fields;
+    });
+}
+
+Fields open_and_reconstruct(const Session& session, const std::string& name, const FieldOptions& options, double pitch,
+                            const std::vector<double>& wavelengths, RunRecord& record) {
+    const Command& command = *session.command;
+    Fields fields = open_fields(name, options, command, pitch, wavelengths, record);
+    const bool image = options.reconstruct != "none";
+    if (image != command.given("--focal"))
+        throw Error(ErrorCode::usage, image ? "--reconstruct: needs the focal length or distance; give --focal"
+                                            : "--focal: is that of a reconstruction; give --reconstruct");
+    const OrderSelection selection = selection_of(options, command);
+    const bool select =
+        !options.order.empty() || options.aperture != 0 || selection.without_mean || selection.reference_source;
+    if (options.aperture < 0) throw Error(ErrorCode::usage, "--aperture: a positive radius was expected");
+    for (const char* option : {"order", "aperture", "reference-source", "reconstruct", "focal"})
+        if (command.given(fmt::format("--{}", option))) record.acted({option});
+    if (!select && !image) return fields;
+    Stage stage(session, "reconstruction");
+    for (std::size_t c = 0; c < fields.size(); ++c) {
+        if (select) {
+            SelectedOrder order =
+                with_options({{"opening", "--aperture"}, {"source", "--reference-source"}, {"order", "--order"}},
+                             [&] { return select_order(*fields[c], selection, stage.progress(c, fields.size())); });
+            session.say(fmt::format("{}: the order at {:.4f}, {:.4f} cycles per sample, within {:.4f}",
+                                    format_length(fields[c]->grid().wavelength), order.frequency_x, order.frequency_y,
+                                    order.radius));
+            fields[c] = std::make_shared<Field>(std::move(order.field));
+        }
+        if (image)
+            fields[c] = std::make_shared<Field>(with_options({{"", "--focal"}}, [&] {
+                return options.reconstruct == "fourier" ? fourier_image(*fields[c], options.focal)
+                                                        : fresnel_image(*fields[c], options.focal);
+            }));
     }
     return fields;
 }

@@ -16,6 +16,7 @@
 #include "hogel/field.h"
 #include "hogel/image.h"
 #include "hogel/light_field.h"
+#include "hogel/phase_code.h"
 #include "hogel/table.h"
 
 namespace hogel {
@@ -114,38 +115,63 @@ struct FileSummary {
 /// Throws Error(bad_input) for a file that is missing, damaged or cannot be read.
 HOGEL_API FileSummary summarize(const std::filesystem::path& path);
 
-/// What must be known about a field in a file of another program, because the file does not say it.
+/// What must be known about a field in a file of another program, where the file does not say it.
 struct ExternalField {
-    double pitch_x = 0, pitch_y = 0;  ///< metres between samples
-    double wavelength = 0;            ///< metres
+    double pitch_x = 0, pitch_y = 0;  ///< metres between samples; 0: as the file says
+    double wavelength = 0;            ///< metres; 0: as the file says
 
     /// The meaning of the file's numbers: complex values; amplitudes, with phase zero; or phases, with amplitude one.
-    /// Floating-point phases are in radians, whole numbers of n = 8 or 16 bits are in units of 2π/2ⁿ.
     enum class Values { complex, amplitude, phase };
     Values values = Values::complex;
+    /// How numbers stand for phases; without it phases are in radians, and whole numbers are refused.
+    std::optional<PhaseCode> phase_code = {};
 
-    std::filesystem::path imaginary;  ///< a picture of the imaginary parts, for a picture of real parts
-    std::string variable;             ///< the array of a MAT file to read; may be empty where it holds only one
-    bool conjugate = false;           ///< true where the file's time factor is e^{+iωt}
-    std::size_t colour = 0;           ///< which of the colours of an array with three axes: external_colours()
+    std::filesystem::path imaginary = {};  ///< a picture of the imaginary parts, for a picture of real parts
+    std::filesystem::path phases = {};     ///< a picture of the phases, for a picture of amplitudes
+    /// The whole number that stands for 0 in pictures of real and imaginary parts; without it the median of each.
+    std::optional<double> zero = {};
+    std::string variable = {};  ///< the array to read of a file of several, or two: "re,im"; may be empty
+    bool conjugate = false;     ///< true where the file's time factor is e^{+iωt}
+    std::size_t colour = 0;     ///< which of the fields: ExternalFacts::colours
 };
 
-/// The number of fields in a file of another program: three for a NumPy array [colour][row][column] or
-/// [row][column][colour] of three colours, otherwise one. Throws Error(bad_input) for a file that is missing or
-/// damaged.
-HOGEL_API std::size_t external_colours(const std::filesystem::path& path);
+/// What a file of another program says of its fields.
+struct ExternalFacts {
+    std::string format;                 ///< "npy"
+    std::string numbers;                ///< "complex single"
+    std::size_t width = 0, height = 0;  ///< samples
+    std::size_t colours = 1;            ///< number of fields: one, or one for each of several wavelengths
+    double pitch_x = 0, pitch_y = 0;    ///< metres; 0 where the file does not say it
+    std::vector<double> wavelengths;    ///< metres, one for each field; empty where the file does not say them
+    std::string complaint;              ///< why a pitch or a wavelength in the file was not taken
+};
 
-/// Opens a field written by another program: a NumPy array (.npy), a MATLAB array (.mat, up to version 7.3), or a
-/// picture of amplitudes, of phases, or of real parts with a second one of imaginary parts. Row 0 is at the top, column
-/// 0 at the left, and the middle of the array is at x = y = 0. NPY files are read region by region on demand, others
-/// completely when opened. Throws Error(bad_input) for a file that is damaged or of another kind, and Error(usage) if
-/// `what.values` does not match the file's numbers or it has no such colour.
+/// Throws Error(bad_input) for a file that is missing or damaged, and Error(usage) if it has no array `what.variable`.
+HOGEL_API ExternalFacts external_facts(const std::filesystem::path& path, const ExternalField& what = {});
+
+/// Opens a field written by another program: an array of NumPy (.npy, .npz) or MATLAB (.mat, up to version 7.3), a
+/// complex field of OpenHolo (.ohc), an OpenEXR file with channels of real and imaginary parts or of amplitudes and
+/// phases, or pictures: of amplitudes, of phases, of both, or of real and imaginary parts (docs/files.md). Row 0 is at
+/// the top, column 0 at the left, and the middle of the array is at x = y = 0. NPY files are read region by region on
+/// demand, others completely when opened. Throws Error(bad_input) for a file that is damaged or of another kind, and
+/// Error(usage) if `what` does not suit the file's numbers, or neither says the sampling.
 HOGEL_API std::shared_ptr<const FieldSource> open_external_field(const std::filesystem::path& path,
                                                                  const ExternalField& what);
 
-/// Whether a file begins like an array file (.npy or .mat) that open_external_field() reads. Throws Error(bad_input)
-/// for a file that is missing.
-HOGEL_API bool is_external_array(const std::filesystem::path& path);
+/// Whether a file is known by its contents as a field of another program, without more being said: .npy, .npz, .mat,
+/// .ohc, and .exr with channels of fields. Throws Error(bad_input) for a file that is missing.
+HOGEL_API bool is_external_field(const std::filesystem::path& path);
+
+/// Throws Error(usage) for a name whose ending is none of those that write_fields() writes: .npy, .npz, .mat, .exr.
+HOGEL_API void require_fields_name(const std::filesystem::path& path);
+
+/// Writes fields of one sampling, one for each wavelength, in the format of the name's ending, as complex numbers of
+/// single floats: .npy an array [y][x], or [wavelength][y][x] of several; .npz and .mat the same as `field`, with
+/// `pitch` and `wavelength` in metres; .exr channels `field0.real`, `field0.imaginary` and so on, with the sampling as
+/// texts. The file appears under its name when it is complete. Throws Error(usage) for another ending or fields of
+/// different sampling, and Error(cannot_write).
+HOGEL_API void write_fields(const std::filesystem::path& path, std::span<const Field> fields,
+                            const Metadata& metadata = {});
 
 /// Writes samples[y][x] as an array of complex64 in NumPy's format. The file appears under its name when it is
 /// complete. Throws Error(cannot_write).

@@ -67,13 +67,23 @@ struct RawPixels {
 /// picture whose colour channels differ.
 HOGEL_API RawPixels read_raw_pixels(const std::filesystem::path& path, std::size_t max_pixels = std::size_t{1} << 28);
 
+/// The channels of a picture as plain numbers: values[y][x][c] as stored in the file.
+struct RawChannels {
+    Array<float, 3> values;   ///< one channel, or three that differ somewhere
+    std::size_t largest = 0;  ///< the largest number that a pixel could have, such as 255; 0: floating-point numbers
+};
+/// As read_raw_pixels(), for pictures whose colour channels may differ.
+HOGEL_API RawChannels read_raw_channels(const std::filesystem::path& path,
+                                        std::size_t max_pixels = std::size_t{1} << 28);
+
 /// Reads the texts stored in a picture file by write_image() or other programs: string attributes of an EXR file, texts
 /// of a PNG file, the comment of a JPEG file as "ImageDescription". In a TIFF file write_image() stores them as lines
 /// of "ImageDescription". Throws as read_image() does.
 HOGEL_API Metadata read_metadata(const std::filesystem::path& path);
 
 /// The exposure that maps the brightest parts of a picture to display white: the 99.5th percentile of each pixel's
-/// largest channel.
+/// largest channel; or less, so that the median of the pixels that are not black stays below 0.55 of white, because a
+/// white body on black would be white all over.
 HOGEL_API double automatic_exposure(const Image& image);
 
 /// The difference of two pictures. PSNR, SSIM and the largest error are those of display values, sRGB of linear values

@@ -7,6 +7,7 @@
 
 #include "hogel/export.h"
 #include "hogel/field.h"
+#include "hogel/phase_code.h"
 #include "hogel/progress.h"
 #include "hogel/table.h"
 
@@ -64,13 +65,14 @@ struct PatternOptions {
                               ///< of the field is judged, too; best the side of a hogel
     /// Iterations of Gerchberg–Saxton, or the limit of the descent, which ends when it no longer gains. 0: 40, and 200.
     std::size_t iterations = 0;
+    PhaseCode phase_code = {};  ///< how levels stand for phases
 };
 
 /// The values of a modulator's pixels for one wavelength.
 struct Pattern {
     Array<float, 2> values;  ///< [y][x]: phases in cycles [0, 1), or amplitudes [0, 1], before rounding to levels
     Array<std::uint8_t, 2>
-        levels;  ///< [y][x]: 0 to 255, rounded to the modulator's levels; for phases 256 is equivalent to 2π
+        levels;  ///< [y][x]: 0 to 255, rounded to the modulator's levels; for phases in PatternOptions::phase_code
     double efficiency = 0;  ///< share of the light on the modulator that goes into the wave F, after rounding to levels
     /// For phases, the share of the light on the modulator that reproduces the moduli of the field's local spectra, in
     /// squares of `window` pixels. This is the measure for light fields, where the phases between directions are
@@ -99,6 +101,7 @@ HOGEL_API Pattern encode_pattern(const FieldSource& field, const PatternOptions&
 
 /// The complex transmission of a pattern [y][x], e^{2πi v} for phases or v for amplitudes, with v its values rounded to
 /// levels. It is the field behind the modulator in a uniform laser beam.
-HOGEL_API Array<std::complex<float>, 2> transmission(const Pattern& pattern, Encoding encoding);
+HOGEL_API Array<std::complex<float>, 2> transmission(const Pattern& pattern, Encoding encoding,
+                                                     const PhaseCode& phase_code = {});
 
 }  // namespace hogel

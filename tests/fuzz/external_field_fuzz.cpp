@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fields of other programs: .npy, .mat. The first byte chooses the format.
+// Fields of other programs. The first byte chooses the name; the bytes themselves say the format.
 #include "fuzz_file.h"
 #include "hogel/files.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace hogel;
     if (size == 0) return 0;
-    const fuzz::FuzzFile file(data + 1, size - 1, data[0] % 2 == 0 ? ".npy" : ".mat");
+    static constexpr const char* endings[] = {".npy", ".mat", ".npz", ".ohc", ".exr"};
+    const fuzz::FuzzFile file(data + 1, size - 1, endings[data[0] % 5]);
     fuzz::expect_bad_input([&] {
         ExternalField description;
         description.pitch_x = description.pitch_y = 8e-6;

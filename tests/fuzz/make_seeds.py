@@ -5,6 +5,7 @@
 usage: make_seeds.py HOGEL FOLDER      HOGEL: the program; seeds go to FOLDER/<target>/
 """
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
@@ -15,7 +16,7 @@ except ImportError:
     h5py = None  # then there are no files in chunks
 
 SMALL = "--hogels 3x2 --directions 4x3 -q".split()
-MESH_EXTENSIONS = [".gltf", ".glb", ".obj", ".ply", ".stl", ".off", ".fbx"]  # as in mesh_fuzz.cpp
+MESH_EXTENSIONS = [".gltf", ".glb", ".obj", ".ply", ".stl", ".off", ".fbx", ".xyz"]  # as in mesh_fuzz.cpp
 PICTURE_EXTENSIONS = [".png", ".exr", ".bmp", ".jpg", ".tga", ".gif", ".hdr", ".ppm", ".pfm"]  # as in picture_fuzz.cpp
 
 TRIANGLE = {
@@ -31,6 +32,18 @@ TRIANGLE = {
              b'"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}',
 }
 
+# Further files: point clouds, and a document with looks, instances and lights.
+MORE_MESHES = {
+    "points.xyz": b"# x y z r g b\n0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0 0 0 255\n1 1 0 9 9 9\n0 0 1 1 2 3\n1 0 1 1 2 3\n0 1 1 1 2 3\n",
+    "points.ply": b"ply\nformat ascii 1.0\nelement vertex 7\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+                  b"0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n",
+    "looks.gltf": TRIANGLE[".gltf"].replace(b'"nodes":[{"mesh":0}]', b'"nodes":[{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":'
+                  b'{"attributes":{"TRANSLATION":0}},"KHR_lights_punctual":{"light":0}}}],"extensions":{"KHR_lights_punctual":'
+                  b'{"lights":[{"type":"spot","color":[1,1,0]}]}},"materials":[{"alphaMode":"MASK","emissiveFactor":[1,1,1],'
+                  b'"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.7]}}]').replace(
+                  b'{"attributes":{"POSITION":0}}', b'{"attributes":{"POSITION":0},"material":0}'),
+}
+
 PLAIN_PICTURES = {
     "8.ppm": b"P6\n# colours\n2 2\n255\n" + bytes(range(12)),
     "10.ppm": b"P5\n2 1\n1023\n" + bytes([3, 255, 0, 7]),
@@ -38,6 +51,10 @@ PLAIN_PICTURES = {
     "big.pfm": b"Pf\n2 1\n1.0\n" + bytes([63, 128, 0, 0, 64, 0, 0, 0]),
 }
 
+# Four cameras 1 apart, whose pictures agree at the distance 10.
+CAMERAS = ('{"w": 2, "h": 2, "fl_x": 20, "frames": [' + ", ".join(
+    f'{{"file_path": "input_Cam00{2 * r + c}.ppm", "cx": {1 + 2 * c}, "cy": {1 + 2 * r}, "transform_matrix": '
+    f'[[1, 0, 0, {c}], [0, 1, 0, {-r}], [0, 0, 1, 0], [0, 0, 0, 1]]}}' for r in range(2) for c in range(2)) + "]}").encode()
 PARAMETERS = (b"[intrinsics]\nfocal_length_mm = 100\nimage_resolution_x_px = 2\nimage_resolution_y_px = 2\nsensor_size_mm = 35\n"
               b"[extrinsics]\nnum_cams_x = 2\nnum_cams_y = 2\nbaseline_mm = 20\nfocus_distance_m = 0.6\n")
 
@@ -76,6 +93,12 @@ def rewrite_in_chunks(source, target, storage):
         old.visititems(visit)
 
 
+# A complex field of OpenHolo of 2 x 2 samples: two heads, a wavelength, real parts, imaginary parts.
+OPENHOLO = (struct.pack("<2sQ2B3I", b"OH", 24 + 73 + 64, 5, 0, 0, 0, 97) +
+            struct.pack("<3I2dBI7B2dQB", 73, 2, 2, 8e-6, 8e-6, 1, 1, 2, 2, 1, 10, 1, 2, 0, -1, 1, 64, 0) +
+            struct.pack("<9d", 532e-9, *range(8)))
+
+
 def make(hogel, corpus):
     def run(*words):
         subprocess.run([hogel, *words], check=True, cwd=corpus, stdout=subprocess.DEVNULL)
@@ -98,11 +121,17 @@ def make(hogel, corpus):
             put("stream_fuzz", coder, (made / "a.hgl").read_bytes())
         run("propagate", made / "b.h5", "-o", made / "b.npy", "--distance", "1mm", "-q")
         put("external_field_fuzz", "npy", b"\0" + (made / "b.npy").read_bytes())
+        for i, ending in ((1, "mat"), (2, "npz"), (4, "exr")):
+            run("propagate", made / "b.h5", "-o", made / f"b.{ending}", "--distance", "1mm", "--display", "field", "-q")
+            put("external_field_fuzz", ending, bytes([i]) + (made / f"b.{ending}").read_bytes())
+        put("external_field_fuzz", "ohc", b"\3" + OPENHOLO)
         (made / "a.off").write_bytes(TRIANGLE[".off"])
         run("bake", made / "a.off", "-o", made / "a.glb", "--rays", "1", "-q")
         put("mesh_fuzz", "glb", bytes([MESH_EXTENSIONS.index(".glb")]) + (made / "a.glb").read_bytes())
         for extension, data in TRIANGLE.items():
             put("mesh_fuzz", extension[1:], bytes([MESH_EXTENSIONS.index(extension)]) + data)
+        for name, data in MORE_MESHES.items():
+            put("mesh_fuzz", name, bytes([MESH_EXTENSIONS.index(pathlib.Path(name).suffix)]) + data)
         for i, extension in enumerate(PICTURE_EXTENSIONS[:2]):
             run("photo", made / "a.h5", "-o", made / ("p" + extension), "--resolution", "8", "-q")
             put("picture_fuzz", extension[1:], bytes([i]) + (made / ("p" + extension)).read_bytes())
@@ -110,6 +139,7 @@ def make(hogel, corpus):
         put("view_set_fuzz", "npy", b"\0" + (made / "views.npy").read_bytes())
         put("view_set_fuzz", "quilt", b"\1" + PLAIN_PICTURES["8.ppm"])
         put("view_set_fuzz", "parameters", b"\2" + PARAMETERS)
+        put("view_set_fuzz", "cameras", b"\4" + CAMERAS)
         put("view_set_fuzz", "picture", b"\3P5 2 2 255\nabcd")
         for name, data in PLAIN_PICTURES.items():
             put("picture_fuzz", name, bytes([PICTURE_EXTENSIONS.index(name[-4:])]) + data)

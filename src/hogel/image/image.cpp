@@ -20,6 +20,20 @@ float srgb_decode(float display) {
     return display <= 0.04045f ? display / 12.92f : std::pow((display + 0.055f) / 1.055f, 2.4f);
 }
 
+namespace {
+
+// The median of the values above a limit; 0 if hardly any are.
+double median_of_lit(std::vector<float> values, float limit) {
+    const std::size_t all = values.size();
+    std::erase_if(values, [&](float value) { return !(value > limit); });
+    if (values.size() < all / 100 + 1) return 0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+}  // namespace
+
 double automatic_exposure(const Image& image) {
     std::vector<float> largest;
     largest.reserve(image.width() * image.height());
@@ -38,7 +52,11 @@ double automatic_exposure(const Image& image) {
     float white = largest[static_cast<std::size_t>(rank)];
     // If fewer than half a per cent of the pixels are not black, uses the maximum.
     if (!(white > 0)) white = *std::max_element(largest.begin(), largest.end());
-    return white > 0 ? 1 / static_cast<double>(white) : 1;
+    if (!(white > 0)) return 1;
+    constexpr double brightest_median = 0.55;
+    const double median = median_of_lit(std::move(largest), 1e-3f * white);
+    const double brightest = 1 / static_cast<double>(white);
+    return median > 0 ? std::min(brightest, brightest_median / median) : brightest;
 }
 
 }  // namespace hogel

@@ -11,6 +11,7 @@
 #include "hogel/error.h"
 #include "hogel/image.h"
 #include "hogel/image/picture_bytes.h"
+#include "hogel/image/texture_picture.h"
 
 namespace hogel {
 
@@ -43,6 +44,8 @@ void PictureBytes::check_size(std::uint64_t width, std::uint64_t height, std::ui
 
 namespace {
 
+constexpr std::size_t max_texture = std::size_t{1} << 28;  // pixels
+
 constexpr const char* unknown_format =
     "its first bytes are not those of a PNG, JPEG, EXR, TIFF, WebP, GIF, BMP, HDR, PNM, PFM or TGA file";
 
@@ -56,7 +59,7 @@ const std::vector<float>& linear_of_display() {
     return table;
 }
 
-Image linear_image(Samples&& samples) {
+Image linear_image(Samples&& samples, bool numbers = false) {
     Image image;
     if (auto* linear = std::get_if<Array<float, 3>>(&samples)) {
         image.pixels = std::move(*linear);
@@ -70,39 +73,35 @@ Image linear_image(Samples&& samples) {
             image.pixels = Array<float, 3>(values.shape());
             std::ranges::transform(values.elements(), image.pixels.data(),
                                    [&](T value) { return table[static_cast<std::size_t>(value) * step]; });
+            // Alpha, and what is no light, has no transfer curve.
+            const std::size_t channels = values.extent(2), first = numbers ? 0 : channels == 4 ? 3 : channels;
+            constexpr float largest = std::is_same_v<T, std::uint8_t> ? 255.0f : 65535.0f;
+            for (std::size_t c = first; c < channels; ++c)
+                for (std::size_t i = c; i < values.size(); i += channels)
+                    image.pixels.data()[i] = static_cast<float>(values.data()[i]) / largest;
         },
         samples);
     return image;
 }
 
-// The picture must be grey or have three equal channels.
+// One channel where three are equal.
 template <class T>
-RawPixels raw_pixels(const Array<T, 3>& samples, const PictureBytes& file) {
-    RawPixels pixels;
-    const std::size_t channels = samples.extent(2);
-    if constexpr (!std::is_same_v<T, float>) pixels.levels = std::size_t{1} << (8 * sizeof(T));
-    pixels.values = Array<float, 2>({samples.extent(0), samples.extent(1)});
-    for (std::size_t i = 0; i < pixels.values.size(); ++i) {
+RawChannels raw_channels(const Array<T, 3>& samples, std::uint32_t max_code) {
+    RawChannels raw;
+    const std::size_t channels = samples.extent(2), pixels = samples.extent(0) * samples.extent(1);
+    if constexpr (!std::is_same_v<T, float>)
+        raw.largest = max_code > 0 ? max_code : (std::size_t{1} << (8 * sizeof(T))) - 1;
+    bool grey = true;
+    for (std::size_t i = 0; i < pixels && channels == 3; ++i) {
         const T* pixel = samples.data() + i * channels;
-        if (channels == 3 && (pixel[0] != pixel[1] || pixel[0] != pixel[2]))
-            file.fail("its channels differ, but one number a pixel was expected");
-        pixels.values.data()[i] = static_cast<float>(pixel[0]);
+        grey = grey && pixel[0] == pixel[1] && pixel[0] == pixel[2];
     }
-    return pixels;
-}
-
-// Turns what the libraries throw into Error(bad_input).
-template <class Body>
-auto guarded(const PictureBytes& file, const Body& body) {
-    try {
-        return body();
-    } catch (const Error&) {
-        throw;
-    } catch (const std::bad_alloc&) {
-        file.fail("it needs more memory than there is");
-    } catch (const std::exception& error) {
-        file.fail(error.what());
-    }
+    const std::size_t kept = grey ? 1 : channels;
+    raw.values = Array<float, 3>({samples.extent(0), samples.extent(1), kept});
+    for (std::size_t i = 0; i < pixels; ++i)
+        for (std::size_t c = 0; c < kept; ++c)
+            raw.values.data()[i * kept + c] = static_cast<float>(samples.data()[i * channels + c]);
+    return raw;
 }
 
 Picture read_bytes(const PictureBytes& file) {
@@ -116,8 +115,9 @@ Picture read_bytes(const PictureBytes& file) {
     });
 }
 
-Picture read_file(const std::filesystem::path& path, std::size_t max_pixels, bool only_texts = false) {
-    PictureBytes file{{}, path.string(), max_pixels, only_texts};
+Picture read_file(const std::filesystem::path& path, std::size_t max_pixels, bool only_texts = false,
+                  bool with_alpha = false) {
+    PictureBytes file{{}, path.string(), max_pixels, only_texts, with_alpha};
     std::error_code status;
     const std::filesystem::file_status there = std::filesystem::status(path, status);
     if (!std::filesystem::exists(there)) file.fail("no such file");
@@ -159,12 +159,38 @@ Image decode_image(std::span<const unsigned char> bytes, const std::string& name
     return guarded({{}, name}, [&] { return linear_image(read_bytes({bytes, name, max_pixels}).samples); });
 }
 
-RawPixels read_raw_pixels(const std::filesystem::path& path, std::size_t max_pixels) {
-    const PictureBytes file{{}, path.string()};
-    return guarded(file, [&] {
-        return std::visit([&](const auto& samples) { return raw_pixels(samples, file); },
-                          read_file(path, max_pixels).samples);
+Image image::decode_texture(std::span<const unsigned char> bytes, const std::string& name, TexturePixels pixels) {
+    return guarded({{}, name}, [&] {
+        const bool alpha = pixels == TexturePixels::color_and_alpha;
+        return linear_image(read_bytes({bytes, name, max_texture, false, alpha}).samples,
+                            pixels == TexturePixels::numbers);
     });
+}
+
+Image image::read_texture(const std::filesystem::path& path, TexturePixels pixels) {
+    return guarded({{}, path.string()}, [&] {
+        const bool alpha = pixels == TexturePixels::color_and_alpha;
+        return linear_image(read_file(path, max_texture, false, alpha).samples, pixels == TexturePixels::numbers);
+    });
+}
+
+RawChannels read_raw_channels(const std::filesystem::path& path, std::size_t max_pixels) {
+    return guarded({{}, path.string()}, [&] {
+        const Picture picture = read_file(path, max_pixels);
+        return std::visit([&](const auto& samples) { return raw_channels(samples, picture.max_code); },
+                          picture.samples);
+    });
+}
+
+RawPixels read_raw_pixels(const std::filesystem::path& path, std::size_t max_pixels) {
+    const RawChannels raw = read_raw_channels(path, max_pixels);
+    if (raw.values.extent(2) != 1)
+        PictureBytes{{}, path.string()}.fail("its channels differ, but one number a pixel was expected");
+    RawPixels pixels;
+    pixels.values = Array<float, 2>({raw.values.extent(0), raw.values.extent(1)});
+    std::ranges::copy(raw.values.elements(), pixels.values.data());
+    pixels.levels = raw.largest == 0 ? 0 : raw.largest < 256 ? 256 : 65536;
+    return pixels;
 }
 
 Metadata read_metadata(const std::filesystem::path& path) { return read_file(path, 0, true).texts; }

@@ -253,5 +253,17 @@ TEST(AutomaticExposure, brings_the_brightest_half_percent_to_white) {
     EXPECT_EQ(automatic_exposure(star), 0.25);
 }
 
+TEST(AutomaticExposure, leaves_a_white_body_on_black_its_shades) {
+    // A body that fills a third of the picture, most of it nearly as bright as its brightest part.
+    Image image(100, 90, 3);
+    for (std::size_t i = 0; i < 3000; ++i)
+        for (std::size_t c = 0; c < 3; ++c) image.pixels(i / 100, i % 100, c) = i < 300 ? 0.3f : i < 2900 ? 1.8f : 2.0f;
+    EXPECT_NEAR(automatic_exposure(image), 0.55 / 1.8, 1e-6);
+    // The highlight of a dark body is white.
+    for (std::size_t i = 300; i < 2900; ++i)
+        for (std::size_t c = 0; c < 3; ++c) image.pixels(i / 100, i % 100, c) = 0.5f;
+    EXPECT_NEAR(automatic_exposure(image), 0.5, 1e-6);
+}
+
 }  // namespace
 }  // namespace hogel::image

@@ -3,10 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <filesystem>
+#include <new>
 #include <span>
 #include <string>
 
+#include "hogel/error.h"
 #include "hogel/image/formats/formats.h"
 
 namespace hogel::image {
@@ -20,6 +23,20 @@ constexpr std::size_t beginning = 18;
 using PictureReader = Picture (*)(const PictureBytes&);
 /// The reader of the format that a picture file begins with; null for an unknown one.
 PictureReader picture_reader(std::span<const unsigned char> bytes);
+
+/// Turns what the libraries throw into Error(bad_input).
+template <class Body>
+auto guarded(const PictureBytes& file, const Body& body) {
+    try {
+        return body();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        file.fail("it needs more memory than there is");
+    } catch (const std::exception& error) {
+        file.fail(error.what());
+    }
+}
 
 /// Reads a picture file as it is stored. Throws as read_image() does.
 Picture read_picture(const std::filesystem::path& path, std::size_t max_pixels);

@@ -44,7 +44,8 @@ std::vector<FileFormat> mesh_rows() {
     };
     add("gltf", {".gltf", ".glb"}, "glTF 2.0, with its materials and textures");
     add("obj", {".obj"}, "Wavefront OBJ");
-    add("ply", {".ply"}, "Stanford polygons");
+    add("ply", {".ply"}, "Stanford polygons, and point clouds");
+    add("xyz", {".xyz", ".pts", ".asc"}, "point clouds as text: x y z, and a colour or a normal");
     add("stl", {".stl"}, "stereolithography");
     add("off", {".off"}, "Object File Format");
     add("dae", {".dae"}, "COLLADA");
@@ -57,8 +58,10 @@ std::vector<FileFormat> all_formats() {
     constexpr FileKind light_field = FileKind::light_field, hologram = FileKind::hologram;
     std::vector<FileFormat> rows{
         {"hgl", {".hgl"}, "compressed light fields", {light_field}, {light_field}},
-        {"npy", {".npy"}, "NumPy arrays: the samples of one field", {hologram}, {hologram}},
-        {"mat", {".mat"}, "MATLAB arrays, versions 5 to 7.3: the samples of one field", {hologram}, {}},
+        {"npy", {".npy"}, "NumPy arrays: the samples of fields", {hologram}, {hologram}},
+        {"npz", {".npz"}, "NumPy archives: the samples of fields and their sampling", {hologram}, {hologram}},
+        {"mat", {".mat"}, "MATLAB arrays, versions 5 to 7.3: the samples of fields", {hologram}, {hologram}},
+        {"ohc", {".ohc"}, "OpenHolo complex fields", {hologram}, {}},
     };
     if (core::part("HDF5").built_in)
         rows.insert(rows.begin(), {"hdf5",
@@ -86,6 +89,9 @@ std::optional<FileFormat> format_of_name(const std::filesystem::path& path) {
         if (std::ranges::count(format.extensions, extension) > 0) return format;
     if (const image::PictureFormat* format = image::format_by_extension(path))
         return FileFormat{format->name, format->extensions, format->text, {}, {}};
+    // What programs write by the library's pictures and facts.
+    for (const char* other : {"mp4", "apng", "svg", "json", "html"})
+        if (extension.substr(1) == other) return FileFormat{other, {extension}, "", {}, {}};
     return std::nullopt;
 }
 

@@ -194,6 +194,47 @@ Picture read_exr(const PictureBytes& file) {
     return picture;
 }
 
+ExrChannels read_exr_channels(const PictureBytes& file) {
+    const std::string damage = exr_structure_error(file.bytes);
+    if (!damage.empty()) file.fail(damage);
+    const Imf::Header header = first_header(file);
+    ExrChannels picture{{}, texts_of(header)};
+    std::vector<Channel> channels;
+    for (const Channel& channel : whole_channels(header.channels()))
+        if (!channel.whole) channels.push_back(channel);
+    for (const Channel& channel : channels) picture.channels.emplace_back(channel.name, Array<float, 2>());
+    if (file.only_texts || channels.empty()) return picture;
+    const Size size = checked_size(header, file);
+    ExrSource source(file.bytes, file.name);
+    Imf::InputFile in(source, threads);
+    const Array<float, 3> samples = read_channels(in, channels, size);
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+        Array<float, 2>& plane = picture.channels[c].second = Array<float, 2>({size.height, size.width});
+        for (std::size_t i = 0; i < plane.size(); ++i) plane.data()[i] = samples.data()[i * channels.size() + c];
+    }
+    return picture;
+}
+
+std::vector<unsigned char> exr_channels_file(const ExrChannels& picture) {
+    const std::size_t height = picture.channels.at(0).second.extent(0), width = picture.channels[0].second.extent(1);
+    Imf::Header header(static_cast<int>(width), static_cast<int>(height));
+    header.compression() = Imf::ZIP_COMPRESSION;
+    Imf::FrameBuffer buffer;
+    for (const auto& [name, plane] : picture.channels) {
+        header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+        auto* samples = reinterpret_cast<char*>(const_cast<float*>(plane.data()));  // they are only read
+        buffer.insert(name, Imf::Slice(Imf::FLOAT, samples, sizeof(float), width * sizeof(float)));
+    }
+    add_texts(header, picture.texts);
+    ExrSink sink;
+    {
+        Imf::OutputFile out(sink, header, threads);
+        out.setFrameBuffer(buffer);
+        out.writePixels(static_cast<int>(height));
+    }
+    return std::move(sink.bytes);
+}
+
 // Whether half floats hold a picture: it has no finite value beyond their largest, and is not so dark that all of its
 // values would have fewer than eleven bits.
 bool halves_hold(View<const float, 3> pixels) {

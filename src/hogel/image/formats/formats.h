@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct PictureBytes {
     std::string name;            ///< for messages
     std::size_t max_pixels = 0;  ///< check_size() refuses more
     bool only_texts = false;     ///< leave the pixels unread; check_size() is not called
+    /// Keep alpha, in a picture of four channels. PNG, TGA and WebP; readers of other formats leave it out.
+    bool with_alpha = false;
 
     /// Throws Error(bad_input) with the name and the reason on one line.
     [[noreturn]] void fail(const std::string& why) const;
@@ -31,8 +34,9 @@ struct PictureBytes {
                     std::uint64_t sample_bytes) const;
 };
 
-/// Samples [y][x][c] as stored in a file, row 0 at the top, with one or three channels (R, G, B); alpha and other
-/// channels are left out. Whole numbers have a transfer curve, floating-point numbers are linear.
+/// Samples [y][x][c] as stored in a file, row 0 at the top, with one or three channels (R, G, B), or with alpha as
+/// a fourth where PictureBytes asks for it; other channels are left out. Whole numbers have a transfer curve,
+/// floating-point numbers are linear.
 using Samples = std::variant<Array<std::uint8_t, 3>, Array<std::uint16_t, 3>, Array<float, 3>>;
 
 /// What a reader finds in a file.
@@ -49,6 +53,13 @@ Picture read_png(const PictureBytes& file);
 Picture read_jpeg(const PictureBytes& file);
 /// The first part of the file, its data window alone. Of several layers the first with colours or luminance is taken.
 Picture read_exr(const PictureBytes& file);
+/// The channels of the first part of an EXR file that have a sample for each pixel, by name, as [y][x].
+struct ExrChannels {
+    std::vector<std::pair<std::string, Array<float, 2>>> channels;
+    Metadata texts;
+};
+/// With `only_texts` the names of the channels and the texts alone.
+ExrChannels read_exr_channels(const PictureBytes& file);
 /// BMP, TGA, the first picture of a GIF, and Radiance HDR.
 Picture read_with_stb(const PictureBytes& file);
 /// Portable pixmaps, P5 and P6.
@@ -71,6 +82,8 @@ std::vector<unsigned char> png_file(View<const std::uint16_t, 3> pixels, const M
 std::vector<unsigned char> pnm_file(View<const std::uint16_t, 3> codes, std::uint32_t max_code);
 std::vector<unsigned char> pfm_file(View<const float, 3> pixels);
 std::vector<unsigned char> exr_file(View<const float, 3> pixels, const Metadata& texts);
+/// Channels of single floats and of one size. Throws std::exception.
+std::vector<unsigned char> exr_channels_file(const ExrChannels& picture);
 std::vector<unsigned char> bmp_file(View<const std::uint8_t, 3> pixels);
 std::vector<unsigned char> tiff_file(View<const std::uint8_t, 3> pixels, const Metadata& texts);
 

@@ -150,6 +150,26 @@ TEST(PngReader, reads_interlaced_and_palette_and_narrow_pictures) {
     expect_samples<std::uint8_t>(read_png(request(png_of(PNG_COLOR_TYPE_GRAY, 1, 0, 8, {{0xa3}}))), bits);
 }
 
+TEST(PngReader, keeps_alpha_where_it_is_asked_for) {
+    const auto read = [](const Bytes& bytes) {
+        PictureBytes file = request(bytes);
+        file.with_alpha = true;
+        return read_png(file);
+    };
+    Array<std::uint16_t, 3> grey({1, 1, 4});
+    std::ranges::fill_n(grey.data(), 3, std::uint16_t{0x1234});
+    grey(0, 0, 3) = 0x0506;
+    expect_samples<std::uint16_t>(read(png_of(PNG_COLOR_TYPE_GRAY_ALPHA, 16, 0, 1, {{0x12, 0x34, 5, 6}})), grey);
+    const std::vector<png_color> palette{{1, 2, 3}, {250, 40, 7}, {9, 9, 9}};
+    Array<std::uint8_t, 3> colours({1, 2, 4});
+    const std::uint8_t expected[] = {9, 9, 9, 255, 250, 40, 7, 128};
+    std::ranges::copy(expected, colours.data());
+    expect_samples<std::uint8_t>(read(png_of(PNG_COLOR_TYPE_PALETTE, 4, 0, 2, {{0x21}}, palette, {0, 128})), colours);
+    Array<std::uint8_t, 3> opaque({1, 1, 3});  // nothing to keep
+    std::ranges::copy(std::array<std::uint8_t, 3>{250, 40, 7}, opaque.data());
+    expect_samples<std::uint8_t>(read(png_of(PNG_COLOR_TYPE_PALETTE, 4, 0, 1, {{0x10}}, palette)), opaque);
+}
+
 TEST(PngReader, reads_16_bits_exactly_and_drops_alpha) {
     // Two grey pixels with alpha and one of colours with alpha.
     Array<std::uint16_t, 3> grey({1, 2, 1});

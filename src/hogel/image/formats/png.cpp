@@ -100,21 +100,30 @@ class Reader {
         const bool deep = png_get_bit_depth(png_, info_) == 16;
         const int type = png_get_color_type(png_, info_);
         const bool grey = (type & PNG_COLOR_MASK_COLOR) == 0;
-        file_.check_size(width, height, png_get_channels(png_, info_), deep ? 2 : 1);
+        const bool alpha = file_.with_alpha && ((type & PNG_COLOR_MASK_ALPHA) != 0 || has_transparent_colors());
+        file_.check_size(width, height, alpha ? 4 : png_get_channels(png_, info_), deep ? 2 : 1);
         run([&] {
             if (type == PNG_COLOR_TYPE_PALETTE) png_set_palette_to_rgb(png_);
             if (grey) png_set_expand_gray_1_2_4_to_8(png_);
-            png_set_strip_alpha(png_);
+            if (alpha) {
+                png_set_tRNS_to_alpha(png_);
+                if (grey) png_set_gray_to_rgb(png_);
+            } else {
+                png_set_strip_alpha(png_);
+            }
             if (deep && std::endian::native == std::endian::little) png_set_swap(png_);
             passes_ = png_set_interlace_handling(png_);
             png_read_update_info(png_, info_);
         });
-        const Shape<3> shape{height, width, grey ? 1u : 3u};
+        const Shape<3> shape{height, width, alpha ? 4u : grey ? 1u : 3u};
         if (deep) return rows(Array<std::uint16_t, 3>(shape));
         return rows(Array<std::uint8_t, 3>(shape));
     }
 
   private:
+    // A palette or one colour whose alpha a chunk states.
+    bool has_transparent_colors() const { return png_get_valid(png_, info_, PNG_INFO_tRNS) != 0; }
+
     template <class Step>
     void run(const Step& step) {
         if (!attempt(png_, step)) file_.fail(failure_.text.data());

@@ -131,8 +131,9 @@ Picture read_with_stb(const PictureBytes& file) {
     Source start{file.bytes};
     const bool linear = stbi_is_hdr_from_callbacks(&callbacks, &start) != 0;
     const auto positive = [](int size) { return static_cast<std::uint64_t>(std::max(size, 0)); };
-    file.check_size(positive(width), positive(height), positive(stored), linear ? sizeof(float) : 1);
-    const int channels = stored >= 3 && !has_grey_palette(file.bytes) ? 3 : 1;
+    const bool alpha = file.with_alpha && !linear && (stored == 2 || stored == 4);
+    file.check_size(positive(width), positive(height), alpha ? 4 : positive(stored), linear ? sizeof(float) : 1);
+    const int channels = alpha ? 4 : stored >= 3 && !has_grey_palette(file.bytes) ? 3 : 1;
     Picture picture;
     picture.samples = linear ? load_samples<float>(file, channels, stbi_loadf_from_callbacks)
                              : load_samples<stbi_uc>(file, channels, stbi_load_from_callbacks);

@@ -9,7 +9,8 @@ namespace hogel::io::arrays {
 namespace {
 
 struct Stream : z_stream {
-    Stream() : z_stream{} { started = inflateInit(this) == Z_OK; }
+    // zlib's format or, for negative bits of the window, bare data.
+    explicit Stream(int bits = MAX_WBITS) : z_stream{} { started = inflateInit2(this, bits) == Z_OK; }
     ~Stream() {
         if (started) inflateEnd(this);
     }
@@ -41,6 +42,24 @@ bool inflate(const std::filesystem::path&, std::span<const unsigned char> packed
     if (extent == Extent::first) return inflate_first(packed, plain);
     uLongf length = plain.size();
     return uncompress(plain.data(), &length, packed.data(), packed.size()) == Z_OK && length == plain.size();
+}
+
+bool inflate_bare(const std::filesystem::path&, std::span<const unsigned char> packed, std::span<unsigned char> plain) {
+    Stream stream(-MAX_WBITS);
+    if (!stream.started) return false;
+    constexpr std::size_t most = 1u << 30;
+    for (std::size_t from = 0, to = 0;;) {
+        const std::size_t in = std::min(packed.size() - from, most), out = std::min(plain.size() - to, most);
+        stream.next_in = const_cast<unsigned char*>(packed.data() + from);
+        stream.avail_in = static_cast<unsigned>(in);
+        stream.next_out = plain.data() + to;
+        stream.avail_out = static_cast<unsigned>(out);
+        const int status = ::inflate(&stream, Z_NO_FLUSH);
+        from += in - stream.avail_in;
+        to += out - stream.avail_out;
+        if (status == Z_STREAM_END) return to == plain.size();
+        if (status != Z_OK || (in == stream.avail_in && out == stream.avail_out)) return false;
+    }
 }
 
 }  // namespace hogel::io::arrays

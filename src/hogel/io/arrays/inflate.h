@@ -18,4 +18,8 @@ enum class Extent {
 bool inflate(const std::filesystem::path& path, std::span<const unsigned char> packed, std::span<unsigned char> plain,
              Extent extent);
 
+/// Decompresses bare deflated data (RFC 1951), as in ZIP files, to exactly `plain.size()` bytes. Otherwise as above.
+bool inflate_bare(const std::filesystem::path& path, std::span<const unsigned char> packed,
+                  std::span<unsigned char> plain);
+
 }  // namespace hogel::io::arrays

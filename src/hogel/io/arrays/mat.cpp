@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "hogel/io/arrays/mat.h"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "hogel/core/raw_file.h"
-#include "hogel/io/arrays/mat.h"
 
 namespace hogel::io::arrays {
 namespace {
-
-std::vector<unsigned char> all_bytes(const std::filesystem::path& path) {
-    const core::RawFile file(path, core::RawFile::Mode::read, path);
-    std::vector<unsigned char> bytes(file.size());
-    file.read(0, bytes.data(), bytes.size());
-    return bytes;
-}
 
 // Whether the version in the header, which precedes the byte-order mark, is 7.3.
 bool is_version_73(const std::filesystem::path& path) {
@@ -24,40 +19,33 @@ bool is_version_73(const std::filesystem::path& path) {
     return version[1] == 2 && version[2] == 'I' && version[3] == 'M';
 }
 
-// The only array. Throws Error(bad_input) if there is none or more than one.
-const MatArray& chosen(const std::filesystem::path& path, const std::vector<MatArray>& arrays,
-                       const std::string& name) {
-    if (arrays.size() == 1) return arrays.front();
-    if (arrays.empty())
-        fail_external(path, name.empty() ? "it holds no array of numbers with two axes"
-                                         : fmt::format("it holds no array '{}' of numbers with two axes", name));
-    std::string names;
-    for (const MatArray& array : arrays) names += fmt::format("{}{}", names.empty() ? "" : ", ", array.name);
-    fail_external(path, fmt::format("it holds several arrays; which one is meant of {}?", names));
+// The arrays that a field named like this may be in.
+std::vector<NumberArray> arrays_of(const std::filesystem::path& path, const std::string& variable) {
+    std::vector<std::string> only;
+    if (!variable.empty()) {
+        const std::size_t comma = variable.find(',');
+        only.push_back(variable.substr(0, comma));
+        if (comma != std::string::npos) only.push_back(variable.substr(comma + 1));
+    }
+    return is_version_73(path) ? read_mat73(path, only) : read_mat5(path, all_bytes(path), only);
 }
 
 }  // namespace
+
+bool is_wanted(const std::string& name, std::uint64_t samples, std::span<const std::string> only) {
+    return only.empty() || samples <= 3 || std::ranges::find(only, name) != only.end();
+}
 
 bool is_mat(std::span<const unsigned char> start) {
     return start.size() >= 128 && std::memcmp(start.data(), "MATLAB ", 7) == 0;
 }
 
 std::unique_ptr<FieldSource> open_mat(const std::filesystem::path& path, const ExternalField& what) {
-    const std::vector<MatArray> arrays =
-        is_version_73(path) ? read_mat73(path, what.variable) : read_mat5(path, all_bytes(path), what.variable);
-    const MatArray& array = chosen(path, arrays, what.variable);
-    const bool complex = !array.imaginary.empty();
-    const SampleConverter convert(path, what, array.floating ? Number::real : array.real_number, complex);
-    auto field = std::make_unique<Field>(external_grid(path, what, array.width, array.height));
-    const std::size_t real_bytes = bytes_of(array.real_number), imaginary_bytes = bytes_of(array.imaginary_number);
-    for (std::size_t x = 0; x < array.width; ++x)
-        for (std::size_t y = 0; y < array.height; ++y) {
-            const std::size_t i = x * array.height + y;
-            const double imaginary =
-                complex ? number_at(array.imaginary_number, &array.imaginary[i * imaginary_bytes]) : 0;
-            field->samples(y, x) = convert(number_at(array.real_number, &array.real[i * real_bytes]), imaginary);
-        }
-    return field;
+    return open_arrays(path, what, arrays_of(path, what.variable));
+}
+
+ExternalFacts mat_facts(const std::filesystem::path& path, const ExternalField& what) {
+    return facts_of_arrays(path, what, arrays_of(path, what.variable), "mat");
 }
 
 }  // namespace hogel::io::arrays

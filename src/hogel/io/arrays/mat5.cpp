@@ -86,29 +86,32 @@ bool number_of(std::uint32_t type, Number& number) {
     return false;
 }
 
-// Appends the array if it is numeric, has two axes, and has that name.
-void take_array(const std::filesystem::path& path, std::span<const unsigned char> bytes, const std::string& name,
-                std::vector<MatArray>& arrays) {
+// Appends the array if it is numeric, has two or three axes, and is wanted.
+void take_array(const std::filesystem::path& path, std::span<const unsigned char> bytes,
+                std::span<const std::string> only, std::vector<NumberArray>& arrays) {
     Elements parts(path, bytes);
     const Element flags = parts.next(), extents = parts.next(), label = parts.next();
     if (flags.type != type_uint32 || flags.bytes.size() != 8 || extents.type != type_int32 || label.type != type_int8)
         fail_external(path, "an array's head is damaged");
     constexpr unsigned char first_number = 6, last_number = 15, complex = 0x08;
-    MatArray array;
+    NumberArray array;
     array.name.assign(label.bytes.begin(), label.bytes.end());
+    array.by_columns = true;
     const unsigned char kind = flags.bytes[0];
-    if (kind < first_number || kind > last_number || extents.bytes.size() != 8 || (!name.empty() && array.name != name))
-        return;
-    std::int32_t size[2];
-    std::memcpy(size, extents.bytes.data(), sizeof size);
-    if (size[0] <= 1 && size[1] <= 1 && name.empty()) return;  // a parameter, such as a wavelength
-    if (size[0] <= 0 || size[1] <= 0) fail_external(path, fmt::format("its array '{}' is empty", array.name));
-    array.height = static_cast<std::size_t>(size[0]);
-    array.width = static_cast<std::size_t>(size[1]);
+    const std::size_t axes = extents.bytes.size() / 4;
+    if (kind < first_number || kind > last_number || extents.bytes.size() % 4 != 0 || axes < 2 || axes > 3) return;
+    std::uint64_t count = 1;
+    for (std::size_t axis = 0; axis < axes; ++axis) {
+        std::int32_t extent = 0;
+        std::memcpy(&extent, &extents.bytes[4 * axis], sizeof extent);
+        if (extent <= 0) return;
+        array.shape.push_back(static_cast<std::size_t>(extent));
+        count = std::min(count * static_cast<std::uint64_t>(extent), std::uint64_t{1} << 40);
+    }
+    if (!is_wanted(array.name, count, only)) return;
     const auto take = [&](Number& number, std::vector<unsigned char>& to) {
         const Element numbers = parts.next();
-        if (!number_of(numbers.type, number) || numbers.bytes.size() / bytes_of(number) / array.width != array.height ||
-            numbers.bytes.size() != array.height * array.width * bytes_of(number))
+        if (!number_of(numbers.type, number) || numbers.bytes.size() != count * bytes_of(number))
             fail_external(path, fmt::format("its array '{}' is damaged", array.name));
         to.assign(numbers.bytes.begin(), numbers.bytes.end());
     };
@@ -121,21 +124,21 @@ void take_array(const std::filesystem::path& path, std::span<const unsigned char
 
 }  // namespace
 
-std::vector<MatArray> read_mat5(const std::filesystem::path& path, std::span<const unsigned char> bytes,
-                                const std::string& name) {
+std::vector<NumberArray> read_mat5(const std::filesystem::path& path, std::span<const unsigned char> bytes,
+                                   std::span<const std::string> only) {
     if (bytes.size() < header_bytes || bytes[126] != 'I' || bytes[127] != 'M')
         fail_external(path, "it is not a little-endian MAT file");
     if (bytes[125] != 1) fail_external(path, fmt::format("its MAT version {} is not known", bytes[125]));
-    std::vector<MatArray> arrays;
+    std::vector<NumberArray> arrays;
     Elements elements(path, bytes.subspan(header_bytes));
     while (!elements.empty()) {
         const Element element = elements.next();
-        if (element.type == type_array) take_array(path, element.bytes, name, arrays);
+        if (element.type == type_array) take_array(path, element.bytes, only, arrays);
         if (element.type != type_compressed) continue;
         const std::vector<unsigned char> held = inflated(path, element.bytes);
         Elements inside(path, held);
         const Element array = inside.next();
-        if (array.type == type_array) take_array(path, array.bytes, name, arrays);
+        if (array.type == type_array) take_array(path, array.bytes, only, arrays);
     }
     return arrays;
 }

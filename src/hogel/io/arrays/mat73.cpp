@@ -38,19 +38,19 @@ bool is_numeric(const Hdf5V0Dataset& dataset) {
 
 }  // namespace
 
-std::vector<MatArray> read_mat73(const std::filesystem::path& path, const std::string& name) {
+std::vector<NumberArray> read_mat73(const std::filesystem::path& path, std::span<const std::string> only) {
     const Hdf5V0 file(path);
-    std::vector<MatArray> arrays;
+    std::vector<NumberArray> arrays;
     for (const Hdf5V0Dataset& dataset : file.datasets()) {
-        if (!is_numeric(dataset) || dataset.shape.size() != 2 || (!name.empty() && dataset.name != name)) continue;
-        if (dataset.shape[0] <= 1 && dataset.shape[1] <= 1 && name.empty())
-            continue;  // a parameter, such as a wavelength
-        MatArray array;
+        if (!is_numeric(dataset) || dataset.shape.size() < 2 || dataset.shape.size() > 3 || dataset.samples() == 0 ||
+            !is_wanted(dataset.name, dataset.samples(), only))
+            continue;
+        NumberArray array;
         array.name = dataset.name;
-        array.width = dataset.shape[0];
-        array.height = dataset.shape[1];
+        array.shape.assign(dataset.shape.rbegin(), dataset.shape.rend());
+        array.by_columns = true;
         array.real_number = dataset.members[0].number;
-        array.floating = array.real_number == Number::single || array.real_number == Number::real;
+        array.floating = !is_whole(array.real_number);
         const std::vector<unsigned char> elements = file.read(dataset);
         array.real = numbers_of(elements, dataset.element_bytes, dataset.members[0]);
         if (is_complex(dataset)) {

@@ -11,4 +11,8 @@ bool inflate(const std::filesystem::path& path, std::span<const unsigned char>, 
     core::refuse_without("zlib", fmt::format("cannot read '{}', which is compressed", path.string()));
 }
 
+bool inflate_bare(const std::filesystem::path& path, std::span<const unsigned char>, std::span<unsigned char>) {
+    core::refuse_without("zlib", fmt::format("cannot read '{}', which is compressed", path.string()));
+}
+
 }  // namespace hogel::io::arrays

@@ -12,9 +12,9 @@
 #include <string_view>
 #include <vector>
 
-#include "hogel/core/output_file.h"
 #include "hogel/core/raw_file.h"
 #include "hogel/error.h"
+#include "hogel/io/arrays/named_arrays.h"
 
 namespace hogel::io::arrays {
 namespace {
@@ -53,7 +53,8 @@ bool take(std::string_view& text, char expected) {
     return true;
 }
 
-void parse_type(const std::filesystem::path& path, std::string_view descr, NpyHeader& header) {
+// Returns false for types that are no numbers, or none that are read.
+bool take_type(std::string_view descr, NpyHeader& header) {
     struct Known {
         std::string_view name;
         Number number;
@@ -74,9 +75,13 @@ void parse_type(const std::filesystem::path& path, std::string_view descr, NpyHe
             header.number = type.number;
             header.complex = type.complex;
             header.big_endian = descr[1] == '>';
-            return;
+            return true;
         }
     }
+    return false;
+}
+
+[[noreturn]] void fail_type(const std::filesystem::path& path, std::string_view descr) {
     std::string shown(descr.substr(0, std::min<std::size_t>(descr.find(','), 12)));
     for (char& c : shown)
         if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~') c = '?';
@@ -95,43 +100,57 @@ bool parse_shape(std::string_view text, std::vector<std::size_t>& shape) {
 }
 
 // Throws unless all numbers are in the file.
-void require_numbers(const std::filesystem::path& path, const core::RawFile& file, const NpyHeader& header) {
+void require_numbers(const std::filesystem::path& path, std::uint64_t size, const NpyHeader& header) {
     const std::uint64_t bytes = header.bytes_of_sample();
-    std::uint64_t held = (file.size() - header.begin) / bytes;
+    std::uint64_t held = (size - header.begin) / bytes;
     for (const std::size_t extent : header.shape) held = extent == 0 ? held : held / extent;
     if (held == 0 && std::ranges::count(header.shape, 0u) == 0)
         fail_external(path, fmt::format("it is truncated: {} bytes are too few for {} numbers of {} bytes",
-                                        file.size() - header.begin, fmt::join(header.shape, "x"), bytes));
+                                        size - header.begin, fmt::join(header.shape, "x"), bytes));
+}
+
+// The text of the header; sets where the numbers begin.
+std::string text_of(const std::filesystem::path& path, std::span<const unsigned char> start, std::uint64_t& begin) {
+    if (start.size() < 12) fail_external(path, "it is truncated inside its header");
+    const int version = start[6];
+    if (version < 1 || version > 3) fail_external(path, fmt::format("its NPY version {} is not known", version));
+    std::size_t length = start[8] + 256u * start[9];
+    begin = 10;
+    if (version > 1) {
+        length += (std::size_t{start[10]} << 16) + (std::size_t{start[11]} << 24);
+        begin = 12;
+    }
+    if (length > max_header || begin + length > start.size())
+        fail_external(path, fmt::format("its header of {} bytes is damaged", length));
+    const std::string text(reinterpret_cast<const char*>(&start[begin]), length);
+    begin += length;
+    return text;
 }
 
 }  // namespace
 
-NpyHeader read_npy_header(const std::filesystem::path& path, const core::RawFile& file) {
-    std::array<unsigned char, 12> start{};
-    file.read(0, start.data(), 10);
-    const int version = start[6];
-    if (version < 1 || version > 3) fail_external(path, fmt::format("its NPY version {} is not known", version));
+bool npy_holds_numbers(const std::filesystem::path& path, std::span<const unsigned char> start) {
     NpyHeader header;
-    std::size_t length = start[8] + 256u * start[9];
-    header.begin = 10;
-    if (version > 1) {
-        file.read(10, &start[10], 2);
-        length += (std::size_t{start[10]} << 16) + (std::size_t{start[11]} << 24);
-        header.begin = 12;
-    }
-    if (length > max_header || header.begin + length > file.size())
-        fail_external(path, fmt::format("its header of {} bytes is damaged", length));
-    std::string text(length, '\0');
-    file.read(header.begin, text.data(), length);
-    header.begin += length;
+    return take_type(value_of(text_of(path, start, header.begin), "descr"), header);
+}
 
-    parse_type(path, value_of(text, "descr"), header);
+NpyHeader parse_npy_header(const std::filesystem::path& path, std::span<const unsigned char> start,
+                           std::uint64_t size) {
+    NpyHeader header;
+    const std::string text = text_of(path, start, header.begin);
+    if (!take_type(value_of(text, "descr"), header)) fail_type(path, value_of(text, "descr"));
     const std::string_view order = value_of(text, "fortran_order");
     header.by_columns = order.starts_with("True");
     if (!parse_shape(value_of(text, "shape"), header.shape) || (!header.by_columns && !order.starts_with("False")))
         fail_external(path, "its header says nothing of the array's shape or order");
-    require_numbers(path, file, header);
+    require_numbers(path, size, header);
     return header;
+}
+
+NpyHeader read_npy_header(const std::filesystem::path& path, const core::RawFile& file) {
+    std::vector<unsigned char> start(std::min<std::uint64_t>(file.size(), npy_start));
+    file.read(0, start.data(), start.size());
+    return parse_npy_header(path, start, file.size());
 }
 
 std::string npy_beginning(const std::string& type, std::span<const std::size_t> shape) {
@@ -146,31 +165,20 @@ std::string npy_beginning(const std::string& type, std::span<const std::size_t> 
 
 namespace {
 
-// A field, or three, in an array.
-struct Planes {
-    std::size_t height = 0, width = 0, colours = 1;
-    bool colours_last = false;  // [row][column][colour] instead of [colour][row][column]
-};
-
-// One or three numbers in front of rows and columns, or else behind them, are colours.
-Planes planes_of(const std::filesystem::path& path, const NpyHeader& header) {
-    std::vector<std::size_t> axes = header.shape;
-    Planes planes;
-    const auto is_colours = [](std::size_t extent) { return extent == 1 || extent == 3; };
-    if (axes.size() == 3 && (is_colours(axes.front()) || is_colours(axes.back()))) {
-        planes.colours_last = !is_colours(axes.front());
-        const auto colours = planes.colours_last ? axes.end() - 1 : axes.begin();
-        planes.colours = *colours;
-        axes.erase(colours);
-    }
-    if (axes.size() != 2)
-        fail_external(path,
-                      "an array of two axes, [row][column], or of three with three colours first or last was expected");
-    if (header.by_columns && planes.colours > 1)
-        fail_external(path, "colours in an array by columns are not read; an array in C order was expected");
-    planes.height = axes[0];
-    planes.width = axes[1];
-    return planes;
+ExternalFacts facts_of(const NpyHeader& header, const Planes& planes) {
+    ExternalFacts facts;
+    facts.format = "npy";
+    facts.numbers = fmt::format("{}, {}{}", header.complex ? "complex" : "real",
+                                header.number == Number::half     ? "half floats"
+                                : header.number == Number::single ? "single floats"
+                                : header.number == Number::real
+                                    ? "double floats"
+                                    : fmt::format("whole numbers of {} bits", 8 * bytes_of(header.number)),
+                                header.big_endian ? ", big-endian" : "");
+    facts.width = planes.width;
+    facts.height = planes.height;
+    facts.colours = planes.colours;
+    return facts;
 }
 
 class NpyField final : public FieldSource {
@@ -178,32 +186,27 @@ class NpyField final : public FieldSource {
     NpyField(const std::filesystem::path& path, const ExternalField& what)
         : file_(path, core::RawFile::Mode::read, path),
           header_(read_npy_header(path, file_)),
-          planes_(planes_of(path, header_)),
-          grid_(external_grid(path, what, planes_.width, planes_.height)),
+          planes_(planes_of(path, header_.shape, header_.by_columns)),
+          grid_(external_grid(path, what, facts_of(header_, planes_))),
           colour_(what.colour),
-          convert_(path, what, header_.number, header_.complex) {
-        if (colour_ >= planes_.colours)
-            throw Error(ErrorCode::usage, fmt::format("'{}' has no colour {}: it holds {}", path.string(), colour_,
-                                                      planes_.colours == 1 ? "one field" : "three fields"));
-    }
+          convert_(path, what, header_.complex ? Content::complex : Content::real, header_.number, header_.number) {}
 
     const FieldGrid& grid() const override { return grid_; }
 
+    // Reads lines along the axis whose samples are nearer to each other.
     void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override {
         validate(region, grid_, out.shape());
         if (look != 0) throw Error(ErrorCode::usage, fmt::format("look {} was asked of a file, which has one", look));
         const std::size_t number_bytes = bytes_of(header_.number), bytes = header_.bytes_of_sample();
-        const bool columns = header_.by_columns;
+        const bool columns = planes_.step_y < planes_.step_x;
         const std::size_t lines = columns ? region.width : region.height,
-                          count = columns ? region.height : region.width;
-        // From a sample to the next one of a line, and to the first of this colour.
-        const std::size_t step = planes_.colours_last ? planes_.colours : 1;
-        const std::size_t colour = planes_.colours_last ? colour_ : colour_ * planes_.height * planes_.width;
+                          count = columns ? region.height : region.width,
+                          step = columns ? planes_.step_y : planes_.step_x;
         std::vector<unsigned char> line(((count - 1) * step + 1) * bytes);
         for (std::size_t i = 0; i < lines; ++i) {
-            const std::size_t first =
-                columns ? (region.x0 + i) * planes_.height + region.y0 : (region.y0 + i) * planes_.width + region.x0;
-            file_.read(header_.begin + (first * step + colour) * bytes, line.data(), line.size());
+            const std::size_t x = region.x0 + (columns ? i : 0), y = region.y0 + (columns ? 0 : i);
+            const std::size_t first = y * planes_.step_y + x * planes_.step_x + colour_ * planes_.step_colour;
+            file_.read(header_.begin + first * bytes, line.data(), line.size());
             if (header_.big_endian)
                 for (std::size_t at = 0; at < line.size(); at += number_bytes)
                     std::reverse(&line[at], &line[at] + number_bytes);
@@ -230,9 +233,9 @@ bool is_npy(std::span<const unsigned char> start) {
     return start.size() >= magic.size() && std::equal(magic.begin(), magic.end(), start.begin());
 }
 
-std::size_t npy_colours(const std::filesystem::path& path) {
+ExternalFacts npy_facts(const std::filesystem::path& path) {
     const NpyHeader header = read_npy_header(path, core::RawFile(path, core::RawFile::Mode::read, path));
-    return planes_of(path, header).colours;
+    return facts_of(header, planes_of(path, header.shape, header.by_columns));
 }
 
 std::unique_ptr<FieldSource> open_npy(const std::filesystem::path& path, const ExternalField& what) {
@@ -240,19 +243,3 @@ std::unique_ptr<FieldSource> open_npy(const std::filesystem::path& path, const E
 }
 
 }  // namespace hogel::io::arrays
-
-namespace hogel {
-
-using namespace io::arrays;
-
-void write_npy(const std::filesystem::path& path, View<const std::complex<float>, 2> samples) {
-    const std::string start = npy_beginning("<c8", samples.shape());
-    core::OutputFile output(path);
-    core::RawFile file(output.temporary(), core::RawFile::Mode::create, path);
-    file.write(0, start.data(), start.size());
-    file.write(start.size(), samples.data(), samples.size() * sizeof(std::complex<float>));
-    file.close();
-    output.commit();
-}
-
-}  // namespace hogel

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,12 @@ struct NpyHeader {
 
 /// Reads the header of an .npy file whose numbers are all there. Throws Error(bad_input).
 NpyHeader read_npy_header(const std::filesystem::path& path, const core::RawFile& file);
+/// As above, of a file of `size` bytes which begins with these.
+NpyHeader parse_npy_header(const std::filesystem::path& path, std::span<const unsigned char> start, std::uint64_t size);
+/// Whether an .npy file is an array of numbers of a type that is read.
+bool npy_holds_numbers(const std::filesystem::path& path, std::span<const unsigned char> start);
+/// How much of a file parse_npy_header() may look at.
+constexpr std::size_t npy_start = 12 + (1 << 16);
 
 /// The beginning of an .npy file of an array by rows; `type` is NumPy's: "<f4".
 std::string npy_beginning(const std::string& type, std::span<const std::size_t> shape);

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "commands.h"
+#include "concerns.h"
+#include "fields.h"
+#include "focus_plot.h"
+#include "hogel/focus.h"
+#include "hogel/pipeline.h"
+#include "hogel/units.h"
+#include "inputs.h"
+
+namespace hogel::cli {
+namespace {
+
+struct Options {
+    std::string input, plot;
+    FieldOptions field;
+    double from = 0, to = 0;
+    std::size_t planes = 0;
+};
+
+FocusOptions focus_options(const Options& options, const Command& command) {
+    FocusOptions focus;
+    if (command.given("--from") != command.given("--to"))
+        throw Error(ErrorCode::usage, "--from, --to: depths are searched between two; give both");
+    if (command.given("--from") && options.from == options.to)
+        throw Error(ErrorCode::usage, "--from, --to: two different depths were expected");
+    focus.from = options.from;
+    focus.to = options.to;
+    focus.planes = options.planes;
+    return focus;
+}
+
+std::string words_of(const FocusSearch& search) {
+    if (search.planes.empty()) return "no depth stands out\n";
+    std::string words = fmt::format("{:>14}  {:>10}  {}\n", "depth", "prominence", "shown by");
+    for (const FocusPlane& plane : search.planes)
+        words += fmt::format("{:>14}  {:>10.3f}  the {} contrast of {}\n", format_length(plane.depth), plane.prominence,
+                             plane.brightest ? "highest" : "lowest",
+                             plane.cell == 1 ? "samples" : fmt::format("{0}x{0} samples", plane.cell));
+    return words;
+}
+
+Result result_of(const FocusSearch& search, const FieldGrid& grid, double seconds) {
+    ResultList planes, depths, contrasts;
+    for (const FocusPlane& plane : search.planes)
+        planes.emplace_back(Result{{"depth_m", plane.depth},
+                                   {"prominence", plane.prominence},
+                                   {"contrast", plane.brightest ? "highest" : "lowest"},
+                                   {"cell", plane.cell}});
+    for (std::size_t i = 0; i < search.depths.size(); ++i) {
+        depths.emplace_back(search.depths[i]);
+        ResultList row;
+        for (const double contrast : search.contrasts[i]) row.emplace_back(contrast);
+        contrasts.emplace_back(row);
+    }
+    return {{"wavelength_m", grid.wavelength},
+            {"depth_of_focus_m", search.depth_of_focus},
+            {"planes", planes},
+            {"depths_m", depths},
+            {"contrasts", contrasts},
+            {"seconds", seconds}};
+}
+
+int focus(const Options& options, const Session& session) {
+    const FocusOptions request = focus_options(options, *session.command);
+    if (!options.plot.empty()) {
+        require_plot_name(options.plot);
+        require_writable(options.plot, {&options.input, 1});
+    }
+    if (!is_external(options.input, options.field)) {
+        require_described(options.input, options.field);
+        if (input_kind(options.input) != InputKind::hologram)
+            throw Error(ErrorCode::bad_input, fmt::format("{}: is not a hologram", options.input));
+    }
+    RunRecord record(session);
+    record.acted({"input", "from", "to", "planes"});
+    const Fields fields = open_and_reconstruct(session, options.input, options.field, options.field.pitch,
+                                               options.field.wavelengths, record);
+    // All colours are of one object; the middle one has the middle depth of focus.
+    const FieldSource& field = *fields[fields.size() / 2];
+    Stage stage(session, "looking for planes in focus");
+    const FocusSearch search =
+        with_options({{"", "--from, --to, --planes"}}, [&] { return find_focus(field, request, stage.progress()); });
+    const FieldGrid& grid = field.grid();
+    session.detail(fmt::format("{} depths from {} to {}, depth of focus {}", search.depths.size(),
+                               format_length(search.depths.front()), format_length(search.depths.back()),
+                               format_length(search.depth_of_focus)));
+    if (!options.plot.empty())
+        write_focus_plot(options.plot, search, std::filesystem::path(options.input).filename().string(),
+                         record.metadata());
+    session.result(result_of(search, grid, session.seconds()), words_of(search));
+    return 0;
+}
+
+}  // namespace
+
+void add_focus(Command& command, Session& session) {
+    auto options = std::make_shared<Options>();
+    command.examples(
+        "  hogel focus hologram.h5 --from -20mm --to 20mm\n"
+        "  hogel focus phase.png -o sharpness.svg --phase-code odak --pitch 8um --wavelength 515nm");
+    command.positional("input", options->input, "F.h5|F.npy|P.png", "Hologram, or another program's field");
+    command.text("-o,--output", options->plot, "PLOT.svg", "Plot of the contrasts against depth");
+    command.length("--from", options->from, "Where the search begins, behind the hologram; negative: in front of it")
+        .default_text("as far as samples and size resolve alike");
+    command.length("--to", options->to, "Where it ends").default_text("likewise");
+    command.count("--planes", options->planes, "Number of depths").default_text("one every depth of focus");
+    add_field_options(command, options->field, true);
+    add_reconstruction_options(command, options->field);
+    add_json_flag(command, session);
+    command.work([options, &session] { return focus(*options, session); });
+}
+
+}  // namespace hogel::cli

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/phase_code.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "hogel/error.h"
+
+namespace hogel {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double around(double phase) { return std::remainder(phase, 2 * pi); }
+
+// The makers' formulas, written as they stand in their programs.
+TEST(PhaseCode, decodes_what_its_maker_encodes) {
+    for (int i = 0; i < 256; ++i) {
+        const double v = i;
+        EXPECT_NEAR(around(parse_phase_code("hogel").phase(v, 255) - 2 * pi * v / 256), 0, 1e-12);
+        EXPECT_NEAR(around(parse_phase_code("odak").phase(v, 255) - 2 * pi * v / 255), 0, 1e-12);
+        EXPECT_NEAR(around(parse_phase_code("slmsuite").phase(v, 255) - 2 * pi * (255 - v) / 256), 0, 1e-12);
+        EXPECT_NEAR(around(parse_phase_code("neural-holography").phase(v, 255) - (2 * pi * (1 - v / 255) - pi)), 0,
+                    1e-12);
+        EXPECT_NEAR(around(parse_phase_code("tensorholo").phase(v / 255, 0) - 2 * pi * (v / 255 - 0.5)), 0, 1e-12);
+    }
+}
+
+TEST(PhaseCode, encodes_each_level_as_itself_where_no_two_are_one_phase) {
+    for (const unsigned largest : {1u, 15u, 255u, 65535u})
+        for (const char* text : {"hogel", "slmsuite", "range=350deg", "range=1.5pi,offset=-20deg,invert"}) {
+            const PhaseCode code = parse_phase_code(text);
+            for (unsigned v = 0; v <= largest; v += 1 + largest / 500)
+                ASSERT_EQ(code.level(code.phase(v, largest), largest), v) << text << " " << largest;
+        }
+    // Both ends of a closed turn are one phase.
+    for (const char* text : {"odak", "neural-holography", "tensorholo"}) {
+        const PhaseCode code = parse_phase_code(text);
+        for (unsigned v = 1; v < 255; ++v) ASSERT_EQ(code.level(code.phase(v, 255), 255), v) << text;
+        const unsigned end = code.level(code.phase(0, 255), 255);
+        EXPECT_TRUE(end == 0 || end == 255) << text;
+    }
+}
+
+TEST(PhaseCode, encodes_the_nearest_phase) {
+    for (const char* text : {"hogel", "odak", "neural-holography", "slmsuite", "tensorholo", "range=3pi", "range=1.2pi",
+                             "range=350deg,offset=1rad,invert"}) {
+        const PhaseCode code = parse_phase_code(text);
+        for (double phase = -10; phase < 10; phase += 0.0317) {
+            const unsigned got = code.level(phase, 63);
+            ASSERT_LE(got, 63u);
+            double best = 10;
+            for (unsigned v = 0; v < 64; ++v) best = std::min(best, std::abs(around(code.phase(v, 63) - phase)));
+            EXPECT_NEAR(std::abs(around(code.phase(got, 63) - phase)), best, 1e-9) << text << " " << phase;
+        }
+    }
+}
+
+TEST(PhaseCode, of_other_words_is_refused) {
+    for (const char* text : {"", "odka", "range", "range=", "range=2", "range=0pi", "range=-2pi", "range=nanpi",
+                             "invert,", "range=2pi,,invert", "range=2pi,sign=1", "offset=1e9pi"})
+        EXPECT_THROW(parse_phase_code(text), Error) << text;
+    EXPECT_TRUE(parse_phase_code("invert").inverted);
+    EXPECT_NEAR(parse_phase_code("offset=-pi").offset, -pi, 1e-15);
+    EXPECT_NEAR(parse_phase_code("range=360deg").range, 2 * pi, 1e-12);
+}
+
+}  // namespace
+}  // namespace hogel

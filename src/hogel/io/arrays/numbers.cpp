@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/io/arrays/numbers.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <numbers>
+
+#include "hogel/core/half.h"
+#include "hogel/core/raw_file.h"
+#include "hogel/error.h"
+
+namespace hogel::io::arrays {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "numbers are stored in memory as in the files");
+
+template <class T>
+double value_at(const unsigned char* at) {
+    T value;
+    std::memcpy(&value, at, sizeof value);
+    return static_cast<double>(value);
+}
+
+}  // namespace
+
+void fail_external(const std::filesystem::path& path, const std::string& why) {
+    throw Error(ErrorCode::bad_input, fmt::format("cannot read '{}': {}", path.string(), why));
+}
+
+std::vector<unsigned char> all_bytes(const std::filesystem::path& path) {
+    const core::RawFile file(path, core::RawFile::Mode::read, path);
+    std::vector<unsigned char> bytes(file.size());
+    file.read(0, bytes.data(), bytes.size());
+    return bytes;
+}
+
+std::size_t bytes_of(Number number) {
+    switch (number) {
+        case Number::int8:
+        case Number::uint8:
+            return 1;
+        case Number::int16:
+        case Number::uint16:
+        case Number::half:
+            return 2;
+        case Number::int32:
+        case Number::uint32:
+        case Number::single:
+            return 4;
+        case Number::int64:
+        case Number::uint64:
+        case Number::real:
+            break;
+    }
+    return 8;
+}
+
+bool is_whole(Number number) { return number != Number::half && number != Number::single && number != Number::real; }
+
+double number_at(Number number, const unsigned char* at) {
+    switch (number) {
+        case Number::int8:
+            return value_at<std::int8_t>(at);
+        case Number::uint8:
+            return value_at<std::uint8_t>(at);
+        case Number::int16:
+            return value_at<std::int16_t>(at);
+        case Number::uint16:
+            return value_at<std::uint16_t>(at);
+        case Number::int32:
+            return value_at<std::int32_t>(at);
+        case Number::uint32:
+            return value_at<std::uint32_t>(at);
+        case Number::int64:
+            return value_at<std::int64_t>(at);
+        case Number::uint64:
+            return value_at<std::uint64_t>(at);
+        case Number::half: {
+            std::uint16_t half;
+            std::memcpy(&half, at, sizeof half);
+            return static_cast<double>(core::float_of(half));
+        }
+        case Number::single:
+            return value_at<float>(at);
+        case Number::real:
+            break;
+    }
+    return value_at<double>(at);
+}
+
+SampleConverter::SampleConverter(const std::filesystem::path& path, const ExternalField& what, Content content,
+                                 Number first, Number second)
+    : path_(path),
+      content_(content),
+      phases_(content == Content::amplitude_phase || what.values == ExternalField::Values::phase),
+      sign_(what.conjugate ? -1 : 1),
+      code_(what.phase_code) {
+    using Values = ExternalField::Values;
+    if (content != Content::real && what.values != Values::complex)
+        throw Error(ErrorCode::usage,
+                    fmt::format("'{}' holds {}, not {}", path.string(),
+                                content == Content::complex ? "complex numbers" : "amplitudes and phases",
+                                what.values == Values::phase ? "phases" : "amplitudes"));
+    if (content == Content::real && what.values == Values::complex)
+        throw Error(ErrorCode::usage,
+                    fmt::format("'{}' holds real numbers: are they amplitudes or phases?", path.string()));
+    if (!phases_ && code_)
+        throw Error(ErrorCode::usage,
+                    fmt::format("'{}' is not read as phases, so no phase code applies to it", path.string()));
+    const Number number = content == Content::real ? first : second;
+    if (!phases_ || !is_whole(number)) return;
+    if (bytes_of(number) > 2) fail_external(path, "phases as whole numbers of more than 16 bits have no known unit");
+    if (!code_)
+        throw Error(ErrorCode::usage,
+                    fmt::format("'{}' holds phases as whole numbers: in which phase code are they?", path.string()));
+    largest_ = std::exp2(8.0 * static_cast<double>(bytes_of(number))) - 1;
+}
+
+double SampleConverter::phase_of(double number) const {
+    return std::fmod(code_ ? code_->phase(number, largest_) : number, 2 * std::numbers::pi);
+}
+
+std::complex<float> SampleConverter::operator()(double first, double second) const {
+    std::complex<double> value(first - zero_[0], second - zero_[1]);
+    if (phases_)
+        value =
+            content_ == Content::real ? std::polar(1.0, phase_of(first)) : first * std::polar(1.0, phase_of(second));
+    const std::complex<float> sample(std::complex<double>(value.real(), sign_ * value.imag()));
+    if (!std::isfinite(sample.real()) || !std::isfinite(sample.imag()))
+        fail_external(path_, fmt::format("it holds the value {} + {}i, which no field has", first, second));
+    return sample;
+}
+
+FieldGrid external_grid(const std::filesystem::path& path, const ExternalField& what, const ExternalFacts& facts) {
+    if (facts.width == 0 || facts.height == 0)
+        fail_external(path, fmt::format("its array of {}x{} is empty", facts.width, facts.height));
+    if (what.colour >= facts.colours)
+        throw Error(ErrorCode::usage, fmt::format("'{}' has no colour {}: it holds {}", path.string(), what.colour,
+                                                  facts.colours == 1 ? "one field" : "fewer fields"));
+    const bool has_pitch = what.pitch_x > 0 && what.pitch_y > 0;
+    if ((!has_pitch || !(what.wavelength > 0)) && !facts.complaint.empty())
+        throw Error(ErrorCode::usage, fmt::format("'{}': {}", path.string(), facts.complaint));
+    const double wavelength = what.wavelength > 0 || facts.wavelengths.size() != facts.colours
+                                  ? what.wavelength
+                                  : facts.wavelengths[what.colour];
+    const FieldGrid grid{{facts.width, facts.height, has_pitch ? what.pitch_x : facts.pitch_x,
+                          has_pitch ? what.pitch_y : facts.pitch_y, 0, 0},
+                         wavelength};
+    validate(grid, ErrorCode::usage, fmt::format("'{}'", path.string()));
+    return grid;
+}
+
+}  // namespace hogel::io::arrays
