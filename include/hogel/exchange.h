@@ -38,19 +38,30 @@ struct ViewOptions {
     std::optional<bool> orthographic;       ///< whether a view is taken along one direction instead of from one point
     std::optional<bool> column_first = {};  ///< which of two numbers in the names of files is the column
     std::size_t columns = 0, rows = 0;      ///< of views, where one number counts them all
-    bool mirror_columns = false;            ///< whether columns of views are the other way round than the layout says
-    bool mirror_rows = false;               ///< likewise of rows
+    /// Views in the middle that are taken, where those at the rim are not to be; 0: all.
+    std::size_t middle_columns = 0, middle_rows = 0;
+    bool mirror_columns = false;  ///< whether columns of views are the other way round than the layout says
+    bool mirror_rows = false;     ///< likewise of rows
     /// Pixels by which the plane that is to be the hologram moves to the left from a view to the one on its right; 0
     /// for the plane on which the views agree. Views are sheared accordingly and cropped to what all of them show.
     double disparity = 0;
+    /// One more than the number of views that are interpolated between neighbours, by the disparity that comes with the
+    /// set. With `estimate_disparity` a set may come without; then it is estimated, which is experimental.
+    std::size_t densify = 1;
+    bool estimate_disparity = false;
+    /// Whether the light field is to have depth, by the same disparity.
+    bool with_depth = false;
     double memory = 1e9;  ///< bytes of pictures held at any time
+    /// A folder for a temporary file of the size of all pictures, which is used if they do not fit into `memory`, so
+    /// that each is decoded once; empty: no such file.
+    std::filesystem::path spool = {};
 };
 
 /// A light field made of a set of views, and the geometry as it was understood.
 struct ImportedViews {
     LightField light_field;             ///< reads the pictures when it is read; see import_views()
     std::string layout;                 ///< a name in view_layouts()
-    std::size_t columns = 0, rows = 0;  ///< of views
+    std::size_t columns = 0, rows = 0;  ///< of views, those that were interpolated included
     unsigned bits = 8;                  ///< of the pictures' samples; 32: floating-point numbers
     Transfer transfer = Transfer::srgb;
     double spacing = 0, distance = 0;  ///< of the cameras at the hologram; of orthographic views 0
@@ -58,6 +69,8 @@ struct ImportedViews {
     /// The largest parallax from one view to the next, in pixels: the 98th percentile over blocks with texture, between
     /// the middle view and its neighbours.
     double parallax = 0;
+    bool estimated = false;            ///< whether the disparity that was used was estimated
+    double spool_bytes = 0;            ///< of the temporary file in ViewOptions::spool, once the views are read
     std::string summary;               ///< the geometry, one line
     std::vector<std::string> assumed;  ///< what neither the set nor the options said, and what was taken
     std::vector<std::string> notes;    ///< what was found out about the set
@@ -67,10 +80,10 @@ struct ImportedViews {
 HOGEL_API bool is_view_set(const std::filesystem::path& source);
 
 /// Opens a set of views as a light field. Views that fit into options.memory are decoded once, by all threads, when
-/// they are first read; larger sets are held in bands of rows, each of which decodes every picture, so that they are to
-/// be read in the order of tiles: write_views(). Throws Error(bad_input), naming the file, for a set with a hole, for
-/// pictures of different sizes, and for damaged ones (some of them only when they are read); Error(usage) for options
-/// that contradict the set.
+/// they are first read; larger sets are held in bands of rows, so that they are to be read in the order of tiles
+/// (write_views()), and each band decodes every picture unless there is a folder for a temporary file. Throws
+/// Error(bad_input), naming the file, for a set with a hole, for pictures of different sizes, and for damaged ones
+/// (some of them only when they are read); Error(usage) for options that contradict the set.
 HOGEL_API ImportedViews import_views(const std::filesystem::path& source, const ViewOptions& options,
                                      const Progress& progress = {});
 
@@ -86,6 +99,8 @@ struct ViewExportOptions {
     std::optional<Transfer> transfer = {};  ///< otherwise as imported, else sRGB, or linear for floating-point numbers
     double exposure = 1;                    ///< factor of linear values that become whole numbers
     double memory = 1e9;                    ///< bytes of views held at any time
+    /// Stored in each PNG and EXR file, before the light field's own provenance.
+    Metadata metadata = {};
 };
 
 /// What export_views() wrote.
@@ -101,6 +116,13 @@ struct ExportedViews {
 /// layouts a file. Throws Error(usage) for what the layout cannot hold, Error(cannot_write).
 HOGEL_API ExportedViews export_views(const LightField& light_field, const std::filesystem::path& target,
                                      const ViewExportOptions& options, const Progress& progress = {});
+
+/// Writes the cameras whose pictures make a light field of this grid, as transforms.json of nerfstudio and instant-ngp,
+/// for another program to render: pinholes on the fixed focal plane, with axes that are perpendicular to the hologram,
+/// and a pixel for each hogel. The frame is that of docs/notation.md, in metres, with its origin in the middle of the
+/// hologram; the pictures are to be 000_000.png and so on, the row from the top and the column from the left. Throws
+/// Error(usage) for a grid without a fixed focal plane in front of the hologram, Error(cannot_write).
+HOGEL_API void write_cameras(const LightFieldGrid& grid, const std::filesystem::path& file);
 
 namespace exchange {
 struct ViewSet;

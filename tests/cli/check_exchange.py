@@ -3,8 +3,9 @@
 """Makes sets of views with Pillow and NumPy as other programs store them, and reads with h5py, Pillow and NumPy what hogel
 made of them, by the equations of docs/files.md and docs/exchange.md alone.
 
-usage: check_exchange.py make|imported|exported     in the folder of exchange.txt
+usage: check_exchange.py make|imported|exported|cameras     in the folder of exchange.txt
 """
+import json
 import os
 import pathlib
 import sys
@@ -22,7 +23,7 @@ FLOATS = (BASE / 77).astype("<f4")
 
 
 def save(folder, name, picture):
-    pathlib.Path(folder).mkdir(exist_ok=True)
+    pathlib.Path(folder).mkdir(parents=True, exist_ok=True)
     Image.fromarray(picture).save(f"{folder}/{name}")
 
 
@@ -42,12 +43,18 @@ def make():
         for c in range(COLUMNS):
             save("hci", f"input_Cam{r * COLUMNS + c:03}.png", BASE[r, c])
             save("chess", f"out_{ROWS - 1 - r:02}_{c:02}_{-700 + 10 * r:.6f}_{-3000 + 10 * c:.6f}_.png", BASE[r, c])
+            save("nerf/images", f"{9 * c + r}.png", BASE[r, c])
             write_ppm10("pleno", f"{c:03}_{r:03}.ppm", BASE[r, c])  # the column first
             write_pfm("pfm", f"v_{r}_{c}.pfm", FLOATS[r, c])
     pathlib.Path("hci/parameters.cfg").write_text(
         "[intrinsics]\nfocal_length_mm = 100\nimage_resolution_x_px = 48\nimage_resolution_y_px = 40\nsensor_size_mm = 35\n"
         "[extrinsics]\nnum_cams_x = 3\nnum_cams_y = 3\nbaseline_mm = 20\nfocus_distance_m = 0.6\noffset = 4.57\n"
         "[meta]\nscene = test\n")
+    # Cameras 0.5 apart in a world whose y is forwards and z up, 15 before the plane on which the pictures agree.
+    frames = [{"file_path": f"images/{9 * c + r}", "cx": 24 + (c - 1) * 0.5 * 60 / 15, "cy": 20 + (r - 1) * 0.5 * 60 / 15,
+               "transform_matrix": [[1, 0, 0, 0.5 * c], [0, 0, -1, -3], [0, 1, 0, 4 - 0.5 * r], [0, 0, 0, 1]]}
+              for r in range(ROWS) for c in range(COLUMNS)]
+    pathlib.Path("nerf/transforms.json").write_text(json.dumps({"w": WIDTH, "h": HEIGHT, "fl_x": 60, "fl_y": 60, "frames": frames}))
     save(".", "walk_qs3x1a1.2.png", np.concatenate(list(BASE[1]), axis=1))
     np.save("floats.npy", FLOATS.astype(">f4"))
 
@@ -82,6 +89,7 @@ def imported():
     rays_are("chess", eight, half)
     rays_are("pleno", linear(BASE * 4.0 + 3, 1023), half)
     rays_are("walk", eight[1:2], half)
+    rays_are("nerf", eight, half)
     rays_are("floats", FLOATS, 0)
     rays_are("pfm", FLOATS, 0)
 
@@ -118,4 +126,22 @@ def exported():
     print(f"deep: {deep[24]} bits" if np.array_equal(np.asarray(Image.open("deep/000_000.png")), BASE[0, 0]) else "deep: differs")
 
 
-{"make": make, "imported": imported, "exported": exported}[sys.argv[1]]()
+def cameras():
+    """Every camera of the file sees the point of the hologram at a hogel's middle in that hogel's pixel."""
+    file = json.loads(pathlib.Path("cameras.json").read_text())
+    worst, places = 0, set()
+    for frame in file["frames"]:
+        matrix = np.array(frame["transform_matrix"])
+        places.add((round(matrix[0, 3], 9), round(matrix[1, 3], 9)))
+        for i, j in ((0, 0), (file["w"] - 1, 0), (5, file["h"] - 1)):
+            pitch = 0.06 / file["w"]
+            point = np.array([(i + 0.5 - file["w"] / 2) * pitch, (file["h"] / 2 - j - 0.5) * pitch, 0, 1])
+            x, y, z, _ = np.linalg.inv(matrix) @ point
+            pixel = file["cx"] if "cx" in file else frame["cx"], frame["cy"]
+            worst = max(worst, abs(pixel[0] + file["fl_x"] * x / -z - (i + 0.5)), abs(pixel[1] - file["fl_y"] * y / -z - (j + 0.5)))
+    print(f"{len(places)} cameras of {file['w']}x{file['h']} pixels,", "which agree on the hologram" if worst < 1e-9 else f"off by {worst}")
+    left, right = (min(places), max(places))
+    print(f"{(right[0] - left[0]) / 4 * 1e3:.4f} mm apart")
+
+
+{"cameras": cameras, "make": make, "imported": imported, "exported": exported}[sys.argv[1]]()

@@ -69,6 +69,8 @@ ViewGeometry geometry_of(const LightFieldGrid& grid) {
     geometry.distance = -plane->depth;
     geometry.spacing = grid.step_u() * geometry.distance;
     geometry.pixel_tangent = grid.pitch / geometry.distance;
+    geometry.center_u = grid.center_u();
+    geometry.center_v = grid.center_v();
     return geometry;
 }
 
@@ -78,16 +80,12 @@ void require_views(const LightField& light_field, const ViewLayout& layout) {
         throw Error(ErrorCode::usage, fmt::format("the layout '{}' is read, but not written", layout.name));
     if (light_field.has_sides())
         throw Error(ErrorCode::usage, "a hemicube's sides are no views of one set; its front alone would do");
-    const FocalPlane* plane = grid.focal_plane();
-    if (plane == nullptr) require_perspective(grid, ErrorCode::usage, "a set of views");
-    if (plane == nullptr && layout.cameras_only)
+    if (grid.focal_plane() == nullptr && layout.cameras_only)
         throw Error(
             ErrorCode::usage,
             fmt::format("the layout '{}' is for cameras, but the directions of this light field are the same at all "
                         "hogels, which makes orthographic views; rows-columns and numbered hold these",
                         layout.name));
-    if (plane != nullptr && plane->depth > 0)
-        throw Error(ErrorCode::usage, "the fixed focal plane lies behind the hologram; cameras stand in front of it");
 }
 
 // A group of views, filled from tiles of hogels.
@@ -154,6 +152,23 @@ void read_group(const LightFieldSource& source, Group& group, const Progress& pr
 }
 
 }  // namespace
+
+ViewTarget target_of(const LightFieldGrid& grid, const std::filesystem::path& path) {
+    const FocalPlane* plane = grid.focal_plane();
+    if (plane == nullptr) require_perspective(grid, ErrorCode::usage, "a set of views");
+    if (plane != nullptr && plane->depth > 0)
+        throw Error(ErrorCode::usage, "the fixed focal plane lies behind the hologram; cameras stand in front of it");
+    ViewTarget target;
+    target.path = path;
+    target.columns = grid.directions_u;
+    target.rows = grid.directions_v;
+    target.width = grid.hogels_s;
+    target.height = grid.hogels_t;
+    target.channels = grid.channels;
+    target.geometry = geometry_of(grid);
+    return target;
+}
+
 }  // namespace exchange
 
 ExportedViews export_views(const LightField& light_field, const std::filesystem::path& path,
@@ -169,14 +184,8 @@ ExportedViews export_views(const LightField& light_field, const std::filesystem:
         throw Error(ErrorCode::usage,
                     fmt::format("{} bits a sample were asked for, but 8 to 16 can be written", options.bits));
     const LightFieldGrid& grid = light_field.grid();
-    ViewTarget target;
-    target.path = path;
-    target.columns = grid.directions_u;
-    target.rows = grid.directions_v;
-    target.width = grid.hogels_s;
-    target.height = grid.hogels_t;
-    target.channels = grid.channels;
-    target.geometry = geometry_of(grid);
+    ViewTarget target = target_of(grid, path);
+    target.texts = with_history(options.metadata, to_metadata(light_field.provenance()));
     target.format = layout.name == "npy" ? "npy" : format_for(light_field, options);
     target.bits = bits_for(light_field, options, target.format);
     if (target.format == "png" && target.bits != 8 && target.bits != 16)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <random>
 
@@ -10,6 +11,8 @@
 #include "hogel/exchange.h"
 #include "hogel/exchange/test_views.h"
 #include "hogel/exchange/transfer.h"
+#include "hogel/exchange/view_set.h"
+#include "hogel/image/picture_bytes.h"
 
 namespace hogel::exchange {
 namespace {
@@ -34,7 +37,7 @@ LightField random_codes(const LightFieldGrid& grid, unsigned bits, Transfer tran
 void expect_same(const LightField& before, const LightField& after, float tolerance) {
     ASSERT_EQ(before.grid().hogels_s, after.grid().hogels_s);
     ASSERT_EQ(before.grid().directions_v, after.grid().directions_v);
-    EXPECT_NEAR(before.grid().half_u(), after.grid().half_u(), 1e-12);
+    EXPECT_NEAR(before.grid().half_u(), after.grid().half_u(), 1e-10);
     EXPECT_NEAR(before.grid().pitch, after.grid().pitch, 1e-15);
     LightFieldBuffer a(before.grid()), b(after.grid());
     copy(before.front(), a);
@@ -108,6 +111,49 @@ TEST(ExportViews, HciParametersBringTheGeometryBack) {
     EXPECT_TRUE(after.assumed.empty());
     EXPECT_NEAR(after.distance, 0.3, 1e-12);
     expect_same(before, after.light_field, 0);
+}
+
+TEST(ExportViews, CamerasBringTheGeometryBackOffCentreToo) {
+    LightFieldGrid grid = grid_of_cameras(3);
+    grid.range().center_u = 0.021;
+    grid.range().center_v = -0.034;
+    const LightField before = random_codes(grid, 8, Transfer::srgb);
+    const TestFolder folder;
+    export_views(before, folder.path(), {.layout = "transforms"});
+    ViewOptions back;
+    back.size = grid.width();
+    const ImportedViews after = import_views(folder.path(), back);
+    EXPECT_TRUE(after.assumed.empty());
+    EXPECT_NEAR(after.distance, 0.3, 1e-9);
+    EXPECT_NEAR(after.light_field.grid().center_u(), 0.021, 1e-9);
+    EXPECT_NEAR(after.light_field.grid().center_v(), -0.034, 1e-9);
+    EXPECT_NEAR(after.light_field.grid().half_v(), grid.half_v(), 1e-9);
+    expect_same(before, after.light_field, 0);
+    // The cameras alone are the same file, before there are pictures.
+    write_cameras(grid, folder.path() / "cameras.json");
+    const auto text = [&](const char* name) {
+        std::ifstream stream(folder.path() / name);
+        return std::string(std::istreambuf_iterator<char>(stream), {});
+    };
+    EXPECT_EQ(text("cameras.json"), text("transforms.json"));
+    grid.view = Perspective{};
+    grid.range().half_u = grid.range().half_v = 0.1;
+    EXPECT_THROW(write_cameras(grid, folder.path() / "no.json"), Error);
+}
+
+TEST(ExportViews, PicturesSayWhatMadeThem) {
+    const LightField light_field =
+        random_codes(grid_of_cameras(3), 8, Transfer::srgb).with(Provenance{{{"scene", "a ball"}}, {}});
+    const TestFolder folder;
+    export_views(light_field, folder.path(), {.metadata = {{"command", "export"}}});
+    for (const char* name : {"000_000.png", "002_003.png"}) {
+        const Metadata texts = image::read_picture(folder.path() / name, max_pixels).texts;
+        EXPECT_EQ(std::ranges::count(texts, Metadata::value_type{"command", "export"}), 1) << name;
+        EXPECT_EQ(std::ranges::count(texts, Metadata::value_type{"source scene", "a ball"}) +
+                      std::ranges::count(texts, Metadata::value_type{"scene", "a ball"}),
+                  1)
+            << name;
+    }
 }
 
 TEST(ExportViews, QuiltsComeBack) {

@@ -83,6 +83,15 @@ std::string name_with(const std::string& name, std::size_t a, std::uint64_t a_va
     return replaced;
 }
 
+// Whether pictures are by their names something else than what cameras saw: disparity, depth, labels.
+bool is_map(const std::string& shape) {
+    std::string name = shape;
+    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+    for (const char* word : {"disp", "depth", "label", "mask", "objectid", "normal"})
+        if (name.find(word) != std::string::npos) return true;
+    return false;
+}
+
 }  // namespace
 
 std::vector<NumberedFiles> numbered_pictures(const fs::path& folder) {
@@ -104,7 +113,8 @@ std::vector<NumberedFiles> numbered_pictures(const fs::path& folder) {
         group.varying = varying_of(group.files);
         list.push_back(std::move(group));
     }
-    std::ranges::stable_sort(list, std::ranges::greater(), [](const auto& group) { return group.files.size(); });
+    std::ranges::stable_sort(list, std::ranges::greater(),
+                             [](const auto& group) { return std::pair(!is_map(group.shape), group.files.size()); });
     return list;
 }
 

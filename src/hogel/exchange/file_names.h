@@ -22,7 +22,8 @@ struct NumberedFiles {
     std::vector<std::size_t> varying;  ///< indices of the numbers that are not the same in all names
 };
 
-/// The pictures of a folder, by the shape of their names, the largest group first. Folders, hidden files and files that
+/// The pictures of a folder, by the shape of their names, the largest group first, and last those that are maps of
+/// disparity, depth or labels by their names. Folders, hidden files and files that
 /// are no pictures by their names are left out. No groups for what is no folder.
 std::vector<NumberedFiles> numbered_pictures(const std::filesystem::path& folder);
 

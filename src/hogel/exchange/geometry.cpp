@@ -121,8 +121,11 @@ void place_cameras(const ViewSet& set, const ViewOptions& options, Placement& pl
     }
     placement.spacing_y = placement.spacing * g.spacing_ratio;
     const double half_u = half_range(set.columns, placement.spacing / distance, placement.spacing / distance);
-    placement.grid.view =
-        FocalPlane{{half_u, half_range(set.rows, placement.spacing_y / distance, half_u), 0, 0}, -distance};
+    // The set's own tangents, at the distance that was asked for.
+    const double stretch = g.pixel_tangent > 0 ? placement.grid.pitch / g.pixel_tangent / distance : 1;
+    placement.grid.view = FocalPlane{{half_u, half_range(set.rows, placement.spacing_y / distance, half_u),
+                                      g.center_u * stretch, g.center_v * stretch},
+                                     -distance};
 }
 
 }  // namespace

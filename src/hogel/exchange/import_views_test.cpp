@@ -7,6 +7,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/exchange.h"
+#include "hogel/exchange/sparse_views.h"
 #include "hogel/exchange/test_views.h"
 #include "hogel/image.h"
 #include "hogel/ray_photograph.h"
@@ -274,6 +275,53 @@ TEST(ImportViews, BandsAreTheWholeSet) {
     LightFieldBuffer buffer(banded.grid());
     write_views(banded, buffer);
     EXPECT_TRUE(std::ranges::equal(buffer.radiance.elements(), whole.radiance.elements()));
+}
+
+TEST(ImportViews, ASpoolFileLetsEachPictureBeDecodedOnce) {
+    const TestScene scene;
+    for (const double disparity : {0.0, 0.3}) {  // codes, and samples between pixels
+        const TestFolder folder;
+        write_hci(scene, folder);
+        write_parameters(scene, folder);
+        std::filesystem::create_directory(folder.path() / "spool");
+        ViewOptions options = options_of(scene);
+        options.disparity = disparity;
+        const LightFieldTile whole = all_of(import_views(folder.path(), options).light_field);
+        options.memory = 7 * 12 * 64 * 3 * (disparity > 0 ? 4 : 1);
+        options.spool = folder.path() / "spool";
+        {
+            const ImportedViews views = import_views(folder.path(), options);
+            EXPECT_EQ(views.spool_bytes, views.light_field.samples() * (disparity > 0 ? 4 : 1));
+            const LightFieldGrid& grid = views.light_field.grid();
+            LightFieldTile first(grid, {0, 0, 1, 1}, false);
+            views.light_field.front().read(first);
+            for (std::size_t i = 0; i < 12; ++i)
+                std::filesystem::remove(folder.path() / fmt::format("input_Cam{:03}.png", i));
+            EXPECT_TRUE(std::ranges::equal(all_of(views.light_field).radiance.elements(), whole.radiance.elements()));
+            EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "spool"));  // it has no name
+        }
+    }
+}
+
+TEST(ImportViews, SparseViewsAreToldToEveryMethod) {
+    LightFieldGrid grid{96, 80, 0.5e-3, 3, 3, FocalPlane{{0.05, 0.05, 0, 0}, -0.3}, 3};
+    const std::vector<std::string> few = sparse_views(grid, 3.3);
+    ASSERT_EQ(few.size(), 2u);
+    EXPECT_NE(few[0].find("up to 3.3 hogels from a view to the next; 8x8 views over the same angle would do, 4 times"),
+              std::string::npos)
+        << few[0];
+    // 2 x 0.05 over 532 nm / 0.5 mm.
+    EXPECT_NE(few[1].find("olas, with hogels of one sample: these do; phase-added: refuses fewer than 94x94"),
+              std::string::npos)
+        << few[1];
+    // A row of many: 8 samples, where olas takes 4, and lobes that are wide enough.
+    grid.directions_u = 101;
+    grid.directions_v = 1;
+    const std::vector<std::string> row = sparse_views(grid, 8);
+    EXPECT_NE(row[1].find("double below 801x1; olas, with hogels of one sample: side lobes below 201x1; phase-added: "
+                          "these do"),
+              std::string::npos)
+        << row[1];
 }
 
 TEST(ImportViews, StopsWhenAsked) {

@@ -67,16 +67,17 @@ struct TestScene {
 
     /// The radiance along the ray from the camera at (cx, cy) through (s, t) of the plane z = 0: 0 to 1.
     double radiance(double cx, double cy, double s, double t) const {
-        const auto meet = [&](double depth) {
-            const double m = 1 + depth / distance;  // of the way from the camera to the plane z = 0
-            return std::pair(cx + (s - cx) * m, cy + (t - cy) * m);
-        };
-        const auto [x, y] = meet(near);
-        if (std::abs(x) < 0.2 * static_cast<double>(width) * pixel &&
-            std::abs(y) < 0.25 * static_cast<double>(height) * pixel)
-            return texture(x + 0.1, y);
-        const auto [far_x, far_y] = meet(far);
-        return texture(far_x, far_y - 0.2);
+        const double met = depth(cx, cy, s, t), m = 1 + met / distance;  // of the way from the camera to z = 0
+        const double x = cx + (s - cx) * m, y = cy + (t - cy) * m;
+        return met == near ? texture(x + 0.1, y) : texture(x, y - 0.2);
+    }
+    /// The depth behind z = 0 of what that ray meets.
+    double depth(double cx, double cy, double s, double t) const {
+        const double m = 1 + near / distance;
+        return std::abs(cx + (s - cx) * m) < 0.2 * static_cast<double>(width) * pixel &&
+                       std::abs(cy + (t - cy) * m) < 0.25 * static_cast<double>(height) * pixel
+                   ? near
+                   : far;
     }
 
     /// The display codes, 0 to 255, of a view, the same in all channels but for the channel's own offset.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <bit>
 
 #include "hogel/error.h"
@@ -13,8 +14,8 @@ namespace hogel {
 
 Table<ViewLayout>& view_layouts() {
     using namespace exchange;
-    static Table<ViewLayout> table("layout", {hci_layout(), stanford_layout(), quilt_layout(), npy_layout(),
-                                              rows_columns_layout(), numbered_layout()});
+    static Table<ViewLayout> table("layout", {transforms_layout(), hci_layout(), stanford_layout(), quilt_layout(),
+                                              npy_layout(), rows_columns_layout(), numbered_layout()});
     return table;
 }
 
@@ -46,11 +47,23 @@ class ReorderedPictures final : public ViewPictures {
     Order order_;
 };
 
+// A folder below that is a set, as a sentence's part.
+std::string set_below(const std::filesystem::path& source) {
+    std::error_code error;
+    std::vector<std::filesystem::path> folders;
+    for (const auto& entry : std::filesystem::directory_iterator(source, error))
+        if (entry.is_directory(error) && folders.size() < 100) folders.push_back(entry.path());
+    std::ranges::sort(folders);
+    for (const std::filesystem::path& folder : folders)
+        if (is_view_set(folder)) return fmt::format(", but {} is one", folder.string());
+    return {};
+}
+
 ViewLayout layout_of(const std::filesystem::path& source, const ViewOptions& options) {
     if (!options.layout.empty()) return view_layouts().find(options.layout);
     for (const ViewLayout& layout : view_layouts().rows())
         if (layout.probe(source)) return layout;
-    fail_source(source, fmt::format("is no set of views that is recognised; layouts are {}",
+    fail_source(source, fmt::format("is no set of views that is recognised{}; layouts are {}", set_below(source),
                                     fmt::join(view_layouts().names(), ", ")));
 }
 
@@ -99,6 +112,18 @@ ViewSet transposed(ViewSet set) {
     return reordered(std::move(set), n, m, [](std::size_t row, std::size_t column) { return std::pair(column, row); });
 }
 
+ViewSet middle_of(ViewSet set, std::size_t columns, std::size_t rows) {
+    if (columns == 0 || rows == 0) return set;
+    if (columns > set.columns || rows > set.rows || (set.columns - columns) % 2 != 0 || (set.rows - rows) % 2 != 0)
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("the middle {}x{} of {}x{} views were asked for; as many must be left out on both sides",
+                        columns, rows, set.columns, set.rows));
+    const std::size_t left = (set.columns - columns) / 2, top = (set.rows - rows) / 2;
+    return reordered(std::move(set), rows, columns,
+                     [=](std::size_t row, std::size_t column) { return std::pair(row + top, column + left); });
+}
+
 void take_size(const image::Picture& picture, ViewSet& set) {
     std::visit(
         [&](const auto& samples) {
@@ -112,11 +137,12 @@ void take_size(const image::Picture& picture, ViewSet& set) {
 ViewSet open_views(const std::filesystem::path& source, const ViewOptions& options) {
     const ViewLayout layout = layout_of(source, options);
     if (!std::filesystem::exists(source)) fail_source(source, "no such file or folder");
-    if (layout.is_folder && !std::filesystem::is_directory(source))
+    if (layout.is_folder && !std::filesystem::is_directory(source) && !layout.probe(source))
         fail_source(source, fmt::format("is not a folder, as sets of the layout '{}' are", layout.name));
     ViewSet set = layout.open(source, options);
     set.layout = layout.name;
-    set = mirrored(std::move(set), options.mirror_columns, options.mirror_rows);
+    set = middle_of(mirrored(std::move(set), options.mirror_columns, options.mirror_rows), options.middle_columns,
+                    options.middle_rows);
     const image::Picture first = set.pictures->read(0, 0);
     set.bits = bits_of(first);
     set.max_code = max_code_of(first);

@@ -36,6 +36,8 @@ struct ViewGeometry {
     double distance = 0;        ///< from the cameras to the plane on which views agree; infinite for parallel cameras
     double pixel_height = 1;    ///< of a pixel as it is shown, by its width
     double pixel_tangent = 0;   ///< the tangent between neighbouring pixels, 1/(focal length in pixels)
+    /// The middle of the pictures as the camera in the middle sees it: its direction (x to the right, y up, 1 ahead).
+    double center_u = 0, center_v = 0;
 };
 
 struct ViewSet {
@@ -80,6 +82,8 @@ ViewSet reordered(ViewSet set, std::size_t rows, std::size_t columns,
                   std::function<std::pair<std::size_t, std::size_t>(std::size_t, std::size_t)> order);
 ViewSet mirrored(ViewSet set, bool columns, bool rows);
 ViewSet transposed(ViewSet set);
+/// The views in the middle. Throws Error(usage) for more than there are, and where as many are not in the middle.
+ViewSet middle_of(ViewSet set, std::size_t columns, std::size_t rows);
 
 /// Throws Error(bad_input): "SOURCE: why".
 [[noreturn]] void fail_source(const std::filesystem::path& source, const std::string& why);
@@ -95,7 +99,11 @@ struct ViewTarget {
     std::string format;     ///< "png", "ppm", "pfm" or "exr"
     unsigned bits = 8;      ///< 8 to 16, or 32 for floating-point numbers
     Transfer transfer = Transfer::srgb;
+    Metadata texts;  ///< for formats that hold texts
 };
+
+/// What the views of a light field are: counts and geometry. Throws Error(usage) for directions that are no views.
+ViewTarget target_of(const LightFieldGrid& grid, const std::filesystem::path& path);
 
 /// Writes a set. write() may be called from several threads at once, once for each view; finish() last.
 class ViewWriter {
@@ -114,6 +122,7 @@ std::unique_ptr<ViewWriter> file_writer(const ViewTarget& target,
 std::vector<unsigned char> picture_file(const ViewTarget& target, const StoredView& view);
 
 // The layouts, one a file.
+ViewLayout transforms_layout();
 ViewLayout hci_layout();
 ViewLayout stanford_layout();
 ViewLayout quilt_layout();

@@ -52,9 +52,10 @@ std::vector<unsigned char> picture_file(const ViewTarget& target, const StoredVi
         if (target.format == "ppm")
             return pnm_file(pixmap_codes(view, (1u << target.bits) - 1), (1u << target.bits) - 1);
         if (target.format == "pfm") return pfm_file(std::get<Array<float, 3>>(view));
-        if (target.format == "exr") return exr_file(std::get<Array<float, 3>>(view), {});
-        if (const auto* wide = std::get_if<Array<std::uint16_t, 3>>(&view)) return png_file(wide->view(), {}, curve);
-        return png_file(std::get<Array<std::uint8_t, 3>>(view).view(), {}, curve);
+        if (target.format == "exr") return exr_file(std::get<Array<float, 3>>(view), target.texts);
+        if (const auto* wide = std::get_if<Array<std::uint16_t, 3>>(&view))
+            return png_file(wide->view(), target.texts, curve);
+        return png_file(std::get<Array<std::uint8_t, 3>>(view).view(), target.texts, curve);
     } catch (const Error&) {
         throw;
     } catch (const std::runtime_error& error) {

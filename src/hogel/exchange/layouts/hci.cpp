@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <fstream>
 #include <map>
@@ -18,11 +19,16 @@ namespace hogel::exchange {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* beginning = "input_Cam#";
+constexpr const char* beginning = "input_cam#";  // in any case
+
+std::string lower(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
 
 const NumberedFiles* pictures_in(const std::vector<NumberedFiles>& groups) {
     for (const NumberedFiles& group : groups)
-        if (group.shape.starts_with(beginning)) return &group;
+        if (lower(group.shape).starts_with(beginning)) return &group;
     return nullptr;
 }
 
@@ -40,24 +46,37 @@ std::map<std::string, double> read_parameters(const fs::path& file) {
     constexpr std::size_t max_lines = 10000;
     std::string line;
     for (std::size_t i = 0; i < max_lines && std::getline(stream, line); ++i) {
-        const std::size_t equals = line.find('=');
+        // As Python's configparser: a name, = or :, a value; and what people write behind it.
+        const std::size_t equals = line.find_first_of("=:");
         if (equals == std::string::npos) continue;
-        const std::string text = trimmed(line.substr(equals + 1));
+        std::string text = line.substr(equals + 1);
+        text = trimmed(text.substr(0, text.find_first_of("#;")));
         double value = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
         if (error == std::errc() && end == text.data() + text.size())
-            parameters[trimmed(line.substr(0, equals))] = value;
+            parameters[lower(trimmed(line.substr(0, equals)))] = value;
     }
     return parameters;
 }
 
-ViewGeometry geometry_of(const fs::path& file, const std::map<std::string, double>& parameters) {
-    const auto length = [&](const char* name) {
+constexpr const char* needed[] = {"baseline_mm",     "focus_distance_m",      "sensor_size_mm",
+                                  "focal_length_mm", "image_resolution_x_px", "image_resolution_y_px"};
+
+// The first name that is missing; empty if none is. Throws for a number that is not positive.
+std::string missing_of(const fs::path& file, const std::map<std::string, double>& parameters) {
+    std::string missing;
+    for (const char* name : needed) {
         const auto found = parameters.find(name);
-        if (found == parameters.end() || !(found->second > 0))
+        if (found == parameters.end())
+            missing = missing.empty() ? name : missing;
+        else if (!(found->second > 0))
             fail_source(file, fmt::format("has no {} that is positive", name));
-        return found->second;
-    };
+    }
+    return missing;
+}
+
+ViewGeometry geometry_of(const std::map<std::string, double>& parameters) {
+    const auto length = [&](const char* name) { return parameters.at(name); };
     ViewGeometry geometry;
     geometry.spacing = length("baseline_mm") * 1e-3;
     geometry.distance = length("focus_distance_m");
@@ -74,7 +93,10 @@ ViewSet open(const fs::path& source, const ViewOptions& options) {
     ViewSet set;
     if (const fs::path file = source / "parameters.cfg"; fs::exists(file)) {
         const std::map<std::string, double> parameters = read_parameters(file);
-        set.geometry = geometry_of(file, parameters);
+        if (const std::string missing = missing_of(file, parameters); missing.empty())
+            set.geometry = geometry_of(parameters);
+        else
+            set.notes.push_back(fmt::format("parameters.cfg has no {}, so it says nothing of the geometry", missing));
         const auto x = parameters.find("num_cams_x"), y = parameters.find("num_cams_y");
         if (columns == 0 && x != parameters.end() && y != parameters.end() && x->second >= 1 && y->second >= 1 &&
             x->second * y->second <= 1e9) {

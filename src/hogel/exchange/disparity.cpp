@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/exchange/disparity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+
+#include "hogel/core/raw_file.h"
+#include "hogel/error.h"
+#include "hogel/image/picture_bytes.h"
+#include "hogel/io/arrays/npy.h"
+
+namespace hogel::exchange {
+namespace fs = std::filesystem;
+namespace {
+
+// Holes take the smaller disparity, the farther one, of the nearest pixels on both sides along the motion.
+void fill_holes(DisparityMap& map, bool along_y) {
+    const std::size_t lines = map.extent(along_y ? 1 : 0), length = map.extent(along_y ? 0 : 1);
+    for (std::size_t line = 0; line < lines; ++line) {
+        const auto at = [&](std::size_t i) -> float& { return along_y ? map(i, line) : map(line, i); };
+        for (std::size_t i = 0; i < length;) {
+            if (!std::isnan(at(i))) {
+                ++i;
+                continue;
+            }
+            std::size_t end = i;
+            while (end < length && std::isnan(at(end))) ++end;
+            const float before = i > 0 ? at(i - 1) : NAN, after = end < length ? at(end) : NAN;
+            const float fill = std::isnan(before) ? after : std::isnan(after) ? before : std::min(before, after);
+            for (; i < end; ++i) at(i) = fill;
+        }
+    }
+}
+
+// The median of 3x3 pixels, which closes cracks of a pixel that moving leaves.
+DisparityMap median(const DisparityMap& map) {
+    DisparityMap out(map.shape());
+    const std::size_t height = map.extent(0), width = map.extent(1);
+    for (std::size_t y = 0; y < height; ++y)
+        for (std::size_t x = 0; x < width; ++x) {
+            std::array<float, 9> values;
+            std::size_t n = 0;
+            for (std::size_t j = y > 0 ? y - 1 : y; j <= std::min(y + 1, height - 1); ++j)
+                for (std::size_t i = x > 0 ? x - 1 : x; i <= std::min(x + 1, width - 1); ++i) values[n++] = map(j, i);
+            std::nth_element(values.begin(), values.begin() + static_cast<long>(n / 2),
+                             values.begin() + static_cast<long>(n));
+            out(y, x) = values[n / 2];
+        }
+    return out;
+}
+
+std::string lower_name(const fs::path& path) {
+    std::string name = path.filename().string();
+    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+    return name;
+}
+
+struct Candidate {
+    fs::path path;
+    bool depth = false;
+};
+
+// Files that are maps by their names; disparity before depth, in the order of their names.
+std::vector<Candidate> candidates(const fs::path& folder) {
+    std::vector<Candidate> found;
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+        const std::string name = lower_name(entry.path());
+        const bool disparity = name.find("disp") != std::string::npos, depth = name.find("depth") != std::string::npos;
+        const bool array = name.ends_with(".pfm") || name.ends_with(".exr") || name.ends_with(".npy");
+        if (name.starts_with('.') || !array || (!disparity && !depth) || !entry.is_regular_file(error)) continue;
+        found.push_back({entry.path(), !disparity});
+    }
+    std::ranges::sort(found, {}, [](const Candidate& c) { return std::pair(c.depth, c.path); });
+    return found;
+}
+
+DisparityMap read_npy(const fs::path& path) {
+    const core::RawFile file(path, core::RawFile::Mode::read, path);
+    const io::arrays::NpyHeader header = io::arrays::read_npy_header(path, file);
+    const bool wide = header.number == io::arrays::Number::real;
+    if (header.shape.size() != 2 || header.by_columns || header.complex || header.big_endian ||
+        (!wide && header.number != io::arrays::Number::single))
+        fail_source(path, "a map is an array [y][x] of float32 or float64");
+    DisparityMap map({header.shape[0], header.shape[1]});
+    if (!wide) {
+        file.read(header.begin, map.data(), map.size() * sizeof(float));
+        return map;
+    }
+    std::vector<double> values(map.size());
+    file.read(header.begin, values.data(), values.size() * sizeof(double));
+    std::ranges::transform(values, map.data(), [](double value) { return static_cast<float>(value); });
+    return map;
+}
+
+DisparityMap read_map(const fs::path& path) {
+    if (lower_name(path).ends_with(".npy")) return read_npy(path);
+    const image::Picture picture = image::read_picture(path, max_pixels);
+    const auto* samples = std::get_if<Array<float, 3>>(&picture.samples);
+    if (samples == nullptr) fail_source(path, "a map holds floating-point numbers");
+    DisparityMap map({samples->extent(0), samples->extent(1)});
+    for (std::size_t i = 0; i < map.size(); ++i) map.data()[i] = samples->data()[i * samples->extent(2)];
+    return map;
+}
+
+// Depth Z becomes the disparity (1/Z - 1/D) b/a.
+void to_disparity(const fs::path& path, const ViewGeometry& g, DisparityMap& map) {
+    if (!(g.spacing > 0 && g.pixel_tangent > 0 && g.distance > 0))
+        fail_source(path, "depth becomes disparity by the distances of the cameras, which this set does not say");
+    for (float& value : map.elements()) {
+        if (!(value > 0)) fail_source(path, "holds a depth that is not positive");
+        value = static_cast<float>((1 / static_cast<double>(value) - 1 / g.distance) * g.spacing / g.pixel_tangent);
+    }
+}
+
+}  // namespace
+
+DisparityMap moved(const DisparityMap& map, double across, double down, double spacing_ratio) {
+    if (across == 0 && down == 0) return map;
+    DisparityMap out(map.shape(), NAN);
+    const auto height = static_cast<long>(map.extent(0)), width = static_cast<long>(map.extent(1));
+    for (long y = 0; y < height; ++y)
+        for (long x = 0; x < width; ++x) {
+            const float d = map(static_cast<std::size_t>(y), static_cast<std::size_t>(x));
+            const long to_x = x - std::lround(d * across), to_y = y - std::lround(d * down * spacing_ratio);
+            if (to_x < 0 || to_y < 0 || to_x >= width || to_y >= height) continue;
+            float& there = out(static_cast<std::size_t>(to_y), static_cast<std::size_t>(to_x));
+            if (std::isnan(there) || d > there) there = d;
+        }
+    const bool along_y = std::abs(down * spacing_ratio) > std::abs(across);
+    fill_holes(out, along_y);
+    fill_holes(out, !along_y);  // lines without any pixel
+    for (float& value : out.elements())
+        if (std::isnan(value)) value = 0;
+    return median(out);
+}
+
+Disparities::Disparities(std::vector<std::pair<std::pair<std::size_t, std::size_t>, DisparityMap>> known,
+                         double spacing_ratio, std::string origin, std::size_t kept)
+    : known_(std::move(known)), spacing_ratio_(spacing_ratio), origin_(std::move(origin)), moved_(kept) {}
+
+std::shared_ptr<const DisparityMap> Disparities::at(double row, double column) const {
+    return moved_.get({row, column}, [&] {
+        const auto away = [&](const auto& each) {
+            return std::hypot(static_cast<double>(each.first.first) - row,
+                              static_cast<double>(each.first.second) - column);
+        };
+        const auto nearest = std::ranges::min_element(known_, {}, away);
+        return std::make_shared<const DisparityMap>(
+            moved(nearest->second, column - static_cast<double>(nearest->first.second),
+                  row - static_cast<double>(nearest->first.first), spacing_ratio_));
+    });
+}
+
+std::shared_ptr<const Disparities> find_disparities(const fs::path& source, const ViewSet& set, std::size_t kept) {
+    std::error_code none;
+    const fs::path folder = fs::is_directory(source, none) ? source : source.parent_path();
+    std::vector<std::pair<std::pair<std::size_t, std::size_t>, DisparityMap>> known;
+    std::vector<fs::path> used;
+    bool of_depth = false;
+    const std::size_t views = set.rows * set.columns;
+    for (const Candidate& candidate : candidates(folder)) {
+        if (!used.empty() && candidate.depth != of_depth) break;  // either disparity or depth
+        DisparityMap map = read_map(candidate.path);
+        if (map.extent(0) != set.height || map.extent(1) != set.width) continue;  // of a higher resolution
+        if (candidate.depth) to_disparity(candidate.path, set.geometry, map);
+        const auto largest = static_cast<float>(std::max(set.width, set.height));
+        for (const float value : map.elements())
+            if (!(std::abs(value) <= largest)) fail_source(candidate.path, "holds a disparity that cannot be");
+        of_depth = candidate.depth;
+        used.push_back(candidate.path);
+        known.push_back({{(known.size() / set.columns), known.size() % set.columns}, std::move(map)});
+        if (known.size() > views) break;
+    }
+    if (known.empty()) return nullptr;
+    if (known.size() == 1)
+        known.front().first = {set.rows / 2, set.columns / 2};
+    else if (known.size() != views)
+        fail_source(folder,
+                    fmt::format("has {} maps of disparity or depth; expected one, of the view in the middle, or "
+                                "{}, of all views",
+                                known.size(), views));
+    const std::string origin =
+        known.size() == 1 ? used.front().filename().string()
+                          : fmt::format("{} to {}", used.front().filename().string(), used.back().filename().string());
+    return std::make_shared<const Disparities>(std::move(known), set.geometry.spacing_ratio, origin, kept);
+}
+
+}  // namespace hogel::exchange
