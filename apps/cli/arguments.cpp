@@ -76,6 +76,21 @@ double parse_positive_length(const std::string& text, const std::string& what) {
     throw Error(ErrorCode::usage, fmt::format("{}: '{}' is not a positive length", what, text));
 }
 
+// "638nm,520nm,450nm": up to three.
+std::vector<double> parse_lengths(const std::string& text, const std::string& what) {
+    const std::string unit = unit_of(text.substr(text.rfind(',') + 1));
+    std::vector<double> lengths;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        lengths.push_back(parse_positive_length(with_unit(text.substr(begin, end - begin), unit), what));
+        begin = end + 1;
+    }
+    if (lengths.size() > 3)
+        throw Error(ErrorCode::usage,
+                    fmt::format("{}: {} were given; at most three were expected", what, lengths.size()));
+    return lengths;
+}
+
 Angles parse_angles(const std::string& text, const std::string& what) {
     const std::size_t comma = text.find(',');
     if (comma == std::string::npos) {
@@ -158,14 +173,14 @@ Option Command::whole(const std::string& name, std::uint64_t& number, std::uint6
 
 Option Command::wavelengths(std::vector<double>& wavelengths) {
     wavelengths = {defaults.red, defaults.green, defaults.blue};
-    return read_option("--wavelength", "LENGTH|rgb", "rgb",
-                       fmt::format("Wavelength, or rgb for {}, {} and {}", format_length(defaults.red),
+    return read_option("--wavelength", "LENGTH[,...]|rgb", "rgb",
+                       fmt::format("Wavelengths, or rgb for {}, {} and {}", format_length(defaults.red),
                                    format_length(defaults.green), format_length(defaults.blue)),
                        [&wavelengths](const std::string& text, const std::string& what) {
                            if (text == "rgb")
                                wavelengths = {defaults.red, defaults.green, defaults.blue};
                            else
-                               wavelengths = {parse_positive_length(text, what)};
+                               wavelengths = parse_lengths(text, what);
                        });
 }
 

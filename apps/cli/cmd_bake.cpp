@@ -14,6 +14,7 @@ namespace {
 struct Options {
     std::string scene, output;
     double size = defaults.size;
+    SceneOptions placing;
     BakeOptions bake{.rays = defaults.bake_rays, .bounces = defaults.bake_bounces};
 };
 
@@ -24,6 +25,7 @@ int bake(const Options& options, const Session& session) {
     require_writable(options.output, {&options.scene, 1});
     RenderOptions place;
     place.size = options.size;
+    place.scene = options.placing;
     BakeOptions bake_options = options.bake;
     bake_options.seed = session.seed;
     RunRecord record(session);
@@ -55,6 +57,7 @@ void add_bake(Command& command, Session& session) {
     command.count("--bounces", options->bake.bounces, "How often light is reflected");
     command.count("--tessellate", options->bake.tessellation, "Parts into which the sides of triangles are cut");
     command.positive_length("--size", options->size, "Width of the hologram that the scene is fitted to");
+    add_scene_options(command, options->placing);
     add_json_flag(command, session);
     command.work([options, &session] { return bake(*options, session); });
 }

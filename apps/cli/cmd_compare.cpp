@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "commands.h"
+#include "fields.h"
 #include "hogel/pipeline.h"
 
 namespace hogel::cli {
@@ -13,13 +14,20 @@ namespace {
 struct Options {
     std::string a, b;
     std::optional<double> min_psnr, min_sqnr, exposure;
+    FieldOptions field;
 };
 
 SampleComparison compare_samples(const Options& options, FileKind kind, const Session& session) {
     Stage stage(session, "comparing");
     if (kind == FileKind::light_field)
         return compare(open_light_field_or_views(options.a), open_light_field_or_views(options.b), stage.progress());
-    const Fields a = open_hologram(options.a), b = open_hologram(options.b);
+    const auto open = [&](const std::string& name) {
+        RunRecord unused(session);
+        if (!is_external(name, options.field)) return open_hologram(name);
+        return open_fields(name, options.field, *session.command, options.field.pitch, options.field.wavelengths,
+                           unused);
+    };
+    const Fields a = open(options.a), b = open(options.b);
     return compare(a, b, stage.progress());
 }
 
@@ -33,11 +41,14 @@ bool misses(const Session& session, const char* name, std::optional<double> boun
 }
 
 // Sets of views are light fields.
-FileKind kind_of(const std::string& path) { return is_view_set(path) ? FileKind::light_field : file_kind(path); }
+FileKind kind_of(const std::string& path, const FieldOptions& options) {
+    if (is_external(path, options)) return FileKind::hologram;
+    return is_view_set(path) ? FileKind::light_field : file_kind(path);
+}
 
 int compare_files(const Options& options, const Session& session) {
-    const FileKind kind = kind_of(options.a);
-    if (kind_of(options.b) != kind)
+    const FileKind kind = kind_of(options.a, options.field);
+    if (kind_of(options.b, options.field) != kind)
         throw Error(ErrorCode::bad_input, fmt::format("{} and {} are not files of one kind", options.a, options.b));
     std::optional<double> psnr, sqnr;
     if (kind == FileKind::picture) {
@@ -82,6 +93,7 @@ void add_compare(Command& command, Session& session) {
     command.number(
         "--exposure", options->exposure, "NUMBER",
         "What linear values of pictures are multiplied by (default: 1, or less where A is brighter than white)");
+    add_field_options(command, options->field, true);
     add_json_flag(command, session);
     command.work([options, &session] { return compare_files(*options, session); });
 }

@@ -7,7 +7,9 @@
 #include "hogel/pipeline.h"
 #include "hogel/units.h"
 #include "inputs.h"
+#include "movie.h"
 #include "outputs.h"
+#include "run_record.h"
 
 namespace hogel::cli {
 namespace {
@@ -16,13 +18,45 @@ struct Options {
     std::string input, output, transfer;
     ViewExportOptions views;
     std::size_t bits = 0;
+    double frame_rate = 24;
     bool force = false;
 };
+
+// The middle row of cameras as a film, one frame a camera from the left.
+int export_walk(Options options, const LightField& light_field, const Session& session) {
+    require_writable(options.output, {&options.input, 1});
+    require_movie(options.output);
+    RunRecord record(session);
+    record.acted({"input", "exposure", "frame-rate"});
+    const FrameFolder folder(options.output);
+    options.views.layout = "rows-columns";
+    options.views.format = "png";
+    options.views.bits = 8;
+    options.views.transfer = Transfer::srgb;
+    state_plan(session, plan_export(light_field, options.views), "exporting", options.output);
+    Stage stage(session, "exporting");
+    const ExportedViews exported = with_options({{"exposure", "--exposure"}}, [&] {
+        return export_views(light_field, folder.path(), options.views, stage.progress());
+    });
+    const std::uintmax_t bytes = make_film(options.output, folder, fmt::format("{:03}_%03d.png", exported.rows / 2),
+                                           options.frame_rate, record.metadata());
+    session.say(fmt::format("{}: {} views{}", options.output, exported.columns,
+                            exported.rows > 1 ? fmt::format(" of the middle one of {} rows", exported.rows) : ""));
+    session.result({{"file", options.output},
+                    {"bytes", bytes},
+                    {"layout", "film"},
+                    {"views_across", exported.columns},
+                    {"views_down", 1},
+                    {"files", 1},
+                    {"seconds", session.seconds()}});
+    return 0;
+}
 
 int export_light_field(Options options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a light field", options.input));
     const LightField light_field = open_light_field_or_views(options.input);
+    if (is_film(options.output)) return export_walk(options, light_field, session);
     const ViewLayout layout =
         with_options({{"", "--layout"}}, [&] { return view_layouts().find(options.views.layout); });
     const std::filesystem::path output = options.output;
@@ -37,6 +71,9 @@ int export_light_field(Options options, const Session& session) {
         options.views.format = output.extension().string().substr(1);
     for (std::size_t i = 0; i < transfer_names().size(); ++i)
         if (options.transfer == transfer_names()[i]) options.views.transfer = static_cast<Transfer>(i);
+    RunRecord record(session);
+    record.acted({"input", "layout", "exposure"});
+    options.views.metadata = record.metadata();
     state_plan(session, plan_export(light_field, options.views), "exporting", options.output);
     Stage stage(session, "exporting");
     const ExportedViews exported =
@@ -69,11 +106,13 @@ void add_export(Command& command, Session& session) {
     command.examples(
         "  hogel export antinous.h5 -o views --layout hci\n"
         "  hogel export antinous.h5 -o views --pictures ppm --bits 10\n"
-        "  hogel export antinous.h5 -o views.npy --layout npy");
+        "  hogel export antinous.h5 -o views.npy --layout npy\n"
+        "  hogel export antinous.h5 -o walk.mp4");
     command.positional("input", options->input, "X.h5|X.hgl", "Light field");
     command
         .text("-o,--output", options->output, "FOLDER|FILE",
-              "Folder for the views, or the file of layouts that are one")
+              "Folder for the views, or the file of layouts that are one; .mp4, .gif or .apng: a film of the "
+              "middle row of views, by ffmpeg")
         .required();
     add_force_flag(command, options->force);
     std::string layouts;
@@ -93,6 +132,7 @@ void add_export(Command& command, Session& session) {
                             fmt::join(transfer_names(), ", ")))
         .no_default();
     command.number("--exposure", options->views.exposure, "NUMBER", "What linear values are multiplied by").positive();
+    command.number("--frame-rate", options->frame_rate, "NUMBER", "Of films, views a second").positive();
     add_json_flag(command, session);
     command.work([options, &session] { return export_light_field(*options, session); });
 }

@@ -59,6 +59,7 @@ int straight_from_scene(const Options& options, const SceneHologramMethod& metho
     if (method.uses_spacing) record.acted({"spacing"});
     if (method.uses_planes) record.acted({"planes"});
     const auto scene = light_scene(session, load_scene(session, options.input, render, record), render, record);
+    record.idle("background");  // what no surface sends out is not seen
     const auto sinks =
         create_hologram(options.output, grids,
                         {.type = options.type(), .metadata = with_history(record.metadata(), scene->provenance)});

@@ -8,6 +8,7 @@
 #include "hogel/pipeline.h"
 #include "hogel/units.h"
 #include "inputs.h"
+#include "movie.h"
 #include "outputs.h"
 
 namespace hogel::cli {
@@ -19,8 +20,10 @@ struct Options {
     std::string projection, column, transfer, mirror = "none";
     double size = 0, distance = 0, spacing = 0, field_of_view = 0, disparity = 0;
     bool distance_given = false, spacing_given = false, field_given = false;
-    Counts counts;
+    Counts counts, middle;
     bool single = false;
+    std::size_t densify = 1;
+    bool estimate_disparity = false, depth = false;
     std::optional<double> sqnr;
 
     bool compressed() const { return std::filesystem::path(output).extension() == ".hgl"; }
@@ -41,6 +44,11 @@ ViewOptions view_options(const Options& options) {
     views.mirror_columns = options.mirror == "columns" || options.mirror == "both";
     views.mirror_rows = options.mirror == "rows" || options.mirror == "both";
     views.disparity = options.disparity;
+    views.densify = options.densify;
+    views.estimate_disparity = options.estimate_disparity;
+    views.with_depth = options.depth;
+    views.middle_columns = options.middle.columns;
+    views.middle_rows = options.middle.rows;
     return views;
 }
 
@@ -56,6 +64,10 @@ void record_views(RunRecord& record, const Options& options, const ImportedViews
     if (!options.column.empty() && views.layout == "rows-columns") record.acted({"column"});
     if (options.counts.columns > 0) record.acted({"views"});
     if (options.disparity != 0) record.acted({"disparity"});
+    if (options.densify > 1) record.acted({"densify"});
+    if (options.depth) record.acted({"depth"});
+    if (options.middle.columns > 0) record.acted({"middle"});
+    if (views.estimated) record.acted({"estimate-disparity"});
 }
 
 void say_understood(const Session& session, const std::string& source, const ImportedViews& views) {
@@ -75,15 +87,17 @@ Result result_of(const ImportedViews& views) {
             {"camera_spacing_m", views.spacing},
             {"camera_distance_m", views.distance},
             {"scale", views.scale},
-            {"parallax", views.parallax}};
+            {"parallax", views.parallax},
+            {"disparity_estimated", views.estimated}};
 }
 
 int write_compressed(const Options& options, const ImportedViews& views, RunRecord& record, const Session& session) {
-    const LightField light_field = prepare_for_reading(session, views.light_field, 2, false);
+    const LightField light_field = prepare_for_reading(session, views.light_field, 2, options.depth);
     CompressionOptions compression;
     const double sqnr = options.sqnr.value_or(defaults.sqnr);
     compression.target = Sqnr{sqnr};
     record.acted("sqnr", fmt::format("{}", sqnr));
+    compression.with_depth = options.depth;
     compression.metadata = record.metadata();
     Stage stage(session, "compressing");
     const CompressionResult result = with_options(
@@ -117,19 +131,33 @@ int import(const Options& options, const Session& session) {
             fmt::format("--sqnr: belongs to compressed files, whose names end in .hgl, not to {}", options.output));
     require_writable(options.output, {&options.source, 1});
     if (!options.compressed()) require_hdf5(options.output);
-    const ViewOptions view = view_options(options);
-    const ImportedViews views = with_options({{"layout", "--layout"},
+    ViewOptions view = view_options(options);
+    std::unique_ptr<const FrameFolder> frames;
+    std::filesystem::path source = options.source;
+    if (is_film(source)) {
+        frames = std::make_unique<const FrameFolder>(options.output);
+        const std::size_t count = extract_frames(source, *frames);
+        source = frames->path();
+        if (view.columns == 0) view.columns = count, view.rows = 1;
+        if (!view.orthographic) view.orthographic = false;
+    }
+    view.spool = std::filesystem::absolute(options.output).parent_path();
+    const ImportedViews views = with_options({{"can be estimated", "--estimate-disparity"},
+                                              {"mirrored ones", "--mirror"},
+                                              {"layout", "--layout"},
                                               {"disparity", "--disparity"},
                                               {"spacing of cameras and the field of view", "--spacing, --fov"},
                                               {"distance and spacing", "--distance, --spacing"},
                                               {"columns and rows", "--views"},
+                                              {"densified", "--densify"},
+                                              {"the middle", "--middle"},
                                               {"number of columns", "--views"},
                                               {"views were asked for", "--views"},
                                               {"field of view", "--fov"},
                                               {"width", "--size"}},
                                              [&] {
                                                  Stage stage(session, "looking at the views");
-                                                 return import_views(options.source, view, stage.progress());
+                                                 return import_views(source, view, stage.progress());
                                              });
     say_understood(session, options.source, views);
     RunRecord record(session);
@@ -141,6 +169,7 @@ int import(const Options& options, const Session& session) {
     state_plan(session, plan_import(views, view, file), "importing", options.compressed() ? "" : options.output);
     if (options.compressed()) return write_compressed(options, views, record, session);
     record.acted("float", file.type == SampleType::single ? "yes" : "no");
+    file.with_depth = options.depth;
     file.metadata = record.metadata();
     return write_hdf5(options, views, file, session);
 }
@@ -178,6 +207,7 @@ void add_order_options(Command& command, Options& options) {
         .counts("--views", options.counts,
                 "Columns and rows of views, where one number counts them all (default: a square)")
         .no_default();
+    command.counts("--middle", options.middle, "Take these columns and rows of views in the middle alone").no_default();
     command
         .choice("--column", options.column, {"first", "second"}, "first|second",
                 "Which of the two numbers in the names of files is the column (default: what the parallax says)")
@@ -199,7 +229,9 @@ void add_import(Command& command, Session& session) {
         "  hogel import chess -o chess.hgl --size 60mm --fov 12deg\n"
         "  hogel import head_qs8x6a0.75.png -o head.h5 --fov 40deg\n"
         "  hogel import sockets -o sockets.h5 --projection orthographic --views 20x20");
-    command.positional("source", options->source, "SOURCE", "Folder or file of views");
+    command.positional(
+        "source", options->source, "SOURCE",
+        "Folder or file of views; .mp4, .gif or .apng: a film of a row of cameras from the left, by ffmpeg");
     command.text("-o,--output", options->output, "FILE", "Light field to write: HDF5, or compressed if it ends in .hgl")
         .required();
     std::string layouts;
@@ -215,6 +247,13 @@ void add_import(Command& command, Session& session) {
                             fmt::join(transfer_names(), ", ")))
         .no_default();
     add_order_options(command, *options);
+    command
+        .count("--densify", options->densify,
+               "Interpolate N - 1 views between neighbours, by the disparity or depth that comes with the set")
+        .no_default();
+    command.flag("--estimate-disparity", options->estimate_disparity,
+                 "Where none comes with the set, estimate it from the views (experimental)");
+    command.flag("--depth", options->depth, "Store the depth of rays, by the same disparity");
     command.flag("--float", options->single,
                  "Store 32-bit floats rather than 16-bit ones, as for pictures of more than 11 bits");
     command.number(

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <limits>
 
 #include "commands.h"
+#include "fields.h"
 #include "hogel/files.h"
 #include "hogel/image.h"
 #include "hogel/scenes.h"
@@ -38,6 +40,7 @@ FileSummary summarize_mesh(const std::string& path, const Progress& progress) {
     summary.kind = FileKind::mesh;
     summary.text = {{"kind", "mesh"}};
     for (const auto& entry : scene.provenance) summary.text.push_back(entry);
+    if (!scene.notes.empty()) summary.text.emplace_back("notes", fmt::format("{}", fmt::join(scene.notes, "; ")));
     summary.numbers = {{"meshes", static_cast<double>(scene.meshes.size())},
                        {"triangles", static_cast<double>(triangle_count(scene))},
                        {"lights", static_cast<double>(scene.lights.size())},
@@ -47,6 +50,34 @@ FileSummary summarize_mesh(const std::string& path, const Progress& progress) {
                        {"high_x", box.high.x},
                        {"high_y", box.high.y},
                        {"high_z", box.high.z}};
+    return summary;
+}
+
+// What a field of another program says, and what the options say of it.
+FileSummary summarize_field(const std::string& path, const FieldOptions& options, const Command& command) {
+    const ExternalFacts facts = external_facts(path, external_field(options));
+    FileSummary summary;
+    summary.kind = FileKind::hologram;
+    summary.text = {{"kind", "field of another program"}, {"file_format", facts.format}, {"numbers", facts.numbers}};
+    if (!facts.complaint.empty()) summary.text.emplace_back("not_taken", facts.complaint);
+    const auto add = [&](const std::string& name, double value) { summary.numbers.emplace_back(name, value); };
+    add("bytes", static_cast<double>(std::filesystem::file_size(path)));
+    add("fields", static_cast<double>(facts.colours));
+    const std::vector<double>& waves = command.given("--wavelength") ? options.wavelengths : facts.wavelengths;
+    const double pitch_x = command.given("--pitch") ? options.pitch : facts.pitch_x,
+                 pitch_y = command.given("--pitch") ? options.pitch : facts.pitch_y;
+    for (std::size_t i = 0; i < facts.colours; ++i) {
+        const std::string field = fmt::format("field{}_", i);
+        if (i < waves.size()) add(field + "wavelength_m", waves[i]);
+        add(field + "samples_x", static_cast<double>(facts.width));
+        add(field + "samples_y", static_cast<double>(facts.height));
+        if (pitch_x > 0 && pitch_y > 0) {
+            add(field + "pitch_x_m", pitch_x);
+            add(field + "pitch_y_m", pitch_y);
+            add(field + "width_m", static_cast<double>(facts.width) * pitch_x);
+            add(field + "height_m", static_cast<double>(facts.height) * pitch_y);
+        }
+    }
     return summary;
 }
 
@@ -66,8 +97,9 @@ FileSummary summarize_any(const std::string& path, const Progress& progress) {
                 fmt::format("{}: is neither a light field, a hologram, a picture nor a mesh", path));
 }
 
-int info(const std::string& path, const Session& session) {
-    const FileSummary summary = summarize_any(path, Progress(session.stop.get_token()));
+int info(const std::string& path, const FieldOptions& options, const Session& session) {
+    const FileSummary summary = is_external(path, options) ? summarize_field(path, options, *session.command)
+                                                           : summarize_any(path, Progress(session.stop.get_token()));
     std::string words;
     for (const auto& [name, value] : summary.text) words += fmt::format("{:<24} {}\n", name, value);
     for (const auto& [name, value] : summary.numbers) words += fmt::format("{:<24} {:.9g}\n", name, value);
@@ -79,10 +111,12 @@ int info(const std::string& path, const Session& session) {
 
 void add_info(Command& command, Session& session) {
     auto path = std::make_shared<std::string>();
+    auto options = std::make_shared<FieldOptions>();
     command.examples("  hogel info pumpkin.h5\n  hogel info hologram.h5 --json");
-    command.positional("file", *path, "FILE", "Light field, hologram, picture or mesh");
+    command.positional("file", *path, "FILE", "Light field, hologram, another program's field, picture or mesh");
+    add_field_options(command, *options, true);
     add_json_flag(command, session);
-    command.work([path, &session] { return info(*path, session); });
+    command.work([path, options, &session] { return info(*path, *options, session); });
 }
 
 }  // namespace hogel::cli

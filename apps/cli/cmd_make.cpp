@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 
 #include "camera_options.h"
 #include "commands.h"
@@ -128,15 +129,23 @@ bool is_expected_cheap(const LightFieldGrid& grid, const HologramRequest& reques
 
 // The command that renders the light field again, from the options that describe the run.
 std::string render_command(const Metadata& run, const std::string& scene) {
-    constexpr std::array<std::string_view, 14> names{
-        "algorithm", "shading", "shadow-map", "cache-spacing", "cull-back-faces", "hogels", "directions",
-        "samples",   "size",    "fov",        "toward",        "front",           "as-is",  "fit"};
+    constexpr std::array<std::string_view, 24> names{
+        "algorithm",  "shading", "shadow-map", "cache-spacing", "cull-back-faces", "hogels",
+        "directions", "samples", "size",       "fov",           "toward",          "front",
+        "as-is",      "fit",     "up",         "rotate",        "scale",           "move",
+        "colour",     "texture", "light",      "background",    "ground",          "point-size"};
     std::string command = "hogel render " + scene + " -o lightfield.h5";
     for (const auto& [key, value] : run)
         for (const std::string_view name : names) {
             if (key != fmt::format("option {}", name) || value == "no") continue;
+            if (name == "light") {
+                std::istringstream lights(value);
+                for (std::string light; lights >> light;) command += fmt::format(" --light '{}'", light);
+                continue;
+            }
             command += fmt::format(" --{}", name);
-            if (value != "yes") command += " " + value;
+            if (value == "yes") continue;
+            command += value.find_first_of("# ") == std::string::npos ? " " + value : fmt::format(" '{}'", value);
         }
     return command;
 }
@@ -185,6 +194,7 @@ Result result_of(const Report& report, const std::string& folder, const Session&
 int make(const Options& options, const Session& session) {
     if (input_kind(options.scene) != InputKind::scene)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
+    require_folder_name(options.output);
     require_hdf5(std::filesystem::path(options.output) / "lightfield.h5");
     require_picture_name("photo.png");
     require_picture_name("photo.exr");

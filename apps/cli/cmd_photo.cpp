@@ -74,8 +74,8 @@ std::vector<Image> develop(Stage& stage, const Fields& fields, std::span<const C
 }
 
 std::vector<Image> photographs_of_hologram(const Options& options, RunRecord& record, const Session& session) {
-    const Fields fields = open_fields(options.input, options.field, *session.command, options.hologram.pitch,
-                                      options.hologram.wavelengths, record);
+    const Fields fields = open_and_reconstruct(session, options.input, options.field, options.hologram.pitch,
+                                               options.hologram.wavelengths, record);
     if (fields.size() != 1 && fields.size() != 3)
         throw Error(ErrorCode::bad_input, fmt::format("{}: has {} wavelengths; a photograph takes one or three",
                                                       options.input, fields.size()));
@@ -225,6 +225,7 @@ void write_photographs(const Options& options, std::span<const Image> pictures, 
 int photo(const Options& options, const Session& session) {
     const double given = options.exposure == "auto" ? 0 : parse_exposure(options.exposure);
     const bool external = is_external(options.input, options.field);
+    if (!external) require_described(options.input, options.field);
     const InputKind kind = external ? InputKind::hologram : input_kind(options.input);
     if (options.view.frames > 1)
         with_options({{"", "--frames"}}, [&] { require_movie(options.output); });
@@ -275,16 +276,17 @@ void add_photo(Command& command, Session& session) {
         "  hogel photo pumpkin.h5 -o truth.exr --focus -4mm\n"
         "  hogel photo pumpkin -o wave.png --hogels 128x128 --size 8mm --looks 8\n"
         "  hogel photo hologram.h5 -o stack.mp4 --focus -6mm --to-focus 6mm --frames 24\n"
-        "  hogel photo phase.png -o p.png --values phase --pitch 8um --wavelength 532nm");
+        "  hogel photo phase.png -o p.png --phase-code slmsuite --pitch 8um --wavelength 532nm");
     command.positional("input", options->input, "F.h5|X.h5|SCENE",
-                       "Hologram, light field, mesh file, built-in scene, .npy, .mat or picture");
+                       "Hologram, light field, mesh file, built-in scene, another program's field or picture");
     command.text("-o,--output", options->output, "FILE", "Picture to write: .png (sRGB) or .exr (linear)").required();
     add_camera_options(command, options->view);
     add_photo_options(command, *options);
     add_hologram_options(command, options->hologram);
     add_render_options(command, options->render);
     add_hemicube_option(command, options->render);
-    add_field_options(command, options->field);
+    add_field_options(command, options->field, false);
+    add_reconstruction_options(command, options->field);
     add_json_flag(command, session);
     command.work([options, &session] { return photo(*options, session); });
 }

@@ -41,11 +41,21 @@ Grid output_grid(const Options& options, const Grid& field) {
     return output;
 }
 
+// Names of files that hold fields alone; .exr files may also be pictures.
+bool is_array_name(const std::filesystem::path& path) {
+    for (const char* ending : {".npy", ".npz", ".mat"})
+        if (path.extension() == ending) return true;
+    return false;
+}
+
 enum class OutputKind { hologram, array, picture };
 
-OutputKind output_kind(const std::filesystem::path& path) {
-    if (path.extension() == ".h5") return OutputKind::hologram;
-    if (path.extension() == ".npy") return OutputKind::array;
+OutputKind output_kind(const std::filesystem::path& path, const std::string& display) {
+    if (path.extension() == ".h5" || path.extension() == ".hdf5") return OutputKind::hologram;
+    if (display == "field" || is_array_name(path)) {
+        with_options({{"fields are written as", "--display field"}}, [&] { require_fields_name(path); });
+        return OutputKind::array;
+    }
     require_picture_name(path);
     return OutputKind::picture;
 }
@@ -104,14 +114,13 @@ ResultList methods_of(const Fields& fields, const Options& options, const std::v
 }
 
 int propagate_fields(const Options& options, const Session& session) {
-    const OutputKind kind = output_kind(options.output);
+    const OutputKind kind = output_kind(options.output, options.display);
     require_writable(options.output, {&options.input, 1});
     RunRecord record(session);
     record.acted({"input", "distance", "offset-x", "offset-y"});
     if (kind == OutputKind::picture) record.acted({"display"});
     const Fields fields =
-        open_fields(options.input, options.field, *session.command, options.pitch, options.wavelengths, record);
-    if (kind == OutputKind::array) require_one_wavelength(fields, options.output);
+        open_and_reconstruct(session, options.input, options.field, options.pitch, options.wavelengths, record);
     if (kind == OutputKind::picture && options.display == "phase") require_one_wavelength(fields, "--display phase");
     if (kind == OutputKind::picture && fields.size() != 1 && fields.size() != 3)
         throw Error(ErrorCode::bad_input,
@@ -143,9 +152,9 @@ int propagate_fields(const Options& options, const Session& session) {
         const auto sinks = create_hologram(options.output, grids, {.metadata = metadata});
         for (std::size_t c = 0; c < grids.size(); ++c) colour(c, *sinks[c]);
     } else if (kind == OutputKind::array) {
-        Field field(grids.front());
-        colour(0, field);
-        write_npy(options.output, field.samples);
+        std::vector<Field> propagated;
+        for (std::size_t c = 0; c < grids.size(); ++c) colour(c, propagated.emplace_back(grids[c]));
+        write_fields(options.output, propagated, metadata);
     } else {
         Image picture(plane.width, plane.height, grids.size());
         for (std::size_t c = 0; c < grids.size(); ++c) {
@@ -177,14 +186,17 @@ void add_propagate(Command& command, Session& session) {
         "  hogel propagate hologram.h5 -o nearer.h5 --distance 20mm\n"
         "  hogel propagate hologram.h5 -o eye.png --distance 300mm --output-pitch 20um --output-samples 512\n"
         "  hogel propagate slm.npy -o there.npy --distance 0.2m --pitch 8um --wavelength 532nm");
-    command.positional("input", options->input, "F.h5|F.npy|F.mat|P.png", "Hologram, or another program's field");
-    command.text("-o,--output", options->output, "FILE", "Hologram (.h5), array (.npy) or picture (.png, .exr)")
+    command.positional("input", options->input, "F.h5|F.npy|P.png", "Hologram, or another program's field");
+    command
+        .text("-o,--output", options->output, "FILE",
+              "Hologram (.h5), array (.npy, .npz, .mat) or picture (.png, .exr)")
         .required();
     command.length("--distance", options->distance, "Towards the viewer; negative goes back behind the hologram")
         .required();
-    command.choice("--display", options->display, {"intensity", "amplitude", "log", "phase"},
-                   "intensity|amplitude|log|phase",
-                   "What a picture shows; log: four decades, phase: black at -pi to white at pi");
+    command.choice("--display", options->display, {"intensity", "amplitude", "log", "phase", "field"},
+                   "intensity|amplitude|log|phase|field",
+                   "What a picture shows; log: four decades, phase: black at -pi to white at pi,\n"
+                   "field: real and imaginary parts, in a file (.exr) of channels");
     command.positive_length("--output-pitch", options->output_pitch, "Of the output's samples")
         .default_text("that of the input");
     command.counts("--output-samples", options->output_samples, "Of the output, across and down")
@@ -193,7 +205,8 @@ void add_propagate(Command& command, Session& session) {
     command.length("--offset-y", options->offset_y, "Of the output's middle from that of the input, upwards");
     command.positive_length("--pitch", options->pitch, "Of another program's samples");
     command.wavelengths(options->wavelengths);
-    add_field_options(command, options->field);
+    add_field_options(command, options->field, false);
+    add_reconstruction_options(command, options->field);
     add_json_flag(command, session);
     command.work([options, &session] { return propagate_fields(*options, session); });
 }

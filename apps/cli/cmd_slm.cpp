@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "concerns.h"
+#include "fields.h"
 #include "hogel/image.h"
 #include "hogel/pattern.h"
 #include "hogel/pipeline.h"
@@ -22,6 +23,8 @@ struct Options {
     double pixel_pitch = 0;
     std::size_t levels = 256;
     PatternOptions pattern;
+    std::string phase_code = "hogel";
+    FieldOptions field;
 };
 
 Modulator modulator_of(const Options& options) {
@@ -73,6 +76,7 @@ void record_pattern(RunRecord& record, const Options& options, const std::string
     const Encoding encoding = encodings().find(name).encoding;
     record.acted({"input"});
     record.acted("encoding", name);
+    if (is_phase_only(encoding)) record.acted({"phase-code"});
     if (options.device.empty())
         record.acted({"pixels", "pixel-pitch"});
     else
@@ -93,20 +97,26 @@ int slm(const Options& options, const Session& session) {
     pattern_options.modulator = modulator_of(options);
     require_raw_pixels_name(options.output);
     require_writable(options.output, {&options.input, 1});
-    if (input_kind(options.input) != InputKind::hologram)
-        throw Error(ErrorCode::bad_input, fmt::format("{}: is not a hologram", options.input));
-    const Fields fields = open_hologram(options.input);
+    if (!is_external(options.input, options.field)) {
+        require_described(options.input, options.field);
+        if (input_kind(options.input) != InputKind::hologram)
+            throw Error(ErrorCode::bad_input, fmt::format("{}: is not a hologram", options.input));
+    }
+    RunRecord record(session);
+    const Fields fields = open_and_reconstruct(session, options.input, options.field, options.field.pitch,
+                                               options.field.wavelengths, record);
     const std::size_t colours = fields.size();
     if (colours != 1 && colours != 3)
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: has {} wavelengths; a pattern takes one or three", options.input, colours));
 
+    pattern_options.phase_code =
+        with_options({{"", "--phase-code"}}, [&] { return parse_phase_code(options.phase_code); });
     const std::string encoding = encoding_for(options, fields, pattern_options, session);
     pattern_options.encoding = encodings().find(encoding).encoding;
     const Modulator& modulator = pattern_options.modulator;
     Array<std::uint8_t, 3> levels({modulator.height, modulator.width, colours});
     Stage stage(session, "pattern");
-    RunRecord record(session);
     record_pattern(record, options, encoding);
     Metadata metadata = record.metadata();
     ResultList patterns;
@@ -161,7 +171,7 @@ void add_slm(Command& command, Session& session) {
         "  hogel hologram pumpkin -o f.h5 --hogels 60x33 --size 12.288mm --pitch 6.4um \\\n"
         "    --fov 2.5deg --wavelength 532nm\n"
         "  hogel slm f.h5 -o pattern.png --device leto --encoding double-phase");
-    command.positional("input", options->input, "F.h5", "Hologram");
+    command.positional("input", options->input, "F.h5|F.npy|P.png", "Hologram, or another program's field");
     command.text("-o,--output", options->output, "FILE", "Pattern to write: .png or .bmp, 8 bits as they are")
         .required();
     std::vector<std::string> names = encodings().names();
@@ -198,6 +208,13 @@ void add_slm(Command& command, Session& session) {
     command.counts("--pixels", options->pixels, "Any other: pixels across and down");
     command.positive_length("--pixel-pitch", options->pixel_pitch, "Distance of its pixels");
     command.count("--levels", options->levels, "Levels of its pixels");
+    std::string codes = "Levels of phases as this program writes them:";
+    for (const PhaseCodeInfo& code : phase_codes().rows()) codes += fmt::format("\n{}: {}", code.name, code.text);
+    command.text("--phase-code", options->phase_code, "CODE",
+                 codes + "\nany other: range=ANGLE,offset=ANGLE,invert, in deg, rad or pi (2pi)");
+    options->field.code_option = "--input-phase-code";
+    add_field_options(command, options->field, true);
+    add_reconstruction_options(command, options->field);
     add_json_flag(command, session);
     command.work([options, &session] { return slm(*options, session); });
 }

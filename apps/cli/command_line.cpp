@@ -89,6 +89,17 @@ Option Command::text(const std::string& name, std::string& value, const std::str
     return add(app_.add_option(name, value, help)->type_name(type)->capture_default_str());
 }
 
+Option Command::texts(const std::string& name, std::vector<std::string>& values, const std::string& type,
+                      const std::string& help) {
+    return add(app_.add_option(name, values, help)->type_name(type)->allow_extra_args(false));
+}
+
+Option Command::parsed(const std::string& name, const std::string& type, const std::string& help,
+                       std::function<void(const std::string& text)> read) {
+    return read_option(name, type, "", help,
+                       [read = std::move(read)](const std::string& text, const std::string&) { read(text); });
+}
+
 Option Command::number(const std::string& name, double& value, const std::string& type, const std::string& help) {
     return add(app_.add_option(name, value, help)->type_name(type)->capture_default_str()->check(finite_number));
 }

@@ -73,6 +73,12 @@ class Command {
     /// A required argument without a name.
     Option positional(const std::string& name, std::string& value, const std::string& type, const std::string& help);
     Option text(const std::string& name, std::string& value, const std::string& type, const std::string& help);
+    /// An option that may be given several times.
+    Option texts(const std::string& name, std::vector<std::string>& values, const std::string& type,
+                 const std::string& help);
+    /// An option without a default, whose text is read by a function that throws Error(usage).
+    Option parsed(const std::string& name, const std::string& type, const std::string& help,
+                  std::function<void(const std::string& text)> read);
     Option number(const std::string& name, double& value, const std::string& type, const std::string& help);
     Option number(const std::string& name, std::optional<double>& value, const std::string& type,
                   const std::string& help);

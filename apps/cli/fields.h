@@ -8,20 +8,41 @@
 
 namespace hogel::cli {
 
-/// Options that describe a field written by another program.
+/// Options that describe a field written by another program, and how it is looked at.
 struct FieldOptions {
-    std::string values, imaginary, variable;
+    std::string code_option = "--phase-code";  ///< where the command has another option of this name
+    std::string values, phase_code, imaginary, phases, zero = "median", variable;
     bool conjugate = false;
+    std::string order, reconstruct = "none";
+    double aperture = 0, focal = 0;
+    Vec3 reference_source;
+
+    double pitch = 0;                 ///< where the command has no --pitch of its own
+    std::vector<double> wavelengths;  ///< likewise
 };
-void add_field_options(Command& command, FieldOptions& options);
+/// The options of what the file holds; with `sampling` also --pitch and --wavelength.
+void add_field_options(Command& command, FieldOptions& options, bool sampling);
+/// The options of a lens or a reference wave between the hologram and what it shows.
+void add_reconstruction_options(Command& command, FieldOptions& options);
 
 /// Whether a name is that of another program's field: an array, or a picture that the options declare as one.
 bool is_external(const std::string& name, const FieldOptions& options);
 
+/// Throws Error(usage) for a picture, of which options must say what its numbers are.
+void require_described(const std::string& name, const FieldOptions& options);
+
+/// What the options say of a file, without its sampling. Throws Error(usage).
+ExternalField external_field(const FieldOptions& options);
+
 /// Opens a hologram, or another program's field with the --pitch and the --wavelength, one for each of its colours,
-/// given to `command`. Throws Error(usage) if they are missing, or if they are given for a hologram, which has its own.
-/// Records the options that acted.
+/// that are given to `command` or that the file holds. Throws Error(usage) if they are missing, or if they are given
+/// for a hologram, which has its own. Records the options that acted.
 Fields open_fields(const std::string& name, const FieldOptions& options, const Command& command, double pitch,
                    const std::vector<double>& wavelengths, RunRecord& record);
+
+/// As open_fields(), and then as add_reconstruction_options() say: the order of a recorded hologram, and the image
+/// behind a lens. Says in a line what order was found.
+Fields open_and_reconstruct(const Session& session, const std::string& name, const FieldOptions& options, double pitch,
+                            const std::vector<double>& wavelengths, RunRecord& record);
 
 }  // namespace hogel::cli

@@ -29,8 +29,9 @@ void add_hologram_options(Command& command, HologramChoices& options, const std:
     command.group("Hologram");
     command.wavelengths(options.wavelengths);
     command.positive_length("--pitch", options.pitch, "Distance of samples, rounded to divide a hogel");
-    command.positive_length("--line-pitch", options.lines,
-                            "Distance of the lines of --method lines (default: as far apart as samples)");
+    command.positive_length(
+        "--line-pitch", options.lines,
+        "Distance of the lines of --method lines or basis-lines (default: as far apart as samples)");
     command.choice("--method", options.method, names, "NAME", help);
     command.choice("--phase", options.phase, phase_names, "NAME",
                    "Phases of each hogel's directions\n"
@@ -78,6 +79,7 @@ struct Adjust {
         method.phases = chosen == Phases::designed ? SharedPhases::designed : SharedPhases::fixed;
         method.transform = choices.basis.empty() ? std::string(defaults.basis) : choices.basis;
         method.tolerance = choices.tolerance;
+        if (method.line_pitch) method.line_pitch = choices.lines;
     }
     void operator()(PhaseAdded&) const {
         if (!choices.phase.empty()) refuse("is not for --method phase-added, whose phases are those of the points");
@@ -149,6 +151,7 @@ LightFieldRequest RenderOptions::request() const {
     }
     request.samples = {samples.columns, samples.rows};
     request.cull_back_faces = fronts_only;
+    if (interpolate_given) request.interpolate = interpolate;
     request.fit = !as_is;
     request.front = front;
     with_options({{"spans", "--hemicube, --fov"}, {"", "--hemicube, --directions"}}, [&] { request.grids(); });
@@ -161,8 +164,9 @@ HologramMethod HologramChoices::hologram_method() const {
     if (!basis.empty() && basis != "pieces" && !std::ranges::count(known, basis))
         with_options({{"", "--basis"}}, [&] { throw_unknown("transform", basis, known); });
     HologramMethod chosen = hologram_methods().find(method).method;
-    if (lines > 0 && !std::holds_alternative<Lines>(chosen))
-        throw Error(ErrorCode::usage, fmt::format("--line-pitch: belongs to --method lines, not {}", method));
+    if (lines > 0 && !line_pitch(chosen))
+        throw Error(ErrorCode::usage,
+                    fmt::format("--line-pitch: belongs to --method lines or basis-lines, not {}", method));
     std::visit(Adjust{*this}, chosen);
     return chosen;
 }
@@ -188,10 +192,9 @@ bool HologramChoices::record(RunRecord& record, const HologramRequest& request, 
     if (std::holds_alternative<Fourier>(request.method)) {
         shared("random");
         record.acted({"lobes"});
-    } else if (const auto* by_lines = std::get_if<Lines>(&request.method)) {
+    } else if (std::holds_alternative<Lines>(request.method)) {
         shared("random");
         record.acted({"lobes"});
-        record.acted("line-pitch", compact_length(by_lines->line_pitch > 0 ? by_lines->line_pitch : effective));
     } else if (const auto* fringes = std::get_if<Basis>(&request.method)) {
         shared("fixed");
         record.acted("basis", fringes->transform);
@@ -200,17 +203,16 @@ bool HologramChoices::record(RunRecord& record, const HologramRequest& request, 
         shared("random");
         seeded = windows->phases == PointPhases::random;
     }
+    if (const std::optional<double> apart = line_pitch(request.method))
+        record.acted("line-pitch", compact_length(*apart > 0 ? *apart : effective));
     if (seeded) record.acted({"seed"});
     return seeded;
 }
 
 void check_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request, bool rendered,
                      std::span<const Camera> cameras) {
-    if (faces.size() > 1 && !std::holds_alternative<Fourier>(request.method) &&
-        !std::holds_alternative<Lines>(request.method))
-        throw Error(ErrorCode::usage,
-                    fmt::format("--method: a hemicube of {} faces takes fourier or lines", faces.size()));
-    with_options({{"a wavelength of", "--wavelength"},
+    with_options({{"a hemicube of", "--method"},
+                  {"a wavelength of", "--wavelength"},
                   {"resolves no more", "--pupil"},
                   {"pupil", "--pupil, --pitch"},
                   {"the eye", "--eye, --pitch"},
@@ -257,6 +259,7 @@ void add_render_options(Command& command, RenderOptions& options) {
     const Option as_is = command.flag("--as-is", options.as_is,
                                       "Take a mesh file where it is, its numbers as metres, z towards the viewer");
     command.flag("--fit", "Scale and move a mesh file to fill the hologram (default)").excludes(as_is);
+    add_scene_options(command, options.scene);
 }
 
 void add_hemicube_option(Command& command, RenderOptions& options) {
@@ -288,6 +291,15 @@ void add_direction_options(Command& command, RenderOptions& options) {
         .excludes("--focal-plane")
         .excludes("--directions")
         .excludes("--toward");
+    command
+        .count("--interpolate", options.interpolate,
+               "With --algorithm simplex: shade the corners of triangles as seen from the corners of regions of N x N "
+               "hogels, and interpolate between them (default: shade every sample)")
+        .no_default()
+        .sets(options.interpolate_given)
+        .excludes("--hemicube")
+        .excludes("--frequencies")
+        .excludes("--focal-plane");
 }
 
 void add_hologram_options(Command& command, HologramChoices& options) {
@@ -311,8 +323,15 @@ Scene load_scene(const Session& session, const std::string& name, const RenderOp
         record.acted({"as-is"});
         if (!options.as_is) record.acted({"front"});
     }
+    LightFieldRequest request = options.request();
+    request.pose = options.scene.complete_pose();
+    request.import.point_size = options.scene.point_size;
     Stage stage(session, "scene");
-    return hogel::load_scene(name, options.request(), stage.progress());
+    const Scene scene = with_options({{"texture coordinates", "--texture"}},
+                                     [&] { return hogel::load_scene(name, request, stage.progress()); });
+    options.scene.record(record, scene);
+    for (const std::string& note : scene.notes) session.say(fmt::format("{}: note: {}", name, note));
+    return scene;
 }
 
 std::shared_ptr<const ShadedScene> light_scene(const Session& session, const Scene& scene, const RenderOptions& options,
@@ -341,15 +360,18 @@ LightField render_light_field(const Session& session, const Scene& scene, const 
     if (options.frequencies == 0 && !options.focal_plane_given) record.acted({"hemicube"});
     if (!options.hemicube && options.frequencies == 0) record.acted({"toward"});
     if (options.focal_plane_given) record.acted({"focal-plane"});
+    if (options.interpolate_given) record.acted({"interpolate"});
     const auto lit = light_scene(session, scene, options, record);
     for (std::size_t i = 0; i < lit->triangles.size(); ++i)
         if (lit->is_lit(i)) {
             record.acted({"cache-spacing"});
             break;
         }
-    return with_options(
-        {{"sines", "--algorithm, --frequencies"}, {"focal plane", "--algorithm, --focal-plane"}, {"", "--algorithm"}},
-        [&] { return hogel::render_light_field(lit, options.request()); });
+    return with_options({{"sines", "--algorithm, --frequencies"},
+                         {"focal plane", "--algorithm, --focal-plane"},
+                         {"interpolation", "--interpolate"},
+                         {"", "--algorithm"}},
+                        [&] { return hogel::render_light_field(lit, options.request()); });
 }
 
 void require_memory(const Session& session, const LightField& rendered, const RenderOptions& options,

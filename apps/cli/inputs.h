@@ -11,6 +11,7 @@
 #include "command_line.h"
 #include "hogel/pipeline.h"
 #include "run_record.h"
+#include "scene_options.h"
 #include "session.h"
 
 namespace hogel::cli {
@@ -33,8 +34,11 @@ struct RenderOptions {
     bool focal_plane_given = false;  ///< otherwise hogels have the same directions
     double frequencies = 0;          ///< wavelength whose frequency grid gives the directions, metres; 0: perspective
     bool as_is = false;
-    bool fronts_only = false;  ///< whether back faces are culled
+    std::size_t interpolate = 0;     ///< side of the regions of hogels, with `interpolate_given`
+    bool interpolate_given = false;  ///< otherwise every sample is shaded by itself
+    bool fronts_only = false;        ///< whether back faces are culled
     double front = defaults.front;
+    SceneOptions scene;
 
     /// The grid of the front. Throws Error(usage).
     LightFieldGrid grid() const;
@@ -43,7 +47,7 @@ struct RenderOptions {
 void add_render_options(Command& command, RenderOptions& options);
 /// --hemicube, for commands that use all faces.
 void add_hemicube_option(Command& command, RenderOptions& options);
-/// --focal-plane and --frequencies, for the command that makes light fields.
+/// --focal-plane, --frequencies and --interpolate, for the command that makes light fields.
 void add_direction_options(Command& command, RenderOptions& options);
 
 /// The options of a hologram of a light field.

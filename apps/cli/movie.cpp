@@ -63,26 +63,19 @@ bool run(const std::vector<std::string>& words) {
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-// A temporary folder beside the movie for its frames.
-class FrameFolder {
-  public:
-    explicit FrameFolder(const fs::path& beside)
-        : path_(beside.parent_path() / fmt::format(".{}.{}.tmp", beside.filename().string(), getpid())) {
-        std::error_code error;
-        if (!fs::create_directory(path_, error))
-            throw Error(ErrorCode::cannot_write, fmt::format("{}: cannot create this folder", path_.string()));
-    }
-    ~FrameFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    const fs::path& path() const { return path_; }
-
-  private:
-    fs::path path_;
-};
-
 }  // namespace
+
+FrameFolder::FrameFolder(const fs::path& beside)
+    : path_(fs::absolute(beside).parent_path() / fmt::format(".{}.{}.tmp", beside.filename().string(), getpid())) {
+    std::error_code error;
+    if (!fs::create_directory(path_, error))
+        throw Error(ErrorCode::cannot_write, fmt::format("{}: cannot create this folder", path_.string()));
+}
+
+FrameFolder::~FrameFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+}
 
 bool is_film(const fs::path& path) {
     const std::string kind = path.extension().string();
@@ -114,12 +107,17 @@ std::uintmax_t write_movie(const fs::path& path, std::span<const Image> frames, 
         }
         return bytes;
     }
-    const FrameFolder folder(fs::absolute(path));
+    const FrameFolder folder(path);
     for (std::size_t i = 0; i < frames.size(); ++i)
         write_image(folder.path() / fmt::format("{:06}.png", i), frames[i], exposure);
+    return make_film(path, folder, "%06d.png", frames_a_second, metadata);
+}
+
+std::uintmax_t make_film(const fs::path& path, const FrameFolder& folder, const std::string& frames,
+                         double frames_a_second, const Metadata& metadata) {
     const std::string kind = path.extension().string(), film = (folder.path() / ("film" + kind)).string();
     std::vector<std::string> words{
-        ffmpeg(), "-y", "-framerate", fmt::format("{}", frames_a_second), "-i", (folder.path() / "%06d.png").string()};
+        ffmpeg(), "-y", "-framerate", fmt::format("{}", frames_a_second), "-i", (folder.path() / frames).string()};
     const auto add = [&](std::initializer_list<const char*> more) {
         words.insert(words.end(), more.begin(), more.end());
     };
@@ -137,6 +135,25 @@ std::uintmax_t write_movie(const fs::path& path, std::span<const Image> frames, 
     fs::rename(film, path, error);
     if (error) throw Error(ErrorCode::cannot_write, fmt::format("{}: {}", path.string(), error.message()));
     return fs::file_size(path);
+}
+
+std::size_t extract_frames(const fs::path& film, const FrameFolder& folder) {
+    if (ffmpeg().empty())
+        throw Error(ErrorCode::not_built_in,
+                    fmt::format("{}: films are read by ffmpeg, which is not installed; a folder of its pictures, "
+                                "view_0001.png and so on, is read without",
+                                film.string()));
+    if (!fs::is_regular_file(film)) throw Error(ErrorCode::bad_input, fmt::format("{}: no such file", film.string()));
+    // A file that names others, as playlists do, cannot make it read them from elsewhere than this machine.
+    const std::vector<std::string> words{ffmpeg(), "-nostdin",    "-protocol_whitelist",
+                                         "file",   "-i",          fs::absolute(film).string(),
+                                         "-vsync", "passthrough", (folder.path() / "view_%06d.png").string()};
+    const bool ran = run(words);
+    const auto frames =
+        static_cast<std::size_t>(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()));
+    if (!ran || frames == 0)
+        throw Error(ErrorCode::bad_input, fmt::format("{}: is no film that ffmpeg can read", film.string()));
+    return frames;
 }
 
 }  // namespace hogel::cli

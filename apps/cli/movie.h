@@ -10,6 +10,20 @@
 
 namespace hogel::cli {
 
+/// A temporary folder beside a file, for the frames of a film. Removed with the object.
+class FrameFolder {
+  public:
+    /// Throws Error(cannot_write).
+    explicit FrameFolder(const std::filesystem::path& beside);
+    ~FrameFolder();
+    FrameFolder(const FrameFolder&) = delete;
+    FrameFolder& operator=(const FrameFolder&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
 /// Whether a name is that of a film: .mp4, .gif or .apng, without numbers.
 bool is_film(const std::filesystem::path& path);
 /// Whether a name is that of several pictures: name####.png, numbered from 0, or a film.
@@ -23,5 +37,14 @@ void require_movie(const std::filesystem::path& path);
 /// Error(cannot_write).
 std::uintmax_t write_movie(const std::filesystem::path& path, std::span<const Image> frames, double exposure,
                            double frames_a_second, const Metadata& metadata);
+
+/// The last step of write_movie() for a film: makes it of pictures in the folder with names such as "%06d.png", and
+/// returns its size in bytes.
+std::uintmax_t make_film(const std::filesystem::path& path, const FrameFolder& folder, const std::string& frames,
+                         double frames_a_second, const Metadata& metadata);
+
+/// Writes the frames of a film to the folder as view_000001.png and so on, by ffmpeg, and returns how many there are.
+/// Throws Error(not_built_in) without ffmpeg, Error(bad_input) for what it cannot read.
+std::size_t extract_frames(const std::filesystem::path& film, const FrameFolder& folder);
 
 }  // namespace hogel::cli

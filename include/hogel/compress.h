@@ -186,8 +186,9 @@ HOGEL_API LightField open_stream(const std::filesystem::path& path, const Stream
 
 /// Opens a stream of the coder fringes without inverting the transform of the directions, for holograms made of basis
 /// fringes ([K] 4.2.3). The values are not radiances but the coefficients of √L, an array [n_V][n_U] for each hogel and
-/// channel, of the transform that the header names. Throws Error(bad_input) as open_stream() does, and for another
-/// coder, for a light field with tone mapping or coarser chrominance, and for a hemicube.
+/// channel, of the transform that the header names; a hemicube has the coefficients of each face. Throws
+/// Error(bad_input) as open_stream() does, and for another coder, for a light field with tone mapping or coarser
+/// chrominance, and for a hemicube whose faces are coded as one unfolded picture.
 HOGEL_API LightField open_coefficients(const std::filesystem::path& path);
 
 /// The directions of an array [n_V][n_U] that belong to a light field: all of rows begin_v to end_v, and columns

@@ -84,8 +84,13 @@ struct HOGEL_API LightFieldRequest {
     bool cull_back_faces = false;
     bool fit = true;                ///< whether a mesh file is scaled and moved to fill the hologram
     double front = defaults.front;  ///< share of a fitted mesh's depth in front of the plane: see Fit
+    ScenePose pose;                 ///< how the scene is turned, placed and lit
+    ImportOptions import;           ///< how a mesh file is read
     /// Full angles that the faces of a hemicube span, radians.
     double hemicube_across = std::numbers::pi, hemicube_down = std::numbers::pi;
+    /// Side of the regions between whose corners shading is interpolated, in hogels: see make_interpolating_renderer().
+    /// For the renderer simplex; 0: every sample by itself.
+    std::size_t interpolate = 0;
 
     /// The grids of all faces. Throws Error(usage) if they are invalid.
     std::vector<LightFieldGrid> grids() const;

@@ -34,7 +34,7 @@ def hologram(fields):
 
 
 VIEWS = {"layout": WORD, "views_across": COUNT, "views_down": COUNT, "bits": COUNT, "transfer": WORD,
-         "camera_spacing_m": NUMBER, "camera_distance_m": NUMBER, "scale": NUMBER, "parallax": NUMBER}
+         "camera_spacing_m": NUMBER, "camera_distance_m": NUMBER, "scale": NUMBER, "parallax": NUMBER, "disparity_estimated": TRUTH}
 PHOTO = FILE | {"pictures": COUNT, "width": COUNT, "height": COUNT, "channels": COUNT, "exposure": NUMBER, "geometric": TRUTH}
 PROPAGATED = {"wavelengths_m": [REAL], "distance_m": REAL,
               "propagations": [{"wavelength_m": REAL, "method": WORD, "fresnel_number": NUMBER, "predicted_error": REAL,
@@ -64,6 +64,9 @@ TABLE = [
     ("propagate points.h5 -o there.npy --distance 1.5mm", PLANE | {"samples_x": COUNT, "samples_y": COUNT}),
     ("hologram sphere -o s.h5 --hogels 4x3 --directions 12 --size 1.6384mm --pitch 6.4um --fov 0.4deg --wavelength 633nm",
      hologram(1)),
+    ("focus points.h5 --from -1mm --to 1mm --planes 33",
+     {"wavelength_m": REAL, "depth_of_focus_m": REAL, "seconds": REAL, "depths_m": [REAL], "contrasts": [[REAL]],
+      "planes": [{"depth_m": REAL, "prominence": REAL, "contrast": WORD, "cell": COUNT}]}),
     ("slm s.h5 -o slm.png --pixels 64x48 --pixel-pitch 6.4um",
      SLM | {"patterns": [PATTERN | {"light_field_efficiency": REAL, "correlation": REAL, "iterations": COUNT}]}),
     ("slm s.h5 -o slm.bmp --pixels 64x48 --pixel-pitch 6.4um --encoding binary",
@@ -73,6 +76,8 @@ TABLE = [
     ("export x.h5 -o views --layout numbered", {"folder": WORD, "bytes": COUNT, "layout": WORD, "views_across": COUNT,
                                                 "views_down": COUNT, "files": COUNT, "seconds": REAL}),
     ("export x.h5 -o views.npy --layout npy", FILE | {"layout": WORD, "views_across": COUNT, "views_down": COUNT, "files": COUNT}),
+    ("cameras -o cameras.json", FILE | {"views_across": COUNT, "views_down": COUNT, "camera_spacing_m": REAL,
+                                        "camera_distance_m": REAL}),
     ("import views -o imported.h5 --views 8x6 --projection cameras", SAMPLES | CAMERAS | {"faces": WORD, "samples": WORD,
                                                                                          "depth": TRUTH} | VIEWS),
     ("bake sphere -o baked.glb --rays 1", FILE | {"triangles": COUNT}),

@@ -26,7 +26,7 @@ TABLE = [
      """--wavelength=0nm --wavelength=rbg --pitch=0um --pitch=3um --fov=40deg --line-pitch=-1um --line-pitch=10um
      --method=magic --phase=none --lobes=none --basis=wavy --tolerance=2 --spacing=0um --planes=0"""),
     ("hologram sphere -o w.h5 --hogels 4", "--directions=16777216"),
-    (f"hologram sphere -o w.h5 {SMALL} --hemicube", "--method=olas --method=basis --method=phase-added"),
+    (f"hologram sphere -o w.h5 {SMALL} --hemicube", "--method=olas --method=phase-added"),
     (f"hologram sphere -o w.h5 {SMALL} --method points", "--resume --cull-back-faces"),
     (f"slm s.h5 -o w.png {MODULATOR} --encoding bipolar", "--reference=-10deg --clip=2 --clip=nan --window=0 --iterations=x"),
     (f"slm s.h5 -o w.png {MODULATOR}", "--encoding=magic --levels=1 --levels=257 --device=leto"),

@@ -65,7 +65,7 @@ def matches(expected, text):
 
 def run(command, folder, environment):
     return subprocess.run(["bash", "-c", command], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
-                          capture_output=True, text=True, timeout=300)
+                          capture_output=True, text=True, timeout=550)
 
 
 def check(step, folder, environment):

@@ -31,8 +31,9 @@ LightField open_for_holograms(const std::filesystem::path& path, HologramRequest
     if (basis == nullptr || is_view_set(path) || !is_stream(path))
         return with_common_directions(open_light_field_or_views(path));
     const StreamInfo info = read_stream_info(path);
-    const bool fits = !info.grid.focal_plane() && info.method.coder == "fringes" && !info.tone &&
-                      info.chrominance == 1 && (any_transform || basis->transform == info.method.transform);
+    const bool fits = !info.grid.focal_plane() && info.method.coder == "fringes" &&
+                      info.layout == StreamLayout::faces && !info.tone && info.chrominance == 1 &&
+                      (any_transform || basis->transform == info.method.transform);
     if (!fits) return with_common_directions(open_light_field(path));
     basis->transform = info.method.transform;
     request.of_coefficients = true;

@@ -35,6 +35,19 @@ void require_built_in(const LightFieldRequest& request) {
         core::require_part("Embree", fmt::format("the renderer '{}'", request.renderer));
 }
 
+// A light field by the renderer simplex with interpolation between viewpoints.
+LightField::Source interpolated(const std::shared_ptr<const ShadedScene>& scene, const LightFieldGrid& grid,
+                                const LightFieldRequest& request) {
+    if (request.renderer != "simplex")
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("interpolation between viewpoints is for the renderer simplex, not {}", request.renderer));
+    std::shared_ptr<const LightFieldSource> fine =
+        make_interpolating_renderer(scene, finer(grid, request.samples), request.interpolate * request.samples.hogel);
+    if (request.samples.count() == 1) return fine;
+    return average(std::move(fine), grid, request.samples);
+}
+
 }  // namespace
 
 std::vector<LightFieldGrid> LightFieldRequest::grids() const {
@@ -59,6 +72,12 @@ InputKind input_kind(const std::string& name) {
         case FileKind::unknown:
             break;
     }
+    for (const char* splats : {".splat", ".ksplat", ".spz"})
+        if (std::filesystem::path(name).extension() == splats)
+            throw Error(
+                ErrorCode::bad_input,
+                fmt::format("{}: holds Gaussian splats, which are no surfaces; expected a mesh or a point cloud",
+                            name));
     throw Error(ErrorCode::bad_input, fmt::format("{}: is neither a mesh, a light field nor a hologram", name));
 }
 
@@ -69,12 +88,19 @@ LightField open_light_field_or_views(const std::filesystem::path& path, const Pr
 Scene load_scene(const std::string& name, const LightFieldRequest& request, const Progress& progress) {
     const core::StopScope scope(progress);
     require_built_in(request);
-    if (scenes().look_up(name) != nullptr) return make_scene(name, request.grid.width(), progress);
-    require_file(name);
-    Scene scene = import_scene(name);
-    if (request.fit)
-        fit_scene(scene, {.width = request.grid.width(), .height = request.grid.height(), .front = request.front});
-    if (scene.lights.empty()) add_default_lights(scene);
+    const double width = request.grid.width();
+    Scene scene;
+    if (scenes().look_up(name) != nullptr) {
+        scene = make_scene(name, width, progress);
+        turn_scene(scene, request.pose);
+    } else {
+        require_file(name);
+        scene = import_scene(name, progress, request.import);
+        turn_scene(scene, request.pose);
+        if (request.fit) fit_scene(scene, {.width = width, .height = request.grid.height(), .front = request.front});
+        if (scene.lights.empty()) add_default_lights(scene);
+    }
+    place_scene(scene, request.pose, width);
     return scene;
 }
 
@@ -94,7 +120,8 @@ std::shared_ptr<const ShadedScene> light_scene(const Scene& scene, const LightFi
 LightField render_light_field(const std::shared_ptr<const ShadedScene>& scene, const LightFieldRequest& request) {
     std::vector<LightField::Source> faces;
     for (const LightFieldGrid& grid : request.grids())
-        faces.push_back(make_renderer(request.renderer, scene, grid, request.samples));
+        faces.push_back(request.interpolate > 0 ? interpolated(scene, grid, request)
+                                                : make_renderer(request.renderer, scene, grid, request.samples));
     Metadata entries = scene->provenance;
     entries.emplace_back("renderer", request.renderer);
     return LightField(std::move(faces), {std::move(entries), {}});

@@ -60,7 +60,8 @@ double region_bytes(const LightFieldSource& face, const LightFieldRequest& reque
         static_cast<double>(values * grid.directions()) * static_cast<double>(region.hogels()) * sizeof(float);
     const RendererInfo& renderer = renderers().find(request.renderer);
     const auto buffer_bytes = [&](const LightFieldGrid& rendered, const HogelRange& hogels) {
-        return renderer.depth_buffer_bytes ? renderer.depth_buffer_bytes(rendered, hogels) : 0.0;
+        const double bytes = renderer.depth_buffer_bytes ? renderer.depth_buffer_bytes(rendered, hogels) : 0.0;
+        return request.interpolate > 0 ? 2 * bytes : bytes;  // colours beside depths
     };
     if (request.samples.count() == 1) return tile + buffer_bytes(grid, region);
     const LightFieldGrid fine = finer(grid, request.samples);

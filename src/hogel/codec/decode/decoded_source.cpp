@@ -44,9 +44,10 @@ class DecodedStream {
             throw Error(ErrorCode::bad_input,
                         fmt::format("{}: has a tone curve or coarser chrominance; expected radiances as they are",
                                     path.string()));
-        if (!info().sides.empty())
+        if (info().layout != StreamLayout::faces)
             throw Error(ErrorCode::bad_input,
-                        fmt::format("{}: is a hemicube; expected the directions of a single face", path.string()));
+                        fmt::format("{}: codes the faces of a hemicube as one picture; expected each by itself",
+                                    path.string()));
     }
 
     const StreamHeader& info() const { return reader_.info(); }
@@ -213,7 +214,10 @@ LightField open_stream(const std::filesystem::path& path, const StreamOptions& o
 
 LightField open_coefficients(const std::filesystem::path& path) {
     const auto stream = std::make_shared<const DecodedStream>(path, StreamOptions{}, true);
-    return LightField({std::make_shared<const DecodedFace>(stream, 0)}, to_provenance(stream->info().metadata));
+    std::vector<LightField::Source> faces;
+    for (std::size_t face = 0; face <= stream->info().sides.size(); ++face)
+        faces.push_back(std::make_shared<const DecodedFace>(stream, face));
+    return LightField(std::move(faces), to_provenance(stream->info().metadata));
 }
 
 }  // namespace hogel

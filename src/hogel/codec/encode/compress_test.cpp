@@ -48,6 +48,36 @@ TEST(Coefficients, are_those_of_amplitudes_along_directions) {
     EXPECT_EQ(code_of([&] { open_coefficients(folder / "b.hgl"); }), ErrorCode::bad_input);
 }
 
+// Each face of a hemicube has its own coefficients; those of an unfolded one belong to no face.
+TEST(Coefficients, of_a_hemicube_are_those_of_its_faces) {
+    const TestFolder folder;
+    std::vector<LightField::Source> faces;
+    for (const LightFieldGrid& grid : hemicube({3, 2, 36e-6, 8, 8, Perspective{1, 1}, 1})) {
+        auto face = std::make_shared<LightFieldBuffer>(grid);
+        for (std::size_t i = 0; i < face->radiance.size(); ++i)
+            face->radiance.data()[i] = float(1 + std::sin(0.3 * double(i) + double(faces.size())));
+        faces.push_back(face);
+    }
+    CompressionOptions options = with_sqnr({"fringes", "haar"}, 30);
+    compress(LightField(faces), folder / "a.hgl", options);
+    const LightField coefficients = open_coefficients(folder / "a.hgl"), decoded = open_stream(folder / "a.hgl");
+    ASSERT_EQ(coefficients.faces().size(), 5u);
+    for (std::size_t i = 0; i < 5; ++i) {
+        const LightFieldGrid& grid = coefficients.faces()[i]->grid();
+        LightFieldBuffer amplitudes(grid), expected(grid);
+        copy(*coefficients.faces()[i], amplitudes);
+        copy(*decoded.faces()[i], expected);
+        transform::transform("haar").inverse(
+            transform::Pyramid::separate({grid.hogels(), grid.directions_v, grid.directions_u}, {{1, 2}}),
+            amplitudes.radiance.elements());
+        for (std::size_t k = 0; k < expected.radiance.size(); ++k)
+            ASSERT_NEAR(std::pow(amplitudes.radiance.data()[k], 2), expected.radiance.data()[k], 1e-5) << i << " " << k;
+    }
+    options.layout = StreamLayout::unfolded;
+    compress(LightField(faces), folder / "b.hgl", options);
+    EXPECT_EQ(code_of([&] { open_coefficients(folder / "b.hgl"); }), ErrorCode::bad_input);
+}
+
 // The SQNR is measured on the decoded samples, not on coefficients, with every transform.
 TEST(Compress, meets_the_sqnr_asked_for) {
     const TestFolder folder;
