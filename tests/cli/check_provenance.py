@@ -7,7 +7,7 @@ of the case. An option that changes it must be stored with that value, and one t
 case stores an option, or has a default that acts, another value must change the output. So what is stored is held to
 what acted, not to a list.
 
-usage: check_provenance.py COMMAND    in a folder with the files that provenance.txt makes; hogel in the PATH
+usage: check_provenance.py COMMAND    in a folder with the files that make_provenance_inputs.sh makes; hogel in the PATH
 """
 import concurrent.futures
 import functools
