@@ -79,7 +79,7 @@ class Field:
     >>> import hogel, numpy as np
     >>> wave = hogel.Field.from_array(np.ones((64, 64), np.complex64), pitch="2um", wavelength="633nm")
     >>> wave
-    Field(64x64 samples 2 um apart, 128 um x 128 um, 633 nm, in memory)
+    Field(64x64 samples 2 um apart, 0.128 mm x 0.128 mm, 633 nm, in memory)
     >>> far = wave.propagate("1mm")
     >>> round(float(abs(far[32, 32])), 3) < 2
     True
@@ -259,7 +259,7 @@ class Hologram:
     >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=16, size=0.4*mm, fov=16*deg)
     >>> holo = lf.hologram(wavelength=633*nm, pitch="1.5625um")
     >>> holo
-    Hologram(256x256 samples 1.5625 um apart, 400 um x 400 um, 633 nm, computed when read)
+    Hologram(256x256 samples 1.5625 um apart, 0.4 mm x 0.4 mm, 633 nm, computed when read)
     >>> holo[0].shape, np.asarray(holo[0]).dtype
     ((256, 256), dtype('complex64'))
     """

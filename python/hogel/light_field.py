@@ -149,8 +149,8 @@ class LightField:
         >>> import hogel
         >>> stripes = hogel.LightField.from_function(lambda s, t, u, v: 0.5 + 0.5 * (abs(u) < 0.05), channels=1,
         ...                                          hogels=4, directions=8, size="4mm", fov="16deg")
-        >>> stripes[0, 0, 0, 0].tolist()
-        [0.5, 0.5, 1.0, 1.0, 1.0, 1.0, 0.5, 0.5]
+        >>> stripes[0, 0, 0, 0, :].tolist()
+        [0.5, 0.5, 0.5, 1.0, 1.0, 0.5, 0.5, 0.5]
         """
         from .scene import request
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 import numbers
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Optional, Union
 
 from . import _core
@@ -89,10 +89,8 @@ def counts(value: Counts, what: str) -> tuple[int, int]:
     parts: Sequence[object]
     if isinstance(value, str):
         parts = value.split("x")
-    elif isinstance(value, numbers.Integral):
-        parts = [value]
     else:
-        parts = list(value)  # type: ignore[arg-type]
+        parts = list(value) if isinstance(value, Iterable) else [value]
     try:
         both = [int(part) for part in parts]  # type: ignore[call-overload]
         if len(both) not in (1, 2) or min(both) < 0 or any(isinstance(part, float) and part != int(part) for part in parts):
