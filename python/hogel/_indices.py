@@ -2,13 +2,15 @@
 """What slices and whole numbers take of an array that is not in memory."""
 from __future__ import annotations
 
+import dataclasses
 import operator
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 
-class Axis(NamedTuple):
+@dataclasses.dataclass(frozen=True)
+class Axis:
     """The elements that are read along an axis, with a positive step, and what was asked for."""
 
     begin: int

@@ -48,9 +48,9 @@ class _Tqdm:
 def _new_bar(what: str) -> Union[_Line, _Tqdm]:
     try:
         if "ipykernel" in sys.modules:
-            from tqdm.auto import tqdm
+            from tqdm.auto import tqdm  # type: ignore[import]
         else:
-            from tqdm import tqdm
+            from tqdm import tqdm  # type: ignore[import]
         return _Tqdm(what, tqdm)
     except ImportError:
         return _Line(what)
@@ -60,7 +60,8 @@ class Bar:
     """Opens a bar when work takes long; to be used in a with statement, as the function that hears of progress."""
 
     def __init__(self, what: str) -> None:
-        self.what, self.began, self.bar = what, time.monotonic(), None
+        self.what, self.began = what, time.monotonic()
+        self.bar: Union[_Line, _Tqdm, None] = None
 
     def __call__(self, fraction: float) -> None:
         if self.bar is None and fraction < 1 and time.monotonic() - self.began > patience:

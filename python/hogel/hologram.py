@@ -129,7 +129,7 @@ class Field:
     @property
     def shape(self) -> tuple[int, int]:
         """(rows, columns)."""
-        return self.grid.shape
+        return self.grid.height, self.grid.width
 
     @property
     def ndim(self) -> int:

@@ -103,6 +103,7 @@ def request(
     if sum([hemicube, focal_plane is not None, frequencies is not None]) > 1:
         raise UsageError("hemicube, focal_plane, frequencies: only one of them can be asked for")
     pitch = width / columns
+    view: Union[_core.Perspective, _core.Frequencies, _core.FocalPlane]
     if hemicube:
         # The faces of a hemicube have ranges of their own, but for the height of a single row of directions.
         view = _core.field_of_view(defaults["field_of_view"], defaults["field_of_view"], right, up)

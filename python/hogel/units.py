@@ -57,9 +57,8 @@ def angles(value: Union[Angle, Sequence[Angle]], what: str) -> tuple[float, floa
         *first, last = value.split(",")
         unit = last.lstrip("+-.0123456789eE ")
         value = [part if part.endswith(unit) else part + unit for part in (*first, last)]
-    if not isinstance(value, (list, tuple)) and not hasattr(value, "shape"):
-        value = [value]
-    both = [angle(part, what) for part in value]
+    parts = value if isinstance(value, Sequence) else list(value) if isinstance(value, Iterable) else [value]
+    both = [angle(part, what) for part in parts]
     if len(both) not in (1, 2):
         raise UsageError(f"{what}: one angle or two were expected, across and down")
     return both[0], both[-1]
@@ -71,9 +70,7 @@ def lengths(value: Union[Length, Sequence[Length]], what: str) -> list[float]:
         *first, last = value.split(",")
         unit = last.lstrip("+-.0123456789eE ")
         return [length(part if part.endswith(unit) else part + unit, what) for part in (*first, last)]
-    if isinstance(value, numbers.Real):
-        return [length(value, what)]
-    return [length(part, what) for part in value]
+    return [length(part, what) for part in value] if isinstance(value, Iterable) else [length(value, what)]
 
 
 def point(value: Union[str, Sequence[Length]], what: str) -> tuple[float, float, float]:
