@@ -135,6 +135,11 @@ HOGEL_API LightField open_for_holograms(const std::filesystem::path& path, Holog
 /// request.fit, and adds lights if it has none.
 HOGEL_API Scene load_scene(const std::string& name, const LightFieldRequest& request, const Progress& progress = {});
 
+/// Prepares a scene that is in memory, such as one from import_scene(), as load_scene() prepares one from a mesh file:
+/// turns it, fits it if request.fit, adds lights if it has none, and places it. Throws as turn_scene(), fit_scene() and
+/// place_scene() do.
+HOGEL_API Scene prepare_scene(Scene scene, const LightFieldRequest& request);
+
 /// Shades a scene for renderers and adds a radiance cache that suits the request's rays.
 HOGEL_API std::shared_ptr<const ShadedScene> light_scene(const Scene& scene, const LightFieldRequest& request,
                                                          const Progress& progress = {});

@@ -88,18 +88,22 @@ LightField open_light_field_or_views(const std::filesystem::path& path, const Pr
 Scene load_scene(const std::string& name, const LightFieldRequest& request, const Progress& progress) {
     const core::StopScope scope(progress);
     require_built_in(request);
-    const double width = request.grid.width();
-    Scene scene;
-    if (scenes().look_up(name) != nullptr) {
-        scene = make_scene(name, width, progress);
-        turn_scene(scene, request.pose);
-    } else {
+    if (scenes().look_up(name) == nullptr) {
         require_file(name);
-        scene = import_scene(name, progress, request.import);
-        turn_scene(scene, request.pose);
-        if (request.fit) fit_scene(scene, {.width = width, .height = request.grid.height(), .front = request.front});
-        if (scene.lights.empty()) add_default_lights(scene);
+        return prepare_scene(import_scene(name, progress, request.import), request);
     }
+    const double width = request.grid.width();
+    Scene scene = make_scene(name, width, progress);
+    turn_scene(scene, request.pose);
+    place_scene(scene, request.pose, width);
+    return scene;
+}
+
+Scene prepare_scene(Scene scene, const LightFieldRequest& request) {
+    const double width = request.grid.width();
+    turn_scene(scene, request.pose);
+    if (request.fit) fit_scene(scene, {.width = width, .height = request.grid.height(), .front = request.front});
+    if (scene.lights.empty()) add_default_lights(scene);
     place_scene(scene, request.pose, width);
     return scene;
 }

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Arrays of NumPy and of the library share memory: neither is ever copied here.
+
+#include <pybind11/complex.h>
+#include <pybind11/numpy.h>
+
+#include <utility>
+
+#include "core.h"
+#include "hogel/array.h"
+
+namespace hogel::python {
+
+/// An array of NumPy over memory that `owner`, an object of Python, keeps alive.
+template <class T, std::size_t Rank>
+py::array array_over(T* data, const Shape<Rank>& shape, const py::object& owner) {
+    return py::array_t<std::remove_const_t<T>>(std::vector<py::ssize_t>(shape.begin(), shape.end()), data, owner);
+}
+
+/// An array of NumPy that takes over the memory of one of the library.
+template <class T, std::size_t Rank>
+py::array array_of(Array<T, Rank>&& array) {
+    auto* const kept = new Array<T, Rank>(std::move(array));
+    const py::capsule owner(kept, [](void* memory) { delete static_cast<Array<T, Rank>*>(memory); });
+    return array_over(kept->data(), kept->shape(), owner);
+}
+
+/// The shape of an array of this rank. Throws Error(usage) for another rank.
+template <std::size_t Rank>
+Shape<Rank> shape_of(const py::array& array, const char* what) {
+    if (array.ndim() != static_cast<py::ssize_t>(Rank))
+        throw Error(ErrorCode::usage, std::string(what) + ": an array of " + std::to_string(Rank) +
+                                          " axes was expected, not of " + std::to_string(array.ndim()));
+    Shape<Rank> shape;
+    for (std::size_t axis = 0; axis < Rank; ++axis) shape[axis] = static_cast<std::size_t>(array.shape(axis));
+    return shape;
+}
+
+/// The elements of an array of NumPy with any strides, negative ones too. The object is alive while this is.
+template <class T, std::size_t Rank>
+class Strided {
+  public:
+    /// Throws Error(usage) for an array of another rank or type.
+    Strided(const py::array& array, const char* what)
+        : shape_(shape_of<Rank>(array, what)), data_(static_cast<const char*>(array.data())), owner_(share(array)) {
+        if (!py::isinstance<py::array_t<T>>(array) || (array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) == 0)
+            throw Error(ErrorCode::usage, std::string(what) + ": another type of numbers was expected");
+        std::size_t dense = sizeof(T);
+        for (std::size_t axis = Rank; axis-- > 0; dense *= shape_[axis]) {
+            strides_[axis] = array.strides(axis);
+            is_dense_ = is_dense_ && (shape_[axis] <= 1 || strides_[axis] == static_cast<std::ptrdiff_t>(dense));
+        }
+    }
+
+    const Shape<Rank>& shape() const { return shape_; }
+    /// Whether elements lie as in a View, which data() then begins.
+    bool is_dense() const { return is_dense_; }
+    const T* data() const { return reinterpret_cast<const T*>(data_); }
+    std::ptrdiff_t stride(std::size_t axis) const { return strides_[axis]; }
+    /// The address of an element, given by `Rank` indices.
+    template <class... Index>
+    const char* at(Index... index) const {
+        static_assert(sizeof...(Index) == Rank);
+        const std::array<std::size_t, Rank> indices{static_cast<std::size_t>(index)...};
+        const char* address = data_;
+        for (std::size_t axis = 0; axis < Rank; ++axis)
+            address += static_cast<std::ptrdiff_t>(indices[axis]) * strides_[axis];
+        return address;
+    }
+    /// Copies a row of elements along the last axis.
+    void copy_row(const char* from, T* to) const {
+        const std::ptrdiff_t step = strides_[Rank - 1];
+        for (std::size_t i = 0; i < shape_[Rank - 1]; ++i, from += step) to[i] = *reinterpret_cast<const T*>(from);
+    }
+    /// The array itself.
+    const py::object& object() const { return *owner_; }
+
+  private:
+    Shape<Rank> shape_;
+    std::array<std::ptrdiff_t, Rank> strides_{};
+    const char* data_;
+    bool is_dense_ = true;
+    std::shared_ptr<const py::object> owner_;
+};
+
+}  // namespace hogel::python

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// Holograms: from light fields, and in files.
+#include "hogel/hologram.h"
+
+#include <algorithm>
+
+#include "core.h"
+#include "hogel/pipeline.h"
+
+namespace hogel::python {
+namespace {
+
+using py::arg;
+
+void add_methods(py::module_& module) {
+    py::enum_<Phases>(module, "Phases")
+        .value("random", Phases::random)
+        .value("fixed", Phases::fixed)
+        .value("designed", Phases::designed);
+    py::enum_<SharedPhases>(module, "SharedPhases")
+        .value("fixed", SharedPhases::fixed)
+        .value("designed", SharedPhases::designed);
+    py::enum_<PointPhases>(module, "PointPhases")
+        .value("random", PointPhases::random)
+        .value("fixed", PointPhases::fixed);
+    py::enum_<LobeAverage>(module, "LobeAverage")
+        .value("radiance", LobeAverage::radiance)
+        .value("amplitude", LobeAverage::amplitude);
+    py::class_<Fourier>(module, "Fourier")
+        .def(py::init<>())
+        .def_readwrite("phases", &Fourier::phases)
+        .def_readwrite("average", &Fourier::average);
+    py::class_<Lines>(module, "Lines")
+        .def(py::init<>())
+        .def_readwrite("line_pitch", &Lines::line_pitch)
+        .def_readwrite("phases", &Lines::phases)
+        .def_readwrite("average", &Lines::average);
+    py::class_<Basis>(module, "Basis")
+        .def(py::init<>())
+        .def_readwrite("transform", &Basis::transform)
+        .def_readwrite("tolerance", &Basis::tolerance)
+        .def_readwrite("phases", &Basis::phases)
+        .def_readwrite("line_pitch", &Basis::line_pitch);
+    py::class_<PhaseAdded>(module, "PhaseAdded").def(py::init<>()).def_readwrite("exact", &PhaseAdded::exact);
+    py::class_<OverlapAdd>(module, "OverlapAdd").def(py::init<>()).def_readwrite("phases", &OverlapAdd::phases);
+    py::class_<OwnMethod>(module, "OwnMethod").def_readonly("name", &OwnMethod::name);
+    module.def("hologram_methods", [] { return hologram_methods().names(); });
+    module.def(
+        "hologram_method", [](const std::string& name) { return hologram_methods().find(name).method; }, arg("name"));
+    module.def("line_pitch", &line_pitch, arg("method"));
+    module.def("needs_depth", &needs_depth, arg("method"));
+}
+
+}  // namespace
+
+void add_holograms(py::module_& module) {
+    add_methods(module);
+    py::class_<HologramRequest>(module, "HologramRequest")
+        .def(py::init<>())
+        .def_property(
+            "channels",
+            [](const HologramRequest& r) {
+                std::vector<std::pair<double, std::size_t>> channels;
+                for (const Channel& c : r.channels) channels.emplace_back(c.wavelength, c.index);
+                return channels;
+            },
+            [](HologramRequest& r, const std::vector<std::pair<double, std::size_t>>& channels) {
+                r.channels.clear();
+                for (const auto& [wavelength, index] : channels) r.channels.push_back({wavelength, index});
+            })
+        .def_readwrite("pitch", &HologramRequest::pitch)
+        .def_readwrite("method", &HologramRequest::method)
+        .def_readwrite("looks", &HologramRequest::looks)
+        .def_readwrite("seed", &HologramRequest::seed)
+        .def_readonly("of_coefficients", &HologramRequest::of_coefficients);
+    module.def(
+        "require_holograms",
+        [](const LightField& light_field, const HologramRequest& request, const std::vector<Camera>& cameras) {
+            require_holograms(light_field.grids(), request, cameras);
+        },
+        arg("light_field"), arg("request"), arg("cameras") = std::vector<Camera>());
+    module.def("warning_about", &warning_about, arg("light_field"), arg("request"),
+               py::call_guard<py::gil_scoped_release>());
+    module.def(
+        "make_holograms",
+        [](const LightField& light_field, const HologramRequest& request) {
+            return run_for(py::none(), [&](const Progress&) { return make_holograms(light_field, request); });
+        },
+        arg("light_field"), arg("request"));
+    module.def(
+        "open_for_holograms",
+        [](const std::filesystem::path& path, HologramRequest& request, bool any_transform) {
+            return run_for(py::none(),
+                           [&](const Progress&) { return open_for_holograms(path, request, any_transform); });
+        },
+        arg("path"), arg("request"), arg("any_transform"));
+    module.def(
+        "open_hologram",
+        [](const std::filesystem::path& path) {
+            return run_for(py::none(), [&](const Progress&) { return open_hologram(path); });
+        },
+        arg("path"));
+    module.def(
+        "write_holograms",
+        [](const std::filesystem::path& path, const Fields& holograms, bool half, const py::object& metadata,
+           const py::object& report) {
+            HologramFileOptions options;
+            options.type = half ? SampleType::half : SampleType::single;
+            options.metadata = metadata_of(metadata);
+            run(report, [&](const Progress& p) { write_holograms(path, holograms, options, p); });
+        },
+        arg("path"), arg("holograms"), arg("half"), arg("metadata"), arg("report"));
+    module.def(
+        "write_fields",
+        [](const std::filesystem::path& path, const Fields& fields, const py::object& metadata,
+           const py::object& report) {
+            const Metadata entries = metadata_of(metadata);
+            run(report, [&](const Progress& p) {
+                std::vector<Field> loaded;
+                for (std::size_t i = 0; i < fields.size(); ++i) {
+                    loaded.emplace_back(fields[i]->grid());
+                    copy(*fields[i], loaded.back(), 0, p.part(i, fields.size()));
+                }
+                write_fields(path, loaded, entries);
+            });
+        },
+        arg("path"), arg("fields"), arg("metadata"), arg("report"));
+    module.def(
+        "compare_fields",
+        [](const Fields& a, const Fields& b, const py::object& report) {
+            const auto c = run_for(report, [&](const Progress& p) { return compare(a, b, p); });
+            return py::make_tuple(c.sqnr, c.psnr, c.max_error);
+        },
+        arg("a"), arg("b"), arg("report"));
+}
+
+}  // namespace hogel::python

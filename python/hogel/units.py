@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Lengths are metres and angles radians, as floats; every function takes texts with units too.
+
+>>> import hogel
+>>> from hogel import mm, deg
+>>> 16 * mm, round(180 * deg, 6)
+(0.016, 3.141593)
+>>> hogel.length("633nm")
+6.33e-07
+"""
+from __future__ import annotations
+
+import math
+import numbers
+from collections.abc import Iterable, Sequence
+from typing import Optional, Union
+
+from . import _core
+from .errors import UsageError
+
+m = 1.0
+cm = 1e-2
+mm = 1e-3
+um = 1e-6
+nm = 1e-9
+deg = math.pi / 180
+rad = 1.0
+
+Length = Union[float, str]
+Angle = Union[float, str]
+Counts = Union[int, str, Sequence[int]]
+
+
+def _number(value: object, what: str, expected: str) -> float:
+    if isinstance(value, numbers.Real) and not isinstance(value, bool) and math.isfinite(value):
+        return float(value)
+    raise UsageError(f"{what}: {value!r} is not {expected}")
+
+
+def length(value: Length, what: str = "length") -> float:
+    """A length in metres, from a number of metres or a text such as "16mm"."""
+    if isinstance(value, str):
+        return _core.parse_length(value, what)
+    return _number(value, what, "a length; write metres, such as 0.016 or 16*mm, or a text such as '16mm'")
+
+
+def angle(value: Angle, what: str = "angle") -> float:
+    """An angle in radians, from a number of radians or a text such as "16deg"."""
+    if isinstance(value, str):
+        return _core.parse_angle(value, what)
+    return _number(value, what, "an angle; write radians, such as 16*deg, or a text such as '16deg'")
+
+
+def angles(value: Union[Angle, Sequence[Angle]], what: str) -> tuple[float, float]:
+    """Angles across and down: one for both, or two; as a text "16deg" or "20,16deg"."""
+    if isinstance(value, str):
+        *first, last = value.split(",")
+        unit = last.lstrip("+-.0123456789eE ")
+        value = [part if part.endswith(unit) else part + unit for part in (*first, last)]
+    parts = value if isinstance(value, Sequence) else list(value) if isinstance(value, Iterable) else [value]
+    both = [angle(part, what) for part in parts]
+    if len(both) not in (1, 2):
+        raise UsageError(f"{what}: one angle or two were expected, across and down")
+    return both[0], both[-1]
+
+
+def lengths(value: Union[Length, Sequence[Length]], what: str) -> list[float]:
+    """Lengths: one, or several, as texts "633nm" or "633,532,460nm"."""
+    if isinstance(value, str):
+        *first, last = value.split(",")
+        unit = last.lstrip("+-.0123456789eE ")
+        return [length(part if part.endswith(unit) else part + unit, what) for part in (*first, last)]
+    return [length(part, what) for part in value] if isinstance(value, Iterable) else [length(value, what)]
+
+
+def point(value: Union[str, Sequence[Length]], what: str) -> tuple[float, float, float]:
+    """A point x, y, z: three lengths, or a text such as "-30,0,300mm"."""
+    three = lengths(value, what)
+    if len(three) != 3:
+        raise UsageError(f"{what}: three lengths were expected, x, y and z, not {value!r}")
+    return three[0], three[1], three[2]
+
+
+def counts(value: Counts, what: str) -> tuple[int, int]:
+    """Columns and rows: (64, 48), or one number for both; as a text "64x48"."""
+    parts: Sequence[object]
+    if isinstance(value, str):
+        parts = value.split("x")
+    else:
+        parts = list(value) if isinstance(value, Iterable) else [value]
+    try:
+        both = [int(part) for part in parts]  # type: ignore[call-overload]
+        if len(both) not in (1, 2) or min(both) < 0 or any(isinstance(part, float) and part != int(part) for part in parts):
+            raise ValueError
+    except (TypeError, ValueError):
+        raise UsageError(f"{what}: {value!r} is neither a number nor a pair; write 64, (64, 48) or '64x48'") from None
+    return both[0], both[-1]
+
+
+def say_length(metres: float) -> str:
+    """A length with the unit that reads best."""
+    return _core.format_length(metres)
+
+
+def say_angle(radians: float) -> str:
+    """An angle in degrees."""
+    return f"{radians / deg:.4g}°"
+
+
+def say_bytes(count: float) -> str:
+    """A number of bytes with the unit that reads best."""
+    return _core.format_bytes(float(count))
+
+
+def optional_length(value: Optional[Length], default: float, what: str) -> float:
+    """The length, or the default for None."""
+    return default if value is None else length(value, what)

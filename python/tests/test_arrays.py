@@ -1,0 +1,218 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Arrays of NumPy share memory with the library, and slices read what they take."""
+import gc
+import pickle
+import unittest
+
+import hogel
+import numpy as np
+from common import InFolder, light_field, random_array, resident
+
+
+class Memory(unittest.TestCase):
+    def test_light_fields_are_not_copied(self):
+        lf, values = light_field()
+        self.assertEqual(np.asarray(lf).ctypes.data, values.ctypes.data)
+        self.assertEqual(lf[1:, 2].ctypes.data, values[1:, 2].ctypes.data)
+        loaded = lf.load()
+        first, second = np.asarray(loaded), np.asarray(loaded)
+        self.assertEqual(first.ctypes.data, second.ctypes.data)
+        del loaded, lf, second
+        gc.collect()
+        np.testing.assert_array_equal(first, values)  # its memory lives as long as it does
+
+    def test_fields_and_pictures_are_not_copied(self):
+        samples = np.ones((6, 8), np.complex64)
+        field = hogel.Field.from_array(samples, pitch="1um", wavelength="633nm")
+        self.assertEqual(np.asarray(field).ctypes.data, samples.ctypes.data)
+        loaded = field.load()
+        self.assertEqual(np.asarray(loaded).ctypes.data, np.asarray(loaded).ctypes.data)
+        picture = hogel.Picture(random_array(4, 5, 3))
+        self.assertEqual(np.asarray(picture).ctypes.data, picture.pixels.ctypes.data)
+
+    def test_any_strides(self):
+        whole = random_array(3, 12, 16, 8, 10)
+        for values in (whole[::-1, ::2, ::-2, 1:5, ::3], np.asfortranarray(whole), whole.transpose(0, 2, 1, 4, 3)):
+            lf = hogel.LightField.from_array(values, size="1mm", fov="10deg")
+            self.assertEqual(np.asarray(lf).ctypes.data, values.ctypes.data)
+            np.testing.assert_array_equal(np.asarray(lf.load()), values)
+        samples = random_array(8, 9).astype(np.complex64)[::-2, ::3]
+        field = hogel.Field.from_array(samples, pitch="1um", wavelength="633nm")
+        np.testing.assert_array_equal(np.asarray(field.load()), samples)
+
+    def test_other_numbers_are_converted(self):
+        values = random_array(2, 2, 2, 2).astype(np.float64)
+        lf = hogel.LightField.from_array(values, size="1mm", fov="10deg")
+        np.testing.assert_array_equal(np.asarray(lf)[0], values.astype(np.float32))
+
+    def test_dlpack_both_ways(self):
+        class Tensor:
+            """A tensor of another library."""
+
+            def __init__(self, array):
+                self.array = array
+
+            def __dlpack__(self, stream=None):
+                return self.array.__dlpack__()
+
+            def __dlpack_device__(self):
+                return self.array.__dlpack_device__()
+
+        values = random_array(1, 2, 3, 4, 5)
+        lf = hogel.LightField.from_array(Tensor(values), size="1mm", fov="10deg")
+        self.assertEqual(np.asarray(lf).ctypes.data, values.ctypes.data)
+        self.assertEqual(np.from_dlpack(lf.load()).shape, values.shape)
+        writable = hogel.LightField.from_array(values, size="1mm", fov="10deg")
+        self.assertEqual(np.from_dlpack(writable).ctypes.data, values.ctypes.data)
+
+    def test_nothing_leaks(self):
+        values = random_array(1, 4, 4, 4, 4)
+        samples = np.ones((8, 8), np.complex64)
+
+        def cycle():
+            lf = hogel.LightField.from_array(values, size="1mm", fov="10deg", depth=values[0])
+            np.asarray(lf), lf.grid, lf.depth, repr(lf)
+            np.asarray(hogel.Field.from_array(samples, pitch="1um", wavelength="633nm"))
+            hogel.Picture(values[0, 0, 0])
+            try:
+                hogel.length("1", "x")
+            except hogel.UsageError:
+                pass
+
+        for _ in range(1000):
+            cycle()
+        before = resident()
+        for _ in range(10000):
+            cycle()
+        self.assertLess(resident() - before, 4e6)  # 400 bytes a cycle would show
+
+    def test_work_does_not_leak(self):
+        lf, _ = light_field()
+        for _ in range(200):
+            lf.load()
+        before = resident()
+        for _ in range(1000):
+            np.asarray(lf.load())
+        self.assertLess(resident() - before, 4e6)
+
+
+class Slices(InFolder):
+    def keys(self, shape, count):
+        """Random indices, whole numbers, slices of all kinds and ellipses among them."""
+        rng = np.random.default_rng(2)
+
+        def part(extent):
+            if rng.random() < 0.3:
+                return int(rng.integers(-extent, extent))
+            ends = [None if rng.random() < 0.3 else int(rng.integers(-extent - 1, extent + 2)) for _ in range(2)]
+            return slice(*ends, [None, 1, 2, 3, -1, -2][rng.integers(6)])
+
+        for _ in range(count):
+            key = [part(extent) for extent in shape]
+            if rng.random() < 0.3:
+                cut = sorted(rng.integers(0, len(shape) + 1, 2))
+                key[cut[0] : cut[1]] = [Ellipsis]
+            yield tuple(key)
+
+    def test_of_files(self):
+        lf, values = light_field(hogels=(13, 9))
+        lf.save("a.h5", float=True)
+        lf.compress("a.hgl", lossless=True)
+        for name in "a.h5", "a.hgl":
+            read = hogel.LightField.open(name)
+            for key in self.keys(read.shape, 60):
+                np.testing.assert_array_equal(read.faces[0][key], values[key], err_msg=f"{name} {key}")
+
+    def test_four_indices_are_of_all_channels(self):
+        lf, values = light_field(hogels=(13, 12))
+        lf.save("a.h5", float=True)
+        for read in lf, hogel.LightField.open("a.h5"):
+            np.testing.assert_array_equal(read[2:9, :, 3, 1], values[:, 2:9, :, 3, 1])
+            np.testing.assert_array_equal(read[1], values[1])
+            np.testing.assert_array_equal(read[..., 2], values[..., 2])
+
+    def test_of_fields(self):
+        lf, _ = light_field(hogels=(4, 3), directions=(16, 16))
+        holo = lf.hologram(wavelength="633nm", pitch="2.2um")
+        whole = np.asarray(holo[0])
+        for key in self.keys(whole.shape, 20):
+            np.testing.assert_array_equal(holo[0][key], whole[key], err_msg=str(key))
+
+    def test_depth(self):
+        depth = random_array(6, 8, 4, 5, seed=3)
+        lf = hogel.LightField.from_array(random_array(1, 6, 8, 4, 5), size="1mm", fov="10deg", depth=depth)
+        lf.save("a.h5", depth=True)
+        read = hogel.LightField.open("a.h5")
+        np.testing.assert_array_equal(read.depth[2, ::3], depth[2, ::3])
+        np.testing.assert_array_equal(np.asarray(read.load().depth), depth)
+
+    def test_wrong_indices(self):
+        lf, _ = light_field()
+        lf.save("a.h5")
+        read = hogel.LightField.open("a.h5")
+        for key in (99, (0,) * 6, ([0, 1],), (..., ...), "t"):
+            with self.assertRaises(IndexError):
+                read[key]
+
+    def test_a_large_file_is_not_loaded(self):
+        big = hogel.LightField.from_function(lambda s, t, u, v: u + v, channels=1, hogels=256, directions=24, size="20mm", fov="16deg")
+        big.save("big.h5", float=True)  # 151 MB
+        before = resident()
+        read = hogel.LightField.open("big.h5")
+        part = read[10:12, :, 4, 4]
+        self.assertEqual(part.shape, (1, 2, 256))
+        self.assertAlmostEqual(part[0, 0, 0], big.grid.u(4) + big.grid.v(4), 6)
+        self.assertLess(resident() - before, 60e6)
+
+
+class OwnCode(unittest.TestCase):
+    def test_functions(self):
+        def colours(s, t, u, v):
+            return np.stack(np.broadcast_arrays(s, t, u + v))
+
+        lf = hogel.LightField.from_function(colours, hogels=(7, 5), directions=(3, 4), size="7mm", fov="16deg")
+        g = lf.grid
+        values = np.asarray(lf)
+        self.assertAlmostEqual(values[0, 2, 6, 0, 0], g.s(6), 8)
+        self.assertAlmostEqual(values[1, 4, 0, 0, 0], g.t(4), 8)
+        self.assertAlmostEqual(values[2, 0, 0, 3, 1], g.u(1) + g.v(3), 6)
+
+    def test_errors_of_functions_arrive(self):
+        def broken(s, t, u, v):
+            raise KeyError("mine")
+
+        lf = hogel.LightField.from_function(broken, hogels=3, directions=2, size="1mm", fov="10deg")
+        with self.assertRaisesRegex(KeyError, "mine"):
+            lf.load()
+
+    def test_sinks(self):
+        lf, values = light_field()
+        seen = np.zeros_like(values)
+
+        def sink(s, t, radiance, depth):
+            self.assertIsNone(depth)
+            seen[:, t : t + radiance.shape[1], s : s + radiance.shape[2]] = radiance
+
+        lf.stream(sink)
+        np.testing.assert_array_equal(seen, values)
+
+    def test_meshes(self):
+        square = np.array([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], float)
+        scene = hogel.Scene.mesh(square, [(0, 1, 2), (0, 2, 3)], radiance=np.full((4, 3), 0.25))
+        lf = scene.render(hogels=8, directions=4, size="1mm", fov="10deg", shading="given")
+        self.assertAlmostEqual(float(lf[0, 4, 4, 2, 2]), 0.25, 6)
+        with self.assertRaisesRegex(hogel.BadInputError, "4"):
+            hogel.Scene.mesh(square, [(0, 1, 4)])
+        with self.assertRaises(hogel.UsageError):
+            hogel.Scene.mesh(square, [(0.0, 1.0, 2.0)])
+
+    def test_pickles(self):
+        lf, _ = light_field()
+        camera = hogel.camera("1mm", eye="1,2,300mm", focus="3mm", pupil="4mm")
+        field = hogel.Field.from_array(np.ones((2, 3), np.complex64), pitch="1um", wavelength="633nm")
+        for value in lf.grid, lf.grid.view, camera, field.grid, hogel.FocalPlane(-0.3, 0.1, 0.1), hogel.Frequencies(0.1, 0.1):
+            self.assertEqual(pickle.loads(pickle.dumps(value)), value)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Errors are of the fitting classes and name what was wrong; units are taken everywhere."""
+import unittest
+from pathlib import Path
+
+import hogel
+import numpy as np
+from common import InFolder, command_line, light_field
+from hogel import deg, mm, um
+
+
+class Errors(InFolder):
+    def test_classes(self):
+        lf, _ = light_field()
+        Path("torn.h5").write_bytes(b"\x89HDF\r\n\x1a\n torn")
+        cases = [
+            (lambda: lf.photograph(eye="0,0,-1mm"), hogel.UsageError, ValueError, "usage", 2),
+            (lambda: hogel.open("torn.h5"), hogel.BadInputError, ValueError, "bad_input", 3),
+            (lambda: hogel.Scene.load("nothing.ply"), hogel.BadInputError, ValueError, "bad_input", 3),
+            (lambda: lf.save("no/folder.h5"), hogel.CannotWriteError, OSError, "cannot_write", 4),
+            (lambda: hogel.Picture(np.ones((2, 2))).save("a.tif"), hogel.NotBuiltInError, NotImplementedError, "not_built_in", 5),
+        ]
+        for work, kind, builtin, name, status in cases:
+            with self.subTest(name), self.assertRaises(kind) as caught:
+                work()
+            self.assertIsInstance(caught.exception, hogel.Error)
+            self.assertIsInstance(caught.exception, builtin)
+            self.assertEqual((caught.exception.name, caught.exception.status), (name, status))
+            self.assertEqual(len(str(caught.exception).splitlines()), 1)
+
+    def test_messages_name_the_keyword(self):
+        lf, _ = light_field()
+        scene = hogel.Scene.load("pumpkin")
+        cases = [
+            (lambda: scene.render(size="16"), "^size: "),
+            (lambda: scene.render(fov="16"), "^fov: "),
+            (lambda: scene.render(hogels="16by16"), "^hogels: "),
+            (lambda: scene.render(hogels=2.5), "^hogels: "),
+            (lambda: scene.render(algorithm="epy"), "did you mean 'epi'"),
+            (lambda: scene.render(size=float("nan")), "^size: "),
+            (lambda: lf.hologram(wavelength="red"), "^wavelength: "),
+            (lambda: lf.hologram(method="fourrier"), "fourier"),
+            (lambda: lf.hologram(phase="odd"), "^phase: "),
+            (lambda: lf.compress("a.hgl", sqnr=40, ppb=8), "only one"),
+            (lambda: lf.compress("a.h5"), "hgl"),
+            (lambda: lf.save("a.hgl", float=True), "^float: "),
+            (lambda: lf.photograph(focus_tilt="95deg"), "^focus_tilt: "),
+            (lambda: lf.photograph(pupil=1, f_number=2), "^pupil, f_number: "),
+            (lambda: lf.hologram().photograph(camera="best"), "^camera: "),
+            (lambda: hogel.Scene.load("pumpkin", up="w"), "^up: "),
+            (lambda: hogel.Scene.load("pumpkin", colour="orange"), "^colour: "),
+            (lambda: hogel.LightField.from_array(np.ones((2, 2))), "^radiance: "),
+            (lambda: hogel.Field.from_array(np.ones((2, 2)), wavelength=1), "^pitch: "),
+        ]
+        for number, (work, pattern) in enumerate(cases):
+            with self.subTest(f"{number} {pattern}"), self.assertRaisesRegex(hogel.UsageError, pattern):
+                work()
+
+    def test_nothing_is_written_after_an_error(self):
+        lf, _ = light_field()
+        with self.assertRaises(hogel.UsageError):
+            lf.compress("a.hgl", coder="none")
+        self.assertFalse(Path("a.hgl").exists())
+
+    def test_the_command_line(self):
+        command_line("--version")
+        with self.assertRaisesRegex(AssertionError, "unknown|nonsense"):
+            command_line("nonsense")
+
+
+class Units(unittest.TestCase):
+    def test_texts_and_floats(self):
+        for text, metres in ("16mm", 16 * mm), ("1.5um", 1.5 * um), ("-2mm", -2 * mm), (0.25, 0.25), (np.float32(0.5), 0.5):
+            self.assertAlmostEqual(hogel.length(text), metres, 15)
+        for text, radians in ("16deg", 16 * deg), ("0.5rad", 0.5), (0.5, 0.5):
+            self.assertAlmostEqual(hogel.angle(text), radians, 15)
+        for wrong in "16", "mm", "", None, True, float("inf"), [1]:
+            with self.assertRaises(hogel.UsageError):
+                hogel.length(wrong)
+
+    def test_wherever_a_length_is_taken(self):
+        a = hogel.Scene.load("pumpkin").render(hogels="8x6", directions="4", size="2mm", fov="16,12deg")
+        b = hogel.Scene.load("pumpkin").render(hogels=(8, 6), directions=4, size=2 * mm, fov=(16 * deg, 12 * deg))
+        self.assertEqual(a.grid, b.grid)
+        self.assertEqual(hogel.camera("2mm", eye="0,10,300mm", focus="1mm"), hogel.camera(2 * mm, eye=(0, 10 * mm, "300mm"), focus=1 * mm))
+
+
+if __name__ == "__main__":
+    unittest.main()
