@@ -12,6 +12,7 @@
 #include "hogel/image.h"
 #include "hogel/image/picture_bytes.h"
 #include "hogel/image/picture_formats.h"
+#include "hogel/screen.h"
 
 namespace hogel {
 
@@ -85,6 +86,21 @@ void require_picture_name(const std::filesystem::path& path) { format_of(path); 
 std::vector<unsigned char> encode_png(const Image& image, double exposure) {
     check_writable(image, exposure, "PNG");
     return encode(image, exposure, "png", {}, "PNG");
+}
+
+std::vector<unsigned char> encode_jpeg(const Image& image, double exposure, int quality) {
+    constexpr std::size_t widest = 65500;  // of the format
+    check_writable(image, exposure, "JPEG");
+    if (quality < 1 || quality > 100)
+        throw Error(ErrorCode::usage, fmt::format("the quality of a JPEG picture is 1 to 100, not {}", quality));
+    if (image.width() > widest || image.height() > widest)
+        fail_write("JPEG", fmt::format("{}x{} pixels; at most {} fit", image.width(), image.height(), widest));
+    try {
+        return jpeg_file(display_values(image, exposure), quality);
+    } catch (const std::runtime_error& error) {
+        if (dynamic_cast<const Error*>(&error) != nullptr) throw;
+        fail_write("JPEG", error.what());
+    }
 }
 
 }  // namespace hogel
