@@ -5,7 +5,7 @@ export class Stage {
   // on: {drag(dx, dy) in parts of the picture, zoom(factor), click(x, y), hover(x, y)}
   constructor(canvas, on) {
     this.canvas = canvas;
-    this.context = canvas.getContext("2d", {alpha: false});
+    this.context = canvas.getContext("bitmaprenderer", {alpha: false});  // which takes pictures as they are and copies nothing
     this.aspect = 1;
     this.latest = 0;
     this.pointers = new Map();
@@ -27,11 +27,10 @@ export class Stage {
     const bitmap = await createImageBitmap(blob);
     if (number < this.latest) return false;
     this.latest = number;
-    const {canvas, context} = this, height = Math.max(1, Math.round(this.pixels * this.aspect));
-    if (canvas.width !== this.pixels || canvas.height !== height) { canvas.width = this.pixels; canvas.height = height; }
-    context.imageSmoothingQuality = "high";
-    context.drawImage(bitmap, 0, 0, canvas.width, canvas.height);
-    bitmap.close();
+    // The style's size does not change, so that the screen scales what is coarse.
+    if (this.canvas.width !== bitmap.width || this.canvas.height !== bitmap.height)
+      Object.assign(this.canvas, {width: bitmap.width, height: bitmap.height});
+    this.context.transferFromImageBitmap(bitmap);
     return true;
   }
 

@@ -10,6 +10,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/image.h"
+#include "hogel/image/display_value.h"
 #include "hogel/image/picture_bytes.h"
 #include "hogel/image/picture_formats.h"
 #include "hogel/screen.h"
@@ -19,10 +20,6 @@ namespace hogel {
 using namespace image;
 
 namespace {
-
-unsigned char quantise(float linear, double exposure) {
-    return static_cast<unsigned char>(std::lround(255 * srgb_encode(static_cast<float>(linear * exposure))));
-}
 
 [[noreturn]] void fail_write(const std::string& name, const std::string& why) {
     throw Error(ErrorCode::cannot_write, fmt::format("cannot write the picture '{}': {}", name, one_line(why)));
@@ -42,7 +39,7 @@ Array<std::uint8_t, 3> display_values(const Image& image, double exposure) {
     Array<std::uint8_t, 3> display(image.pixels.shape());
     core::parallel_for(image.height(), [&](std::size_t y) {
         std::ranges::transform(image.pixels[y].elements(), display[y].elements().begin(),
-                               [&](float value) { return quantise(value, exposure); });
+                               [&](float value) { return display_value(static_cast<float>(value * exposure)); });
     });
     return display;
 }
