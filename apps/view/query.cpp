@@ -127,6 +127,8 @@ View parse_view(const Words& words) {
             view.camera.focus = cli::parse_any_length(text, name);
         else if (name == "pupil")
             view.camera.pupil = positive_length(name, text);
+        else if (name == "eyes")
+            view.eyes = positive_length(name, text);
         else if (name == "resolution")
             view.camera.resolution = resolution(text);
         else if (name == "pupil-samples")
@@ -146,6 +148,12 @@ View parse_view(const Words& words) {
         else if (name != "token" && name != "x" && name != "y")
             throw Error(ErrorCode::usage, fmt::format("query: '{}' is unknown", name.substr(0, 40)));
     }
+    return view;
+}
+
+View of_eye(View view, int side) {
+    view.camera.eye.x += 0.5 * side * view.eyes;
+    view.eyes = 0;
     return view;
 }
 

@@ -19,7 +19,8 @@ std::map<std::string, std::string> parse_query(std::string_view query);
 struct View {
     cli::CameraOptions camera;
     std::size_t pupil_samples = 16;
-    double exposure = 0;       ///< 0: the automatic one of the light field
+    double eyes = 0;      ///< metres between two eyes, whose pictures stand side by side, the left one left; 0: one eye
+    double exposure = 0;  ///< 0: the automatic one of the light field
     bool logarithmic = false;  ///< display=log
     std::string format = "jpeg";
     int quality = 90;     ///< of a JPEG picture
@@ -29,6 +30,9 @@ struct View {
 
 /// Throws Error(usage), which names the word.
 View parse_view(const std::map<std::string, std::string>& words);
+
+/// The view of one of two eyes: −1 the left one, 1 the right one.
+View of_eye(View view, int side);
 
 /// A point of a picture, 0 to 1 to the right and down, with the view that it is in.
 struct Spot {

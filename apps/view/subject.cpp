@@ -40,6 +40,22 @@ std::pair<double, double> point_at(const Camera& camera, const Spot& spot) {
     return {picture.center_x + (spot.x - 0.5) * picture.size_x(), picture.center_y + (0.5 - spot.y) * picture.size_y()};
 }
 
+Image side_by_side(const Image& left, const Image& right) {
+    Image both(2 * left.width(), left.height(), left.channels());
+    for (std::size_t y = 0; y < left.height(); ++y) {
+        std::ranges::copy(left.pixels[y].elements(), both.pixels[y].elements().begin());
+        std::ranges::copy(right.pixels[y].elements(), both.pixels[y].elements().begin() +
+                                                          static_cast<std::ptrdiff_t>(left.width() * left.channels()));
+    }
+    return both;
+}
+
+// The eye that a spot of two pictures belongs to, and the spot in its picture.
+std::pair<View, Spot> in_one_picture(const View& view, const Spot& spot) {
+    const bool right = spot.x >= 0.5;
+    return {of_eye(view, right ? 1 : -1), {std::min(2 * spot.x - (right ? 1 : 0), 1.0), spot.y}};
+}
+
 // The contrast of a few pixels: the mean square of their second differences, over all channels.
 double contrast(const Image& image) {
     double sum = 0;
@@ -78,11 +94,15 @@ Camera Subject::camera(const View& view) const {
 }
 
 Image Subject::photograph(const View& view, const Progress& progress) {
+    if (view.eyes > 0)
+        return side_by_side(photograph(of_eye(view, -1), progress), photograph(of_eye(view, 1), progress));
     Image picture = photographer_.photograph(camera(view), {.pupil_samples = view.pupil_samples}, progress);
     return view.logarithmic ? cli::logarithmic(picture) : picture;
 }
 
 Reading Subject::read(const View& view, const Spot& spot) const {
+    if (view.eyes > 0)
+        return std::apply([&](const View& one, const Spot& at) { return read(one, at); }, in_one_picture(view, spot));
     const Camera camera = this->camera(view);
     Reading reading;
     std::tie(reading.x, reading.y) = point_at(camera, spot);
@@ -110,6 +130,9 @@ Reading Subject::read(const View& view, const Spot& spot) const {
 }
 
 double Subject::focus(const View& view, const Spot& spot, const Progress& progress) {
+    if (view.eyes > 0)
+        return std::apply([&](const View& one, const Spot& at) { return focus(one, at, progress); },
+                          in_one_picture(view, spot));
     if (has_depth()) {
         // Beside an object's edge the ray may pass it: the nearest of the rays around it decides.
         std::optional<double> nearest;

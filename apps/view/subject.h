@@ -34,8 +34,8 @@ class Subject {
 
     /// The camera of `hogel photo` with those options. Throws Error(usage).
     Camera camera(const View& view) const;
-    /// The picture that `hogel photo --geometric` takes, in linear light; with display=log its logarithm. One at a
-    /// time. Throws Error(cancelled).
+    /// The picture that `hogel photo --geometric` takes, in linear light; with display=log its logarithm; of two eyes
+    /// both pictures. One at a time. Throws Error(cancelled).
     Image photograph(const View& view, const Progress& progress);
     /// The factor with which it is shown.
     double exposure(const View& view) const {

@@ -79,6 +79,27 @@ TEST(Subject, pictures_equal_those_of_photograph) {
     EXPECT_TRUE(std::ranges::equal(one.photograph(view, {}).pixels.elements(), expected.pixels.elements()));
 }
 
+TEST(Subject, two_eyes_see_two_pictures) {
+    Subject one = subject(true);
+    View both = view_from({3e-3, 1e-3, 0.12});
+    both.eyes = 4e-3;
+    const Image pair = one.photograph(both, {});
+    ASSERT_EQ(pair.width(), 160u);
+    for (const int side : {-1, 1}) {
+        const double x = side < 0 ? 1e-3 : 5e-3, first = side < 0 ? 0 : 0.5;
+        const Image alone = one.photograph(view_from({x, 1e-3, 0.12}), {});
+        const std::size_t begin = side < 0 ? 0 : 80;
+        for (std::size_t row = 0; row < 60; ++row)
+            for (std::size_t column = 0; column < 80; ++column)
+                ASSERT_EQ(pair.pixels(row, begin + column, 0), alone.pixels(row, column, 0)) << side << row << column;
+        const Reading reading = one.read(both, {first + 0.125, 0.5}),
+                      expected = one.read(view_from({x, 1e-3, 0.12}), {0.25, 0.5});
+        EXPECT_EQ(reading.across, expected.across);
+        EXPECT_EQ(reading.radiance, expected.radiance);
+        EXPECT_NEAR(one.focus(both, {first + 0.125, 0.5}, {}), behind, 1e-9);
+    }
+}
+
 TEST(Subject, refuses_pictures_beyond_any_screen) {
     View view = view_from({0, 0, 0.1});
     view.camera.resolution = {4096, 4096};

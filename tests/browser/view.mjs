@@ -107,6 +107,25 @@ async function run() {
   const [download] = await Promise.all([page.waitForEvent("download"), page.keyboard.press("s")]);
   expect(readFileSync(await download.path()).subarray(1, 4).toString() === "PNG", "the saved picture is no PNG file");
 
+  // Two eyes have two pictures, of the distance between them.
+  await page.keyboard.press("0");
+  await picture(page);
+  fine = picture(page);
+  await page.keyboard.press("2");
+  const pair = await fine;
+  expect(pair.width >= 1.9 * pair.height, `two pictures of a square hologram have ${pair.width} x ${pair.height} pixels`);
+  await page.waitForFunction(() => location.hash.includes("eyes=63mm"));
+  const views = await page.evaluate(async () => {
+    const reading = x => fetch("/reading?" + new URLSearchParams({eye: "0,0,300mm", eyes: "63mm", x, y: 0.5})).then(answer => answer.json());
+    return [await reading(0.25), await reading(0.75)];
+  });
+  const eyes = views.map(each => 1e3 * each.x_m - 300 * Math.tan(each.across_deg * Math.PI / 180));
+  expect(Math.abs(eyes[0] + 31.5) < 0.1 && Math.abs(eyes[1] - 31.5) < 0.1, `two eyes at ${eyes} mm`);
+  if (shots) await page.screenshot({path: path.join(shots, "view_stereo.png")});
+  fine = picture(page);
+  await page.keyboard.press("2");
+  await fine;
+
   // A reading under the pointer.
   await page.mouse.move(middle[0] + 3, middle[1]);
   await page.waitForFunction(() => document.getElementById("reading").textContent.includes("on the hologram"));
@@ -147,5 +166,5 @@ async function run() {
 }
 
 try { await run(); } finally { process.chdir(tmpdir()); rmSync(folder, {recursive: true, force: true}); }
-console.log(failures.length ? `${failures.length} wrong` : "drag, link, focus, keys, save, reading, names, widths, lost server");
+console.log(failures.length ? `${failures.length} wrong` : "drag, link, focus, keys, save, two eyes, reading, names, widths, lost server");
 process.exit(failures.length ? 1 : 0);

@@ -11,6 +11,7 @@ export const keys = to => [
   {shown: ", .", text: "Narrower, wider pupil", keys: [",", "."], act: key => to.step("pupil", key === "." ? 1 : -1)},
   {shown: "d b", text: "Darker, brighter", keys: ["d", "b"], act: key => to.step("stops", key === "b" ? 1 : -1)},
   {shown: "t", text: "Tone: linear light or its logarithm", keys: ["t"], act: () => to.tone()},
+  {shown: "2", text: "Two eyes side by side, or one", keys: ["2"], act: () => to.stereo()},
   {shown: "Enter", text: "Focus on the middle of the picture", keys: ["Enter"], act: () => to.focusMiddle()},
   {shown: "0", text: "Reset the view", keys: ["0"], act: () => to.reset()},
   {shown: "s", text: "Save the picture as PNG", keys: ["s"], act: () => to.save()},

@@ -18,8 +18,8 @@ const asked = new Map();  // number of a request → when it was made necessary
 
 function words(moving) {
   const pixels = moving ? Math.min(stage.pixels, inMotion.pixels) : stage.pixels, how = moving ? inMotion : atRest;
-  const rows = Math.max(1, Math.round(pixels * stage.aspect));
-  return {...view.words(), resolution: `${pixels}x${rows}`, "pupil-samples": how.samples};
+  const columns = view.eyes > 0 ? Math.max(1, pixels >> 1) : pixels, rows = Math.max(1, Math.round(pixels * stage.aspect));
+  return {...view.words(), resolution: `${columns}x${rows}`, "pupil-samples": how.samples};
 }
 
 function ask(moving, since) {
@@ -62,6 +62,8 @@ async function picture(about, blob) {
 const millimetres = value => `${+value.toFixed(Math.abs(value) < 10 ? 2 : 1)} mm`;
 
 function show() {
+  const aspect = field.ready ? field.height_m / field.width_m / (view.eyes > 0 ? 2 : 1) : 1;
+  if (aspect !== stage.aspect) { stage.aspect = aspect; stage.fit(); }
   const stops = view.exposure === null || !field.exposure ? 0 : Math.log2(view.exposure / field.exposure);
   const reach = focusReach();
   by("distance").value = Math.log10(view.eye[2] / 300);
@@ -75,6 +77,7 @@ function show() {
   by("stops").value = stops;
   by("stops-out").textContent = view.exposure === null ? "automatic" : `${stops > 0 ? "+" : ""}${stops.toFixed(1)} stops`;
   by("display").value = view.display;
+  by("stereo").checked = view.eyes > 0;
   by("eye").textContent = view.eye.map(value => value.toFixed(1)).join(", ") + " mm";
   for (const id of ["distance", "focus", "pupil", "stops"]) by(id).setAttribute("aria-valuetext", by(`${id}-out`).textContent);
 }
@@ -109,8 +112,6 @@ function state(message) {
   const coarse = field.shown_hogels_s < field.hogels_s ? `, shown by ${field.shown_hogels_s} across` : "";
   by("facts").textContent = `${field.hogels_s} × ${field.hogels_t} hogels of ${field.directions_u} × ${field.directions_v} directions${coarse}`;
   if (first) {
-    stage.aspect = field.height_m / field.width_m;
-    stage.fit();
     view.reset(field);
     view.read(location.hash);
   }
@@ -143,6 +144,7 @@ const to = {
     if (what === "stops") view.exposure = (view.exposure ?? field.exposure) * 2 ** (direction / 3);
     changed();
   },
+  stereo() { view.eyes = view.eyes > 0 ? 0 : 63; changed(); },
   tone() { view.display = view.display === "log" ? "intensity" : "log"; changed(); },
   focusAt(x, y) { link.send("focus?" + query({...words(false), x: x.toFixed(5), y: y.toFixed(5)})); },
   focusMiddle() { to.focusAt(0.5, 0.5); },
@@ -162,7 +164,7 @@ const to = {
   copyCommand() {
     const all = words(false);
     if (drawn && all.display !== "log") all.exposure = String(+drawn.exposure.toPrecision(9));
-    copy(command(field.photo ?? "hogel photo LIGHTFIELD", all));
+    copy(command(field.photo ?? "hogel photo LIGHTFIELD", all, view));
   },
   copyLink() { copy(location.origin + location.pathname + location.search + hash(view.words())); },
   full() { document.fullscreenElement ? document.exitFullscreen() : by("stage").requestFullscreen?.(); },
@@ -209,6 +211,7 @@ by("stops").addEventListener("input", event => {
   changed();
 });
 by("display").addEventListener("change", event => { view.display = event.target.value; changed(); });
+by("stereo").addEventListener("change", to.stereo);
 by("controls").addEventListener("reset", event => { event.preventDefault(); to.reset(); });
 by("controls").addEventListener("submit", event => event.preventDefault());
 for (const [id, act] of Object.entries({save: to.save, "copy-command": to.copyCommand, "copy-link": to.copyLink, full: to.full, help: to.help}))

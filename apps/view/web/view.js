@@ -15,6 +15,7 @@ export class View {
     this.pupil = 6;
     this.exposure = null;  // automatic
     this.display = "intensity";
+    this.eyes = 0;  // between two eyes; 0: one
   }
 
   // The words that a link keeps.
@@ -22,6 +23,7 @@ export class View {
     const words = {eye: `${this.eye.map(tidy).join(",")}mm`, focus: `${tidy(this.focus)}mm`, pupil: `${tidy(this.pupil)}mm`};
     if (this.exposure !== null) words.exposure = String(+this.exposure.toPrecision(6));
     if (this.display !== "intensity") words.display = this.display;
+    if (this.eyes > 0) words.eyes = `${tidy(this.eyes)}mm`;
     return words;
   }
 
@@ -35,6 +37,8 @@ export class View {
     if (Number.isFinite(focus) && focus > -this.eye[2]) this.focus = focus;
     if (pupil > 0) this.pupil = pupil;
     if (exposure > 0 && Number.isFinite(exposure)) this.exposure = exposure;
+    const eyes = length(words.get("eyes"));
+    this.eyes = eyes > 0 ? eyes : 0;
     if (["intensity", "log"].includes(words.get("display"))) this.display = words.get("display");
   }
 
@@ -56,6 +60,11 @@ export class View {
 export const query = words => Object.entries(words).map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&");
 // Commas are themselves in an address, and read better.
 export const hash = words => "#" + query(words).replaceAll("%2C", ",");
-// The command that repeats a view: `photo` is that of the light field, from the server.
-export const command = (photo, words) =>
-  `${photo} -o view.png --geometric ${Object.entries(words).map(([name, value]) => `--${name} ${value}`).join(" ")}`;
+// The command that repeats a view, two of them for two eyes: `photo` is that of the light field, from the server.
+export function command(photo, words, view) {
+  const {eyes, ...others} = words;
+  const one = (name, eye) => `${photo} -o ${name} --geometric ${Object.entries({...others, eye}).map(([word, value]) => `--${word} ${value}`).join(" ")}`;
+  if (!eyes) return one("view.png", words.eye);
+  const of = side => `${[view.eye[0] + side * view.eyes / 2, view.eye[1], view.eye[2]].map(tidy).join(",")}mm`;
+  return `${one("left.png", of(-1))} && ${one("right.png", of(1))}`;
+}
