@@ -9,6 +9,9 @@ install(TARGETS hogel EXPORT hogelTargets
         ARCHIVE COMPONENT development)
 if(TARGET hogel_cli)
   install(TARGETS hogel_cli COMPONENT program)
+  if(TARGET hogel_view)
+    install(TARGETS hogel_view COMPONENT program)
+  endif()
   # Manual pages say what the program's help says, so that they need a program that runs here.
   if(NOT CMAKE_CROSSCOMPILING AND NOT HOGEL_SANITIZE)
     set(manual ${PROJECT_BINARY_DIR}/manual)

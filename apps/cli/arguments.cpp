@@ -64,11 +64,15 @@ std::string with_unit(const std::string& part, const std::string& unit) {
 // Lengths beyond these are typing errors, and would overflow where they are squared.
 constexpr double min_length = 1_nm * 1e-3, max_length = 1e6;
 
+}  // namespace
+
 double parse_any_length(const std::string& text, const std::string& what) {
     const double metres = parse_length(text, what);
     if (std::abs(metres) <= max_length) return metres;
     throw Error(ErrorCode::usage, fmt::format("{}: '{}' is longer than {}", what, text, format_length(max_length)));
 }
+
+namespace {
 
 double parse_positive_length(const std::string& text, const std::string& what) {
     const double metres = parse_any_length(text, what);
@@ -101,6 +105,8 @@ Angles parse_angles(const std::string& text, const std::string& what) {
     return {parse_angle(with_unit(text.substr(0, comma), unit_of(down)), what), parse_angle(down, what)};
 }
 
+}  // namespace
+
 Vec3 parse_point(const std::string& text, const std::string& what) {
     const std::size_t first = text.find(','), second = text.find(',', first + 1);
     if (first == std::string::npos || second == std::string::npos || text.find(',', second + 1) != std::string::npos)
@@ -109,6 +115,8 @@ Vec3 parse_point(const std::string& text, const std::string& what) {
     const auto component = [&](const std::string& part) { return parse_any_length(with_unit(part, unit), what); };
     return {component(text.substr(0, first)), component(text.substr(first + 1, second - first - 1)), component(z)};
 }
+
+namespace {
 
 std::string degrees(double radians) { return fmt::format("{:.6g}", radians * 180 / std::numbers::pi); }
 

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "hogel/geometry.h"
+
 namespace hogel::cli {
 
 /// Columns and rows: "256x256", or "256" for a square.
@@ -19,6 +21,11 @@ struct Angles {
 
 /// A finite number without a unit, or nothing if the text is not one.
 std::optional<double> parse_number(const std::string& text);
+
+/// "0,0,300mm": a component without a unit takes that of the last; and a length, "16mm". Both refuse what is too long
+/// to be meant. They throw Error(usage), which begins with `what`.
+Vec3 parse_point(const std::string& text, const std::string& what);
+double parse_any_length(const std::string& text, const std::string& what);
 
 /// A length as typed: with a unit, and no space before it.
 std::string compact_length(double metres);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands.h"
 
+#include "view_options.h"
+
 namespace hogel::cli {
 
 std::span<const CommandInfo> commands() {
@@ -14,6 +16,7 @@ std::span<const CommandInfo> commands() {
         {"slm", "Encode a hologram as a pattern for a light modulator", add_slm},
         {"print", "Write a light field as pictures for a hologram printer", add_print},
         {"photo", "Photograph a hologram, a light field or a scene", add_photo},
+        {"view", view_summary, add_view},
         {"propagate", "The field of a hologram on another plane, as a picture or an array", add_propagate},
         {"focus", "Find the depths at which a hologram is in focus", add_focus},
         {"compress", "Compress a light field", add_compress},

@@ -29,5 +29,6 @@ void add_decompress(Command& command, Session& session);
 void add_compare(Command& command, Session& session);
 void add_info(Command& command, Session& session);
 void add_scenes(Command& command, Session& session);
+void add_view(Command& command, Session& session);
 
 }  // namespace hogel::cli

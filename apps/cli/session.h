@@ -21,6 +21,7 @@ struct Session {
     std::uint64_t threads = 0;  ///< 0: all
     std::uint64_t seed = 1;
 
+    char* const* arguments = nullptr;  ///< those of main()
     const Command* command = nullptr;
     std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
     std::stop_source stop;  ///< requests all work to stop

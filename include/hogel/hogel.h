@@ -31,6 +31,7 @@
 #include "hogel/scene.h"
 #include "hogel/scene_hologram.h"
 #include "hogel/scenes.h"
+#include "hogel/screen.h"
 #include "hogel/shading.h"
 #include "hogel/table.h"
 #include "hogel/units.h"

@@ -150,6 +150,12 @@ HOGEL_API LightField render_light_field(const std::shared_ptr<const ShadedScene>
 HOGEL_API LightField render_light_field(const Scene& scene, const LightFieldRequest& request,
                                         const Progress& progress = {});
 
+/// Every n-th hogel of a light field, across and down, for a first look at a large one: read one by one, where they
+/// are. The middle of the hologram stays where it is: n must be odd, an even one takes the next odd number, and at the
+/// edges up to n − 1 hogels lie outside the first and the last. A light field with too few hogels for n takes the
+/// largest that it has enough for; n = 1 is the light field itself. Throws Error(usage) for 0.
+HOGEL_API LightField every_nth_hogel(const LightField& light_field, std::size_t n);
+
 /// Prepares a light field for readers that read it several times and in tiles of their own, as holograms do once per
 /// channel. If it is read more than once and is small enough, it is copied into memory; otherwise it is wrapped by
 /// cached_tiles(). If `with_depth`, depths are kept too.

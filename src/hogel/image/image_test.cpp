@@ -12,6 +12,7 @@
 
 #include "hogel/error.h"
 #include "hogel/image/picture_formats.h"
+#include "hogel/screen.h"
 
 namespace hogel::image {
 namespace {
@@ -153,6 +154,24 @@ TEST_F(ImageFile, pictures_in_memory_equal_those_in_files) {
         ASSERT_EQ(from_memory.pixels.shape(), from_file.pixels.shape());
         EXPECT_TRUE(std::ranges::equal(from_memory.pixels.elements(), from_file.pixels.elements())) << name;
     }
+}
+
+TEST_F(ImageFile, jpeg_in_memory_is_close_to_the_picture) {
+    for (const std::size_t channels : {1u, 3u}) {
+        const Image image = ramp(64, 48, channels);
+        const std::vector<unsigned char> fine = encode_jpeg(image, 1, 95), coarse = encode_jpeg(image, 1, 40);
+        const Image back = decode_image(fine, "fine");
+        ASSERT_EQ(back.pixels.shape(), image.pixels.shape());
+        EXPECT_GT(compare(image, back).psnr, 40) << channels;
+        EXPECT_LT(coarse.size(), fine.size());
+        EXPECT_LT(compare(image, decode_image(coarse, "coarse")).psnr, compare(image, back).psnr);
+        Image twice = image;
+        for (float& value : twice.pixels.elements()) value *= 0.5f;
+        EXPECT_EQ(encode_jpeg(twice, 2, 95), fine);
+    }
+    EXPECT_THROW(encode_jpeg(ramp(4, 4, 3), 1, 0), Error);
+    EXPECT_THROW(encode_jpeg(ramp(4, 4, 3), 1, 101), Error);
+    EXPECT_THROW(encode_jpeg(ramp(4, 4, 3), 0), Error);
 }
 
 TEST_F(ImageFile, refusals_name_the_file_and_the_reason) {

@@ -10,18 +10,16 @@
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/image.h"
+#include "hogel/image/display_value.h"
 #include "hogel/image/picture_bytes.h"
 #include "hogel/image/picture_formats.h"
+#include "hogel/screen.h"
 
 namespace hogel {
 
 using namespace image;
 
 namespace {
-
-unsigned char quantise(float linear, double exposure) {
-    return static_cast<unsigned char>(std::lround(255 * srgb_encode(static_cast<float>(linear * exposure))));
-}
 
 [[noreturn]] void fail_write(const std::string& name, const std::string& why) {
     throw Error(ErrorCode::cannot_write, fmt::format("cannot write the picture '{}': {}", name, one_line(why)));
@@ -41,7 +39,7 @@ Array<std::uint8_t, 3> display_values(const Image& image, double exposure) {
     Array<std::uint8_t, 3> display(image.pixels.shape());
     core::parallel_for(image.height(), [&](std::size_t y) {
         std::ranges::transform(image.pixels[y].elements(), display[y].elements().begin(),
-                               [&](float value) { return quantise(value, exposure); });
+                               [&](float value) { return display_value(static_cast<float>(value * exposure)); });
     });
     return display;
 }
@@ -85,6 +83,21 @@ void require_picture_name(const std::filesystem::path& path) { format_of(path); 
 std::vector<unsigned char> encode_png(const Image& image, double exposure) {
     check_writable(image, exposure, "PNG");
     return encode(image, exposure, "png", {}, "PNG");
+}
+
+std::vector<unsigned char> encode_jpeg(const Image& image, double exposure, int quality) {
+    constexpr std::size_t widest = 65500;  // of the format
+    check_writable(image, exposure, "JPEG");
+    if (quality < 1 || quality > 100)
+        throw Error(ErrorCode::usage, fmt::format("the quality of a JPEG picture is 1 to 100, not {}", quality));
+    if (image.width() > widest || image.height() > widest)
+        fail_write("JPEG", fmt::format("{}x{} pixels; at most {} fit", image.width(), image.height(), widest));
+    try {
+        return jpeg_file(display_values(image, exposure), quality);
+    } catch (const std::runtime_error& error) {
+        if (dynamic_cast<const Error*>(&error) != nullptr) throw;
+        fail_write("JPEG", error.what());
+    }
 }
 
 }  // namespace hogel

@@ -84,6 +84,8 @@ std::vector<unsigned char> pfm_file(View<const float, 3> pixels);
 std::vector<unsigned char> exr_file(View<const float, 3> pixels, const Metadata& texts);
 /// Channels of single floats and of one size. Throws std::exception.
 std::vector<unsigned char> exr_channels_file(const ExrChannels& picture);
+/// Baseline JPEG of a quality from 1 to 100; below 90 with colours at half the resolution.
+std::vector<unsigned char> jpeg_file(View<const std::uint8_t, 3> pixels, int quality);
 std::vector<unsigned char> bmp_file(View<const std::uint8_t, 3> pixels);
 std::vector<unsigned char> tiff_file(View<const std::uint8_t, 3> pixels, const Metadata& texts);
 

@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 #include <csetjmp>
+#include <cstdlib>
+#include <stdexcept>
 
 #include "hogel/image/formats/formats.h"
 
@@ -126,7 +128,72 @@ class Reader {
     jpeg_decompress_struct jpeg_{};
 };
 
+class Writer {
+  public:
+    Writer() {
+        jpeg_.err = jpeg_std_error(&errors_.base);
+        errors_.base.error_exit = fail_by_jump;
+        errors_.base.output_message = print_nothing;
+        errors_.text[0] = 0;
+        run([&] { jpeg_create_compress(&jpeg_); });
+    }
+    ~Writer() {
+        jpeg_destroy_compress(&jpeg_);
+        std::free(file_);  // libjpeg's, by malloc()
+    }
+    Writer(const Writer&) = delete;
+    Writer& operator=(const Writer&) = delete;
+
+    std::vector<unsigned char> file(View<const std::uint8_t, 3> pixels, int quality) {
+        const bool grey = pixels.extent(2) == 1;
+        const std::size_t row = pixels.extent(1) * pixels.extent(2);
+        run([&] {
+            jpeg_mem_dest(&jpeg_, &file_, &bytes_);
+            jpeg_.image_width = static_cast<JDIMENSION>(pixels.extent(1));
+            jpeg_.image_height = static_cast<JDIMENSION>(pixels.extent(0));
+            jpeg_.input_components = grey ? 1 : 3;
+            jpeg_.in_color_space = grey ? JCS_GRAYSCALE : JCS_RGB;
+            jpeg_set_defaults(&jpeg_);
+            jpeg_set_quality(&jpeg_, quality, TRUE);
+            jpeg_.dct_method = JDCT_ISLOW;
+            if (!grey && quality >= full_colours)
+                jpeg_.comp_info[0].h_samp_factor = jpeg_.comp_info[0].v_samp_factor = 1;
+            jpeg_start_compress(&jpeg_, TRUE);
+            while (jpeg_.next_scanline < jpeg_.image_height) {
+                // libjpeg does not write to it.
+                auto* line = const_cast<JSAMPLE*>(pixels.data() + jpeg_.next_scanline * row);
+                jpeg_write_scanlines(&jpeg_, &line, 1);
+            }
+            jpeg_finish_compress(&jpeg_);
+        });
+        return {file_, file_ + bytes_};
+    }
+
+  private:
+    static constexpr int full_colours = 90;  // the quality from which colours keep their resolution
+
+    template <class Step>
+    void run(const Step& step) {
+        if (!attempt(step)) throw std::runtime_error(errors_.text.data());
+    }
+    template <class Step>
+    bool attempt(const Step& step) {
+        if (setjmp(errors_.back) != 0) return false;
+        step();
+        return true;
+    }
+
+    Errors errors_;
+    jpeg_compress_struct jpeg_{};
+    unsigned char* file_ = nullptr;
+    unsigned long bytes_ = 0;
+};
+
 }  // namespace
+
+std::vector<unsigned char> jpeg_file(View<const std::uint8_t, 3> pixels, int quality) {
+    return Writer().file(pixels, quality);
+}
 
 Picture read_jpeg(const PictureBytes& file) {
     Reader reader(file);

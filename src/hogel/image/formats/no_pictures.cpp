@@ -31,6 +31,10 @@ std::vector<unsigned char> png_file(View<const std::uint16_t, 3>, const Metadata
     refuse_not_built_in(*format_by_extension("a.png"), "a picture", &PictureFormat::written_as_picture);
 }
 
+std::vector<unsigned char> jpeg_file(View<const std::uint8_t, 3>, int) {
+    refuse_not_built_in(*format_by_extension("a.jpg"), "a picture", &PictureFormat::read);
+}
+
 std::vector<unsigned char> exr_file(View<const float, 3>, const Metadata&) {
     refuse_not_built_in(*format_by_extension("a.exr"), "a picture", &PictureFormat::written_as_picture);
 }

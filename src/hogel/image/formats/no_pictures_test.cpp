@@ -9,6 +9,7 @@
 
 #include "hogel/error.h"
 #include "hogel/image.h"
+#include "hogel/screen.h"
 
 namespace hogel::image {
 namespace {
@@ -45,6 +46,7 @@ TEST_F(WithoutPictures, every_format_is_refused_by_name_before_a_file_is_made) {
         EXPECT_FALSE(fs::exists(path));
     }
     EXPECT_NE(refusal([] { encode_png(Image(2, 2, 3)); }).find("HOGEL_PICTURES"), std::string::npos);
+    EXPECT_NE(refusal([] { encode_jpeg(Image(2, 2, 3)); }).find("HOGEL_PICTURES"), std::string::npos);
 }
 
 TEST_F(WithoutPictures, files_are_refused_by_their_first_bytes) {

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// The viewer is a program of its own, because it alone links a server. It lies beside this one and reads the same
+// command line.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "commands.h"
+#include "hogel/error.h"
+#include "view_options.h"
+
+namespace hogel::cli {
+namespace {
+
+std::filesystem::path viewer() {
+    std::error_code none;
+    const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", none);
+    const std::filesystem::path beside = self.parent_path() / "hogel-view";
+    if (!self.empty() && std::filesystem::exists(beside, none)) return beside;
+    throw Error(ErrorCode::not_built_in,
+                "view: this build of hogel lacks the viewer, hogel-view; the build option HOGEL_VIEW=ON brings it, "
+                "with the package libboost-dev");
+}
+
+int view(const ViewOptions& options, const Session& session) {
+    const std::filesystem::path program = viewer();
+    require_viewable(options);
+    execv(program.c_str(), session.arguments);
+    throw Error(ErrorCode::not_built_in,
+                fmt::format("{}: cannot be started: {}", program.string(), std::strerror(errno)));
+}
+
+}  // namespace
+
+void add_view(Command& command, Session& session) {
+    auto options = std::make_shared<ViewOptions>();
+    add_view_options(command, *options, session);
+    command.work([options, &session] { return view(*options, session); });
+}
+
+}  // namespace hogel::cli

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "hogel/error.h"
+
+namespace hogel::cli {
+namespace {
+
+constexpr std::uint64_t max_port = 65535;
+constexpr std::size_t shortest_token = 16;  // 80 bits of random letters and digits
+
+void require_token(const ViewOptions& options) {
+    if (options.token.empty()) {
+        if (is_loopback(options.host)) return;
+        throw Error(ErrorCode::usage, fmt::format("--host {}: whoever reaches this address would see the pictures; "
+                                                  "add --token with at least {} letters and digits",
+                                                  options.host, shortest_token));
+    }
+    const auto allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; };
+    if (options.token.size() < shortest_token || !std::ranges::all_of(options.token, allowed))
+        throw Error(ErrorCode::usage,
+                    fmt::format("--token: at least {} letters, digits, '-' or '_' were expected", shortest_token));
+}
+
+}  // namespace
+
+bool is_loopback(const std::string& host) {
+    return host == "localhost" || host == "::1" ||
+           (host.starts_with("127.") && host.find_first_not_of("0123456789.") == std::string::npos);
+}
+
+void add_view_options(Command& command, ViewOptions& options, Session& session) {
+    command.examples(
+        "  hogel view pumpkin.h5\n"
+        "  hogel view bunny.ply --hogels 200 --size 30mm\n"
+        "  hogel view pumpkin.hgl --port 8080 --no-browser");
+    command.positional("input", options.input, "X.h5|SCENE|FOLDER",
+                       "Light field, set of views, mesh file, built-in scene, or a folder of hogel make");
+    command.whole("--port", options.port, max_port, "Port to listen on; 0: one that is free");
+    command.text("--host", options.host, "ADDRESS", "Address to listen on; one of others needs --token");
+    command
+        .text("--token", options.token, "WORD",
+              "What the page's address must hold, so that only those who know it see pictures")
+        .no_default();
+    command.flag("--no-browser", options.no_browser, "Print the address and open no browser");
+    command
+        .number("--memory", options.memory, "GB",
+                "For the samples of the light field; of a larger one some hogels are left out")
+        .range(0.001, 1e6);
+    add_render_options(command, options.render);
+    add_hemicube_option(command, options.render);
+    add_json_flag(command, session);
+}
+
+std::string require_viewable(const ViewOptions& options) {
+    require_token(options);
+    const std::filesystem::path made = std::filesystem::path(options.input) / "lightfield.h5";
+    std::error_code none;
+    if (std::filesystem::exists(std::filesystem::path(options.input) / "report.json", none)) {
+        if (std::filesystem::exists(made, none)) return made.string();
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("{}: holds no lightfield.h5; 'hogel make --keep-light-field' keeps it", options.input));
+    }
+    if (input_kind(options.input) == InputKind::hologram)
+        throw Error(ErrorCode::usage, fmt::format("{}: is a hologram; view its light field or scene, or photograph it "
+                                                  "with 'hogel photo'",
+                                                  options.input));
+    return options.input;
+}
+
+}  // namespace hogel::cli

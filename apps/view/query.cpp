@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/query.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <initializer_list>
+#include <optional>
+#include <utility>
+
+#include "cli/arguments.h"
+#include "hogel/error.h"
+
+namespace hogel::view {
+namespace {
+
+constexpr std::size_t max_query = 2048, max_words = 64;
+// A picture's cost: a screen of 3840x2160 with 64 points of the pupil takes seconds, and stops when the next is asked.
+constexpr std::size_t max_side = 4096, max_samples = 1024;
+
+using Words = std::map<std::string, std::string>;
+
+[[noreturn]] void refuse(const std::string& name, const std::string& text, const std::string& expected) {
+    throw Error(ErrorCode::usage, fmt::format("{}: '{}' is not {}", name, text, expected));
+}
+
+unsigned hex_digit(char c) {
+    if (c >= '0' && c <= '9') return static_cast<unsigned>(c - '0');
+    if (c >= 'a' && c <= 'f') return static_cast<unsigned>(c - 'a') + 10;
+    if (c >= 'A' && c <= 'F') return static_cast<unsigned>(c - 'A') + 10;
+    return 16;
+}
+
+std::string decode(std::string_view text) {
+    std::string decoded;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        char c = text[i];
+        if (c == '%') {
+            const unsigned high = i + 2 < text.size() ? hex_digit(text[i + 1]) : 16;
+            const unsigned low = i + 2 < text.size() ? hex_digit(text[i + 2]) : 16;
+            if (high > 15 || low > 15) throw Error(ErrorCode::usage, "query: a '%' is followed by two digits 0 to f");
+            c = static_cast<char>(16 * high + low);
+            i += 2;
+        }
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+            throw Error(ErrorCode::usage, "query: holds a control character");
+        decoded += c;
+    }
+    return decoded;
+}
+
+std::size_t whole(const std::string& name, const std::string& text, std::size_t max) {
+    std::size_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (text.empty() || error != std::errc() || end != text.data() + text.size() || number == 0 || number > max)
+        refuse(name, text.substr(0, 40), fmt::format("a whole number from 1 to {}", max));
+    return number;
+}
+
+double positive_length(const std::string& name, const std::string& text) {
+    const double metres = cli::parse_any_length(text, name);
+    if (!(metres > 0)) refuse(name, text, "a positive length");
+    return metres;
+}
+
+std::string choice(const std::string& name, const std::string& text, std::initializer_list<const char*> known) {
+    for (const char* each : known)
+        if (text == each) return text;
+    refuse(name, text.substr(0, 40), fmt::format("{}", fmt::join(known, " or ")));
+}
+
+cli::Counts resolution(const std::string& text) {
+    const std::size_t cross = text.find('x');
+    cli::Counts counts{whole("resolution", text.substr(0, cross), max_side), 0};
+    if (cross != std::string::npos) counts.rows = whole("resolution", text.substr(cross + 1), max_side);
+    return counts;
+}
+
+double exposure(const std::string& text) {
+    if (text == "auto") return 0;
+    const std::optional<double> number = cli::parse_number(text);
+    if (!number || !(*number > 0 && *number < 1e12)) refuse("exposure", text, "auto or a positive number");
+    return *number;
+}
+
+double fraction(const Words& words, const std::string& name) {
+    const auto found = words.find(name);
+    const std::optional<double> number = found == words.end() ? std::nullopt : cli::parse_number(found->second);
+    if (!number || !(*number >= 0 && *number <= 1))
+        refuse(name, found == words.end() ? "" : found->second, "a number from 0 to 1");
+    return *number;
+}
+
+}  // namespace
+
+Words parse_query(std::string_view query) {
+    if (query.size() > max_query)
+        throw Error(ErrorCode::usage, fmt::format("query: longer than {} characters", max_query));
+    Words words;
+    while (!query.empty()) {
+        const std::size_t end = std::min(query.find('&'), query.size());
+        const std::string_view word = query.substr(0, end);
+        query.remove_prefix(std::min(end + 1, query.size()));
+        if (word.empty()) continue;
+        const std::size_t equals = std::min(word.find('='), word.size());
+        std::string name = decode(word.substr(0, equals));
+        std::string value = equals < word.size() ? decode(word.substr(equals + 1)) : "";
+        if (!words.emplace(name, std::move(value)).second)
+            throw Error(ErrorCode::usage, fmt::format("query: '{}' is there twice", name.substr(0, 40)));
+        if (words.size() > max_words) throw Error(ErrorCode::usage, "query: too many words");
+    }
+    return words;
+}
+
+View parse_view(const Words& words) {
+    View view;
+    view.camera.resolution = {512, 0};
+    for (const auto& [name, text] : words) {
+        if (name == "eye")
+            view.camera.eye = cli::parse_point(text, name);
+        else if (name == "gaze")
+            view.camera.gaze = cli::parse_point(text, name);
+        else if (name == "focus")
+            view.camera.focus = cli::parse_any_length(text, name);
+        else if (name == "pupil")
+            view.camera.pupil = positive_length(name, text);
+        else if (name == "eyes")
+            view.eyes = positive_length(name, text);
+        else if (name == "resolution")
+            view.camera.resolution = resolution(text);
+        else if (name == "pupil-samples")
+            view.pupil_samples = whole(name, text, max_samples);
+        else if (name == "exposure")
+            view.exposure = exposure(text);
+        else if (name == "display")
+            view.logarithmic = choice(name, text, {"intensity", "log"}) == "log";
+        else if (name == "format")
+            view.format = choice(name, text, {"jpeg", "png"});
+        else if (name == "quality")
+            view.quality = static_cast<int>(whole(name, text, 100));
+        else if (name == "moving")
+            view.moving = choice(name, text, {"yes", "no"}) == "yes";
+        else if (name == "id")
+            view.id = text.substr(0, 40);
+        else if (name != "token" && name != "x" && name != "y")
+            throw Error(ErrorCode::usage, fmt::format("query: '{}' is unknown", name.substr(0, 40)));
+    }
+    return view;
+}
+
+View of_eye(View view, int side) {
+    view.camera.eye.x += 0.5 * side * view.eyes;
+    view.eyes = 0;
+    return view;
+}
+
+Spot parse_spot(const Words& words) { return {fraction(words, "x"), fraction(words, "y")}; }
+
+}  // namespace hogel::view

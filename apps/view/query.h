@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "cli/camera_options.h"
+
+namespace hogel::view {
+
+/// The words of a query, "eye=0,0,300mm&focus=5mm". Throws Error(usage) for one that is damaged, too long or has a name
+/// twice.
+std::map<std::string, std::string> parse_query(std::string_view query);
+
+/// One picture, in words that are the options of `hogel photo` without their dashes. So a query, the address of the
+/// page and a command line say the same, and cli::make_cameras() makes the same camera of them.
+struct View {
+    cli::CameraOptions camera;
+    std::size_t pupil_samples = 16;
+    double eyes = 0;      ///< metres between two eyes, whose pictures stand side by side, the left one left; 0: one eye
+    double exposure = 0;  ///< 0: the automatic one of the light field
+    bool logarithmic = false;  ///< display=log
+    std::string format = "jpeg";
+    int quality = 90;     ///< of a JPEG picture
+    bool moving = false;  ///< asked for while something is dragged: see Worker::Job
+    std::string id;       ///< comes back with the picture
+};
+
+/// Throws Error(usage), which names the word.
+View parse_view(const std::map<std::string, std::string>& words);
+
+/// The view of one of two eyes: −1 the left one, 1 the right one.
+View of_eye(View view, int side);
+
+/// A point of a picture, 0 to 1 to the right and down, with the view that it is in.
+struct Spot {
+    double x = 0, y = 0;
+};
+Spot parse_spot(const std::map<std::string, std::string>& words);
+
+}  // namespace hogel::view

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/query.h"
+
+#include <gtest/gtest.h>
+
+#include "hogel/error.h"
+
+namespace hogel::view {
+namespace {
+
+std::string refusal(std::string_view query) {
+    try {
+        parse_view(parse_query(query));
+        return "";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::usage);
+        return error.what();
+    }
+}
+
+TEST(Query, words_are_those_of_the_command_line) {
+    const View view =
+        parse_view(parse_query("eye=-30,0.5,300mm&focus=-4mm&pupil=0.5cm&resolution=640x480&pupil-samples=4&exposure=1."
+                               "5&display=log&format=png&"
+                               "moving=yes&id=17"));
+    EXPECT_DOUBLE_EQ(view.camera.eye.x, -0.03);
+    EXPECT_DOUBLE_EQ(view.camera.eye.z, 0.3);
+    EXPECT_DOUBLE_EQ(view.camera.focus, -0.004);
+    EXPECT_DOUBLE_EQ(view.camera.pupil, 0.005);
+    EXPECT_EQ(view.camera.resolution.columns, 640u);
+    EXPECT_EQ(view.camera.resolution.rows, 480u);
+    EXPECT_EQ(view.pupil_samples, 4u);
+    EXPECT_EQ(view.exposure, 1.5);
+    EXPECT_TRUE(view.logarithmic);
+    EXPECT_TRUE(view.moving);
+    EXPECT_EQ(view.format, "png");
+    EXPECT_EQ(view.id, "17");
+}
+
+TEST(Query, percent_stands_for_any_character) {
+    EXPECT_EQ(parse_query("eye=0%2C0%2c300mm").at("eye"), "0,0,300mm");
+    EXPECT_EQ(parse_query("a=%25&b&&c=").size(), 3u);
+}
+
+TEST(Query, what_makes_no_sense_is_refused) {
+    for (const char* query : {"eye=0,0",
+                              "eye=0,0,300",
+                              "eye=0,0,1e300m",
+                              "focus=4",
+                              "focus=nan",
+                              "pupil=0mm",
+                              "pupil=-1mm",
+                              "resolution=0",
+                              "resolution=5000",
+                              "resolution=99999999999999999999",
+                              "resolution=4x",
+                              "resolution=x4",
+                              "pupil-samples=0",
+                              "pupil-samples=1025",
+                              "pupil-samples=1e3",
+                              "exposure=0",
+                              "exposure=-1",
+                              "exposure=inf",
+                              "exposure=nan",
+                              "display=phase",
+                              "format=gif",
+                              "quality=101",
+                              "quality=0",
+                              "moving=maybe",
+                              "path=/etc/passwd",
+                              "id=1&id=2",
+                              "eye=%",
+                              "eye=%4",
+                              "eye=%zz",
+                              "id=%00",
+                              "id=%0a"})
+        EXPECT_NE(refusal(query), "") << query;
+    EXPECT_NE(refusal(std::string(3000, 'a')), "");
+    std::string many;
+    for (int i = 0; i < 200; ++i) many += "a" + std::to_string(i) + "&";
+    EXPECT_NE(refusal(many), "");
+}
+
+// Messages are one line and short, whatever is sent.
+TEST(Query, messages_stay_short) {
+    for (const std::string& query :
+         {"display=" + std::string(1900, 'x'), std::string(1900, 'y') + "=1", "resolution=" + std::string(1900, '9')})
+        EXPECT_LT(refusal(query).size(), 200u);
+}
+
+TEST(Query, spots_lie_in_the_picture) {
+    const Spot spot = parse_spot(parse_query("x=0.25&y=1"));
+    EXPECT_EQ(spot.x, 0.25);
+    EXPECT_EQ(spot.y, 1);
+    for (const char* query : {"x=0.5", "x=-0.1&y=0", "x=nan&y=0", "x=2&y=0", "x=&y="})
+        EXPECT_THROW(parse_spot(parse_query(query)), Error) << query;
+}
+
+}  // namespace
+}  // namespace hogel::view

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page of `hogel view`. It makes no picture itself: it asks the server, which is hogel, and draws what comes.
+import {View, command, hash, query} from "./view.js";
+import {Link} from "./link.js";
+import {Stage} from "./stage.js";
+import {keys, listen} from "./keys.js";
+
+const by = id => document.getElementById(id);
+const inMotion = {samples: 4, pixels: 512, quality: 80}, atRest = {samples: 16, quality: 93};
+const pause = 140;  // milliseconds without a change that are rest
+
+const view = new View();
+let field = {center_u: 0, center_v: 0, tan_half_u: 0.1, tan_half_v: 0.1, ready: false};  // the server's last state
+let number = 0, wanted = false, drawn = null, resting = 0, hovering = 0;
+const asked = new Map();  // number of a request → when it was made necessary
+
+// Requests
+
+function words(moving) {
+  const pixels = moving ? Math.min(stage.pixels, inMotion.pixels) : stage.pixels, how = moving ? inMotion : atRest;
+  const columns = view.eyes > 0 ? Math.max(1, pixels >> 1) : pixels, rows = Math.max(1, Math.round(pixels * stage.aspect));
+  return {...view.words(), resolution: `${columns}x${rows}`, "pupil-samples": how.samples};
+}
+
+function ask(moving, since) {
+  if (!field.ready) return;
+  const id = ++number;
+  asked.set(id, since);
+  for (const old of asked.keys()) if (old < id - 64) asked.delete(old);
+  link.send("picture?" + query({...words(moving), quality: (moving ? inMotion : atRest).quality, moving: moving ? "yes" : "no", id}));
+}
+
+// The view has changed: a coarse picture with the next frame of the screen, a fine one when it holds still.
+function changed() {
+  show();
+  if (!wanted) {
+    const since = performance.now();
+    wanted = true;
+    requestAnimationFrame(() => { wanted = false; ask(true, since); });
+  }
+  clearTimeout(resting);
+  resting = setTimeout(rest, pause);
+}
+
+function rest() {
+  ask(false, performance.now());
+  history.replaceState(null, "", location.pathname + location.search + hash(view.words()));
+}
+
+async function picture(about, blob) {
+  const id = Number(about.id), since = asked.get(id);
+  if (!(await stage.draw(blob, id))) return;
+  drawn = about;
+  asked.delete(id);
+  const latency = since === undefined ? 0 : performance.now() - since;
+  by("timing").textContent = `${about.width} × ${about.height}, ${about.pupil_samples} points of the pupil, ${Math.round(latency)} ms`;
+  stage.canvas.dispatchEvent(new CustomEvent("hogel-picture", {detail: {...about, latency}}));
+}
+
+// What the page says
+
+const millimetres = value => `${+value.toFixed(Math.abs(value) < 10 ? 2 : 1)} mm`;
+
+function show() {
+  const aspect = field.ready ? field.height_m / field.width_m / (view.eyes > 0 ? 2 : 1) : 1;
+  if (aspect !== stage.aspect) { stage.aspect = aspect; stage.fit(); }
+  const stops = view.exposure === null || !field.exposure ? 0 : Math.log2(view.exposure / field.exposure);
+  const reach = focusReach();
+  by("distance").value = Math.log10(view.eye[2] / 300);
+  by("distance-out").textContent = millimetres(view.eye[2]);
+  by("focus").min = -Math.min(reach, 0.9 * view.eye[2]);
+  by("focus").max = reach;
+  by("focus").value = view.focus;
+  by("focus-out").textContent = millimetres(view.focus);
+  by("pupil").value = Math.log10(view.pupil);
+  by("pupil-out").textContent = millimetres(view.pupil);
+  by("stops").value = stops;
+  by("stops-out").textContent = view.exposure === null ? "automatic" : `${stops > 0 ? "+" : ""}${stops.toFixed(1)} stops`;
+  by("display").value = view.display;
+  by("stereo").checked = view.eyes > 0;
+  by("eye").textContent = view.eye.map(value => value.toFixed(1)).join(", ") + " mm";
+  for (const id of ["distance", "focus", "pupil", "stops"]) by(id).setAttribute("aria-valuetext", by(`${id}-out`).textContent);
+}
+
+// Depths that the slider spans: what the light field resolves, several times over, or the depth in focus if that is farther.
+function focusReach() {
+  const resolved = field.ready ? 6e3 * field.width_m / field.hogels_s / (2 * field.tan_half_u / field.directions_u) : 20;
+  return Math.max(1, +resolved.toPrecision(2), Math.abs(view.focus));
+}
+
+let saidUntil = 0;
+function say(text) {
+  by("said").textContent = text;
+  clearTimeout(saidUntil);
+  saidUntil = setTimeout(() => { by("said").textContent = ""; }, 4000);
+}
+
+function problem(text) {
+  by("problem").hidden = !text;
+  by("problem").textContent = text;
+}
+
+function state(message) {
+  const first = !field.ready && message.ready, finer = message.shown_hogels_s !== field.shown_hogels_s;
+  field = {...field, ...message};
+  by("name").textContent = field.name;
+  document.title = `${field.name} – hogel view`;
+  by("cover").hidden = !field.work;
+  by("cover-text").textContent = field.work ? `${field.work[0].toUpperCase()}${field.work.slice(1)}, ${Math.round(100 * field.fraction)} %` : "";
+  by("bar").value = field.fraction;
+  if (!field.ready) return;
+  const coarse = field.shown_hogels_s < field.hogels_s ? `, shown by ${field.shown_hogels_s} across` : "";
+  by("facts").textContent = `${field.hogels_s} × ${field.hogels_t} hogels of ${field.directions_u} × ${field.directions_v} directions${coarse}`;
+  if (first) {
+    view.reset(field);
+    view.read(location.hash);
+  }
+  show();
+  if (first || finer) ask(false, performance.now());
+}
+
+function reading(message) {
+  const side = (value, positive, negative) => `${Math.abs(value).toFixed(2)}° ${value < 0 ? negative : positive}`;
+  const parts = [`x ${millimetres(1e3 * message.x_m)}, y ${millimetres(1e3 * message.y_m)} on the hologram`,
+                 `${side(message.across_deg, "right", "left")}, ${side(message.up_deg, "up", "down")}`];
+  if (!message.inside) parts.push("outside the light field");
+  if (message.radiance) parts.push(`radiance ${message.radiance.map(value => +value.toPrecision(3)).join(" ")}`);
+  if (message.depth_m !== undefined) parts.push(`depth ${millimetres(1e3 * message.depth_m)}`);
+  by("reading").textContent = parts.join(" · ");
+}
+
+// What can be done
+
+const to = {
+  move(right, up) {
+    const z = view.eye[2];
+    view.moveTo(view.eye[0] + right * 2 * field.tan_half_u * z, view.eye[1] + up * 2 * field.tan_half_v * z, field);
+    changed();
+  },
+  zoom(factor) { view.moveAway(factor); changed(); },
+  step(what, direction) {
+    if (what === "focus") view.focus = Math.max(view.focus + direction * focusReach() / 60, -0.9 * view.eye[2]);
+    if (what === "pupil") view.pupil = Math.min(Math.max(view.pupil * 10 ** (direction * 0.05), 0.1), 100);
+    if (what === "stops") view.exposure = (view.exposure ?? field.exposure) * 2 ** (direction / 3);
+    changed();
+  },
+  stereo() { view.eyes = view.eyes > 0 ? 0 : 63; changed(); },
+  tone() { view.display = view.display === "log" ? "intensity" : "log"; changed(); },
+  focusAt(x, y) { link.send("focus?" + query({...words(false), x: x.toFixed(5), y: y.toFixed(5)})); },
+  focusMiddle() { to.focusAt(0.5, 0.5); },
+  reset() { view.reset(field); changed(); },
+  async save() {
+    const token = new URLSearchParams(location.search).get("token");
+    const all = {...words(false), format: "png", ...(token ? {token} : {})};
+    try {
+      const answer = await fetch("/picture?" + query(all));
+      if (!answer.ok) throw new Error((await answer.json()).message);
+      const link = Object.assign(document.createElement("a"), {href: URL.createObjectURL(await answer.blob()), download: "view.png"});
+      link.click();
+      setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+      say("Saved view.png");
+    } catch (error) { say(`Not saved: ${error.message}`); }
+  },
+  copyCommand() {
+    const all = words(false);
+    if (drawn && all.display !== "log") all.exposure = String(+drawn.exposure.toPrecision(9));
+    copy(command(field.photo ?? "hogel photo LIGHTFIELD", all, view));
+  },
+  copyLink() { copy(location.origin + location.pathname + location.search + hash(view.words())); },
+  full() { document.fullscreenElement ? document.exitFullscreen() : by("stage").requestFullscreen?.(); },
+  help() { by("keys").showModal(); },
+};
+
+async function copy(text) {
+  try {
+    await navigator.clipboard.writeText(text);
+    say(`Copied: ${text}`);
+  } catch { window.prompt("Copy:", text); }
+}
+
+const stage = new Stage(by("picture"), {
+  drag: (dx, dy) => to.move(-dx, dy),
+  zoom: to.zoom,
+  click: to.focusAt,
+  hover(x, y) {
+    if (hovering || !field.ready) return;
+    hovering = setTimeout(() => { hovering = 0; }, 100);
+    link.send("reading?" + query({...words(false), x: Math.min(Math.max(x, 0), 1).toFixed(5), y: Math.min(Math.max(y, 0), 1).toFixed(5)}));
+  },
+});
+stage.fit();
+
+const link = new Link({
+  onOpen() { problem(""); if (field.ready) ask(false, performance.now()); },
+  onLost() { problem("The server does not answer: hogel view has ended, or this page's address is of an earlier one. Trying again."); },
+  onPicture: picture,
+  onText(message) {
+    if (message.type === "state") state(message);
+    if (message.type === "reading") reading(message);
+    if (message.type === "focus") { view.focus = 1e3 * message.depth_m; changed(); say(`In focus: ${millimetres(view.focus)}`); }
+    if (message.type === "error") say(message.message);
+  },
+});
+
+by("distance").addEventListener("input", event => to.zoom(300 * 10 ** event.target.value / view.eye[2]));
+by("focus").addEventListener("input", event => { view.focus = Number(event.target.value); changed(); });
+by("pupil").addEventListener("input", event => { view.pupil = 10 ** event.target.value; changed(); });
+by("stops").addEventListener("input", event => {
+  const stops = Number(event.target.value);
+  view.exposure = stops === 0 ? null : field.exposure * 2 ** stops;
+  changed();
+});
+by("display").addEventListener("change", event => { view.display = event.target.value; changed(); });
+by("stereo").addEventListener("change", to.stereo);
+by("controls").addEventListener("reset", event => { event.preventDefault(); to.reset(); });
+by("controls").addEventListener("submit", event => event.preventDefault());
+for (const [id, act] of Object.entries({save: to.save, "copy-command": to.copyCommand, "copy-link": to.copyLink, full: to.full, help: to.help}))
+  by(id).addEventListener("click", act);
+
+const themes = ["system", "light", "dark"];
+by("theme").addEventListener("click", () => {
+  const root = document.documentElement, next = themes[(themes.indexOf(root.dataset.theme ?? "system") + 1) % themes.length];
+  if (next === "system") delete root.dataset.theme; else root.dataset.theme = next;
+  by("theme").textContent = `Theme: ${next}`;
+});
+
+const table = keys(to);
+listen(table);
+by("key-rows").append(...table.map(row => {
+  const line = document.createElement("tr"), key = line.insertCell(), text = line.insertCell();
+  for (const each of row.shown.split(" ")) key.append(Object.assign(document.createElement("kbd"), {textContent: each}), " ");
+  text.textContent = row.text;
+  return line;
+}));
+
+window.addEventListener("hashchange", () => { view.read(location.hash); changed(); });
+new ResizeObserver(() => { const before = stage.pixels; if (stage.fit() !== before && field.ready) changed(); }).observe(by("stage"));
+show();

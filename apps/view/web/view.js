@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is looked at and how: the words that the address, a request and a command line share. Lengths are millimetres.
+
+const tidy = number => String(+number.toFixed(4));
+const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
+
+export const nearest = 20, farthest = 5000;
+
+export class View {
+  constructor() { this.reset({center_u: 0, center_v: 0}); }
+
+  reset(field) {
+    this.eye = [-300 * field.center_u, -300 * field.center_v, 300];
+    this.focus = 0;
+    this.pupil = 6;
+    this.exposure = null;  // automatic
+    this.display = "intensity";
+    this.eyes = 0;  // between two eyes; 0: one
+  }
+
+  // The words that a link keeps.
+  words() {
+    const words = {eye: `${this.eye.map(tidy).join(",")}mm`, focus: `${tidy(this.focus)}mm`, pupil: `${tidy(this.pupil)}mm`};
+    if (this.exposure !== null) words.exposure = String(+this.exposure.toPrecision(6));
+    if (this.display !== "intensity") words.display = this.display;
+    if (this.eyes > 0) words.eyes = `${tidy(this.eyes)}mm`;
+    return words;
+  }
+
+  // Takes what a link says; words that make no sense are left out.
+  read(hash) {
+    const words = new URLSearchParams(hash.replace(/^#/, ""));
+    const length = text => { const match = /^(-?[\d.]+(?:e-?\d+)?)mm$/.exec(text ?? ""); return match ? Number(match[1]) : NaN; };
+    const eye = /^([-\d.e]+),([-\d.e]+),([-\d.e]+)mm$/.exec(words.get("eye") ?? "")?.slice(1).map(Number);
+    if (eye && eye.every(Number.isFinite) && eye[2] >= 1) this.eye = eye;
+    const focus = length(words.get("focus")), pupil = length(words.get("pupil")), exposure = Number(words.get("exposure") ?? NaN);
+    if (Number.isFinite(focus) && focus > -this.eye[2]) this.focus = focus;
+    if (pupil > 0) this.pupil = pupil;
+    if (exposure > 0 && Number.isFinite(exposure)) this.exposure = exposure;
+    const eyes = length(words.get("eyes"));
+    this.eyes = eyes > 0 ? eyes : 0;
+    if (["intensity", "log"].includes(words.get("display"))) this.display = words.get("display");
+  }
+
+  // The eye stays where the middle of the hologram is seen: behind it is dark.
+  moveTo(x, y, field) {
+    const z = this.eye[2];
+    this.eye[0] = clamp(x, (-field.center_u - field.tan_half_u) * z, (-field.center_u + field.tan_half_u) * z);
+    this.eye[1] = clamp(y, (-field.center_v - field.tan_half_v) * z, (-field.center_v + field.tan_half_v) * z);
+  }
+
+  // The eye keeps its direction.
+  moveAway(factor) {
+    const z = clamp(this.eye[2] * factor, nearest, farthest);
+    this.eye = this.eye.map(value => value * z / this.eye[2]);
+    this.focus = Math.max(this.focus, -0.9 * this.eye[2]);
+  }
+}
+
+export const query = words => Object.entries(words).map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&");
+// Commas are themselves in an address, and read better.
+export const hash = words => "#" + query(words).replaceAll("%2C", ",");
+// The command that repeats a view, two of them for two eyes: `photo` is that of the light field, from the server.
+export function command(photo, words, view) {
+  const {eyes, ...others} = words;
+  const one = (name, eye) => `${photo} -o ${name} --geometric ${Object.entries({...others, eye}).map(([word, value]) => `--${word} ${value}`).join(" ")}`;
+  if (!eyes) return one("view.png", words.eye);
+  const of = side => `${[view.eye[0] + side * view.eyes / 2, view.eye[1], view.eye[2]].map(tidy).join(",")}mm`;
+  return `${one("left.png", of(-1))} && ${one("right.png", of(1))}`;
+}

@@ -1,0 +1,289 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Checks what `hogel view` serves, as a browser and as a stranger would ask: the page, pictures that equal those of
+`hogel photo`, the WebSocket, and what must be refused or survived.
+
+usage: check_view.py X.h5     in a folder with that light field, 24x20 hogels of a sphere with depth; hogel in the PATH
+"""
+import base64
+import hashlib
+import http.client
+import json
+import os
+import pathlib
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import time
+
+INPUT = sys.argv[1]
+VIEW = "eye=5,-3,100mm&focus=2mm&pupil=3mm&resolution=90x70&pupil-samples=16"
+
+
+class Server:
+    def __init__(self, *options):
+        self.process = subprocess.Popen(["hogel", "view", INPUT, "--no-browser", *options], stdout=subprocess.PIPE,
+                                        stderr=subprocess.PIPE, text=True)
+        self.address = self.process.stdout.readline().strip()
+        self.port = int(self.address.split(":")[2].split("/")[0])
+        self.host = f"127.0.0.1:{self.port}"
+
+    def get(self, path, method="GET", body=None, **headers):
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=30)
+        connection.request(method, path, body, {"Host": self.host, **{k.replace("_", "-"): v for k, v in headers.items()}})
+        answer = connection.getresponse()
+        return answer.status, dict(answer.getheaders()), answer.read()
+
+    def wait(self):
+        for _ in range(300):
+            state = json.loads(self.get("/state")[2])
+            if state["ready"] and not state["work"]:
+                return state
+            time.sleep(0.1)
+        sys.exit("the light field does not come")
+
+    def raw(self, text, timeout=5):
+        """What comes back for any bytes, until the server closes or is silent."""
+        with socket.create_connection(("127.0.0.1", self.port), timeout=timeout) as connection:
+            connection.sendall(text)
+            got = b""
+            try:
+                while part := connection.recv(65536):
+                    got += part
+            except OSError:
+                pass
+            return got
+
+    def stop(self, number):
+        began = time.monotonic()
+        self.process.send_signal(number)
+        words = self.process.communicate(timeout=20)[1]
+        return self.process.returncode, time.monotonic() - began, words
+
+
+class WebSocket:
+    """The other end by RFC 6455, in as few lines as it takes."""
+
+    def __init__(self, server, path="/live", **headers):
+        self.socket = socket.create_connection(("127.0.0.1", server.port), timeout=30)
+        key = base64.b64encode(os.urandom(16)).decode()
+        fields = {"Host": server.host, "Origin": f"http://{server.host}", "Upgrade": "websocket", "Connection": "Upgrade",
+                  "Sec-WebSocket-Key": key, "Sec-WebSocket-Version": "13", **headers}
+        lines = "".join(f"{name}: {value}\r\n" for name, value in fields.items() if value is not None)
+        self.socket.sendall(f"GET {path} HTTP/1.1\r\n{lines}\r\n".encode())
+        head = b""
+        while b"\r\n\r\n" not in head:
+            part = self.socket.recv(1)
+            if not part:
+                break
+            head += part
+        self.status = int(head.split()[1])
+        if self.status == 101:
+            accept = base64.b64encode(hashlib.sha1((key + "258EAFA5-E914-47DA-95CA-C5AB0DC85B11").encode()).digest())
+            assert accept in head
+
+    def send(self, text, opcode=1):
+        data, mask = text.encode() if isinstance(text, str) else text, os.urandom(4)
+        length = bytes([0x80 | len(data)]) if len(data) < 126 else struct.pack(">BH", 0xFE, len(data))
+        self.socket.sendall(bytes([0x80 | opcode]) + length + mask + bytes(b ^ mask[i % 4] for i, b in enumerate(data)))
+
+    def exactly(self, count):
+        data = b""
+        while len(data) < count:
+            part = self.socket.recv(count - len(data))
+            if not part:
+                raise EOFError
+            data += part
+        return data
+
+    def receive(self):
+        """The next message: a dict of a text, or of a picture with its bytes under `file`."""
+        whole, kind = b"", 0
+        while True:
+            first, second = self.exactly(2)
+            length = second & 127
+            if length > 125:
+                length = struct.unpack(">H" if length == 126 else ">Q", self.exactly(2 if length == 126 else 8))[0]
+            data = self.exactly(length)
+            if first & 15 == 8:
+                raise EOFError
+            if first & 15 > 8:
+                continue
+            whole, kind = whole + data, kind or first & 15
+            if first & 128:
+                break
+        if kind == 1:
+            return json.loads(whole)
+        head, file = whole.split(b"\n", 1)
+        return json.loads(head) | {"file": file}
+
+    def until(self, kind):
+        while (message := self.receive())["type"] != kind:
+            pass
+        return message
+
+
+def expect(truth, what):
+    if not truth:
+        sys.exit(f"wrong: {what}")
+
+
+def pixels(file):
+    """The numbers of an 8-bit PNG file."""
+    name = pathlib.Path("pixels.png")
+    name.write_bytes(file)
+    done = subprocess.run(["hogel", "compare", "photo.png", "pixels.png", "--json"], capture_output=True, text=True)
+    return json.loads(done.stdout)
+
+
+def check_pages(server, state):
+    status, headers, page = server.get("/")
+    expect(status == 200 and b"<!doctype html>" in page, "the page")
+    expect("default-src 'none'" in headers["Content-Security-Policy"], "the page's policy")
+    expect(b"http://" not in page and b"https://" not in page, "the page names another server")
+    for name in ("main.js", "view.js", "link.js", "stage.js", "keys.js", "style.css", "icon.svg"):
+        expect(server.get("/" + name)[0] == 200, name)
+    expect((state["hogels_s"], state["hogels_t"], state["directions_u"], state["depth"]) == (24, 20, 16, True), "state")
+
+
+def check_pictures(server, state):
+    options = " ".join(f"--{word.replace('=', ' ', 1)}" for word in VIEW.split("&"))
+    for more, path in (("", ""), ("--display log", "&display=log"), ("--exposure 0.4", "&exposure=0.4")):
+        exposure = "" if "exposure" in more else f"--exposure {state['exposure']!r}"
+        subprocess.run(f"{state['photo']} -q -o photo.png --geometric {options} {more} {exposure}", shell=True, check=True)
+        status, headers, file = server.get(f"/picture?{VIEW}{path}&format=png")
+        expect(status == 200 and headers["Content-Type"] == "image/png", f"picture {path}: {status} {file[:200]}")
+        expect(pixels(file)["max_error"] == 0, f"picture {path} is not that of hogel photo")
+    status, headers, file = server.get(f"/picture?{VIEW}&quality=95")
+    expect(headers["Content-Type"] == "image/jpeg" and file[:3] == b"\xff\xd8\xff", "a JPEG picture")
+
+
+def check_readings(server):
+    reading = json.loads(server.get(f"/reading?eye=0,0,100mm&resolution=90x75&x=0.5&y=0.5")[2])
+    expect(reading["inside"] and abs(reading["x_m"]) < 1e-9 and abs(reading["across_deg"]) < 1e-6, f"reading {reading}")
+    expect("depth_m" in reading and len(reading["radiance"]) == 3, f"the sphere in the middle: {reading}")
+    left = json.loads(server.get(f"/reading?eye=0,0,100mm&resolution=90x75&x=0&y=0")[2])
+    expect(abs(left["x_m"] + 0.003) < 1e-9 and left["y_m"] > 0 and left["across_deg"] < 0, f"reading {left}")
+
+
+def check_refusals(server):
+    picture = f"/picture?{VIEW}"
+    for headers in ({"Host": "evil.example"}, {"Host": f"evil.example:{server.port}"}, {"Origin": "http://evil.example"},
+                    {"Origin": "null"}, {"Sec_Fetch_Site": "cross-site"}, {"Sec_Fetch_Site": "same-site"}):
+        status, back, body = server.get(picture, **headers)
+        expect(status == 403 and b"JFIF" not in body, f"{headers}: {status}")
+        expect("Access-Control-Allow-Origin" not in back, "others may read")
+        expect(server.get("/state", **headers)[0] == 403, f"state {headers}")
+        socket_headers = {name.replace("_", "-"): value for name, value in headers.items()}
+        expect(WebSocket(server, **socket_headers).status == 403, f"web socket {headers}")
+    for path in ("/../../etc/passwd", "/..%2f..%2fetc/passwd", "//etc/passwd", "/web/main.js", "/main.js/", "/.", "/x.h5"):
+        expect(server.get(path)[0] == 404, path)
+    for query in ("eye=0,0,-1mm", "eye=x", "focus=-1m", "resolution=99999", "resolution=4000x4000", "pupil-samples=0", "format=gif", "what=1", "id=%00"):
+        expect(server.get("/picture?" + query)[0] == 400, query)
+    for method in ("POST", "PUT", "DELETE", "OPTIONS", "HEAD", "TRACE"):
+        expect(server.get("/", method=method)[0] == 405, method)
+    expect(server.get("/", method="POST", body="x" * 100)[0] == 400, "a body")
+    expect(server.get("/picture?" + "a" * 3000)[0] == 400, "a long query")
+    for text in (b"\0" * 100, b"GET / HTTP/9.9\r\n\r\n", b"\x16\x03\x01" + os.urandom(200), b"GET / HTTP/1.1\r\n" + b"a: b\r\n" * 9000,
+                 b"GET /" + b"a" * 70000 + b" HTTP/1.1\r\n\r\n", b"GET / HTTP/1.1\r\nHost: a\r\nContent-Length: 99999999999\r\n\r\n"):
+        expect(not server.raw(text).startswith(b"HTTP/1.1 200"), f"{text[:30]!r}")
+    # Connections that say nothing: more than there may be, and the page still comes.
+    idle = [socket.create_connection(("127.0.0.1", server.port), timeout=5) for _ in range(600)]
+    for connection in idle[::2]:
+        try:
+            connection.sendall(b"GET / HTTP/1.1\r\nHo")
+        except OSError:
+            pass
+    expect(server.get("/")[0] == 200, "the page beside 600 idle connections")
+    for connection in idle:
+        connection.close()
+    expect(server.get("/")[0] == 200, "the page after 600 idle connections")
+
+
+def check_web_socket(server):
+    page = WebSocket(server)
+    expect(page.status == 101 and page.receive()["type"] == "state", "the state comes first")
+    page.send(f"picture?{VIEW}&format=png&id=7")
+    picture = page.until("picture")
+    expect(picture["id"] == "7" and picture["width"] == 90, "a picture")
+    expect(picture["file"] == server.get(f"/picture?{VIEW}&format=png")[2], "by both ways the same picture")
+    for message in ("", "picture", "picture?eye=1", "dance?", "picture?" + "%" * 50, "\x00" * 20, "focus?x=2&y=0", "reading?"):
+        page.send(message)
+        if message != "picture":
+            expect(page.until("error")["message"], f"{message!r}")
+    page.send(os.urandom(50), opcode=2)  # no text: nothing is said
+    page.send(f"picture?{VIEW}&id=8")
+    while page.until("picture")["id"] != "8":
+        pass
+    large = WebSocket(server)
+    large.send("picture?" + "a" * 5000)
+    try:
+        while large.receive()["type"] == "state":
+            pass
+        sys.exit("wrong: a message of 5000 bytes is answered")
+    except (EOFError, OSError):
+        pass
+
+
+def check_newest_wins(server):
+    page = WebSocket(server)
+    big = "eye=0,0,100mm&resolution=1500x1250&pupil-samples=256"
+    began = time.monotonic()
+    for i in range(40):
+        page.send(f"picture?{big}&id={i}")
+    page.send(f"picture?{VIEW}&id=last")
+    ids = []
+    while not ids or ids[-1] != "last":
+        ids.append(page.until("picture")["id"])
+    taken = time.monotonic() - began
+    expect(len(ids) < 20, f"pictures that nobody wants were made: {ids}")
+    page.send("picture?" + big + "&id=one")
+    began = time.monotonic()
+    page.until("picture")
+    expect(taken < 20 * (time.monotonic() - began) + 1, f"41 requests took {taken} s")
+
+
+def check_focus(server):
+    page = WebSocket(server)
+    where = "eye=0,0,100mm&pupil=3mm&resolution=90x75"
+    reading = json.loads(server.get(f"/reading?{where}&x=0.5&y=0.5")[2])
+    page.send(f"focus?{where}&x=0.5&y=0.5")
+    expect(page.until("focus")["depth_m"] == reading["depth_m"], "the depth of what was clicked")
+
+
+def check_token():
+    token = "abcdefghijklmnop-1"
+    server = Server("--host", "0.0.0.0", "--token", token)
+    expect(server.address.endswith(f"/?token={token}"), server.address)
+    for path, status in (("/", 200), ("/state", 403), (f"/state?token={token}", 200), (f"/state?token={token}x", 403), ("/picture", 403)):
+        expect(server.get(path)[0] == status, path)
+    expect(server.get(f"/state?token={token}", Origin="http://evil.example")[0] == 403, "another page with the token")
+    expect(WebSocket(server).status == 403 and WebSocket(server, f"/live?token={token}").status == 101, "web socket and token")
+    server.stop(signal.SIGTERM)
+
+
+def main():
+    server = Server()
+    expect(server.address == f"http://127.0.0.1:{server.port}/", server.address)
+    state = server.wait()
+    check_pages(server, state)
+    check_pictures(server, state)
+    check_readings(server)
+    check_refusals(server)
+    check_web_socket(server)
+    check_newest_wins(server)
+    check_focus(server)
+    check_token()
+    page = WebSocket(server)
+    page.send("picture?eye=0,0,100mm&resolution=1500x1250&pupil-samples=1024")
+    time.sleep(0.2)
+    for number, running in ((signal.SIGINT, server), (signal.SIGTERM, Server()), (signal.SIGHUP, Server())):
+        status, seconds, words = running.stop(number)
+        expect(status == 128 + number and words == "hogel: stopped\n", f"stop: {status} {words}")
+        expect(seconds < 1 * float(os.environ.get("HOGEL_PATIENCE", 1)), f"stop took {seconds} s")
+    print("address, page, state, pictures, readings, refusals, web socket, newest wins, depth in focus, stop")
+
+
+main()
