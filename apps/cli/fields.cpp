@@ -207,6 +207,12 @@ Fields open_fields(const std::string& name, const FieldOptions& options, const C
                    const std::vector<double>& given_wavelengths, RunRecord& record) {
     if (!is_external(name, options)) {
         require_described(name, options);
+        std::error_code status;
+        if (std::filesystem::is_regular_file(name, status) && file_kind(name) == FileKind::unknown)
+            throw Error(ErrorCode::bad_input,
+                        fmt::format("{}: is neither a hologram nor a field of a format that is read: .npy, .npz, .mat "
+                                    "of MATLAB 5 to 7.3 (save -v7), .ohc, .exr and pictures",
+                                    name));
         refuse_options(name, options, command);
         return open_hologram(name);
     }
