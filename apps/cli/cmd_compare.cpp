@@ -93,8 +93,8 @@ void add_compare(Command& command, Session& session) {
     command.number(
         "--exposure", options->exposure, "NUMBER",
         "What linear values of pictures are multiplied by (default: 1, or less where A is brighter than white)");
-    add_field_options(command, options->field, true);
     add_json_flag(command, session);
+    add_field_options(command, options->field, true, true);
     command.work([options, &session] { return compare_files(*options, session); });
 }
 

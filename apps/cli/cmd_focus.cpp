@@ -19,7 +19,8 @@ struct Options {
     std::string input, plot;
     FieldOptions field;
     double from = 0, to = 0;
-    std::size_t planes = 0;
+    std::size_t planes = 0, colour = 0;
+    Counts region{0, 0};
 };
 
 FocusOptions focus_options(const Options& options, const Command& command) {
@@ -31,6 +32,10 @@ FocusOptions focus_options(const Options& options, const Command& command) {
     focus.from = options.from;
     focus.to = options.to;
     focus.planes = options.planes;
+    if (command.given("--region")) {
+        focus.width = options.region.columns;
+        focus.height = options.region.rows;
+    }
     return focus;
 }
 
@@ -40,11 +45,27 @@ std::string words_of(const FocusSearch& search) {
     for (const FocusPlane& plane : search.planes)
         words += fmt::format("{:>14}  {:>10.3f}  the {} contrast of {}\n", format_length(plane.depth), plane.prominence,
                              plane.brightest ? "highest" : "lowest",
-                             plane.cell == 1 ? "samples" : fmt::format("{0}x{0} samples", plane.cell));
+                             plane.cell == 0   ? "edges"
+                             : plane.cell == 1 ? "samples"
+                                               : fmt::format("{0}x{0} samples", plane.cell));
     return words;
 }
 
-Result result_of(const FocusSearch& search, const FieldGrid& grid, double seconds) {
+// What is looked at, where that is not one whole field.
+void state_parts(const Fields& all, const Fields& fields, const FocusOptions& request, const Session& session) {
+    const Grid& plane = fields.front()->grid().plane;
+    const Region region = focus_region(fields.front()->grid(), request);
+    const bool whole = region.width == plane.width && region.height == plane.height;
+    if (whole && all.size() == 1) return;
+    std::string colours;
+    for (const auto& field : fields)
+        colours += fmt::format("{}{}", colours.empty() ? "" : ", ", format_length(field->grid().wavelength));
+    session.say(fmt::format("looking at {} of {}x{} samples{} of light of {}",
+                            whole ? "all" : fmt::format("the middle {}x{}", region.width, region.height), plane.width,
+                            plane.height, whole ? "" : " (--region)", colours));
+}
+
+Result result_of(const FocusSearch& search, const Fields& fields, double seconds) {
     ResultList planes, depths, contrasts;
     for (const FocusPlane& plane : search.planes)
         planes.emplace_back(Result{{"depth_m", plane.depth},
@@ -57,8 +78,11 @@ Result result_of(const FocusSearch& search, const FieldGrid& grid, double second
         for (const double contrast : search.contrasts[i]) row.emplace_back(contrast);
         contrasts.emplace_back(row);
     }
-    return {{"wavelength_m", grid.wavelength},
+    ResultList wavelengths;
+    for (const auto& field : fields) wavelengths.emplace_back(field->grid().wavelength);
+    return {{"wavelengths_m", wavelengths},
             {"depth_of_focus_m", search.depth_of_focus},
+            {"light_depth_of_focus_m", search.light_depth_of_focus},
             {"planes", planes},
             {"depths_m", depths},
             {"contrasts", contrasts},
@@ -77,22 +101,28 @@ int focus(const Options& options, const Session& session) {
             throw Error(ErrorCode::bad_input, fmt::format("{}: is not a hologram", options.input));
     }
     RunRecord record(session);
-    record.acted({"input", "from", "to", "planes"});
+    record.acted({"input", "from", "to", "planes", "region", "colour"});
     const Fields fields = open_and_reconstruct(session, options.input, options.field, options.field.pitch,
                                                options.field.wavelengths, record);
-    // All colours are of one object; the middle one has the middle depth of focus.
-    const FieldSource& field = *fields[fields.size() / 2];
+    Fields chosen = fields;
+    if (session.command->given("--colour")) {
+        if (options.colour > fields.size())
+            throw Error(ErrorCode::usage, fmt::format("--colour: {} was asked for, but {} holds {}", options.colour,
+                                                      options.input, fields.size()));
+        chosen = {fields[options.colour - 1]};
+    }
+    state_parts(fields, chosen, request, session);
     Stage stage(session, "looking for planes in focus");
     const FocusSearch search =
-        with_options({{"", "--from, --to, --planes"}}, [&] { return find_focus(field, request, stage.progress()); });
-    const FieldGrid& grid = field.grid();
-    session.detail(fmt::format("{} depths from {} to {}, depth of focus {}", search.depths.size(),
-                               format_length(search.depths.front()), format_length(search.depths.back()),
-                               format_length(search.depth_of_focus)));
+        with_options({{"", "--from, --to, --planes"}}, [&] { return find_focus(chosen, request, stage.progress()); });
+    session.detail(fmt::format("{} depths from {} to {}, depth of focus {} of the samples, {} of the light",
+                               search.depths.size(), format_length(search.depths.front()),
+                               format_length(search.depths.back()), format_length(search.depth_of_focus),
+                               format_length(search.light_depth_of_focus)));
     if (!options.plot.empty())
         write_focus_plot(options.plot, search, std::filesystem::path(options.input).filename().string(),
                          record.metadata());
-    session.result(result_of(search, grid, session.seconds()), words_of(search));
+    session.result(result_of(search, chosen, session.seconds()), words_of(search));
     return 0;
 }
 
@@ -109,9 +139,12 @@ void add_focus(Command& command, Session& session) {
         .default_text("as far as samples and size resolve alike");
     command.length("--to", options->to, "Where it ends").default_text("likewise");
     command.count("--planes", options->planes, "Number of depths").default_text("one every depth of focus");
+    command.counts("--region", options->region, "Samples of the middle that are looked at")
+        .default_text("1024x1024, or all");
+    command.count("--colour", options->colour, "Which of several fields, from 1").default_text("all together");
+    add_json_flag(command, session);
     add_field_options(command, options->field, true);
     add_reconstruction_options(command, options->field);
-    add_json_flag(command, session);
     command.work([options, &session] { return focus(*options, session); });
 }
 

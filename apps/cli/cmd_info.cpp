@@ -114,8 +114,8 @@ void add_info(Command& command, Session& session) {
     auto options = std::make_shared<FieldOptions>();
     command.examples("  hogel info pumpkin.h5\n  hogel info hologram.h5 --json");
     command.positional("file", *path, "FILE", "Light field, hologram, another program's field, picture or mesh");
-    add_field_options(command, *options, true);
     add_json_flag(command, session);
+    add_field_options(command, *options, true, true);
     command.work([path, options, &session] { return info(*path, *options, session); });
 }
 

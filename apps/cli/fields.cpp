@@ -17,6 +17,7 @@ namespace {
 template <class Work>
 auto with_field_options(const FieldOptions& options, const Work& work) {
     return with_options({{"amplitudes or phases", "--values"},
+                         {"pairs of", "--values"},
                          {"phase code", options.code_option},
                          {"holds complex numbers", "--values"},
                          {"holds amplitudes and phases", "--values"},
@@ -106,21 +107,29 @@ OrderSelection selection_of(const FieldOptions& options, const Command& command)
 
 }  // namespace
 
-void add_field_options(Command& command, FieldOptions& options, bool sampling) {
-    command.group("Fields of other programs");
+void add_field_options(Command& command, FieldOptions& options, bool sampling, bool brief) {
+    command.group(brief ? "Fields of other programs (see 'hogel help photo')" : "Fields of other programs");
     if (sampling) {
         command.positive_length("--pitch", options.pitch, "Of another program's samples")
             .default_text("what the file says");
         command.wavelengths(options.wavelengths).default_text("what the file says");
     }
-    command.choice("--values", options.values, {"amplitude", "phase", "intensity"}, "amplitude|phase|intensity",
-                   "What real numbers are, in arrays and pictures:\n"
-                   "phase: radians, or whole numbers in a phase code\n"
-                   "intensity: light that a camera recorded; its mean is subtracted");
-    std::string codes = "How numbers stand for phases:";
-    for (const PhaseCodeInfo& code : phase_codes().rows()) codes += fmt::format("\n{}: {}", code.name, code.text);
-    command.text(options.code_option, options.phase_code, "CODE",
-                 codes + "\nany other: range=ANGLE,offset=ANGLE,invert, in deg, rad or pi (2pi)");
+    std::string values = "What real numbers are", codes = "How numbers stand for phases";
+    if (brief) {
+        values += ": amplitude, phase, intensity; of pairs real-imaginary, amplitude-phase";
+        codes += fmt::format(": {}, or a description", fmt::join(phase_codes().names(), ", "));
+    } else {
+        values +=
+            ", in arrays and pictures:\namplitude, phase: phases in radians, or as whole numbers in a phase code\n"
+            "intensity: light that a camera recorded; its mean is subtracted\n"
+            "real-imaginary, amplitude-phase: of arrays with two numbers a sample";
+        codes += ":";
+        for (const PhaseCodeInfo& code : phase_codes().rows()) codes += fmt::format("\n{}: {}", code.name, code.text);
+        codes += "\nany other: range=ANGLE,offset=ANGLE,invert, in deg, rad or pi (2pi)";
+    }
+    command.choice("--values", options.values, {"amplitude", "phase", "intensity", "real-imaginary", "amplitude-phase"},
+                   "KIND", values);
+    command.text(options.code_option, options.phase_code, "CODE", codes);
     command.text("--imaginary", options.imaginary, "P", "Picture of imaginary parts; the input has the real ones");
     command.text("--phases", options.phases, "P", "Picture of phases; the input has the amplitudes");
     command.text("--zero", options.zero, "LEVEL|median",
@@ -172,9 +181,11 @@ void require_described(const std::string& name, const FieldOptions& options) {
 ExternalField external_field(const FieldOptions& options) {
     using Values = ExternalField::Values;
     ExternalField what;
-    what.values = options.values == "phase" ? Values::phase
-                  : options.values.empty()  ? Values::complex
-                                            : Values::amplitude;
+    what.values = options.values == "phase"             ? Values::phase
+                  : options.values == "real-imaginary"  ? Values::real_imaginary
+                  : options.values == "amplitude-phase" ? Values::amplitude_phase
+                  : options.values.empty()              ? Values::complex
+                                                        : Values::amplitude;
     if (!options.phase_code.empty()) {
         what.phase_code =
             with_options({{"", options.code_option}}, [&] { return parse_phase_code(options.phase_code); });
@@ -196,6 +207,12 @@ Fields open_fields(const std::string& name, const FieldOptions& options, const C
                    const std::vector<double>& given_wavelengths, RunRecord& record) {
     if (!is_external(name, options)) {
         require_described(name, options);
+        std::error_code status;
+        if (std::filesystem::is_regular_file(name, status) && file_kind(name) == FileKind::unknown)
+            throw Error(ErrorCode::bad_input,
+                        fmt::format("{}: is neither a hologram nor a field of a format that is read: .npy, .npz, .mat "
+                                    "of MATLAB 5 to 7.3 (save -v7), .ohc, .exr and pictures",
+                                    name));
         refuse_options(name, options, command);
         return open_hologram(name);
     }

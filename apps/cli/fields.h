@@ -20,8 +20,9 @@ struct FieldOptions {
     double pitch = 0;                 ///< where the command has no --pitch of its own
     std::vector<double> wavelengths;  ///< likewise
 };
-/// The options of what the file holds; with `sampling` also --pitch and --wavelength.
-void add_field_options(Command& command, FieldOptions& options, bool sampling);
+/// The options of what the file holds; with `sampling` also --pitch and --wavelength. @param brief  leave the
+/// explanations of their choices to the help of `photo`, where other files than fields are more usual
+void add_field_options(Command& command, FieldOptions& options, bool sampling, bool brief = false);
 /// The options of a lens or a reference wave between the hologram and what it shows.
 void add_reconstruction_options(Command& command, FieldOptions& options);
 

@@ -16,7 +16,7 @@ namespace {
 
 // The drawing area and its margins, in points.
 constexpr double width = 900, height = 500, left = 70, right = 20, top = 80, bottom = 50;
-constexpr std::array<const char*, 4> colours{"#1f5fa8", "#c8501e", "#3b8a3e", "#7a4fa3"};
+constexpr std::array<const char*, 5> colours{"#1f5fa8", "#c8501e", "#3b8a3e", "#7a4fa3", "#666666"};
 
 std::string escaped(const std::string& text) {
     std::string result;
@@ -119,10 +119,12 @@ class Plot {
             for (std::size_t i = 0; i < search_.depths.size(); ++i)
                 svg += fmt::format("{:.2f},{:.2f} ", x(search_.depths[i]),
                                    y(std::log10(floor_of(search_.contrasts[i][s]))));
-            const std::size_t cell = FocusSearch::cells[s];
+            const std::size_t cell = s == FocusSearch::edges ? 0 : FocusSearch::cells[s];
             svg += fmt::format("\"/>\n<text x=\"{:.0f}\" y=\"44\" fill=\"{}\">{}</text>\n",
                                left + 85 * static_cast<double>(s), colours[s],
-                               cell == 1 ? std::string("samples") : fmt::format("{0} x {0}", cell));
+                               cell == 0   ? std::string("edges")
+                               : cell == 1 ? std::string("samples")
+                                           : fmt::format("{0} x {0}", cell));
         }
         return svg;
     }

@@ -120,8 +120,9 @@ struct ExternalField {
     double pitch_x = 0, pitch_y = 0;  ///< metres between samples; 0: as the file says
     double wavelength = 0;            ///< metres; 0: as the file says
 
-    /// The meaning of the file's numbers: complex values; amplitudes, with phase zero; or phases, with amplitude one.
-    enum class Values { complex, amplitude, phase };
+    /// The meaning of the file's numbers: complex values; amplitudes, with phase zero; phases, with amplitude one; or,
+    /// of an array with an axis of two real numbers, real and imaginary parts, or amplitudes and phases.
+    enum class Values { complex, amplitude, phase, real_imaginary, amplitude_phase };
     Values values = Values::complex;
     /// How numbers stand for phases; without it phases are in radians, and whole numbers are refused.
     std::optional<PhaseCode> phase_code = {};

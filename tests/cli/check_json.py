@@ -65,7 +65,7 @@ TABLE = [
     ("hologram sphere -o s.h5 --hogels 4x3 --directions 12 --size 1.6384mm --pitch 6.4um --fov 0.4deg --wavelength 633nm",
      hologram(1)),
     ("focus points.h5 --from -1mm --to 1mm --planes 33",
-     {"wavelength_m": REAL, "depth_of_focus_m": REAL, "seconds": REAL, "depths_m": [REAL], "contrasts": [[REAL]],
+     {"wavelengths_m": [REAL], "depth_of_focus_m": REAL, "light_depth_of_focus_m": REAL, "seconds": REAL, "depths_m": [REAL], "contrasts": [[REAL]],
       "planes": [{"depth_m": REAL, "prominence": REAL, "contrast": WORD, "cell": COUNT}]}),
     ("slm s.h5 -o slm.png --pixels 64x48 --pixel-pitch 6.4um",
      SLM | {"patterns": [PATTERN | {"light_field_efficiency": REAL, "correlation": REAL, "iterations": COUNT}]}),

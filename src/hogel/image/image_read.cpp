@@ -118,6 +118,14 @@ Picture read_bytes(const PictureBytes& file) {
 Picture read_file(const std::filesystem::path& path, std::size_t max_pixels, bool only_texts = false,
                   bool with_alpha = false) {
     PictureBytes file{{}, path.string(), max_pixels, only_texts, with_alpha};
+    const std::vector<unsigned char> bytes = bytes_of_file(path, file);
+    file.bytes = bytes;
+    return read_bytes(file);
+}
+
+}  // namespace
+
+std::vector<unsigned char> image::bytes_of_file(const std::filesystem::path& path, const PictureBytes& file) {
     std::error_code status;
     const std::filesystem::file_status there = std::filesystem::status(path, status);
     if (!std::filesystem::exists(there)) file.fail("no such file");
@@ -136,11 +144,8 @@ Picture read_file(const std::filesystem::path& path, std::size_t max_pixels, boo
             bytes.resize(std::max(std::filesystem::file_size(path), std::uintmax_t{beginning}));
             read(beginning);
         });
-    file.bytes = bytes;
-    return read_bytes(file);
+    return bytes;
 }
-
-}  // namespace
 
 Picture image::read_picture(const std::filesystem::path& path, std::size_t max_pixels) {
     return guarded({{}, path.string()}, [&] { return read_file(path, max_pixels); });

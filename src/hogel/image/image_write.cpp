@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
 
 #include "hogel/core/output_file.h"
 #include "hogel/core/parallel.h"
@@ -21,15 +20,14 @@ using namespace image;
 
 namespace {
 
-[[noreturn]] void fail_write(const std::string& name, const std::string& why) {
-    throw Error(ErrorCode::cannot_write, fmt::format("cannot write the picture '{}': {}", name, one_line(why)));
-}
+std::string picture_named(const std::string& name) { return fmt::format("the picture '{}'", name); }
 
 void check_writable(const Image& image, double exposure, const std::string& name) {
     constexpr std::size_t widest = std::numeric_limits<int>::max() / 4;
     if (image.pixels.size() == 0 || image.width() > widest || image.height() > widest ||
         (image.channels() != 1 && image.channels() != 3))
-        fail_write(name, fmt::format("{}x{} pixels in {} channels", image.width(), image.height(), image.channels()));
+        fail_write(picture_named(name),
+                   fmt::format("{}x{} pixels in {} channels", image.width(), image.height(), image.channels()));
     if (!(std::isfinite(exposure) && exposure > 0))
         throw Error(ErrorCode::usage, fmt::format("the exposure is {}, but must be positive and finite", exposure));
 }
@@ -46,17 +44,11 @@ Array<std::uint8_t, 3> display_values(const Image& image, double exposure) {
 
 std::vector<unsigned char> encode(const Image& image, double exposure, const std::string& format,
                                   const Metadata& metadata, const std::string& name) {
-    try {
+    return guarded_write(picture_named(name), [&] {
         if (format == "exr") return exr_file(image.pixels, metadata);
         const Array<std::uint8_t, 3> display = display_values(image, exposure);
         return format == "tiff" ? tiff_file(display, metadata) : png_file(display, metadata, Curve::srgb);
-    } catch (const Error&) {
-        throw;
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& error) {
-        fail_write(name, error.what());
-    }
+    });
 }
 
 std::string format_of(const std::filesystem::path& path) {
@@ -91,13 +83,9 @@ std::vector<unsigned char> encode_jpeg(const Image& image, double exposure, int 
     if (quality < 1 || quality > 100)
         throw Error(ErrorCode::usage, fmt::format("the quality of a JPEG picture is 1 to 100, not {}", quality));
     if (image.width() > widest || image.height() > widest)
-        fail_write("JPEG", fmt::format("{}x{} pixels; at most {} fit", image.width(), image.height(), widest));
-    try {
-        return jpeg_file(display_values(image, exposure), quality);
-    } catch (const std::runtime_error& error) {
-        if (dynamic_cast<const Error*>(&error) != nullptr) throw;
-        fail_write("JPEG", error.what());
-    }
+        fail_write(picture_named("JPEG"),
+                   fmt::format("{}x{} pixels; at most {} fit", image.width(), image.height(), widest));
+    return guarded_write(picture_named("JPEG"), [&] { return jpeg_file(display_values(image, exposure), quality); });
 }
 
 }  // namespace hogel

@@ -110,6 +110,10 @@ std::string one_line(std::string text) {
     return line.empty() ? "unknown reason" : line;
 }
 
+void fail_write(const std::string& what, const std::string& why) {
+    throw Error(ErrorCode::cannot_write, fmt::format("cannot write {}: {}", what, one_line(why)));
+}
+
 PictureReader picture_reader(std::span<const unsigned char> bytes) {
     const std::string_view start(reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), beginning));
     if (start.starts_with("RIFF"sv) && start.substr(std::min<std::size_t>(start.size(), 8)).starts_with("WEBP"sv))

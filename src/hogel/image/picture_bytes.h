@@ -8,6 +8,7 @@
 #include <new>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "hogel/error.h"
 #include "hogel/image/formats/formats.h"
@@ -37,6 +38,27 @@ auto guarded(const PictureBytes& file, const Body& body) {
         file.fail(error.what());
     }
 }
+
+/// Throws Error(cannot_write). @param what  for the message: "the picture 'x.png'"
+[[noreturn]] void fail_write(const std::string& what, const std::string& why);
+
+/// Turns what the libraries throw while they encode `what` into Error(cannot_write); std::bad_alloc passes.
+template <class Body>
+auto guarded_write(const std::string& what, const Body& body) {
+    try {
+        return body();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        fail_write(what, error.what());
+    }
+}
+
+/// The bytes of a picture file of `file`, whose own bytes are not looked at. Throws Error(bad_input) for a file that is
+/// missing, is no plain file, or begins as no picture does; the rest of such a file is not read.
+std::vector<unsigned char> bytes_of_file(const std::filesystem::path& path, const PictureBytes& file);
 
 /// Reads a picture file as it is stored. Throws as read_image() does.
 Picture read_picture(const std::filesystem::path& path, std::size_t max_pixels);

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <new>
-
 #include "hogel/core/output_file.h"
 #include "hogel/error.h"
 #include "hogel/image/picture_bytes.h"
@@ -25,32 +23,21 @@ std::string format_of(const std::filesystem::path& path) {
                                               list_extensions(&PictureFormat::written_as_levels)));
 }
 
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& why) {
-    throw Error(ErrorCode::cannot_write,
-                fmt::format("cannot write the pattern '{}': {}", path.string(), one_line(why)));
-}
-
 }  // namespace
 
 void require_raw_pixels_name(const std::filesystem::path& path) { format_of(path); }
 
 void write_raw_pixels(const std::filesystem::path& path, View<const std::uint8_t, 3> levels, const Metadata& metadata) {
-    const std::string format = format_of(path);
+    const std::string format = format_of(path), what = fmt::format("the pattern '{}'", path.string());
     const std::size_t channels = levels.extent(2);
     if (levels.size() == 0 || (channels != 1 && channels != 3))
-        fail(path, fmt::format("{}x{} pixels in {} channels", levels.extent(1), levels.extent(0), channels));
+        fail_write(what, fmt::format("{}x{} pixels in {} channels", levels.extent(1), levels.extent(0), channels));
     core::require_target(path);
-    try {
-        core::write_file(path, format == "bmp"    ? bmp_file(levels)
-                               : format == "tiff" ? tiff_file(levels, metadata)
-                                                  : png_file(levels, metadata, Curve::none));
-    } catch (const Error&) {
-        throw;
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& error) {
-        fail(path, error.what());
-    }
+    core::write_file(path, guarded_write(what, [&] {
+                         return format == "bmp"    ? bmp_file(levels)
+                                : format == "tiff" ? tiff_file(levels, metadata)
+                                                   : png_file(levels, metadata, Curve::none);
+                     }));
 }
 
 }  // namespace hogel

@@ -5,232 +5,121 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <limits>
 #include <mutex>
-#include <numbers>
 
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
-#include "hogel/math/fft.h"
+#include "hogel/optics/focus/extrema.h"
+#include "hogel/optics/focus/plane_waves.h"
 
 namespace hogel {
+
+using namespace optics;
+
 namespace {
 
-using Complex = std::complex<float>;
-using Contrasts = std::array<double, FocusSearch::cells.size()>;
-constexpr std::size_t scales = FocusSearch::cells.size();
-constexpr double pi = std::numbers::pi;
-
-// The middle of a field as a sum of plane waves, which can be looked at on any parallel plane.
-class Planes {
+// The parts of several fields that are looked at.
+class Parts {
   public:
-    Planes(const FieldSource& field, std::size_t max_side)
-        : grid_(field.grid()),
-          width_(std::min(grid_.plane.width, max_side)),
-          height_(std::min(grid_.plane.height, max_side)),
-          fft_(height_, width_),
-          spectrum_({height_, width_}) {
-        const Grid& plane = grid_.plane;
-        field.read({(plane.width - width_) / 2, (plane.height - height_) / 2, width_, height_}, 0, spectrum_);
-        fft_.forward(spectrum_);
+    explicit Parts(std::size_t fields) : of_field_(fields) {}
+
+    void read(std::size_t index, const FieldSource& field, const Region& region, std::size_t max_side) {
+        const std::size_t across = (region.width + max_side - 1) / max_side,
+                          down = (region.height + max_side - 1) / max_side;
+        for (std::size_t j = 0; j < down; ++j)
+            for (std::size_t i = 0; i < across; ++i) {
+                core::throw_if_stopped();
+                const std::size_t x = region.width * i / across, y = region.height * j / down;
+                of_field_[index].emplace_back(field,
+                                              Region{region.x0 + x, region.y0 + y, region.width * (i + 1) / across - x,
+                                                     region.height * (j + 1) / down - y});
+            }
     }
 
-    // The contrasts of the intensity at a depth: waves go back to it. Frequencies of either sign turn alike.
+    // The parts of a field are one picture, and fields count alike.
     Contrasts at(double depth) const {
-        Array<Complex, 2> wave(spectrum_.shape());
-        const double inverse = 1 / grid_.wavelength;
-        for (std::size_t y = 0; y <= height_ / 2; ++y) {
-            const double fy = static_cast<double>(y) / static_cast<double>(height_) / grid_.plane.pitch_y;
-            const std::size_t other_y = (height_ - y) % height_;
-            for (std::size_t x = 0; x <= width_ / 2; ++x) {
-                const double fx = static_cast<double>(x) / static_cast<double>(width_) / grid_.plane.pitch_x;
-                const double square = fx * fx + fy * fy;
-                if (square >= inverse * inverse) continue;
-                // √(1/λ² − f²) − 1/λ without the difference of large numbers
-                const double along = -square / (std::sqrt(inverse * inverse - square) + inverse);
-                const Complex turn(std::polar(1.0, -2 * pi * std::remainder(along * depth, 1.0)));
-                const std::size_t other_x = (width_ - x) % width_;
-                wave(y, x) = spectrum_(y, x) * turn;
-                wave(y, other_x) = spectrum_(y, other_x) * turn;
-                wave(other_y, x) = spectrum_(other_y, x) * turn;
-                wave(other_y, other_x) = spectrum_(other_y, other_x) * turn;
+        Contrasts mean{};
+        for (const auto& parts : of_field_) {
+            LightSums sums;
+            for (const PlaneWaves& part : parts) {
+                core::throw_if_stopped();
+                sums.add(part.at(depth));
             }
+            const Contrasts contrasts = sums.contrasts();
+            for (std::size_t s = 0; s < mean.size(); ++s)
+                mean[s] += contrasts[s] / static_cast<double>(of_field_.size());
         }
-        fft_.backward(wave);
-        return contrasts_of(wave);
+        return mean;
+    }
+
+    // Metres to either side that light of its frequencies is in focus: 1/(2λB²).
+    double depth_of_focus(std::size_t index, double wavelength) const {
+        double band = 0;
+        for (const PlaneWaves& part : of_field_[index]) band = std::max(band, part.band());
+        return 1 / (2 * wavelength * band * band);
     }
 
   private:
-    Contrasts contrasts_of(const Array<Complex, 2>& wave) const {
-        Contrasts contrasts{};
-        std::size_t height = height_, width = width_;
-        std::vector<double> light(height * width);
-        for (std::size_t i = 0; i < light.size(); ++i) light[i] = std::norm(wave.data()[i]);
-        for (std::size_t s = 0; s < scales; ++s) {
-            if (s > 0) halve(light, height, width);
-            if (light.empty()) break;
-            double sum = 0, squares = 0;
-            for (const double value : light) sum += value, squares += value * value;
-            const auto n = static_cast<double>(light.size());
-            contrasts[s] = sum > 0 ? std::max(0.0, squares * n / (sum * sum) - 1) : 0;
-        }
-        return contrasts;
-    }
-
-    // Means over squares of two by two.
-    static void halve(std::vector<double>& light, std::size_t& height, std::size_t& width) {
-        const std::size_t down = height / 2, across = width / 2;
-        std::vector<double> means(down * across);
-        for (std::size_t y = 0; y < down; ++y)
-            for (std::size_t x = 0; x < across; ++x) {
-                const double* at = &light[2 * y * width + 2 * x];
-                means[y * across + x] = (at[0] + at[1] + at[width] + at[width + 1]) / 4;
-            }
-        light = std::move(means);
-        height = down;
-        width = across;
-    }
-
-    FieldGrid grid_;
-    std::size_t width_, height_;
-    math::Fft2 fft_;
-    Array<Complex, 2> spectrum_;
+    std::vector<std::deque<PlaneWaves>> of_field_;
 };
 
-// An extremum of one scale's curve of logarithms.
-struct Extremum {
-    std::size_t index = 0, scale = 0;
-    bool maximum = true;
-    double prominence = 0;
-    std::size_t base = 0;             // the nearer of the two extrema of the other kind beside it
-    std::size_t first = 0, last = 0;  // where the curve is near the extremum
-    double slope = 0;                 // prominence for each depth of focus
-};
-
-// How far a curve goes up and down from sample to sample: by no more than this nine samples of ten are off from their
-// neighbours' mean. The tenth may be a plane in focus.
-double noise_of(const std::vector<double>& curve) {
-    std::vector<double> off;
-    for (std::size_t i = 1; i + 1 < curve.size(); ++i)
-        off.push_back(std::abs(curve[i] - (curve[i - 1] + curve[i + 1]) / 2));
-    const std::size_t most = off.size() * 9 / 10;
-    std::ranges::nth_element(off, off.begin() + static_cast<std::ptrdiff_t>(most));
-    return off[most];
-}
-
-// The maxima of a curve that is not at its ends, with how far one must descend from each to reach a higher one.
-std::vector<Extremum> maxima_of(const std::vector<double>& curve) {
-    std::vector<Extremum> found;
-    const std::size_t n = curve.size();
-    for (std::size_t i = 1; i + 1 < n; ++i) {
-        if (!(curve[i] > curve[i - 1] && curve[i] >= curve[i + 1])) continue;
-        std::size_t left = i, right = i;
-        for (std::size_t j = i; j-- > 0 && curve[j] <= curve[i];)
-            if (curve[j] < curve[left]) left = j;
-        for (std::size_t j = i + 1; j < n && curve[j] <= curve[i]; ++j)
-            if (curve[j] < curve[right]) right = j;
-        Extremum extremum{i};
-        extremum.base = curve[left] > curve[right] ? left : right;
-        extremum.prominence = curve[i] - curve[extremum.base];
-        // Halfway down, or where high peaks have fallen to 0.7.
-        const double near = curve[i] - std::min(extremum.prominence / 2, 0.35);
-        for (extremum.first = i; extremum.first > 0 && curve[extremum.first - 1] >= near;) --extremum.first;
-        for (extremum.last = i; extremum.last + 1 < n && curve[extremum.last + 1] >= near;) ++extremum.last;
-        found.push_back(extremum);
+// The middle of the extremum: the mean depth weighted by what exceeds half the prominence. Where few depths do, more
+// are looked at.
+double middle_of(const Parts& parts, const FocusSearch& search, const Extremum& extremum) {
+    constexpr std::size_t enough = 12, more = 25;
+    const std::size_t begin = extremum.begin == 0 ? 0 : extremum.begin - 1,
+                      end = std::min(search.depths.size() - 1, extremum.end + 1);
+    std::vector<double> depths(search.depths.begin() + static_cast<std::ptrdiff_t>(begin),
+                               search.depths.begin() + static_cast<std::ptrdiff_t>(end) + 1);
+    std::vector<Contrasts> contrasts(search.contrasts.begin() + static_cast<std::ptrdiff_t>(begin),
+                                     search.contrasts.begin() + static_cast<std::ptrdiff_t>(end) + 1);
+    if (depths.size() < enough) {
+        const double low = depths.front(), step = (depths.back() - low) / (more - 1);
+        depths.resize(more);
+        contrasts.resize(more);
+        core::parallel_for(more, [&](std::size_t i) {
+            depths[i] = low + step * static_cast<double>(i);
+            contrasts[i] = parts.at(depths[i]);
+        });
     }
-    return found;
-}
-
-// Extrema of both kinds at all scales that stand out of the noise and are no wider than defocus makes them: a square
-// of n samples is blurred away in about n depths of focus, more where the light has not all frequencies of the samples.
-std::vector<Extremum> extrema_of(const std::vector<Contrasts>& contrasts, double depths_of_focus) {
-    // Measured on the fields of docs/holograms-from-elsewhere.md (docs/decisions/0085-planes-in-focus.md).
-    constexpr double least = 0.08, above_noise = 4, widest = 8;
-    std::vector<Extremum> found;
-    for (std::size_t s = 0; s < scales; ++s) {
-        std::vector<double> curve;
-        for (const Contrasts& contrast : contrasts) curve.push_back(std::log(contrast[s] + 1e-9));
-        const double noise = noise_of(curve);
-        for (const bool maximum : {true, false}) {
-            for (Extremum extremum : maxima_of(curve)) {
-                extremum.scale = s;
-                extremum.maximum = maximum;
-                const double width =
-                    static_cast<double>(std::max<std::size_t>(extremum.last - extremum.first, 1)) * depths_of_focus / 2;
-                extremum.slope = extremum.prominence / width;
-                const bool wide = width > widest * static_cast<double>(FocusSearch::cells[s]);
-                if (!wide && extremum.prominence > least && extremum.prominence > above_noise * noise)
-                    found.push_back(extremum);
-            }
-            for (double& value : curve) value = -value;
-        }
-    }
-    return found;
-}
-
-// Whether two extrema are of one plane: their surroundings overlap.
-bool same_plane(const Extremum& a, const Extremum& b) { return a.first <= b.last && b.first <= a.last; }
-
-// One extremum for each plane: of those that overlap the finest scale that shows the plane well, which locates it best.
-std::vector<Extremum> merged(std::vector<Extremum> extrema) {
-    std::ranges::stable_sort(extrema, std::greater(), &Extremum::slope);
-    std::vector<Extremum> planes, best;
-    for (const Extremum& extremum : extrema) {
-        // The rise between two planes of lowest contrast, or beside one, is no plane.
-        if (std::ranges::any_of(best, [&](const Extremum& b) {
-                return b.maximum != extremum.maximum && extremum.base >= b.first && extremum.base <= b.last;
-            }))
-            continue;
-        const auto same = std::ranges::find_if(best, [&](const Extremum& b) { return same_plane(b, extremum); });
-        if (same == best.end()) {
-            best.push_back(extremum);
-            planes.push_back(extremum);
-            continue;
-        }
-        Extremum& plane = planes[static_cast<std::size_t>(same - best.begin())];
-        const bool inside = extremum.index >= same->first && extremum.index <= same->last;
-        if (inside && extremum.scale < plane.scale && extremum.prominence > 0.25 * same->prominence) {
-            const double slope = plane.slope;
-            plane = extremum;
-            plane.slope = slope;
-        }
-    }
-    return planes;
-}
-
-// The middle of the extremum, by more depths around it: the mean depth weighted by what exceeds half the prominence.
-double refined_depth(const Planes& planes, const std::vector<double>& depths, const Extremum& extremum,
-                     const std::vector<Contrasts>& contrasts) {
-    constexpr std::size_t samples = 25;
-    const double low = depths[extremum.first == 0 ? 0 : extremum.first - 1],
-                 high = depths[std::min(depths.size() - 1, extremum.last + 1)];
-    std::vector<double> heights(samples);
-    const auto height_of = [&](const Contrasts& contrast) {
-        return (extremum.maximum ? 1 : -1) * std::log(contrast[extremum.scale] + 1e-9);
+    const auto height = [&](const Contrasts& contrast) {
+        return (extremum.maximum ? 1 : -1) * height_of(contrast, extremum.scale);
     };
-    core::parallel_for(samples, [&](std::size_t i) {
-        heights[i] = height_of(planes.at(low + (high - low) * static_cast<double>(i) / (samples - 1)));
-    });
-    const double top = std::max(*std::ranges::max_element(heights), height_of(contrasts[extremum.index]));
-    const double base = std::max(heights.front(), heights.back());
+    double top = height(search.contrasts[extremum.index]);
+    for (const Contrasts& contrast : contrasts) top = std::max(top, height(contrast));
     double weights = 0, sum = 0;
-    for (std::size_t i = 0; i < samples; ++i) {
-        const double weight = std::max(0.0, heights[i] - (top + base) / 2);
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+        const double weight = std::max(0.0, height(contrasts[i]) - (top - extremum.drop()));
         weights += weight;
-        sum += weight * (low + (high - low) * static_cast<double>(i) / (samples - 1));
+        sum += weight * depths[i];
     }
-    return weights > 0 ? sum / weights : depths[extremum.index];
+    return weights > 0 ? sum / weights : search.depths[extremum.index];
 }
 
-std::vector<double> depths_of(const FieldGrid& grid, const FocusOptions& options, double depth_of_focus) {
+// As far as the samples and the size of a field resolve alike.
+double farthest(const FieldGrid& grid) {
+    const Grid& plane = grid.plane;
+    return std::min(static_cast<double>(plane.width) * plane.pitch_x * plane.pitch_x,
+                    static_cast<double>(plane.height) * plane.pitch_y * plane.pitch_y) /
+           grid.wavelength;
+}
+
+// Directions beyond 90 degrees carry nothing: samples finer than half a wave resolve no more.
+double depth_of_focus(const FieldGrid& grid) {
+    const double finest = std::max(std::min(grid.plane.pitch_x, grid.plane.pitch_y), grid.wavelength / 2);
+    return 2 * finest * finest / grid.wavelength;
+}
+
+std::vector<double> depths_of(const Fields& fields, const FocusOptions& options, double depth_of_focus) {
     double from = options.from, to = options.to;
     if (!std::isfinite(from) || !std::isfinite(to))
         throw Error(ErrorCode::usage, "the depths to search are not finite");
     if (from > to) std::swap(from, to);
     if (from == to) {
-        const Grid& plane = grid.plane;
-        to = std::min(static_cast<double>(plane.width) * plane.pitch_x * plane.pitch_x,
-                      static_cast<double>(plane.height) * plane.pitch_y * plane.pitch_y) /
-             grid.wavelength;
+        to = 0;
+        for (const auto& field : fields) to = std::max(to, farthest(field->grid()));
         from = -to;
     }
     constexpr std::size_t least = 8, most = 1 << 16;
@@ -249,22 +138,38 @@ std::vector<double> depths_of(const FieldGrid& grid, const FocusOptions& options
 
 }  // namespace
 
-FocusSearch find_focus(const FieldSource& field, const FocusOptions& options, const Progress& progress) {
+Region focus_region(const FieldGrid& grid, const FocusOptions& options) {
+    const auto side = [&](std::size_t samples, std::size_t wanted) {
+        return std::min(samples, std::max<std::size_t>(wanted > 0 ? wanted : options.max_side, 16));
+    };
+    const Grid& plane = grid.plane;
+    const std::size_t width = side(plane.width, options.width), height = side(plane.height, options.height);
+    return {(plane.width - width) / 2, (plane.height - height) / 2, width, height};
+}
+
+FocusSearch find_focus(const Fields& fields, const FocusOptions& options, const Progress& progress) {
     const core::StopScope scope(progress);
-    const FieldGrid& grid = field.grid();
-    validate(grid, ErrorCode::usage, "the field");
+    if (fields.empty()) throw Error(ErrorCode::usage, "a field was expected");
     FocusSearch search;
-    const double pitch = std::min(grid.plane.pitch_x, grid.plane.pitch_y);
-    // Directions beyond 90 degrees carry nothing: samples finer than half a wave resolve no more.
-    const double finest = std::max(pitch, grid.wavelength / 2);
-    search.depth_of_focus = 2 * finest * finest / grid.wavelength;
-    search.depths = depths_of(grid, options, search.depth_of_focus);
-    const Planes planes(field, std::max<std::size_t>(options.max_side, 16));
+    search.depth_of_focus = std::numeric_limits<double>::infinity();
+    for (const auto& field : fields) {
+        validate(field->grid(), ErrorCode::usage, "the field");
+        search.depth_of_focus = std::min(search.depth_of_focus, depth_of_focus(field->grid()));
+    }
+    search.depths = depths_of(fields, options, search.depth_of_focus);
+    Parts parts(fields.size());
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        parts.read(i, *fields[i], focus_region(fields[i]->grid(), options),
+                   std::max<std::size_t>(options.max_side, 16));
+        search.light_depth_of_focus =
+            std::max(search.light_depth_of_focus, parts.depth_of_focus(i, fields[i]->grid().wavelength));
+    }
+    search.light_depth_of_focus = std::max(search.light_depth_of_focus, search.depth_of_focus);
     search.contrasts.resize(search.depths.size());
     std::mutex mutex;
     std::size_t done = 0;
     core::parallel_for(search.depths.size(), [&](std::size_t i) {
-        search.contrasts[i] = planes.at(search.depths[i]);
+        search.contrasts[i] = parts.at(search.depths[i]);
         const std::lock_guard lock(mutex);
         progress.report(0.95 * static_cast<double>(++done) / static_cast<double>(search.depths.size()));
     });
@@ -272,16 +177,23 @@ FocusSearch find_focus(const FieldSource& field, const FocusOptions& options, co
     // Planes that stand out much less steeply than the clearest one are ripple and shoulders of its defocus.
     constexpr double faintest = 0.3;
     double steepest = 0;
-    for (const Extremum& extremum : merged(extrema_of(search.contrasts, step))) {
-        const double depth = refined_depth(planes, search.depths, extremum, search.contrasts);
+    for (const Extremum& extremum :
+         planes_among(search.contrasts, step, search.light_depth_of_focus / search.depth_of_focus)) {
+        const double depth = middle_of(parts, search, extremum);
         // Nearly all holograms are more even than what they show.
         if (!extremum.maximum && std::abs(depth) <= 2 * search.depth_of_focus) continue;
         steepest = std::max(steepest, extremum.slope);
         if (extremum.slope < faintest * steepest) break;
-        search.planes.push_back({depth, extremum.prominence, extremum.maximum, FocusSearch::cells[extremum.scale]});
+        search.planes.push_back({depth, extremum.prominence, extremum.maximum,
+                                 extremum.scale == FocusSearch::edges ? 0 : FocusSearch::cells[extremum.scale]});
     }
     progress.report(1);
     return search;
+}
+
+FocusSearch find_focus(const FieldSource& field, const FocusOptions& options, const Progress& progress) {
+    // Without a part in its lifetime.
+    return find_focus(Fields{std::shared_ptr<const FieldSource>(std::shared_ptr<void>(), &field)}, options, progress);
 }
 
 }  // namespace hogel

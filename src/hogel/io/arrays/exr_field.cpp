@@ -28,15 +28,17 @@ std::vector<ChannelPair> pairs_of(const Channels& channels) {
     for (std::size_t i = 0; i < channels.size(); ++i)
         for (std::size_t j = 0; j < channels.size(); ++j) {
             const auto &a = channels[i].first, &b = channels[j].first;
-            // A lone "A" is alpha, and "R" red.
-            if (i == j || a.size() < 2 || b.size() < 2) continue;
+            // A lone "A" is alpha, and "R" red, except in a file of two parts.
+            if (i == j || (channels.size() > 2 && (a.size() < 2 || b.size() < 2))) continue;
             if (name_real_and_imaginary(a, b)) pairs.push_back({i, j, Content::complex});
             if (name_amplitude_and_phase(a, b)) pairs.push_back({i, j, Content::amplitude_phase});
         }
     const auto order = [&](const ChannelPair& pair) {
         const std::string& name = channels[pair.first].first;
         constexpr std::string_view colours = "RGB";
-        const std::size_t colour = name.size() > 1 && name[1] == '.' ? colours.find(name[0]) : std::string::npos;
+        std::size_t colour = std::string::npos;  // "R.amplitude", "amplitude.R"
+        if (name.size() > 1 && name[1] == '.') colour = colours.find(name[0]);
+        if (name.size() > 1 && name[name.size() - 2] == '.') colour = std::min(colour, colours.find(name.back()));
         return std::pair(colour, name);
     };
     std::ranges::sort(pairs, {}, order);

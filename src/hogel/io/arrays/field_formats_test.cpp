@@ -1,42 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fields in NPZ, MAT, OHC, EXR and pairs of pictures: there and back, their sampling, and damage.
-#include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
 #include <numbers>
 
-#include "hogel/core/output_file.h"
 #include "hogel/core/part.h"
-#include "hogel/error.h"
-#include "hogel/files.h"
 #include "hogel/image.h"
 #include "hogel/io/arrays/mat_write.h"
 #include "hogel/io/arrays/npy.h"
+#include "hogel/io/arrays/test_field_files.h"
 #include "hogel/io/arrays/zip.h"
 
 namespace hogel::io::arrays {
 namespace {
 
-namespace fs = std::filesystem;
-using Complex = std::complex<float>;
-using Bytes = std::vector<unsigned char>;
-
-class FieldFormats : public testing::Test {
-  protected:
-    FieldFormats() { fs::create_directories(directory_); }
-    ~FieldFormats() override { fs::remove_all(directory_); }
-
-    fs::path write(const std::string& name, const Bytes& bytes) const {
-        core::write_file(directory_ / name, bytes);
-        return directory_ / name;
-    }
-
-    fs::path directory_ = fs::path(testing::TempDir()) / ("hogel_formats_" + std::to_string(::getpid()));
-};
+using FieldFormats = FieldFiles;
 
 // 5 columns, 3 rows; no two numbers are equal, and one needs all bits of a float.
 std::vector<Field> example(std::size_t colours, double pitch_y = 2e-6) {
@@ -49,13 +29,6 @@ std::vector<Field> example(std::size_t colours, double pitch_y = 2e-6) {
     return fields;
 }
 
-Array<Complex, 2> all_of(const FieldSource& field) {
-    const Grid& plane = field.grid().plane;
-    Array<Complex, 2> samples({plane.height, plane.width});
-    field.read({0, 0, plane.width, plane.height}, 0, samples);
-    return samples;
-}
-
 void expect_equal(const FieldSource& read, const Field& written) {
     EXPECT_EQ(read.grid(), written.grid());
     const Array<Complex, 2> samples = all_of(read);
@@ -66,7 +39,7 @@ void expect_equal(const FieldSource& read, const Field& written) {
 TEST_F(FieldFormats, hold_fields_to_the_last_bit_and_their_sampling) {
     for (const char* ending : {".npz", ".mat", ".exr"}) {
         if (std::string(ending) == ".exr" && !core::part("pictures").built_in) continue;
-        for (const std::size_t colours : {1, 3})
+        for (const std::size_t colours : {1, 2, 3})
             for (const double pitch_y : {2e-6, 3e-6}) {
                 const std::vector<Field> fields = example(colours, pitch_y);
                 const fs::path path = directory_ / ("f" + std::string(ending));
@@ -82,7 +55,7 @@ TEST_F(FieldFormats, hold_fields_to_the_last_bit_and_their_sampling) {
 }
 
 TEST_F(FieldFormats, of_numpy_arrays_hold_fields_without_their_sampling) {
-    for (const std::size_t colours : {1, 3}) {
+    for (const std::size_t colours : {1, 2, 3}) {
         const std::vector<Field> fields = example(colours);
         write_fields(directory_ / "f.npy", fields);
         EXPECT_EQ(external_facts(directory_ / "f.npy").pitch_x, 0);
@@ -176,11 +149,6 @@ TEST_F(FieldFormats, with_parameters_that_are_no_lengths_in_metres_complain) {
 }
 
 // The bytes of OpenHolo's format, by its published structures.
-template <class T>
-void put(Bytes& bytes, T value) {
-    const auto* first = reinterpret_cast<const unsigned char*>(&value);
-    bytes.insert(bytes.end(), first, first + sizeof value);
-}
 struct Ohc {
     std::uint32_t width = 3, height = 2;
     unsigned char unit = 4, wave_unit = 5, arrangement = 2, type = 10, parts = 2;

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <initializer_list>
 #include <string_view>
 
 #include "hogel/error.h"
@@ -101,8 +100,11 @@ Chosen chosen(const std::filesystem::path& path, const std::string& variable, co
             if (array.shape.size() >= 2 && array.samples() > 1) fields.push_back(&array);
     if (fields.empty()) fail_external(path, "it holds no array of numbers with two axes");
     if (fields.size() == 1) return of_one(*fields.front());
-    if (fields.size() == 2)
-        if (const std::optional<Chosen> pair = pair_of(*fields[0], *fields[1])) return *pair;
+    std::vector<Chosen> pairs;
+    for (std::size_t i = 0; i < fields.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (const std::optional<Chosen> pair = pair_of(*fields[j], *fields[i])) pairs.push_back(*pair);
+    if (pairs.size() == 1) return pairs.front();
     // One complex array among real ones, such as the picture that a hologram was made of.
     if (std::ranges::count_if(fields, [](const NumberArray* array) { return !array->imaginary.empty(); }) == 1)
         return of_one(**std::ranges::find_if(fields, [](const NumberArray* a) { return !a->imaginary.empty(); }));
@@ -110,7 +112,12 @@ Chosen chosen(const std::filesystem::path& path, const std::string& variable, co
                 fmt::format("'{}' holds several arrays; which one is meant of {}?", path.string(), names_of(fields)));
 }
 
-std::string kind_of(const Chosen& chosen) {
+Planes planes_of(const std::filesystem::path& path, const NumberArray& array, const Chosen& chosen) {
+    // Two arrays are the parts of samples, so that none of their axes is.
+    return arrays::planes_of(path, array.shape, array.by_columns, chosen.content != Content::real);
+}
+
+std::string kind_of(const Chosen& chosen, bool pairs) {
     // Whole numbers may stand for the doubles of MATLAB.
     const NumberArray& array = *chosen.first;
     const Number number = array.floating && is_whole(array.real_number) ? Number::real : array.real_number;
@@ -121,6 +128,7 @@ std::string kind_of(const Chosen& chosen) {
     return fmt::format("{}, {}",
                        chosen.content == Content::complex           ? "complex"
                        : chosen.content == Content::amplitude_phase ? "amplitudes and phases"
+                       : pairs                                      ? "pairs of real numbers"
                                                                     : "real",
                        width);
 }
@@ -135,48 +143,82 @@ bool name_amplitude_and_phase(const std::string& amplitude, const std::string& p
     return name_parts(amplitude, amplitude_words, phase, phase_words);
 }
 
-Planes planes_of(const std::filesystem::path& path, std::span<const std::size_t> shape, bool by_columns) {
-    std::vector<std::size_t> steps(shape.size(), 1);
-    for (std::size_t i = 1; i < shape.size(); ++i) {
-        const std::size_t axis = by_columns ? i : shape.size() - 1 - i, faster = by_columns ? i - 1 : axis + 1;
-        steps[axis] = steps[faster] * shape[faster];
+Planes planes_of(const std::filesystem::path& path, std::span<const std::size_t> shape, bool by_columns, bool complex) {
+    struct Axis {
+        std::size_t extent, step;
+    };
+    std::vector<Axis> axes(shape.size());
+    for (std::size_t i = 0, step = 1; i < shape.size(); ++i) {
+        const std::size_t axis = by_columns ? i : shape.size() - 1 - i;
+        axes[axis] = {shape[axis], step};
+        step *= shape[axis];
     }
-    std::size_t y = 0;
+    // Takes the axis before or after the others if it is as wanted. Where both are: `last` says which.
+    const auto take = [&](bool last, const auto& wanted) {
+        if (axes.size() <= 2 || !(wanted(axes.front().extent) || wanted(axes.back().extent))) return Axis{};
+        const bool back = last ? wanted(axes.back().extent) : !wanted(axes.front().extent);
+        const Axis taken = back ? axes.back() : axes.front();
+        axes.erase(back ? axes.end() - 1 : axes.begin());
+        return taken;
+    };
+    while (take(by_columns, [](std::size_t n) { return n == 1; }).extent > 0) continue;
     Planes planes;
-    const auto is_colours = [](std::size_t extent) { return extent == 1 || extent == 3; };
-    const bool coloured = shape.size() == 3 && (is_colours(shape.front()) || is_colours(shape.back()));
-    if (coloured) {
-        // Where both may be: as MATLAB has colours, and as Python's programs for light do.
-        const std::size_t axis = is_colours(by_columns ? shape.back() : shape.front()) == by_columns ? 2 : 0;
-        y = axis == 0 ? 1 : 0;
-        planes.colours = shape[axis];
-        planes.step_colour = steps[axis];
-    }
-    if (shape.size() != 2 && !coloured)
-        fail_external(path,
-                      "an array of two axes, [row][column], or of three with three colours first or last was expected");
-    planes.height = shape[y];
-    planes.width = shape[y + 1];
-    planes.step_y = steps[y];
-    planes.step_x = steps[y + 1];
+    const auto is_colours = [&](std::size_t n) { return n == 3 || (n == 2 && complex); };
+    const auto take_colours = [&] {
+        // As MATLAB has colours, and as Python's programs for light do.
+        if (const Axis colours = take(by_columns, is_colours); colours.extent > 0) {
+            planes.colours = colours.extent;
+            planes.step_colour = colours.step;
+        }
+    };
+    if (axes.size() == 3) take_colours();
+    if (!complex) planes.step_pair = take(true, [](std::size_t n) { return n == 2; }).step;
+    take_colours();
+    if (axes.size() != 2)
+        fail_external(path, fmt::format("an array of rows and columns was expected, which three colours or the two "
+                                        "parts of samples may precede or follow, not one of {}",
+                                        fmt::join(shape, "x")));
+    planes.height = axes[0].extent;
+    planes.width = axes[1].extent;
+    planes.step_y = axes[0].step;
+    planes.step_x = axes[1].step;
     return planes;
 }
 
 namespace {
 
-// The unit at the end of a name, and its length in metres: "wav_um".
-double take_unit(std::string& name) {
-    constexpr std::pair<std::string_view, double> units[] = {{"_nm", 1e-9}, {"_um", 1e-6}, {"_mm", 1e-3}, {"_m", 1.0}};
-    for (const auto& [ending, metres] : units)
-        if (name.ends_with(ending)) {
-            name.resize(name.size() - ending.size());
-            return metres;
-        }
-    return 1;
+enum class Parameter { none, wavelength, pitch, across, down };
+
+// What a name without underscores is of.
+Parameter parameter_named(std::string_view name) {
+    constexpr std::string_view
+        waves[] = {"wavelength", "wavelengths", "wavelen", "lambda", "lambdas", "lambda0",
+                   "wlen",       "wav",         "wl",      "wvl",    "wave",    "lam"},
+        pitches[] = {"pitch",         "pixelpitch",    "pp",          "pixelsize", "pixelspacing", "samplepitch",
+                     "samplespacing", "samplingpitch", "featuresize", "slmpitch",  "dxy"},
+        across[] = {"dx", "deltax", "pitchx", "pixelpitchx", "pixelsizex", "ppx"},
+        down[] = {"dy", "deltay", "pitchy", "pixelpitchy", "pixelsizey", "ppy"};
+    const auto is_of = [&](Words words) { return std::ranges::find(words, name) != words.end(); };
+    return is_of(waves)     ? Parameter::wavelength
+           : is_of(pitches) ? Parameter::pitch
+           : is_of(across)  ? Parameter::across
+           : is_of(down)    ? Parameter::down
+                            : Parameter::none;
 }
 
-bool is_one_of(const std::string& name, std::initializer_list<std::string_view> names) {
-    return std::ranges::find(names, name) != names.end();
+// Also with a unit at the end, whose length in metres is then `unit`: "wav_um".
+Parameter parameter_of(const std::string& full, double& unit) {
+    std::string name = lower_case(full);
+    std::erase(name, '_');
+    unit = 1;
+    if (const Parameter parameter = parameter_named(name); parameter != Parameter::none) return parameter;
+    constexpr std::pair<std::string_view, double> units[] = {{"nm", 1e-9}, {"um", 1e-6}, {"mm", 1e-3}, {"m", 1.0}};
+    for (const auto& [ending, metres] : units)
+        if (name.ends_with(ending)) {
+            unit = metres;
+            return parameter_named(std::string_view(name).substr(0, name.size() - ending.size()));
+        }
+    return Parameter::none;
 }
 
 void complain(ExternalFacts& facts, const std::string& name, double value, const char* what) {
@@ -187,11 +229,12 @@ void complain(ExternalFacts& facts, const std::string& name, double value, const
 }  // namespace
 
 void take_parameter(const std::string& full, std::span<const double> values, ExternalFacts& facts) {
-    std::string name = lower_case(full);
-    const double unit = take_unit(name);
-    std::erase(name, '_');
-    // A length in metres that no unit in the name explains otherwise; others are named, not guessed at.
-    constexpr double shortest_wave = 10e-9, longest_wave = 1e-3, shortest_pitch = 1e-9, longest_pitch = 0.1;
+    double unit = 1;
+    const Parameter parameter = parameter_of(full, unit);
+    if (parameter == Parameter::none || values.empty()) return;
+    // Lengths of light in metres; others are named, not guessed at. Those in millimetres would be thousands of times
+    // too large, and still lengths of something.
+    constexpr double shortest_wave = 10e-9, longest_wave = 20e-6, shortest_pitch = 1e-9, longest_pitch = 0.99e-3;
     const auto take = [&](double low, double high, const char* what) {
         std::vector<double> lengths;
         for (const double value : values) {
@@ -203,17 +246,11 @@ void take_parameter(const std::string& full, std::span<const double> values, Ext
         }
         return lengths;
     };
-    if (values.empty()) return;
-    if (is_one_of(name,
-                  {"wavelength", "wavelengths", "lambda", "lambdas", "wlen", "wav", "wl", "wvl", "wave", "lam"})) {
+    if (parameter == Parameter::wavelength) {
         if (facts.wavelengths.empty()) facts.wavelengths = take(shortest_wave, longest_wave, "wavelength");
         return;
     }
-    const bool both =
-        is_one_of(name, {"pitch", "pixelpitch", "pp", "pixelsize", "samplepitch", "featuresize", "slmpitch"});
-    const bool across = is_one_of(name, {"dx", "pitchx", "pixelpitchx", "ppx"}),
-               down = is_one_of(name, {"dy", "pitchy", "pixelpitchy", "ppy"});
-    if ((!both && !across && !down) || values.size() > 2) return;
+    if (values.size() > 2) return;
     const std::vector<double> pitches = take(shortest_pitch, longest_pitch, "pitch");
     if (pitches.empty()) return;
     if (pitches.size() == 2 && pitches[0] != pitches[1]) {
@@ -221,17 +258,17 @@ void take_parameter(const std::string& full, std::span<const double> values, Ext
             fmt::format("its variable '{}' holds two pitches, and does not say which is that of columns", full);
         return;
     }
-    if (both || across) facts.pitch_x = pitches[0];
-    if (both || down) facts.pitch_y = pitches[0];
+    if (parameter != Parameter::down) facts.pitch_x = pitches[0];
+    if (parameter != Parameter::across) facts.pitch_y = pitches[0];
 }
 
 ExternalFacts facts_of_arrays(const std::filesystem::path& path, const ExternalField& what,
                               const std::vector<NumberArray>& arrays, const std::string& format) {
     ExternalFacts facts;
     const Chosen field = chosen(path, what.variable, arrays);
-    const Planes planes = planes_of(path, field.first->shape, field.first->by_columns);
+    const Planes planes = planes_of(path, *field.first, field);
     facts.format = format;
-    facts.numbers = kind_of(field);
+    facts.numbers = kind_of(field, planes.step_pair > 0);
     facts.width = planes.width;
     facts.height = planes.height;
     facts.colours = planes.colours;
@@ -256,13 +293,15 @@ std::unique_ptr<FieldSource> open_arrays(const std::filesystem::path& path, cons
                                          const std::vector<NumberArray>& arrays) {
     const Chosen parts = chosen(path, what.variable, arrays);
     const NumberArray &first = *parts.first, &second = parts.second ? *parts.second : first;
-    const SampleConverter convert(path, what, parts.content, first.kind(),
-                                  parts.second ? second.kind() : first.imaginary_number);
+    const Planes a = planes_of(path, first, parts), b = planes_of(path, second, parts);
+    ExternalField meant = what;
+    const Content content = a.step_pair > 0 ? take_pairs(path, meant) : parts.content;
+    const SampleConverter convert(path, meant, content, first.kind(),
+                                  parts.second || a.step_pair > 0 ? second.kind() : first.imaginary_number);
     auto field = std::make_unique<Field>(external_grid(path, what, facts_of_arrays(path, what, arrays, "")));
-    const Planes a = planes_of(path, first.shape, first.by_columns),
-                 b = planes_of(path, second.shape, second.by_columns);
     const auto other_at = [&](std::size_t i) {
-        return parts.second ? second.real_at(i) : first.imaginary.empty() ? 0 : first.imaginary_at(i);
+        if (parts.second || a.step_pair > 0) return second.real_at(i + a.step_pair);
+        return first.imaginary.empty() ? 0 : first.imaginary_at(i);
     };
     for (std::size_t y = 0; y < a.height; ++y)
         for (std::size_t x = 0; x < a.width; ++x)

@@ -9,15 +9,17 @@
 
 namespace hogel::io::arrays {
 
-/// Where the samples of one field, or of three colours, are in an array: the steps from a sample to its neighbours.
+/// Where the samples of one field, or of several colours, are in an array: the steps from a sample to its neighbours.
 struct Planes {
     std::size_t height = 0, width = 0, colours = 1;
     std::size_t step_y = 0, step_x = 0, step_colour = 0;
+    std::size_t step_pair = 0;  ///< from the first to the second of two real numbers a sample; 0: there is one
 };
 
-/// The planes of an array of two axes, or of three of which the first or the last has one or three colours. Throws
-/// Error(bad_input) for others.
-Planes planes_of(const std::filesystem::path& path, std::span<const std::size_t> shape, bool by_columns);
+/// The planes of an array of two axes, rows and columns. Axes of one are left out; an axis of three before or after
+/// them, of complex numbers also of two, has the colours; one of two real numbers before or after all of them has the
+/// parts of samples. Throws Error(bad_input) for others.
+Planes planes_of(const std::filesystem::path& path, std::span<const std::size_t> shape, bool by_columns, bool complex);
 
 /// An array of a file of several, in memory.
 struct NumberArray {

@@ -61,11 +61,11 @@ bool take_type(std::string_view descr, NpyHeader& header) {
         bool complex;
     };
     static constexpr Known known[] = {
-        {"c8'", Number::single, true},  {"c16'", Number::real, true},   {"f2'", Number::half, false},
-        {"f4'", Number::single, false}, {"f8'", Number::real, false},   {"u1'", Number::uint8, false},
-        {"i1'", Number::int8, false},   {"u2'", Number::uint16, false}, {"i2'", Number::int16, false},
-        {"u4'", Number::uint32, false}, {"i4'", Number::int32, false},  {"u8'", Number::uint64, false},
-        {"i8'", Number::int64, false},
+        {"c8'", Number::single, true},   {"c16'", Number::real, true},   {"f2'", Number::half, false},
+        {"f4'", Number::single, false},  {"f8'", Number::real, false},   {"u1'", Number::uint8, false},
+        {"b1'", Number::boolean, false}, {"i1'", Number::int8, false},   {"u2'", Number::uint16, false},
+        {"i2'", Number::int16, false},   {"u4'", Number::uint32, false}, {"i4'", Number::int32, false},
+        {"u8'", Number::uint64, false},  {"i8'", Number::int64, false},
     };
     // The first letter is the order of bytes.
     for (const Known& type : known) {
@@ -168,8 +168,12 @@ namespace {
 ExternalFacts facts_of(const NpyHeader& header, const Planes& planes) {
     ExternalFacts facts;
     facts.format = "npy";
-    facts.numbers = fmt::format("{}, {}{}", header.complex ? "complex" : "real",
-                                header.number == Number::half     ? "half floats"
+    facts.numbers = fmt::format("{}, {}{}",
+                                header.complex         ? "complex"
+                                : planes.step_pair > 0 ? "pairs of real numbers"
+                                                       : "real",
+                                header.number == Number::boolean  ? "0 or 1"
+                                : header.number == Number::half   ? "half floats"
                                 : header.number == Number::single ? "single floats"
                                 : header.number == Number::real
                                     ? "double floats"
@@ -186,10 +190,10 @@ class NpyField final : public FieldSource {
     NpyField(const std::filesystem::path& path, const ExternalField& what)
         : file_(path, core::RawFile::Mode::read, path),
           header_(read_npy_header(path, file_)),
-          planes_(planes_of(path, header_.shape, header_.by_columns)),
+          planes_(planes_of(path, header_.shape, header_.by_columns, header_.complex)),
           grid_(external_grid(path, what, facts_of(header_, planes_))),
           colour_(what.colour),
-          convert_(path, what, header_.complex ? Content::complex : Content::real, header_.number, header_.number) {}
+          convert_(converter(path, what)) {}
 
     const FieldGrid& grid() const override { return grid_; }
 
@@ -202,23 +206,40 @@ class NpyField final : public FieldSource {
         const std::size_t lines = columns ? region.width : region.height,
                           count = columns ? region.height : region.width,
                           step = columns ? planes_.step_y : planes_.step_x;
-        std::vector<unsigned char> line(((count - 1) * step + 1) * bytes);
+        // The second of two real numbers follows in a line of its own, which may be the same.
+        std::vector<unsigned char> line(((count - 1) * step + 1) * bytes),
+            second(planes_.step_pair > 0 ? line.size() : 0);
         for (std::size_t i = 0; i < lines; ++i) {
             const std::size_t x = region.x0 + (columns ? i : 0), y = region.y0 + (columns ? 0 : i);
             const std::size_t first = y * planes_.step_y + x * planes_.step_x + colour_ * planes_.step_colour;
-            file_.read(header_.begin + first * bytes, line.data(), line.size());
-            if (header_.big_endian)
-                for (std::size_t at = 0; at < line.size(); at += number_bytes)
-                    std::reverse(&line[at], &line[at] + number_bytes);
+            read_numbers(first, line);
+            if (!second.empty()) read_numbers(first + planes_.step_pair, second);
             for (std::size_t k = 0; k < count; ++k) {
-                const unsigned char* at = &line[k * step * bytes];
-                (columns ? out(k, i) : out(i, k)) = convert_(
-                    number_at(header_.number, at), header_.complex ? number_at(header_.number, at + number_bytes) : 0);
+                const std::size_t at = k * step * bytes;
+                const double other = !second.empty()   ? number_at(header_.number, &second[at])
+                                     : header_.complex ? number_at(header_.number, &line[at + number_bytes])
+                                                       : 0;
+                (columns ? out(k, i) : out(i, k)) = convert_(number_at(header_.number, &line[at]), other);
             }
         }
     }
 
   private:
+    SampleConverter converter(const std::filesystem::path& path, ExternalField what) const {
+        const Content content = header_.complex         ? Content::complex
+                                : planes_.step_pair > 0 ? take_pairs(path, what)
+                                                        : Content::real;
+        return {path, what, content, header_.number, header_.number};
+    }
+
+    // In this machine's order of bytes.
+    void read_numbers(std::size_t first, std::vector<unsigned char>& bytes) const {
+        file_.read(header_.begin + first * header_.bytes_of_sample(), bytes.data(), bytes.size());
+        const std::size_t number = bytes_of(header_.number);
+        if (header_.big_endian)
+            for (std::size_t at = 0; at < bytes.size(); at += number) std::reverse(&bytes[at], &bytes[at] + number);
+    }
+
     core::RawFile file_;
     NpyHeader header_;
     Planes planes_;
@@ -235,7 +256,7 @@ bool is_npy(std::span<const unsigned char> start) {
 
 ExternalFacts npy_facts(const std::filesystem::path& path) {
     const NpyHeader header = read_npy_header(path, core::RawFile(path, core::RawFile::Mode::read, path));
-    return facts_of(header, planes_of(path, header.shape, header.by_columns));
+    return facts_of(header, planes_of(path, header.shape, header.by_columns, header.complex));
 }
 
 std::unique_ptr<FieldSource> open_npy(const std::filesystem::path& path, const ExternalField& what) {

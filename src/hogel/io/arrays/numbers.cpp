@@ -40,6 +40,7 @@ std::vector<unsigned char> all_bytes(const std::filesystem::path& path) {
 
 std::size_t bytes_of(Number number) {
     switch (number) {
+        case Number::boolean:
         case Number::int8:
         case Number::uint8:
             return 1;
@@ -63,6 +64,8 @@ bool is_whole(Number number) { return number != Number::half && number != Number
 
 double number_at(Number number, const unsigned char* at) {
     switch (number) {
+        case Number::boolean:
+            return *at != 0 ? 1 : 0;
         case Number::int8:
             return value_at<std::int8_t>(at);
         case Number::uint8:
@@ -104,23 +107,36 @@ SampleConverter::SampleConverter(const std::filesystem::path& path, const Extern
         throw Error(ErrorCode::usage,
                     fmt::format("'{}' holds {}, not {}", path.string(),
                                 content == Content::complex ? "complex numbers" : "amplitudes and phases",
-                                what.values == Values::phase ? "phases" : "amplitudes"));
+                                what.values == Values::phase       ? "phases"
+                                : what.values == Values::amplitude ? "amplitudes"
+                                                                   : "pairs of real numbers"));
     if (content == Content::real && what.values == Values::complex)
         throw Error(ErrorCode::usage,
                     fmt::format("'{}' holds real numbers: are they amplitudes or phases?", path.string()));
+    if (content == Content::real && (what.values == Values::real_imaginary || what.values == Values::amplitude_phase))
+        throw Error(ErrorCode::usage,
+                    fmt::format("'{}' holds one real number a sample, not pairs of them", path.string()));
     if (!phases_ && code_)
         throw Error(ErrorCode::usage,
                     fmt::format("'{}' is not read as phases, so no phase code applies to it", path.string()));
     const Number number = content == Content::real ? first : second;
     if (!phases_ || !is_whole(number)) return;
-    if (bytes_of(number) > 2) fail_external(path, "phases as whole numbers of more than 16 bits have no known unit");
+    if (number != Number::boolean && number != Number::uint8 && number != Number::uint16)
+        fail_external(path,
+                      "whole numbers with a sign or of more than 16 bits do not say which one is a whole turn of "
+                      "phase; uint8, uint16 and floats from 0 to 1 do");
     if (!code_)
         throw Error(ErrorCode::usage,
                     fmt::format("'{}' holds phases as whole numbers: in which phase code are they?", path.string()));
-    largest_ = std::exp2(8.0 * static_cast<double>(bytes_of(number))) - 1;
+    largest_ = number == Number::boolean ? 1 : number == Number::uint8 ? 255 : 65535;
 }
 
 double SampleConverter::phase_of(double number) const {
+    // A picture's levels that became floats have lost how many there were.
+    if (constexpr double rounding = 1e-3; code_ && largest_ == 0 && !(number >= -rounding && number <= 1 + rounding))
+        fail_external(path_, fmt::format("it holds the phase {:.9g}, but in a phase code floats count from 0 to 1; "
+                                         "whole numbers are read as uint8 and uint16",
+                                         number));
     return std::fmod(code_ ? code_->phase(number, largest_) : number, 2 * std::numbers::pi);
 }
 
@@ -133,6 +149,17 @@ std::complex<float> SampleConverter::operator()(double first, double second) con
     if (!std::isfinite(sample.real()) || !std::isfinite(sample.imag()))
         fail_external(path_, fmt::format("it holds the value {} + {}i, which no field has", first, second));
     return sample;
+}
+
+Content take_pairs(const std::filesystem::path& path, ExternalField& what) {
+    using Values = ExternalField::Values;
+    if (what.values != Values::real_imaginary && what.values != Values::amplitude_phase)
+        throw Error(ErrorCode::usage, fmt::format("'{}' holds pairs of real numbers: are they real and imaginary "
+                                                  "parts, or amplitudes and phases?",
+                                                  path.string()));
+    const bool complex = what.values == Values::real_imaginary;
+    what.values = Values::complex;
+    return complex ? Content::complex : Content::amplitude_phase;
 }
 
 FieldGrid external_grid(const std::filesystem::path& path, const ExternalField& what, const ExternalFacts& facts) {

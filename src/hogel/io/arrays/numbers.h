@@ -10,8 +10,8 @@
 
 namespace hogel::io::arrays {
 
-/// Types of numbers in a file, little-endian. `real` is a double.
-enum class Number { int8, uint8, int16, uint16, int32, uint32, int64, uint64, half, single, real };
+/// Types of numbers in a file, little-endian. `real` is a double, `boolean` a byte that is 0 or not.
+enum class Number { boolean, int8, uint8, int16, uint16, int32, uint32, int64, uint64, half, single, real };
 std::size_t bytes_of(Number number);
 double number_at(Number number, const unsigned char* at);
 bool is_whole(Number number);
@@ -24,7 +24,7 @@ class SampleConverter {
   public:
     /// @param second  the type of imaginary parts or phases where a sample has two numbers
     /// Throws Error(usage) if the description does not suit the content: real numbers without values, two numbers with
-    /// them, phases as whole numbers without a phase code.
+    /// them, phases as whole numbers without a phase code. Throws Error(bad_input) for whole numbers that no code has.
     SampleConverter(const std::filesystem::path& path, const ExternalField& what, Content content, Number first,
                     Number second);
 
@@ -48,6 +48,10 @@ class SampleConverter {
     std::optional<PhaseCode> code_;
     double largest_ = 0;  // of a phase's numbers; 0 where they are not whole
 };
+
+/// What a description says that pairs of real numbers are: Content::complex or Content::amplitude_phase; then it says
+/// no more of their values. Throws Error(usage) if it says something else.
+Content take_pairs(const std::filesystem::path& path, ExternalField& what);
 
 // Each opens a file of one format, and knows one by its first bytes. They throw Error(bad_input) for damage, and
 // Error(usage) where `what` does not suit the numbers.

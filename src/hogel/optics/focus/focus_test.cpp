@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+// Objects of many kinds at known depths, whose holograms are computed here by plane waves in double precision.
+#include "hogel/focus.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <random>
+
+#include "hogel/error.h"
+#include "hogel/math/fft.h"
+#include "hogel/reconstruct.h"
+#include "hogel/units.h"
+
+namespace hogel {
+namespace {
+
+using namespace literals;
+using Complex = std::complex<float>;
+constexpr double pi = std::numbers::pi;
+
+// Goes through the frequencies of a field, cycles a sample.
+void filter(Field& field, const std::function<std::complex<double>(double fx, double fy)>& factor) {
+    const std::size_t width = field.grid().plane.width, height = field.grid().plane.height;
+    const math::Fft2 fft(height, width);
+    fft.forward(field.samples);
+    const auto frequency = [](std::size_t i, std::size_t n) {
+        return (double(i) - (2 * i < n ? 0 : double(n))) / double(n);
+    };
+    for (std::size_t y = 0; y < height; ++y)
+        for (std::size_t x = 0; x < width; ++x)
+            field.samples(y, x) *=
+                Complex(factor(frequency(x, width), frequency(y, height))) / static_cast<float>(width * height);
+    fft.backward(field.samples);
+}
+
+enum class Surface { smooth, rough };
+
+struct Case {
+    FieldGrid grid;
+    double depths = 0;  // of the object, in depths of focus of the samples
+    Surface surface = Surface::smooth;
+    double band = 1;  // the part of the samples' frequencies that the object's light has
+    unsigned seed = 1;
+
+    double depth_of_focus() const { return 2 * grid.plane.pitch_x * grid.plane.pitch_x / grid.wavelength; }
+    double depth() const { return depths * depth_of_focus(); }
+};
+
+// Discs of unlike brightness in the middle of the hologram, with a phase that is even or random.
+Field object_of(const Case& of) {
+    Field field(of.grid);
+    const Grid& plane = of.grid.plane;
+    std::mt19937 random(of.seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    const double side = 0.6 * double(std::min(plane.width, plane.height));
+    std::vector<double> light(plane.samples(), 0.0);
+    for (int disc = 0; disc < 14; ++disc) {
+        const double x0 = double(plane.width) / 2 + side * (unit(random) - 0.5),
+                     y0 = double(plane.height) / 2 + side * (unit(random) - 0.5), radius = 3 + 9 * unit(random),
+                     value = 0.3 + 0.7 * unit(random);
+        for (std::size_t y = 0; y < plane.height; ++y)
+            for (std::size_t x = 0; x < plane.width; ++x)
+                if (std::hypot(double(x) - x0, double(y) - y0) < radius) light[y * plane.width + x] = value;
+    }
+    for (std::size_t i = 0; i < light.size(); ++i)
+        field.samples.data()[i] =
+            Complex(std::polar(std::sqrt(light[i]), of.surface == Surface::rough ? 2 * pi * unit(random) : 0.0));
+    filter(field,
+           [&](double fx, double fy) { return std::max(std::abs(fx), std::abs(fy)) <= 0.5 * of.band ? 1.0 : 0.0; });
+    return field;
+}
+
+// Light of an object behind a hologram goes forward to it.
+Field hologram_of(const Case& of) {
+    Field field = object_of(of);
+    filter(field, [&](double fx, double fy) {
+        const double square = (fx * fx + fy * fy) / std::pow(of.grid.plane.pitch_x, 2),
+                     inverse = 1 / of.grid.wavelength;
+        return std::polar(1.0, 2 * pi * of.depth() * (std::sqrt(std::max(0.0, inverse * inverse - square)) - inverse));
+    });
+    return field;
+}
+
+FieldGrid grid_of(std::size_t width, std::size_t height, double pitch, double wavelength) {
+    return {{width, height, pitch, pitch, 0, 0}, wavelength};
+}
+
+FocusSearch search_near(const Fields& fields, const Case& of, double around = 60) {
+    FocusOptions options;
+    options.from = of.depth() - around * of.depth_of_focus() * 1.013;
+    options.to = of.depth() + around * of.depth_of_focus();
+    return find_focus(fields, options);
+}
+
+// The error of the clearest plane, in depths of focus of the object's light.
+double error_of(const FocusSearch& search, const Case& of) {
+    if (search.planes.empty()) return std::numeric_limits<double>::infinity();
+    return (search.planes.front().depth - of.depth()) / of.depth_of_focus() * of.band * of.band;
+}
+
+// Which case of every kind was taken is not what the measures were chosen by.
+TEST(Planes, of_smooth_and_rough_objects_are_found_within_a_depth_of_focus) {
+    const FieldGrid grids[] = {grid_of(180, 224, 5_um, 450_nm), grid_of(240, 192, 10.8_um, 1064_nm),
+                               grid_of(144, 150, 2_um, 633_nm)};
+    double depths = 21.7;
+    unsigned seed = 7;
+    for (const FieldGrid& grid : grids)
+        for (const Surface surface : {Surface::smooth, Surface::rough})
+            for (const double band : {1.0, 0.6, 0.35}) {
+                depths = depths > 0 ? -depths - 1.3 : -depths;
+                const Case of{grid, depths / (band * band), surface, band, seed++};
+                const FocusSearch search =
+                    search_near({std::make_shared<Field>(hologram_of(of))}, of, 14 / (band * band));
+                EXPECT_LT(std::abs(error_of(search, of)), 1)
+                    << (surface == Surface::smooth ? "smooth" : "rough") << " at " << of.depth() << ", band " << band
+                    << ", seed " << of.seed;
+                // Nine tenths of the amplitudes are within less than the band, and no light is outside of it.
+                EXPECT_GT(search.light_depth_of_focus * band * band, search.depth_of_focus);
+                EXPECT_LT(search.light_depth_of_focus * band * band, 2.5 * search.depth_of_focus);
+            }
+}
+
+// Without a range as far as the samples and the size of a field resolve alike, through depth 0.
+TEST(Planes, of_unknown_depth_are_found) {
+    for (const Surface surface : {Surface::smooth, Surface::rough})
+        for (const double depths : {23.6, -31.1}) {
+            const Case of{grid_of(160, 160, 6_um, 520_nm), depths, surface, 0.8, 3};
+            EXPECT_LT(std::abs(error_of(find_focus(hologram_of(of)), of)), 1) << depths;
+        }
+}
+
+// Of an off-axis recording the order is cut out; its light has few frequencies.
+TEST(Planes, of_off_axis_recordings_are_found) {
+    const double frequency = 0.31;
+    for (const Surface surface : {Surface::smooth, Surface::rough})
+        for (const double depths : {81.0, -104.0}) {
+            const Case of{grid_of(360, 320, 4_um, 633_nm), depths, surface, 0.3, 5};
+            Field field = hologram_of(of);
+            for (std::size_t i = 0; i < field.samples.size(); ++i) {
+                const double x = double(i % field.grid().plane.width);
+                field.samples.data()[i] = Complex(std::norm(std::complex<double>(field.samples.data()[i]) * 0.2 +
+                                                            std::polar(1.0, -2 * pi * frequency * x)));
+            }
+            OrderSelection selection;
+            selection.without_mean = true;
+            selection.which = OrderSelection::Which::right;
+            const SelectedOrder order = select_order(field, selection);
+            EXPECT_LT(std::abs(error_of(find_focus(order.field, {.from = -10_mm, .to = 10_mm}), of)), 1) << depths;
+        }
+}
+
+// Of an in-line recording the twin is as far on the other side.
+TEST(Planes, of_in_line_recordings_are_found_on_either_side) {
+    const Case of{grid_of(224, 224, 3.45_um, 532_nm), 33.3, Surface::smooth, 1, 9};
+    Field field = hologram_of(of);
+    double mean = 0;
+    for (Complex& sample : field.samples.elements()) {
+        sample = Complex(std::norm(1.0f - 0.4f * sample));
+        mean += double(sample.real()) / double(field.samples.size());
+    }
+    for (Complex& sample : field.samples.elements()) sample -= Complex(float(mean));
+    const FocusSearch search = find_focus(field);
+    ASSERT_FALSE(search.planes.empty());
+    EXPECT_NEAR(std::abs(search.planes.front().depth), of.depth(), of.depth_of_focus());
+}
+
+// The colours of one object, each on samples of its own, say together where it is; one that shows nothing does no harm.
+TEST(Planes, of_several_colours_are_those_of_one_object) {
+    for (const Surface surface : {Surface::smooth, Surface::rough}) {
+        const double depth = 2.1_mm;
+        Fields fields;
+        Case middle;
+        for (const auto& [wavelength, pitch] :
+             {std::pair(638_nm, 5_um), std::pair(520_nm, 4.5_um), std::pair(450_nm, 4_um)}) {
+            middle = {grid_of(160, 160, pitch, wavelength), depth * wavelength / (2 * pitch * pitch), surface, 1, 4};
+            fields.push_back(std::make_shared<Field>(hologram_of(middle)));
+        }
+        FocusSearch search = search_near(fields, middle, 20);
+        EXPECT_LT(std::abs(error_of(search, middle)), 1);
+        EXPECT_NEAR(search.depth_of_focus, 2 * 4e-6 * 4e-6 / 450e-9, 1e-9);
+        fields.push_back(std::make_shared<Field>(middle.grid));
+        search = search_near(fields, middle, 20);
+        EXPECT_LT(std::abs(error_of(search, middle)), 1);
+    }
+    EXPECT_THROW(find_focus(Fields{}), Error);
+}
+
+// What is wider than max_side is looked at in parts, all of the region and nothing else.
+TEST(Planes, are_found_in_parts_of_a_field) {
+    const Case of{grid_of(300, 260, 4_um, 532_nm), 9.4, Surface::smooth, 1, 2};
+    const Field field = hologram_of(of);
+    FocusOptions options;
+    options.from = -2 * of.depth();
+    options.to = 3 * of.depth();
+    options.max_side = 128;
+    EXPECT_EQ(focus_region(field.grid(), options), (Region{86, 66, 128, 128}));
+    options.width = 999;
+    options.height = 260;
+    EXPECT_EQ(focus_region(field.grid(), options), (Region{0, 0, 300, 260}));
+    const FocusSearch parts = find_focus(field, options);
+    EXPECT_LT(std::abs(error_of(parts, of)), 1);
+    // Squares of one sample of a plane wave's worth: the contrast at depth 0 is that of the field itself.
+    options.from = 0;
+    options.to = 1_um;
+    options.planes = 8;
+    double light = 0, squares = 0;
+    for (const Complex& sample : field.samples.elements()) {
+        light += double(std::norm(sample));
+        squares += std::pow(double(std::norm(sample)), 2);
+    }
+    EXPECT_NEAR(find_focus(field, options).contrasts.front()[0],
+                squares * double(field.samples.size()) / (light * light) - 1, 1e-4);
+}
+
+}  // namespace
+}  // namespace hogel
