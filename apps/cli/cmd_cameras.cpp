@@ -32,13 +32,15 @@ int cameras(const Options& options, const Session& session) {
     grid.directions_v = options.directions.rows;
     const Perspective range = field_of_view(options.field_of_view.across, options.field_of_view.down);
     grid.view = FocalPlane{range, -options.distance};
-    with_options({{"", "--hogels, --directions, --size"}}, [&] { write_cameras(grid, options.output); });
+    const std::vector<std::string> notes =
+        with_options({{"", "--hogels, --directions, --size"}}, [&] { return write_cameras(grid, options.output); });
     const double spacing = grid.step_u() * options.distance;
     session.say(
         fmt::format("{}: {}x{} cameras {} apart at {}, with axes parallel and pictures of {}x{} pixels that "
                     "agree on the hologram; render them beside it as 000_000.png and so on, and import the folder",
                     options.output, grid.directions_u, grid.directions_v, format_length(spacing),
                     format_length(options.distance), grid.hogels_s, grid.hogels_t));
+    for (const std::string& note : notes) session.say(fmt::format("{}: {}", options.output, note));
     session.result({{"file", options.output},
                     {"bytes", std::filesystem::file_size(options.output)},
                     {"views_across", grid.directions_u},

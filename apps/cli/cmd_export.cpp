@@ -38,8 +38,8 @@ int export_walk(Options options, const LightField& light_field, const Session& s
     const ExportedViews exported = with_options({{"exposure", "--exposure"}}, [&] {
         return export_views(light_field, folder.path(), options.views, stage.progress());
     });
-    const std::uintmax_t bytes = make_film(options.output, folder, fmt::format("{:03}_%03d.png", exported.rows / 2),
-                                           options.frame_rate, record.metadata());
+    const std::uintmax_t bytes = write_film(options.output, folder, fmt::format("{:03}_%03d.png", exported.rows / 2),
+                                            options.frame_rate, record.metadata(), stage.progress());
     session.say(fmt::format("{}: {} views{}", options.output, exported.columns,
                             exported.rows > 1 ? fmt::format(" of the middle one of {} rows", exported.rows) : ""));
     session.result({{"file", options.output},
@@ -69,8 +69,7 @@ int export_light_field(Options options, const Session& session) {
     options.views.bits = static_cast<unsigned>(std::min<std::size_t>(options.bits, 99));
     if (layout.name == "quilt" && options.views.format.empty() && output.has_extension())
         options.views.format = output.extension().string().substr(1);
-    for (std::size_t i = 0; i < transfer_names().size(); ++i)
-        if (options.transfer == transfer_names()[i]) options.views.transfer = static_cast<Transfer>(i);
+    options.views.transfer = transfer_named(options.transfer);
     RunRecord record(session);
     record.acted({"input", "layout", "exposure"});
     options.views.metadata = record.metadata();
@@ -87,6 +86,7 @@ int export_light_field(Options options, const Session& session) {
     session.say(fmt::format("{}: {}x{} views, {}{}", options.output, exported.columns, exported.rows,
                             exported.files.front().filename().string(),
                             exported.files.size() > 1 ? " to " + exported.files.back().filename().string() : ""));
+    for (const std::string& note : exported.notes) session.say(fmt::format("{}: {}", options.output, note));
     std::uintmax_t bytes = 0;
     for (const auto& file : exported.files) bytes += std::filesystem::file_size(file);
     session.result({{layout.is_folder ? "folder" : "file", options.output},

@@ -4,29 +4,25 @@
 
 #include "commands.h"
 #include "concerns.h"
-#include "hogel/compress.h"
 #include "hogel/pipeline.h"
 #include "hogel/units.h"
 #include "inputs.h"
-#include "movie.h"
 #include "outputs.h"
 
 namespace hogel::cli {
 namespace {
 
 struct Options {
-    std::string source, output;
+    std::string source;
+    LightFieldOutput output;
     ViewOptions views;
     std::string projection, column, transfer, mirror = "none";
     double size = 0, distance = 0, spacing = 0, field_of_view = 0, disparity = 0;
     bool distance_given = false, spacing_given = false, field_given = false;
     Counts counts, middle;
-    bool single = false;
     std::size_t densify = 1;
-    bool estimate_disparity = false, depth = false;
-    std::optional<double> sqnr;
-
-    bool compressed() const { return std::filesystem::path(output).extension() == ".hgl"; }
+    double depth_scale = 0;
+    bool estimate_disparity = false;
 };
 
 ViewOptions view_options(const Options& options) {
@@ -37,8 +33,7 @@ ViewOptions view_options(const Options& options) {
     if (options.field_given) views.field_of_view = options.field_of_view;
     if (!options.projection.empty()) views.orthographic = options.projection == "orthographic";
     if (!options.column.empty()) views.column_first = options.column == "first";
-    for (std::size_t i = 0; i < transfer_names().size(); ++i)
-        if (options.transfer == transfer_names()[i]) views.transfer = static_cast<Transfer>(i);
+    views.transfer = transfer_named(options.transfer);
     views.columns = options.counts.columns;
     views.rows = options.counts.rows;
     views.mirror_columns = options.mirror == "columns" || options.mirror == "both";
@@ -46,7 +41,8 @@ ViewOptions view_options(const Options& options) {
     views.disparity = options.disparity;
     views.densify = options.densify;
     views.estimate_disparity = options.estimate_disparity;
-    views.with_depth = options.depth;
+    views.with_depth = options.output.with_depth;
+    views.depth_scale = options.depth_scale;
     views.middle_columns = options.middle.columns;
     views.middle_rows = options.middle.rows;
     return views;
@@ -61,11 +57,13 @@ void record_views(RunRecord& record, const Options& options, const ImportedViews
     if (options.spacing_given) record.acted({"spacing"});
     if (options.field_given) record.acted({"fov"});
     if (!options.projection.empty()) record.acted({"projection"});
-    if (!options.column.empty() && views.layout == "rows-columns") record.acted({"column"});
+    if (!options.column.empty() && (views.layout == "rows-columns" || views.layout == "mat")) record.acted({"column"});
     if (options.counts.columns > 0) record.acted({"views"});
     if (options.disparity != 0) record.acted({"disparity"});
     if (options.densify > 1) record.acted({"densify"});
-    if (options.depth) record.acted({"depth"});
+    if (options.output.with_depth) record.acted({"depth"});
+    if (options.depth_scale > 0 && (options.densify > 1 || options.output.with_depth) && !views.estimated)
+        record.acted({"depth-scale"});
     if (options.middle.columns > 0) record.acted({"middle"});
     if (views.estimated) record.acted({"estimate-disparity"});
 }
@@ -91,58 +89,27 @@ Result result_of(const ImportedViews& views) {
             {"disparity_estimated", views.estimated}};
 }
 
-int write_compressed(const Options& options, const ImportedViews& views, RunRecord& record, const Session& session) {
-    const LightField light_field = prepare_for_reading(session, views.light_field, 2, options.depth);
-    CompressionOptions compression;
-    const double sqnr = options.sqnr.value_or(defaults.sqnr);
-    compression.target = Sqnr{sqnr};
-    record.acted("sqnr", fmt::format("{}", sqnr));
-    compression.with_depth = options.depth;
-    compression.metadata = record.metadata();
-    Stage stage(session, "compressing");
-    const CompressionResult result = with_options(
-        {{"", "--sqnr"}}, [&] { return compress(light_field, options.output, compression, stage.progress()); });
-    report_compressed(session, options.output, result);
-    return 0;
-}
-
 int write_hdf5(const Options& options, const ImportedViews& views, const LightFieldFileOptions& file,
                const Session& session) {
     LightFieldFileOptions with_metadata = file;
     with_metadata.metadata = with_history(file.metadata, to_metadata(views.light_field.provenance()));
     const LightFieldGrid& grid = views.light_field.grid();
     Stage stage(session, "importing");
-    const auto sinks = create_light_field(options.output, {&grid, 1}, with_metadata);
+    const auto sinks = create_light_field(options.output.file, {&grid, 1}, with_metadata);
     write_views(views.light_field, *sinks.front(), stage.progress());
-    session.say(fmt::format("{}: {}x{} hogels of {}x{} directions, {}", options.output, grid.hogels_s, grid.hogels_t,
-                            grid.directions_u, grid.directions_v,
-                            format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
-    report_samples(session, options.output, result_of(views));
+    session.say(fmt::format("{}: {}x{} hogels of {}x{} directions, {}", options.output.file, grid.hogels_s,
+                            grid.hogels_t, grid.directions_u, grid.directions_v,
+                            format_bytes(static_cast<double>(std::filesystem::file_size(options.output.file)))));
+    report_samples(session, options.output.file, result_of(views));
     return 0;
 }
 
 int import(const Options& options, const Session& session) {
-    if (options.compressed() && options.single)
-        throw Error(ErrorCode::usage,
-                    fmt::format("--float: belongs to HDF5 files; {} is a compressed one", options.output));
-    if (options.sqnr && !options.compressed())
-        throw Error(
-            ErrorCode::usage,
-            fmt::format("--sqnr: belongs to compressed files, whose names end in .hgl, not to {}", options.output));
-    require_writable(options.output, {&options.source, 1});
-    if (!options.compressed()) require_hdf5(options.output);
+    options.output.require(options.source);
     ViewOptions view = view_options(options);
-    std::unique_ptr<const FrameFolder> frames;
-    std::filesystem::path source = options.source;
-    if (is_film(source)) {
-        frames = std::make_unique<const FrameFolder>(options.output);
-        const std::size_t count = extract_frames(source, *frames);
-        source = frames->path();
-        if (view.columns == 0) view.columns = count, view.rows = 1;
-        if (!view.orthographic) view.orthographic = false;
-    }
-    view.spool = std::filesystem::absolute(options.output).parent_path();
+    view.spool = std::filesystem::absolute(options.output.file).parent_path();
     const ImportedViews views = with_options({{"can be estimated", "--estimate-disparity"},
+                                              {"holds whole numbers", "--depth-scale"},
                                               {"mirrored ones", "--mirror"},
                                               {"layout", "--layout"},
                                               {"disparity", "--disparity"},
@@ -157,7 +124,7 @@ int import(const Options& options, const Session& session) {
                                               {"width", "--size"}},
                                              [&] {
                                                  Stage stage(session, "looking at the views");
-                                                 return import_views(source, view, stage.progress());
+                                                 return import_views(options.source, view, stage.progress());
                                              });
     say_understood(session, options.source, views);
     RunRecord record(session);
@@ -165,11 +132,15 @@ int import(const Options& options, const Session& session) {
     LightFieldFileOptions file;
     // Half floats hold codes of up to 11 bits so that they come back as they were.
     constexpr unsigned max_bits_of_half = 11;
-    file.type = options.single || views.bits > max_bits_of_half ? SampleType::single : SampleType::half;
-    state_plan(session, plan_import(views, view, file), "importing", options.compressed() ? "" : options.output);
-    if (options.compressed()) return write_compressed(options, views, record, session);
+    file.type = options.output.single || views.bits > max_bits_of_half ? SampleType::single : SampleType::half;
+    state_plan(session, plan_import(views, view, file), "importing",
+               options.output.compressed() ? "" : options.output.file);
+    if (options.output.compressed()) {
+        write_compressed(options.output, views.light_field, record, session);
+        return 0;
+    }
     record.acted("float", file.type == SampleType::single ? "yes" : "no");
-    file.with_depth = options.depth;
+    file.with_depth = options.output.with_depth;
     file.metadata = record.metadata();
     return write_hdf5(options, views, file, session);
 }
@@ -202,15 +173,21 @@ void add_geometry_options(Command& command, Options& options) {
         .no_default();
 }
 
-void add_order_options(Command& command, Options& options) {
+void add_view_options(Command& command, Options& options) {
+    std::string layouts;
+    for (const ViewLayout& layout : view_layouts().rows()) layouts += fmt::format("\n{}: {}", layout.name, layout.text);
+    command
+        .text("--layout", options.views.layout, "NAME", "How they are stored (default: what is recognised)" + layouts)
+        .no_default();
     command
         .counts("--views", options.counts,
-                "Columns and rows of views, where one number counts them all (default: a square)")
+                "Columns and rows of views, where one number counts them all (default: a square; of a film one row)")
         .no_default();
     command.counts("--middle", options.middle, "Take these columns and rows of views in the middle alone").no_default();
     command
         .choice("--column", options.column, {"first", "second"}, "first|second",
-                "Which of the two numbers in the names of files is the column (default: what the parallax says)")
+                "Which of the two numbers in the names of files, or axes of views, is the column (default: what the "
+                "parallax says)")
         .no_default();
     command.choice("--mirror", options.mirror, {"none", "columns", "rows", "both"}, "WHICH",
                    "none, columns, rows or both: run the other way than the layout says");
@@ -218,6 +195,26 @@ void add_order_options(Command& command, Options& options) {
         .choice("--projection", options.projection, {"cameras", "orthographic"}, "NAME",
                 "cameras, or orthographic views along one direction each (default: as the layout says)")
         .no_default();
+    command
+        .choice("--transfer", options.transfer, transfer_names(), "NAME",
+                fmt::format("{}: the curve of the stored numbers (default: srgb, or linear for floating-point ones)",
+                            fmt::join(transfer_names(), ", ")))
+        .no_default();
+}
+
+void add_disparity_options(Command& command, Options& options) {
+    command
+        .count("--densify", options.densify,
+               "Interpolate N - 1 views between neighbours, by the disparity or depth that comes with the set")
+        .no_default();
+    command
+        .number("--depth-scale", options.depth_scale, "N",
+                "How many of the whole numbers in PNG maps are a metre of depth, or a pixel of disparity: 1000 for "
+                "millimetres; 0 is not known")
+        .positive()
+        .no_default();
+    command.flag("--estimate-disparity", options.estimate_disparity,
+                 "Where no map comes with the set, estimate the disparity from the views (experimental)");
 }
 
 }  // namespace
@@ -229,37 +226,16 @@ void add_import(Command& command, Session& session) {
         "  hogel import chess -o chess.hgl --size 60mm --fov 12deg\n"
         "  hogel import head_qs8x6a0.75.png -o head.h5 --fov 40deg\n"
         "  hogel import sockets -o sockets.h5 --projection orthographic --views 20x20");
-    command.positional(
-        "source", options->source, "SOURCE",
-        "Folder or file of views; .mp4, .gif or .apng: a film of a row of cameras from the left, by ffmpeg");
-    command.text("-o,--output", options->output, "FILE", "Light field to write: HDF5, or compressed if it ends in .hgl")
-        .required();
-    std::string layouts;
-    for (const ViewLayout& layout : view_layouts().rows()) layouts += fmt::format("\n{}: {}", layout.name, layout.text);
-    command
-        .text("--layout", options->views.layout, "NAME",
-              "How the views are stored (default: what is recognised)" + layouts)
-        .no_default();
-    add_geometry_options(command, *options);
-    command
-        .choice("--transfer", options->transfer, transfer_names(), "NAME",
-                fmt::format("{}: the curve of the stored numbers (default: srgb, or linear for floating-point ones)",
-                            fmt::join(transfer_names(), ", ")))
-        .no_default();
-    add_order_options(command, *options);
-    command
-        .count("--densify", options->densify,
-               "Interpolate N - 1 views between neighbours, by the disparity or depth that comes with the set")
-        .no_default();
-    command.flag("--estimate-disparity", options->estimate_disparity,
-                 "Where none comes with the set, estimate it from the views (experimental)");
-    command.flag("--depth", options->depth, "Store the depth of rays, by the same disparity");
-    command.flag("--float", options->single,
-                 "Store 32-bit floats rather than 16-bit ones, as for pictures of more than 11 bits");
-    command.number(
-        "--sqnr", options->sqnr, "DB",
-        fmt::format("Signal to error of a compressed light field, within 0.1 dB above (default: {})", defaults.sqnr));
+    command.positional("source", options->source, "SOURCE", "Folder of pictures, or a file: a quilt, an array, a film");
+    add_light_field_output(command, options->output, "Store the depth of rays, by the disparity or depth of the set",
+                           "Store 32-bit floats rather than 16-bit ones, as for pictures of more than 11 bits");
     add_json_flag(command, session);
+    command.group("Views");
+    add_view_options(command, *options);
+    command.group("Geometry");
+    add_geometry_options(command, *options);
+    command.group("Depth, and views between views");
+    add_disparity_options(command, *options);
     command.work([options, &session] { return import(*options, session); });
 }
 

@@ -81,7 +81,30 @@ FileSummary summarize_field(const std::string& path, const FieldOptions& options
     return summary;
 }
 
+// A set of views as `hogel import` without options understands it.
+FileSummary summarize_views(const std::string& path, const Progress& progress) {
+    const ImportedViews views = import_views(path, {}, progress);
+    const LightFieldGrid& grid = views.light_field.grid();
+    FileSummary summary;
+    summary.kind = FileKind::light_field;
+    summary.text = {{"kind", "set of views"},
+                    {"layout", views.layout},
+                    {"transfer", transfer_names()[static_cast<std::size_t>(views.transfer)]},
+                    {"understood", views.summary}};
+    if (!views.notes.empty()) summary.text.emplace_back("notes", fmt::format("{}", fmt::join(views.notes, "; ")));
+    if (!views.assumed.empty()) summary.text.emplace_back("assumed", fmt::format("{}", fmt::join(views.assumed, ", ")));
+    summary.numbers = {{"views_across", static_cast<double>(views.columns)},
+                       {"views_down", static_cast<double>(views.rows)},
+                       {"width", static_cast<double>(grid.hogels_s)},
+                       {"height", static_cast<double>(grid.hogels_t)},
+                       {"channels", static_cast<double>(grid.channels)},
+                       {"bits", static_cast<double>(views.bits)},
+                       {"parallax", views.parallax}};
+    return summary;
+}
+
 FileSummary summarize_any(const std::string& path, const Progress& progress) {
+    if (is_view_set(path)) return summarize_views(path, progress);
     switch (file_kind(path)) {
         case FileKind::light_field:
         case FileKind::hologram:
@@ -113,7 +136,8 @@ void add_info(Command& command, Session& session) {
     auto path = std::make_shared<std::string>();
     auto options = std::make_shared<FieldOptions>();
     command.examples("  hogel info pumpkin.h5\n  hogel info hologram.h5 --json");
-    command.positional("file", *path, "FILE", "Light field, hologram, another program's field, picture or mesh");
+    command.positional("file", *path, "FILE",
+                       "Light field, hologram, set of views, another program's field, picture or mesh");
     add_json_flag(command, session);
     add_field_options(command, *options, true, true);
     command.work([path, options, &session] { return info(*path, *options, session); });

@@ -203,7 +203,8 @@ void write_photographs(const Options& options, std::span<const Image> pictures, 
     std::uintmax_t bytes = 0;
     const bool movie = options.view.frames > 1;
     if (movie) {
-        bytes = write_movie(options.output, pictures, exposure, options.view.frame_rate, metadata);
+        Stage stage(session, "writing the pictures");
+        bytes = write_movie(options.output, pictures, exposure, options.view.frame_rate, metadata, stage.progress());
     } else {
         write_image(options.output, first, exposure, metadata);
         bytes = std::filesystem::file_size(options.output);

@@ -15,14 +15,18 @@ namespace hogel::cli {
 namespace {
 
 struct Options {
-    std::string scene, output;
+    std::string scene;
+    LightFieldOutput output;
     RenderOptions render;
-    LightFieldFileOptions file;
-    bool single = false, resume = false;
-    std::optional<double> sqnr;  // of a compressed light field
-    Counts region;               // empty: the size that the renderer prefers
+    bool resume = false;
+    Counts region;  // empty: the size that the renderer prefers
 
-    bool compressed() const { return std::filesystem::path(output).extension() == ".hgl"; }
+    LightFieldFileOptions file() const {
+        LightFieldFileOptions file;
+        file.type = output.single ? SampleType::single : SampleType::half;
+        file.with_depth = output.with_depth;
+        return file;
+    }
 };
 
 // Wraps a renderer to read regions of a size other than it prefers.
@@ -45,7 +49,7 @@ class InRegions final : public LightFieldSource {
 
 // Prints the memory that regions need. Throws if it is not available.
 void state_plan(const Options& options, const LightField& rendered, std::size_t triangles, const Session& session) {
-    const Plan plan = plan_light_field(rendered, options.render.request(), triangles, options.file);
+    const Plan plan = plan_light_field(rendered, options.render.request(), triangles, options.file());
     const HogelRange region = rendered.front().preferred_tile();
     const LightFieldGrid& grid = rendered.grid();
     const std::size_t regions =
@@ -54,60 +58,35 @@ void state_plan(const Options& options, const LightField& rendered, std::size_t 
         fmt::format("rendering by {} in regions of {}x{} hogels, {} at once,", options.render.algorithm, region.ns,
                     region.nt, std::min(thread_count(), regions));
     const bool chosen = options.region.columns > 0;
-    with_options({{"", chosen ? "--region" : "--hogels, --directions"}},
-                 [&] { state_plan(session, plan, what, options.compressed() ? "" : options.output, chosen); });
-}
-
-// Compresses the light field while it is rendered, without an intermediate file.
-int write_compressed(const Options& options, const LightField& rendered, RunRecord& record, const Session& session) {
-    // It is read several times, in the coder's tiles.
-    const LightField light_field = prepare_for_reading(session, rendered, 2, options.file.with_depth);
-    CompressionOptions compression;
-    const double sqnr = options.sqnr.value_or(defaults.sqnr);
-    compression.target = Sqnr{sqnr};
-    record.acted("sqnr", fmt::format("{}", sqnr));
-    compression.with_depth = options.file.with_depth;
-    compression.metadata = record.metadata();
-    Stage stage(session, "compressing");
-    const CompressionResult result = with_options(
-        {{"", "--sqnr"}}, [&] { return compress(light_field, options.output, compression, stage.progress()); });
-    report_compressed(session, options.output, result);
-    return 0;
+    with_options({{"", chosen ? "--region" : "--hogels, --directions"}}, [&] {
+        state_plan(session, plan, what, options.output.compressed() ? "" : options.output.file, chosen);
+    });
 }
 
 int write_hdf5(const Options& options, const LightField& light_field, const std::optional<std::string>& resume,
                RunRecord& record, const Session& session) {
-    LightFieldFileOptions file = options.file;
+    LightFieldFileOptions file = options.file();
     record.acted({"float"});
     file.metadata = record.metadata();
     file.resume = resume;
     Stage stage(session, "rendering");
-    write_light_field(options.output, light_field, file, stage.progress());
+    write_light_field(options.output.file, light_field, file, stage.progress());
     const LightFieldGrid& front = light_field.grid();
     const std::size_t faces = light_field.faces().size();
-    session.say(fmt::format("{}: {}x{} hogels of {}x{} directions{}, {}", options.output, front.hogels_s,
+    session.say(fmt::format("{}: {}x{} hogels of {}x{} directions{}, {}", options.output.file, front.hogels_s,
                             front.hogels_t, front.directions_u, front.directions_v,
                             faces == 1   ? ""
                             : faces == 3 ? " and two sides"
                                          : " and four sides",
-                            format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
-    report_samples(session, options.output);
+                            format_bytes(static_cast<double>(std::filesystem::file_size(options.output.file)))));
+    report_samples(session, options.output.file);
     return 0;
 }
 
-int render(Options options, const Session& session) {
+int render(const Options& options, const Session& session) {
     if (input_kind(options.scene) != InputKind::scene)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
-    if (options.compressed() && (options.single || options.resume))
-        throw Error(ErrorCode::usage,
-                    fmt::format("--float, --resume: belong to HDF5 files; {} is a compressed one", options.output));
-    if (options.sqnr && !options.compressed())
-        throw Error(
-            ErrorCode::usage,
-            fmt::format("--sqnr: belongs to compressed files, whose names end in .hgl, not to {}", options.output));
-    require_writable(options.output, {&options.scene, 1});
-    if (!options.compressed()) require_hdf5(options.output);
-    options.file.type = options.single ? SampleType::single : SampleType::half;
+    options.output.require(options.scene, options.resume);
     static_cast<void>(options.render.request());  // throws before a scene is made
     RunRecord record(session);
     record.acted({"scene", "depth"});
@@ -119,8 +98,9 @@ int render(Options options, const Session& session) {
         rendered = rendered.wrapped(
             [&](const LightField::Source& face) { return std::make_shared<const InRegions>(face, options.region); });
     state_plan(options, rendered, triangle_count(scene), session);
-    return options.compressed() ? write_compressed(options, rendered, record, session)
-                                : write_hdf5(options, rendered, resume, record, session);
+    if (!options.output.compressed()) return write_hdf5(options, rendered, resume, record, session);
+    write_compressed(options.output, rendered, record, session);
+    return 0;
 }
 
 }  // namespace
@@ -133,13 +113,8 @@ void add_render(Command& command, Session& session) {
         "  hogel render tower -o all.h5 --hemicube --directions 128x128\n"
         "  hogel render pumpkin -o pumpkin.hgl --sqnr 35");
     command.positional("scene", options->scene, "SCENE", "Mesh file or built-in scene");
-    command.text("-o,--output", options->output, "FILE", "Light field to write: HDF5, or compressed if it ends in .hgl")
-        .required();
-    command.flag("--depth", options->file.with_depth, "Store the depth of every ray too");
-    command.flag("--float", options->single, "Store 32-bit floats rather than 16-bit ones");
-    command.number(
-        "--sqnr", options->sqnr, "DB",
-        fmt::format("Signal to error of a compressed light field, within 0.1 dB above (default: {})", defaults.sqnr));
+    add_light_field_output(command, options->output, "Store the depth of every ray too",
+                           "Store 32-bit floats rather than 16-bit ones");
     add_resume_flag(command, options->resume);
     add_render_options(command, options->render);
     command.counts("--region", options->region, "Hogels that a renderer is given at once (default: what it prefers)")

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "hogel/image.h"
+#include "hogel/progress.h"
 
 namespace hogel::cli {
 
@@ -36,15 +37,11 @@ void require_movie(const std::filesystem::path& path);
 /// Writes pictures as numbered files, or as a movie made by ffmpeg, and returns their size in bytes. Throws
 /// Error(cannot_write).
 std::uintmax_t write_movie(const std::filesystem::path& path, std::span<const Image> frames, double exposure,
-                           double frames_a_second, const Metadata& metadata);
+                           double frames_a_second, const Metadata& metadata, const Progress& progress);
 
 /// The last step of write_movie() for a film: makes it of pictures in the folder with names such as "%06d.png", and
 /// returns its size in bytes.
-std::uintmax_t make_film(const std::filesystem::path& path, const FrameFolder& folder, const std::string& frames,
-                         double frames_a_second, const Metadata& metadata);
-
-/// Writes the frames of a film to the folder as view_000001.png and so on, by ffmpeg, and returns how many there are.
-/// Throws Error(not_built_in) without ffmpeg, Error(bad_input) for what it cannot read.
-std::size_t extract_frames(const std::filesystem::path& film, const FrameFolder& folder);
+std::uintmax_t write_film(const std::filesystem::path& path, const FrameFolder& folder, const std::string& frames,
+                          double frames_a_second, const Metadata& metadata, const Progress& progress);
 
 }  // namespace hogel::cli

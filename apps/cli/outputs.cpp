@@ -5,8 +5,11 @@
 
 #include <cmath>
 
+#include "concerns.h"
+#include "hogel/compress.h"
 #include "hogel/error.h"
 #include "hogel/units.h"
+#include "inputs.h"
 
 namespace hogel::cli {
 namespace fs = std::filesystem;
@@ -65,6 +68,45 @@ void add_force_flag(Command& command, bool& force) {
 void add_resume_flag(Command& command, bool& resume) {
     command.flag("--resume", resume,
                  "Keep what is done when interrupted, as FILE.part, and go on from there the next time");
+}
+
+void LightFieldOutput::require(const std::string& input, bool resumes) const {
+    if (compressed() && (single || resumes))
+        throw Error(ErrorCode::usage,
+                    fmt::format("{}: {} HDF5 files; {} is a compressed one", resumes ? "--float, --resume" : "--float",
+                                resumes ? "belong to" : "belongs to", file));
+    if (sqnr && !compressed())
+        throw Error(ErrorCode::usage,
+                    fmt::format("--sqnr: belongs to compressed files, whose names end in .hgl, not to {}", file));
+    require_writable(file, {&input, 1});
+    if (!compressed()) require_hdf5(file);
+}
+
+void add_light_field_output(Command& command, LightFieldOutput& output, const std::string& depth_help,
+                            const std::string& float_help) {
+    command.text("-o,--output", output.file, "FILE", "Light field to write: HDF5, or compressed if it ends in .hgl")
+        .required();
+    command.flag("--depth", output.with_depth, depth_help);
+    command.flag("--float", output.single, float_help);
+    command.number(
+        "--sqnr", output.sqnr, "DB",
+        fmt::format("Signal to error of a compressed light field, within 0.1 dB above (default: {})", defaults.sqnr));
+}
+
+void write_compressed(const LightFieldOutput& output, const LightField& made, RunRecord& record,
+                      const Session& session) {
+    // It is read several times, in the coder's tiles.
+    const LightField light_field = prepare_for_reading(session, made, 2, output.with_depth);
+    CompressionOptions compression;
+    const double sqnr = output.sqnr.value_or(defaults.sqnr);
+    compression.target = Sqnr{sqnr};
+    record.acted("sqnr", fmt::format("{}", sqnr));
+    compression.with_depth = output.with_depth;
+    compression.metadata = record.metadata();
+    Stage stage(session, "compressing");
+    const CompressionResult result = with_options(
+        {{"", "--sqnr"}}, [&] { return compress(light_field, output.file, compression, stage.progress()); });
+    report_compressed(session, output.file, result);
 }
 
 void report_compressed(const Session& session, const std::string& file, const CompressionResult& result) {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "command_line.h"
 #include "hogel/pipeline.h"
+#include "run_record.h"
 #include "session.h"
 
 namespace hogel::cli {
@@ -21,6 +23,26 @@ void add_force_flag(Command& command, bool& force);
 
 /// --resume, for outputs that take long.
 void add_resume_flag(Command& command, bool& resume);
+/// A light field that a command writes: an HDF5 file, or a compressed one if its name ends in .hgl.
+struct LightFieldOutput {
+    std::string file;
+    bool single = false;  ///< 32-bit floats; of HDF5 files
+    bool with_depth = false;
+    std::optional<double> sqnr = {};  ///< dB; of compressed files
+
+    bool compressed() const { return std::filesystem::path(file).extension() == ".hgl"; }
+    /// Throws, before any work is done, where the file cannot be written or an option belongs to the other kind.
+    /// @param resumes  whether --resume was given, which belongs to HDF5 files, as --float does
+    void require(const std::string& input, bool resumes = false) const;
+};
+/// -o, --depth, --float and --sqnr.
+void add_light_field_output(Command& command, LightFieldOutput& output, const std::string& depth_help,
+                            const std::string& float_help);
+
+/// Compresses a light field while it is made, without an intermediate file, and reports it.
+void write_compressed(const LightFieldOutput& output, const LightField& light_field, RunRecord& record,
+                      const Session& session);
+
 /// Prints a line about a compressed light field and one about its depth; with --json the result.
 void report_compressed(const Session& session, const std::string& file, const CompressionResult& result);
 

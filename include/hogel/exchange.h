@@ -25,6 +25,8 @@ namespace hogel {
 enum class Transfer { srgb, linear, rec709, gamma22 };
 /// The words for them, in the order of the values: "srgb", "linear", "rec709", "gamma2.2".
 HOGEL_API const std::vector<std::string>& transfer_names();
+/// The curve of that name; nothing for an empty one. Throws Error(usage) for an unknown one.
+HOGEL_API std::optional<Transfer> transfer_named(const std::string& name);
 
 /// What is to be done with a set of views, and what the set does not say of itself. Lengths are those at the hologram,
 /// metres. What neither says is assumed, and ImportedViews::assumed names it.
@@ -51,6 +53,8 @@ struct ViewOptions {
     bool estimate_disparity = false;
     /// Whether the light field is to have depth, by the same disparity.
     bool with_depth = false;
+    /// Codes of a metre in maps of depth that are whole numbers, or of a pixel in maps of disparity; 0 for none.
+    double depth_scale = 0;
     double memory = 1e9;  ///< bytes of pictures held at any time
     /// A folder for a temporary file of the size of all pictures, which is used if they do not fit into `memory`, so
     /// that each is decoded once; empty: no such file.
@@ -107,6 +111,7 @@ struct ViewExportOptions {
 struct ExportedViews {
     std::size_t columns = 0, rows = 0;         ///< of views
     std::vector<std::filesystem::path> files;  ///< in order of writing
+    std::vector<std::string> notes = {};       ///< what a user of the set should know
 };
 
 /// Writes a light field as a set of views: one for each direction, with a pixel for each hogel. With a fixed focal
@@ -121,8 +126,9 @@ HOGEL_API ExportedViews export_views(const LightField& light_field, const std::f
 /// for another program to render: pinholes on the fixed focal plane, with axes that are perpendicular to the hologram,
 /// and a pixel for each hogel. The frame is that of docs/notation.md, in metres, with its origin in the middle of the
 /// hologram; the pictures are to be 000_000.png and so on, the row from the top and the column from the left. Throws
-/// Error(usage) for a grid without a fixed focal plane in front of the hologram, Error(cannot_write).
-HOGEL_API void write_cameras(const LightFieldGrid& grid, const std::filesystem::path& file);
+/// Error(usage) for a grid without a fixed focal plane in front of the hologram, Error(cannot_write). Returns what a
+/// user of the cameras should know.
+HOGEL_API std::vector<std::string> write_cameras(const LightFieldGrid& grid, const std::filesystem::path& file);
 
 namespace exchange {
 struct ViewSet;
@@ -136,6 +142,7 @@ struct ViewLayout {
     std::string text;                                              ///< what it is, one line
     bool is_folder = true;                                         ///< whether a set is a folder rather than a file
     bool cameras_only = true;                                      ///< whether it cannot hold orthographic views
+    bool has_pictures = true;                                      ///< whether views are pictures of some format
     bool (*probe)(const std::filesystem::path& source) = nullptr;  ///< whether a source is such a set
     exchange::ViewSet (*open)(const std::filesystem::path& source, const ViewOptions& options) = nullptr;
     /// Null where such sets are only read.

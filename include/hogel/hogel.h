@@ -11,6 +11,7 @@
 #include "hogel/exchange.h"
 #include "hogel/field.h"
 #include "hogel/files.h"
+#include "hogel/films.h"
 #include "hogel/focus.h"
 #include "hogel/geometry.h"
 #include "hogel/hologram.h"

@@ -8,3 +8,10 @@ light = codes / 12.92;
 light(codes > 0.04045) = ((codes(codes > 0.04045) + 0.055) / 1.055) .^ 2.4;
 view = permute (squeeze (radiance(1, 2, :, :, :)), [2 1 3]);
 printf ('input_Cam005.png is column 1 and row 2 of the directions: %d\n', max (abs (view(:) - light(:))) < 1e-3);
+% The array of a MAT file: row and column of views, y, x, channel.
+LF = load ('out.mat').LF;
+printf ('size of LF:%s, %s\n', sprintf (' %d', size (LF)), class (LF));
+printf ('LF(2,3,...) is input_Cam005.png: %d\n', isequal (squeeze (LF(2, 3, :, :, :)), imread ('out/input_Cam005.png')));
+save ('-v7', 'octave.mat', 'LF');
+LF = permute (double (LF), [3 4 1 2 5]);
+save ('-v6', 'turned.mat', 'LF');

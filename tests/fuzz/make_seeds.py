@@ -137,6 +137,8 @@ def make(hogel, corpus):
             put("picture_fuzz", extension[1:], bytes([i]) + (made / ("p" + extension)).read_bytes())
         run("export", made / "a.h5", "-o", made / "views.npy", "--layout", "npy", "-q")
         put("view_set_fuzz", "npy", b"\0" + (made / "views.npy").read_bytes())
+        run("export", made / "a.h5", "-o", made / "views.mat", "--layout", "mat", "-q")
+        put("view_set_fuzz", "mat", b"\5" + (made / "views.mat").read_bytes())
         put("view_set_fuzz", "quilt", b"\1" + PLAIN_PICTURES["8.ppm"])
         put("view_set_fuzz", "parameters", b"\2" + PARAMETERS)
         put("view_set_fuzz", "cameras", b"\4" + CAMERAS)

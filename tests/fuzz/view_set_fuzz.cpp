@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sets of views: the first byte chooses between an array of views, a quilt, the parameters of a set, one of its
-// pictures, and the cameras of pictures.
+// pictures, the cameras of pictures, and a MAT file.
 #include "fuzz_file.h"
 #include "hogel/exchange.h"
 
@@ -40,11 +40,12 @@ void read_set(const std::filesystem::path& source, const ViewOptions& options) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size == 0) return 0;
     const FuzzSet set;
-    const char* const names[] = {"a.npy", "a_qs2x1a1.png", "parameters.cfg", "input_Cam003.ppm", "transforms.json"};
-    const std::size_t kind = data[0] % 5;
+    const char* const names[] = {"a.npy",           "a_qs2x1a1.png", "parameters.cfg", "input_Cam003.ppm",
+                                 "transforms.json", "a.mat"};
+    const std::size_t kind = data[0] % 6;
     write(set.folder / names[kind], data + 1, size - 1);
     ViewOptions options;
-    options.layout = kind == 0 ? "npy" : kind == 1 ? "quilt" : kind == 4 ? "transforms" : "hci";
-    fuzz::expect_bad_input([&] { read_set(kind < 2 ? set.folder / names[kind] : set.folder, options); });
+    options.layout = kind == 0 ? "npy" : kind == 1 ? "quilt" : kind == 4 ? "transforms" : kind == 5 ? "mat" : "hci";
+    fuzz::expect_bad_input([&] { read_set(kind < 2 || kind == 5 ? set.folder / names[kind] : set.folder, options); });
     return 0;
 }

@@ -40,6 +40,12 @@ class LruCache {
         }
     }
 
+    /// Keeps nothing any longer. Results that are being made reach those that wait for them.
+    void clear() {
+        const std::lock_guard lock(mutex_);
+        entries_.clear();
+    }
+
   private:
     using Promise = std::promise<std::shared_ptr<const Result>>;
     using Future = std::shared_future<std::shared_ptr<const Result>>;

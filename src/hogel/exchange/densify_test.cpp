@@ -197,6 +197,43 @@ TEST(Densify, DepthMapsAreDisparityToo) {
         for (std::size_t x = 0; x < scene.width; x += 5) ASSERT_NEAR((*map)(y, x), disparity_at(2, 2, y, x), 1e-3);
 }
 
+TEST(Densify, MapsOfWholeNumbersHaveAScale) {
+    const TestFolder folder;
+    write_views(folder);
+    Array<std::uint16_t, 3> codes({scene.height, scene.width, 1});
+    for (std::size_t y = 0; y < scene.height; ++y)
+        for (std::size_t x = 0; x < scene.width; ++x)
+            codes(y, x, 0) = static_cast<std::uint16_t>(std::lround(256 * (disparity_at(2, 2, y, x) + 20)));
+    const float around = static_cast<float>(codes(10, 11, 0)) / 256;
+    codes(10, 10, 0) = 0;  // not known
+    folder.write("disp.png", image::png_file(codes.view(), {}, image::Curve::none));
+    const ViewSet set = open_views(folder.path(), {});
+    const auto map = find_disparities(folder.path(), set, 4, 256)->at(1, 1);
+    for (std::size_t y = 0; y < scene.height; y += 7)
+        for (std::size_t x = 0; x < scene.width; x += 5)
+            ASSERT_NEAR((*map)(y, x), disparity_at(2, 2, y, x) + 20, 0.5 / 256 + 1e-5);
+    EXPECT_FLOAT_EQ((*map)(10, 10), around);
+    EXPECT_THROW(find_disparities(folder.path(), set, 4), Error);
+    // A map of floating-point numbers comes first, and pictures of 8 bits are none without a scale.
+    folder.write("disp.pfm", image::pfm_file(map_of(2, 2)));
+    EXPECT_EQ(find_disparities(folder.path(), set, 4)->origin(), "disp.pfm");
+    std::filesystem::remove(folder.path() / "disp.pfm");
+    folder.write("disp.png", scene.png(2, 2));
+    EXPECT_EQ(find_disparities(folder.path(), set, 4), nullptr);
+    const auto error = [&] {
+        try {
+            find_disparities(folder.path(), set, 4, 256);
+        } catch (const Error& wrong) {
+            return std::string(wrong.what());
+        }
+        return std::string("nothing");
+    };
+    EXPECT_NE(error().find("disp.png: a map has one channel"), std::string::npos) << error();
+    folder.write("disp.png", image::png_file(Array<std::uint16_t, 3>({scene.height, scene.width, 1}).view(), {},
+                                             image::Curve::none));
+    EXPECT_NE(error().find("disp.png: is a map of which no pixel is known"), std::string::npos) << error();
+}
+
 TEST(Densify, DamagedMapsAreNamed) {
     const TestFolder folder;
     write_views(folder);

@@ -7,6 +7,9 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <optional>
+#include <tuple>
+#include <type_traits>
 
 #include "hogel/core/raw_file.h"
 #include "hogel/error.h"
@@ -62,9 +65,11 @@ std::string lower_name(const fs::path& path) {
 struct Candidate {
     fs::path path;
     bool depth = false;
+    bool coded = false;  // as whole numbers
 };
 
-// Files that are maps by their names; disparity before depth, in the order of their names.
+// Files that are maps by their names; those of floating-point numbers first, disparity before depth, in the order of
+// their names. Pictures of 8 bits are shown to people, and no maps unless there is a scale.
 std::vector<Candidate> candidates(const fs::path& folder) {
     std::vector<Candidate> found;
     std::error_code error;
@@ -72,10 +77,13 @@ std::vector<Candidate> candidates(const fs::path& folder) {
         const std::string name = lower_name(entry.path());
         const bool disparity = name.find("disp") != std::string::npos, depth = name.find("depth") != std::string::npos;
         const bool array = name.ends_with(".pfm") || name.ends_with(".exr") || name.ends_with(".npy");
-        if (name.starts_with('.') || !array || (!disparity && !depth) || !entry.is_regular_file(error)) continue;
-        found.push_back({entry.path(), !disparity});
+        const bool codes =
+            name.ends_with(".png") || name.ends_with(".pgm") || name.ends_with(".tif") || name.ends_with(".tiff");
+        if (name.starts_with('.') || (!array && !codes) || (!disparity && !depth) || !entry.is_regular_file(error))
+            continue;
+        found.push_back({entry.path(), !disparity, codes});
     }
-    std::ranges::sort(found, {}, [](const Candidate& c) { return std::pair(c.depth, c.path); });
+    std::ranges::sort(found, {}, [](const Candidate& c) { return std::tuple(c.coded, c.depth, c.path); });
     return found;
 }
 
@@ -97,6 +105,34 @@ DisparityMap read_npy(const fs::path& path) {
     return map;
 }
 
+// A map of whole numbers; nothing for a picture of 8 bits where no scale makes it a map.
+std::optional<DisparityMap> read_codes(const fs::path& path, double scale) {
+    const image::Picture picture = image::read_picture(path, max_pixels);
+    if (scale == 0 && !std::holds_alternative<Array<std::uint16_t, 3>>(picture.samples)) return {};
+    if (scale == 0)
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("{}: holds whole numbers; how many of them are a metre of depth or a pixel of disparity is "
+                        "needed",
+                        path.string()));
+    return std::visit(
+        [&](const auto& samples) {
+            using T = std::remove_cvref_t<decltype(samples(0, 0, 0))>;
+            if (samples.extent(2) != 1) fail_source(path, "a map has one channel, but this picture has colours");
+            // Codes of less than 16 bits were scaled to them.
+            const double full = std::is_same_v<T, std::uint8_t> ? 255 : 65535;
+            const double code = std::is_same_v<T, float> ? 1 : max_code_of(picture) / full;
+            DisparityMap map({samples.extent(0), samples.extent(1)});
+            std::ranges::transform(samples.elements(), map.data(), [&](T value) {
+                return value == 0 ? NAN : static_cast<float>(std::round(value * code) / scale);
+            });
+            if (std::ranges::all_of(map.elements(), [](float value) { return std::isnan(value); }))
+                fail_source(path, "is a map of which no pixel is known: all are 0");
+            return map;
+        },
+        picture.samples);
+}
+
 DisparityMap read_map(const fs::path& path) {
     if (lower_name(path).ends_with(".npy")) return read_npy(path);
     const image::Picture picture = image::read_picture(path, max_pixels);
@@ -112,8 +148,38 @@ void to_disparity(const fs::path& path, const ViewGeometry& g, DisparityMap& map
     if (!(g.spacing > 0 && g.pixel_tangent > 0 && g.distance > 0))
         fail_source(path, "depth becomes disparity by the distances of the cameras, which this set does not say");
     for (float& value : map.elements()) {
+        if (std::isnan(value)) continue;  // not known
         if (!(value > 0)) fail_source(path, "holds a depth that is not positive");
         value = static_cast<float>((1 / static_cast<double>(value) - 1 / g.distance) * g.spacing / g.pixel_tangent);
+    }
+}
+
+using KnownMaps = std::vector<std::pair<std::pair<std::size_t, std::size_t>, DisparityMap>>;
+
+// Where there are more maps than views, those of one kind of names that are as many: one of the middle view may lie
+// beside them.
+void keep_those_of_all_views(std::size_t views, std::size_t columns, KnownMaps& known, std::vector<fs::path>& used) {
+    if (known.size() <= views) return;
+    const auto shape_of = [](const fs::path& path) {
+        std::string shape;
+        for (const char c : path.filename().string())
+            if (c < '0' || c > '9')
+                shape += c;
+            else if (shape.empty() || shape.back() != '#')
+                shape += '#';
+        return shape;
+    };
+    for (const fs::path& like : std::vector(used)) {
+        const std::string shape = shape_of(like);
+        const auto is_like = [&](const fs::path& path) { return shape_of(path) == shape; };
+        if (static_cast<std::size_t>(std::ranges::count_if(used, is_like)) != views) continue;
+        KnownMaps kept;
+        for (std::size_t i = 0; i < used.size(); ++i)
+            if (is_like(used[i]))
+                kept.push_back({{kept.size() / columns, kept.size() % columns}, std::move(known[i].second)});
+        known = std::move(kept);
+        std::erase_if(used, [&](const fs::path& path) { return !is_like(path); });
+        return;
     }
 }
 
@@ -156,27 +222,38 @@ std::shared_ptr<const DisparityMap> Disparities::at(double row, double column) c
     });
 }
 
-std::shared_ptr<const Disparities> find_disparities(const fs::path& source, const ViewSet& set, std::size_t kept) {
+std::shared_ptr<const Disparities> find_disparities(const fs::path& source, const ViewSet& set, std::size_t kept,
+                                                    double scale) {
     std::error_code none;
     const fs::path folder = fs::is_directory(source, none) ? source : source.parent_path();
     std::vector<std::pair<std::pair<std::size_t, std::size_t>, DisparityMap>> known;
     std::vector<fs::path> used;
-    bool of_depth = false;
+    bool of_depth = false, of_codes = false;
     const std::size_t views = set.rows * set.columns;
     for (const Candidate& candidate : candidates(folder)) {
-        if (!used.empty() && candidate.depth != of_depth) break;  // either disparity or depth
-        DisparityMap map = read_map(candidate.path);
+        // Either disparity or depth, and of one kind of numbers.
+        if (!used.empty() && (candidate.depth != of_depth || candidate.coded != of_codes)) break;
+        std::optional<DisparityMap> read =
+            candidate.coded ? read_codes(candidate.path, scale) : read_map(candidate.path);
+        if (!read) continue;
+        DisparityMap& map = *read;
         if (map.extent(0) != set.height || map.extent(1) != set.width) continue;  // of a higher resolution
         if (candidate.depth) to_disparity(candidate.path, set.geometry, map);
+        if (candidate.coded) {
+            fill_holes(map, false);
+            fill_holes(map, true);  // rows without any pixel
+        }
         const auto largest = static_cast<float>(std::max(set.width, set.height));
         for (const float value : map.elements())
             if (!(std::abs(value) <= largest)) fail_source(candidate.path, "holds a disparity that cannot be");
         of_depth = candidate.depth;
+        of_codes = candidate.coded;
         used.push_back(candidate.path);
         known.push_back({{(known.size() / set.columns), known.size() % set.columns}, std::move(map)});
-        if (known.size() > views) break;
+        if (known.size() > 2 * views) break;
     }
     if (known.empty()) return nullptr;
+    keep_those_of_all_views(views, set.columns, known, used);
     if (known.size() == 1)
         known.front().first = {set.rows / 2, set.columns / 2};
     else if (known.size() != views)

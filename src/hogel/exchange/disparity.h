@@ -45,11 +45,12 @@ class Disparities {
 
 /// The disparity that comes with a set in its folder: PFM, EXR or NPY files with "disp" or "depth" in their names, of
 /// the size of the views; one for the view in the middle, or as many as there are views, counted row by row. Depth is
-/// that of points from the plane of the cameras, in metres, and needs the set's geometry. Nothing where there is none.
-/// `kept` maps are held at a time.
-/// Throws Error(bad_input), naming the file, for samples that are not finite or larger than pictures.
+/// that of points from the plane of the cameras, in metres, and needs the set's geometry. Where there are none, PNG,
+/// PGM and TIFF files of whole numbers, of which `scale` are a metre or a pixel, and 0 is a pixel that is not known.
+/// Nothing where there is no map. `kept` maps are held at a time. Throws Error(bad_input), naming the file, for samples
+/// that are not finite or larger than pictures; Error(usage) for 16-bit maps without a scale.
 std::shared_ptr<const Disparities> find_disparities(const std::filesystem::path& source, const ViewSet& set,
-                                                    std::size_t kept);
+                                                    std::size_t kept, double scale = 0);
 
 /// The disparity of the view in the middle, found by comparing it with those around it: for each pixel the one of
 /// candidates up to `max_disparity` at which the half of them that agree best differ least.

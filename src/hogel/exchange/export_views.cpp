@@ -32,7 +32,9 @@ unsigned bits_for(const LightField& light_field, const ViewExportOptions& option
     if (options.bits != 0) return options.bits;
     const std::string text = stored(light_field, "views bits");
     const int bits = text.empty() ? 8 : std::atoi(text.c_str());
-    return bits >= 8 && bits <= 16 ? static_cast<unsigned>(bits) : bits == 32 && format == "npy" ? 32 : 8;
+    return bits >= 8 && bits <= 16                              ? static_cast<unsigned>(bits)
+           : bits == 32 && (format == "npy" || format == "mat") ? 32
+                                                                : 8;
 }
 
 // The format of the pictures: as asked for, else what holds the bits that the set had.
@@ -50,11 +52,10 @@ std::string format_for(const LightField& light_field, const ViewExportOptions& o
 Transfer transfer_for(const LightField& light_field, const ViewExportOptions& options, unsigned bits) {
     if (options.transfer) return *options.transfer;
     const std::string text = stored(light_field, "views transfer");
-    const auto found = std::ranges::find(transfer_names(), text);
+    const bool known = std::ranges::count(transfer_names(), text) > 0;
     const bool was_float = stored(light_field, "views bits") == "32";
-    if (found == transfer_names().end() || was_float != (bits == 32))
-        return bits == 32 ? Transfer::linear : Transfer::srgb;
-    return static_cast<Transfer>(found - transfer_names().begin());
+    if (!known || was_float != (bits == 32)) return bits == 32 ? Transfer::linear : Transfer::srgb;
+    return *transfer_named(text);
 }
 
 ViewGeometry geometry_of(const LightFieldGrid& grid) {
@@ -186,7 +187,7 @@ ExportedViews export_views(const LightField& light_field, const std::filesystem:
     const LightFieldGrid& grid = light_field.grid();
     ViewTarget target = target_of(grid, path);
     target.texts = with_history(options.metadata, to_metadata(light_field.provenance()));
-    target.format = layout.name == "npy" ? "npy" : format_for(light_field, options);
+    target.format = layout.has_pictures ? format_for(light_field, options) : layout.name;
     target.bits = bits_for(light_field, options, target.format);
     if (target.format == "png" && target.bits != 8 && target.bits != 16)
         throw Error(
@@ -195,7 +196,7 @@ ExportedViews export_views(const LightField& light_field, const std::filesystem:
     target.transfer = transfer_for(light_field, options, target.bits);
     const auto writer = layout.create(target);
 
-    ExportedViews exported{target.columns, target.rows, {}};
+    ExportedViews exported{target.columns, target.rows, {}, {}};
     const std::size_t views = target.columns * target.rows;
     exported.files.resize(views);
     const double view_bytes = static_cast<double>(target.width * target.height * target.channels) * sizeof(float);
@@ -217,6 +218,7 @@ ExportedViews export_views(const LightField& light_field, const std::filesystem:
     const std::vector<std::filesystem::path> more = writer->finish();
     std::erase_if(exported.files, [](const auto& file) { return file.empty(); });
     exported.files.insert(exported.files.end(), more.begin(), more.end());
+    exported.notes = writer->notes();
     return exported;
 }
 

@@ -56,6 +56,22 @@ ViewOptions geometry_of(const LightFieldGrid& grid) {
     return options;
 }
 
+// Random codes of 8 bits, and an empty folder for them.
+struct EightBits {
+    explicit EightBits(const LightFieldGrid& made_of) : grid(made_of) {}
+    explicit EightBits(std::size_t rows = 3) : EightBits(grid_of_cameras(rows)) {}
+
+    ViewOptions size() const {
+        ViewOptions options;
+        options.size = grid.width();
+        return options;
+    }
+
+    LightFieldGrid grid;
+    LightField light_field = random_codes(grid, 8, Transfer::srgb);
+    TestFolder folder;
+};
+
 struct Case {
     const char *layout, *format;
     unsigned bits;
@@ -74,7 +90,9 @@ TEST_P(EveryFormat, ComesBackToTheLastBit) {
     options.format = c.format;
     if (c.bits != 32) options.bits = c.bits;
     options.transfer = c.transfer;
-    const std::filesystem::path target = std::string(c.layout) == "npy" ? folder.path() / "a.npy" : folder.path();
+    const std::string layout = c.layout;
+    const std::filesystem::path target =
+        view_layouts().find(layout).is_folder ? folder.path() : folder.path() / ("a." + layout);
     const ExportedViews exported = export_views(before, target, options);
     EXPECT_EQ(exported.columns, 4u);
     ViewOptions back = geometry_of(grid);
@@ -95,59 +113,57 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"rows-columns", "ppm", 10, Transfer::srgb},
                       Case{"rows-columns", "ppm", 12, Transfer::rec709},
                       Case{"rows-columns", "ppm", 16, Transfer::gamma22}, Case{"numbered", "pfm", 32, Transfer::linear},
-                      Case{"npy", "", 8, Transfer::srgb}, Case{"npy", "", 16, Transfer::linear}),
+                      Case{"npy", "", 8, Transfer::srgb}, Case{"npy", "", 16, Transfer::linear},
+                      Case{"mat", "", 8, Transfer::srgb}, Case{"mat", "", 16, Transfer::linear}),
     [](const auto& test) { return fmt::format("{}_{}_{}", test.index, test.param.format, test.param.bits); });
 
 TEST(ExportViews, HciParametersBringTheGeometryBack) {
-    const LightFieldGrid grid = grid_of_cameras(4);
-    LightFieldGrid square = grid;
+    LightFieldGrid square = grid_of_cameras(4);
     square.range().half_v = square.range().half_u;  // parameters.cfg has one baseline
-    const LightField before = random_codes(square, 8, Transfer::srgb);
-    const TestFolder folder;
-    export_views(before, folder.path(), {.layout = "hci"});
-    ViewOptions back;
-    back.size = grid.width();
-    const ImportedViews after = import_views(folder.path(), back);
+    const EightBits before(square);
+    export_views(before.light_field, before.folder.path(), {.layout = "hci"});
+    const ImportedViews after = import_views(before.folder.path(), before.size());
     EXPECT_TRUE(after.assumed.empty());
     EXPECT_NEAR(after.distance, 0.3, 1e-12);
-    expect_same(before, after.light_field, 0);
+    expect_same(before.light_field, after.light_field, 0);
 }
 
 TEST(ExportViews, CamerasBringTheGeometryBackOffCentreToo) {
     LightFieldGrid grid = grid_of_cameras(3);
     grid.range().center_u = 0.021;
     grid.range().center_v = -0.034;
-    const LightField before = random_codes(grid, 8, Transfer::srgb);
-    const TestFolder folder;
-    export_views(before, folder.path(), {.layout = "transforms"});
-    ViewOptions back;
-    back.size = grid.width();
-    const ImportedViews after = import_views(folder.path(), back);
+    const EightBits before(grid);
+    const std::filesystem::path folder = before.folder.path();
+    const ExportedViews exported = export_views(before.light_field, folder, {.layout = "transforms"});
+    const ImportedViews after = import_views(folder, before.size());
     EXPECT_TRUE(after.assumed.empty());
     EXPECT_NEAR(after.distance, 0.3, 1e-9);
     EXPECT_NEAR(after.light_field.grid().center_u(), 0.021, 1e-9);
     EXPECT_NEAR(after.light_field.grid().center_v(), -0.034, 1e-9);
     EXPECT_NEAR(after.light_field.grid().half_v(), grid.half_v(), 1e-9);
-    expect_same(before, after.light_field, 0);
+    expect_same(before.light_field, after.light_field, 0);
+    // The outermost camera's centre: (1.5 of 4 steps of 2 x 0.07, and 0.021) x 0.3 m / 0.5 mm beside the middle.
+    ASSERT_EQ(exported.notes.size(), 1u);
+    EXPECT_TRUE(exported.notes[0].starts_with("pictures are off centre by up to 44.1 pixels across and 40.4 down"))
+        << exported.notes[0];
     // The cameras alone are the same file, before there are pictures.
-    write_cameras(grid, folder.path() / "cameras.json");
+    EXPECT_EQ(write_cameras(grid, folder / "cameras.json"), exported.notes);
     const auto text = [&](const char* name) {
-        std::ifstream stream(folder.path() / name);
+        std::ifstream stream(folder / name);
         return std::string(std::istreambuf_iterator<char>(stream), {});
     };
     EXPECT_EQ(text("cameras.json"), text("transforms.json"));
     grid.view = Perspective{};
     grid.range().half_u = grid.range().half_v = 0.1;
-    EXPECT_THROW(write_cameras(grid, folder.path() / "no.json"), Error);
+    EXPECT_THROW(write_cameras(grid, folder / "no.json"), Error);
 }
 
 TEST(ExportViews, PicturesSayWhatMadeThem) {
-    const LightField light_field =
-        random_codes(grid_of_cameras(3), 8, Transfer::srgb).with(Provenance{{{"scene", "a ball"}}, {}});
-    const TestFolder folder;
-    export_views(light_field, folder.path(), {.metadata = {{"command", "export"}}});
+    const EightBits made;
+    const LightField light_field = made.light_field.with(Provenance{{{"scene", "a ball"}}, {}});
+    export_views(light_field, made.folder.path(), {.metadata = {{"command", "export"}}});
     for (const char* name : {"000_000.png", "002_003.png"}) {
-        const Metadata texts = image::read_picture(folder.path() / name, max_pixels).texts;
+        const Metadata texts = image::read_picture(made.folder.path() / name, max_pixels).texts;
         EXPECT_EQ(std::ranges::count(texts, Metadata::value_type{"command", "export"}), 1) << name;
         EXPECT_EQ(std::ranges::count(texts, Metadata::value_type{"source scene", "a ball"}) +
                       std::ranges::count(texts, Metadata::value_type{"scene", "a ball"}),
@@ -156,46 +172,55 @@ TEST(ExportViews, PicturesSayWhatMadeThem) {
     }
 }
 
+TEST(ExportViews, FloatingPointArraysComeBack) {
+    const EightBits made;
+    const LightField before =
+        made.light_field.with(Provenance{{{"views bits", "32"}, {"views transfer", "linear"}}, {}});
+    for (const char* layout : {"npy", "mat"}) {
+        const std::filesystem::path file = made.folder.path() / fmt::format("a.{}", layout);
+        export_views(before, file, {.layout = layout});
+        ViewOptions back = geometry_of(made.grid);
+        back.column_first = false;
+        const ImportedViews after = import_views(file, back);
+        EXPECT_EQ(after.bits, 32u);
+        expect_same(before, after.light_field, 0);
+    }
+}
+
 TEST(ExportViews, QuiltsComeBack) {
-    const LightFieldGrid grid = grid_of_cameras(1);
-    const LightField before = random_codes(grid, 8, Transfer::srgb);
-    const TestFolder folder;
-    const std::filesystem::path file = folder.path() / "a_qs2x2a1.3333.png";
-    export_views(before, file, {.layout = "quilt", .format = "png"});
-    expect_same(before, import_views(file, geometry_of(grid)).light_field, 0);
+    const EightBits before(1);
+    const std::filesystem::path folder = before.folder.path();
     // Four in a row are a quilt too, but three in a row would lose one.
-    const std::filesystem::path row = folder.path() / "a_qs4x1a1.3333.png";
-    export_views(before, row, {.layout = "quilt", .format = "png"});
-    expect_same(before, import_views(row, geometry_of(grid)).light_field, 0);
-    EXPECT_THROW(export_views(before, folder.path() / "a_qs3x1a1.3333.png", {.layout = "quilt"}), Error);
-    EXPECT_THROW(export_views(random_codes(grid_of_cameras(3), 8, Transfer::srgb), file, {.layout = "quilt"}), Error);
+    for (const char* name : {"a_qs2x2a1.3333.png", "a_qs4x1a1.3333.png"}) {
+        export_views(before.light_field, folder / name, {.layout = "quilt", .format = "png"});
+        expect_same(before.light_field, import_views(folder / name, geometry_of(before.grid)).light_field, 0);
+    }
+    EXPECT_THROW(export_views(before.light_field, folder / "a_qs3x1a1.3333.png", {.layout = "quilt"}), Error);
+    EXPECT_THROW(export_views(EightBits().light_field, folder / "a_qs2x2a1.3333.png", {.layout = "quilt"}), Error);
 }
 
 TEST(ExportViews, OrthographicViewsComeBackAndAreNoCameras) {
     LightFieldGrid grid = grid_of_cameras(3);
     grid.view = Perspective{{0.1, 0.075, 0, 0}, Face::front};
-    const LightField before = random_codes(grid, 8, Transfer::srgb);
-    const TestFolder folder;
-    EXPECT_THROW(export_views(before, folder.path(), {.layout = "hci"}), Error);
-    export_views(before, folder.path(), {.layout = "numbered"});
-    ViewOptions back;
-    back.size = grid.width();
+    const EightBits before(grid);
+    EXPECT_THROW(export_views(before.light_field, before.folder.path(), {.layout = "hci"}), Error);
+    export_views(before.light_field, before.folder.path(), {.layout = "numbered"});
+    ViewOptions back = before.size();
     back.columns = 4;
     back.rows = 3;
     back.field_of_view = 2 * std::atan(0.1);
-    expect_same(before, import_views(folder.path(), back).light_field, 0);
+    expect_same(before.light_field, import_views(before.folder.path(), back).light_field, 0);
 }
 
 TEST(ExportViews, ViewsInGroupsAreTheSameFiles) {
-    const LightField light_field = random_codes(grid_of_cameras(3), 8, Transfer::srgb);
-    const TestFolder folder;
-    std::filesystem::create_directory(folder.path() / "a");
-    std::filesystem::create_directory(folder.path() / "b");
-    export_views(light_field, folder.path() / "a", {});
-    export_views(light_field, folder.path() / "b", {.memory = 12 * 9 * 3 * 4 * 2.5});
-    for (const auto& file : std::filesystem::directory_iterator(folder.path() / "a")) {
-        std::ifstream one(file.path(), std::ios::binary),
-            two(folder.path() / "b" / file.path().filename(), std::ios::binary);
+    const EightBits made;
+    const std::filesystem::path folder = made.folder.path();
+    std::filesystem::create_directory(folder / "a");
+    std::filesystem::create_directory(folder / "b");
+    export_views(made.light_field, folder / "a", {});
+    export_views(made.light_field, folder / "b", {.memory = 12 * 9 * 3 * 4 * 2.5});
+    for (const auto& file : std::filesystem::directory_iterator(folder / "a")) {
+        std::ifstream one(file.path(), std::ios::binary), two(folder / "b" / file.path().filename(), std::ios::binary);
         EXPECT_EQ(std::string(std::istreambuf_iterator<char>(one), {}),
                   std::string(std::istreambuf_iterator<char>(two), {}));
     }

@@ -83,11 +83,11 @@ std::string name_with(const std::string& name, std::size_t a, std::uint64_t a_va
     return replaced;
 }
 
-// Whether pictures are by their names something else than what cameras saw: disparity, depth, labels.
+// Whether pictures are by their names something else than what cameras saw: disparity, depth, labels, small copies.
 bool is_map(const std::string& shape) {
     std::string name = shape;
     std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
-    for (const char* word : {"disp", "depth", "label", "mask", "objectid", "normal"})
+    for (const char* word : {"disp", "depth", "label", "mask", "objectid", "normal", "thumb", "preview"})
         if (name.find(word) != std::string::npos) return true;
     return false;
 }

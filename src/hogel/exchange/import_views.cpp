@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <iterator>
 
 #include "hogel/core/parallel.h"
@@ -11,6 +12,7 @@
 #include "hogel/exchange/densify.h"
 #include "hogel/exchange/geometry.h"
 #include "hogel/exchange/parallax.h"
+#include "hogel/exchange/rectified.h"
 #include "hogel/exchange/sparse_views.h"
 #include "hogel/exchange/view_light_field.h"
 
@@ -23,6 +25,9 @@ constexpr std::size_t max_densify = 64;
 // The disparity that comes with a set, or an estimate where that is allowed.
 std::shared_ptr<const Disparities> disparities_of(const std::filesystem::path& source, const ViewSet& set,
                                                   const ViewOptions& options, std::vector<std::string>& notes) {
+    if (!(options.depth_scale >= 0 && std::isfinite(options.depth_scale)))
+        throw Error(ErrorCode::usage,
+                    fmt::format("the scale of depth is {}, but must be positive and finite", options.depth_scale));
     const double map_bytes = static_cast<double>(set.width * set.height) * sizeof(float);
     const auto kept = static_cast<std::size_t>(std::clamp(options.memory / map_bytes, 16.0, 1e4));
     if (options.mirror_columns || options.mirror_rows)
@@ -30,7 +35,7 @@ std::shared_ptr<const Disparities> disparities_of(const std::filesystem::path& s
                     "maps of disparity belong to views in the order of the layout, not to mirrored ones");
     std::error_code none;
     if (std::filesystem::is_directory(source, none) || source.extension() == ".json")
-        if (auto disparities = find_disparities(source, set, kept)) return disparities;
+        if (auto disparities = find_disparities(source, set, kept, options.depth_scale)) return disparities;
     if (!options.estimate_disparity)
         throw Error(
             ErrorCode::usage,
@@ -87,6 +92,7 @@ ImportedViews import_views(const std::filesystem::path& source, const ViewOption
     Placement placement = place(set, options);
     const Transfer transfer = options.transfer.value_or(set.bits == 32 ? Transfer::linear : Transfer::srgb);
     const ParallaxEvidence evidence = parallax_of(set, options.disparity);
+    require_rectified(set, options.disparity == 0 ? evidence : parallax_of(set));
     note_dark_corners(set);
     if (options.densify < 1 || options.densify > max_densify)
         throw Error(ErrorCode::usage, fmt::format("views can be densified by factors from 1 to {}, not by {}",
@@ -103,6 +109,7 @@ ImportedViews import_views(const std::filesystem::path& source, const ViewOption
     std::string summary = describe(set, placement, parallax);
     std::vector<std::string> notes = set.notes;
     if (parallax > 1) std::ranges::copy(sparse_views(placement.grid, parallax), std::back_inserter(notes));
+    set.pictures->forget();
     const std::string layout = set.layout;
     const std::size_t columns = set.columns, rows = set.rows;
     const unsigned bits = set.bits;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "hogel/core/parallel.h"
 
@@ -12,8 +13,6 @@ namespace hogel::exchange {
 namespace {
 
 constexpr std::size_t block = 16;
-// Parallax that is looked for, in pixels.
-constexpr int max_parallax = 32;
 // A block has texture if a shift by one pixel costs more than noise of this standard deviation would.
 constexpr double noise = 4.0 / 255;
 // Shares of the evidence by which one explanation must be better than the other.
@@ -84,6 +83,18 @@ double largest(const Array<BlockMatch, 2>& matches, double disparity) {
     return percentile98(std::move(shifts));
 }
 
+// How much speaks for the same direction in two comparisons of views, and for the opposite one.
+std::pair<double, double> same_and_opposite(const Array<BlockMatch, 2>& a, const Array<BlockMatch, 2>& b) {
+    double same = 0, opposite = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const BlockMatch &x = a.data()[i], &y = b.data()[i];
+        if (!has_texture(x) || !has_texture(y)) continue;
+        const double product = x.shift * y.shift;
+        (product > 0 ? same : opposite) += std::abs(product);
+    }
+    return {same, opposite};
+}
+
 double total_error(const Array<BlockMatch, 2>& matches) {
     double sum = 0;
     for (const BlockMatch& match : matches.elements()) sum += match.error;
@@ -101,8 +112,19 @@ Array<BlockMatch, 2> match_blocks(View<const float, 2> a, View<const float, 2> b
     return matches;
 }
 
+bool move_oppositely(const Array<BlockMatch, 2>& a, const Array<BlockMatch, 2>& b) {
+    // In most blocks, by half a pixel each.
+    const auto [same, opposite] = same_and_opposite(a, b);
+    return opposite > 4 * same && opposite > 0.25 * static_cast<double>(a.size()) * 0.25;
+}
+
+bool moves_up_and_down(View<const float, 2> a, View<const float, 2> b) {
+    return total_error(match_blocks(a, b, false, max_parallax)) >
+           clear_ratio * total_error(match_blocks(a, b, true, max_parallax));
+}
+
 Array<float, 2> grey_view(const ViewSet& set, std::size_t row, std::size_t column) {
-    const image::Picture picture = set.pictures->read(row, column);
+    const std::shared_ptr<const image::Picture> picture = set.pictures->look(row, column);
     Array<float, 2> grey({set.height, set.width});
     std::visit(
         [&](const auto& samples) {
@@ -122,7 +144,7 @@ Array<float, 2> grey_view(const ViewSet& set, std::size_t row, std::size_t colum
                 grey.data()[i] = sum / (full * static_cast<float>(set.channels));
             }
         },
-        picture.samples);
+        picture->samples);
     return grey;
 }
 
@@ -152,13 +174,7 @@ ParallaxEvidence parallax_of(const ViewSet& set, double disparity) {
     evidence.swapped = swapped < straight;
     // What is nearer than the plane on which views agree moves left from a view to the one on its right, and up to the
     // one below: in an orderly set both shifts of a block have the same sign.
-    double same = 0, opposite = 0;
-    for (std::size_t i = 0; i < right.size(); ++i) {
-        const BlockMatch &x = right.data()[i], &y = below.data()[i];
-        if (!has_texture(x) || !has_texture(y)) continue;
-        const double product = x.shift * y.shift;
-        (product > 0 ? same : opposite) += std::abs(product);
-    }
+    const auto [same, opposite] = same_and_opposite(right, below);
     evidence.opposed = opposite > same;
     const auto [less, more] = std::minmax(straight, swapped);
     evidence.certain = more > clear_ratio * less && std::max(same, opposite) > clear_ratio * std::min(same, opposite);

@@ -17,6 +17,15 @@ struct BlockMatch {
 /// Matches blocks of 16x16 pixels of `a` in `b`, [row of blocks][column], within max_shift pixels along x, or along y.
 Array<BlockMatch, 2> match_blocks(View<const float, 2> a, View<const float, 2> b, bool along_y, int max_shift);
 
+/// Parallax that is looked for, in pixels.
+constexpr int max_parallax = 32;
+
+/// Whether blocks with texture clearly move the other way in one of two comparisons of views than in the other.
+bool move_oppositely(const Array<BlockMatch, 2>& a, const Array<BlockMatch, 2>& b);
+
+/// Whether things clearly move up and down from one view to another, rather than sideways.
+bool moves_up_and_down(View<const float, 2> a, View<const float, 2> b);
+
 /// Mean of the channels of a view, as stored, in units of the full range.
 Array<float, 2> grey_view(const ViewSet& set, std::size_t row, std::size_t column);
 

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
+
 #include <algorithm>
+#include <functional>
 
 #include "hogel/error.h"
+#include "hogel/exchange/disparity.h"
 #include "hogel/exchange/test_views.h"
 #include "hogel/exchange/view_set.h"
 
@@ -74,6 +77,133 @@ TEST(SetVariations, StanfordPlacesMayBeOfEitherSignAndShort) {
     EXPECT_EQ(set.layout, "stanford");
     EXPECT_EQ(set.columns, 3u);
     EXPECT_NEAR(set.geometry.spacing_ratio, 0.8, 1e-12);
+}
+
+// A scene with enough parallax and texture to tell the order of views by.
+const TestScene large{.columns = 4, .rows = 3, .width = 128, .height = 96};
+
+// Whether each view of a set is that of the scene's camera.
+void expect_views(const TestScene& of, const ViewSet& set) {
+    ASSERT_EQ(set.columns, of.columns);
+    ASSERT_EQ(set.rows, of.rows);
+    std::size_t wrong = 0;
+    for (std::size_t r = 0; r < of.rows; ++r)
+        for (std::size_t c = 0; c < of.columns; ++c) {
+            const image::Picture picture = set.pictures->read(r, c);
+            const auto& samples = std::get<Array<std::uint8_t, 3>>(picture.samples);
+            wrong += !std::ranges::equal(samples.elements(), of.view(r, c).elements());
+        }
+    EXPECT_EQ(wrong, 0u);
+}
+
+TEST(SetVariations, NamesOfStrangers) {
+    // The set, the number of the first view, and what is beside it.
+    for (const char* name :
+         {"view_{:02}_{:02}.png", "My Photos {} {}.PNG", "2026-05-01 row{}col{:04}.png", "{}x{}.Png"})
+        for (const std::size_t first : {0, 1, 100}) {
+            const TestFolder folder;
+            for (std::size_t r = 0; r < 3; ++r)
+                for (std::size_t c = 0; c < 4; ++c) {
+                    folder.write(fmt::format(fmt::runtime(name), r + first, c + first), large.png(r, c));
+                    folder.write(fmt::format("Thumb_{}_{}.png", r, c), scene.png(0, 0));
+                    folder.write(fmt::format("a preview {}_{}.png", r, c), scene.png(0, 0));
+                }
+            folder.write("README.txt", std::string("photographs"));
+            folder.write("contact sheet.png", scene.png(0, 0));
+            SCOPED_TRACE(name);
+            const ViewSet set = open_views(folder.path(), {});
+            EXPECT_EQ(set.layout, "rows-columns");
+            expect_views(large, set);
+        }
+}
+
+ViewOptions four_by_three() {
+    ViewOptions options;
+    options.columns = 4;
+    options.rows = 3;
+    return options;
+}
+
+TEST(SetVariations, NamesThatCamerasGiveAreOfCameras) {
+    for (const char* name : {"Cam_{:03}.png", "IMG_{:04}.PNG", "DSC{:05}.png", "frame{}.png"}) {
+        const TestFolder folder;
+        for (std::size_t i = 0; i < 12; ++i)
+            folder.write(fmt::format(fmt::runtime(name), i + 7), large.png(i / 4, i % 4));
+        const ViewSet set = open_views(folder.path(), four_by_three());
+        EXPECT_FALSE(set.geometry.orthographic) << name;
+        EXPECT_EQ(set.notes.back(), "numbered views were taken for those of cameras, by their names");
+        expect_views(large, set);
+    }
+}
+
+TEST(SetVariations, PathsOfOneCameraAreUnwound) {
+    struct Path {
+        const char* note;
+        std::function<std::size_t(std::size_t row, std::size_t column)> number;
+    };
+    const Path paths[] = {{"numbered", [](std::size_t r, std::size_t c) { return 4 * r + c; }},
+                          {"every second row of views runs back",
+                           [](std::size_t r, std::size_t c) { return 4 * r + (r % 2 ? 3 - c : c); }},
+                          {"column by column", [](std::size_t r, std::size_t c) { return 3 * c + r; }},
+                          {"every second column of views runs back",
+                           [](std::size_t r, std::size_t c) { return 3 * c + (c % 2 ? 2 - r : r); }}};
+    for (const Path& path : paths) {
+        SCOPED_TRACE(path.note);
+        const TestFolder folder;
+        for (std::size_t r = 0; r < 3; ++r)
+            for (std::size_t c = 0; c < 4; ++c)
+                folder.write(fmt::format("IMG_{:04}.png", path.number(r, c)), large.png(r, c));
+        const ViewSet set = open_views(folder.path(), four_by_three());
+        expect_views(large, set);
+        EXPECT_TRUE(std::ranges::any_of(
+            set.notes, [&](const std::string& note) { return note.find(path.note) != std::string::npos; }));
+    }
+}
+
+TEST(SetVariations, QuiltsByManyNames) {
+    const TestScene row{.columns = 4, .rows = 1, .width = 20, .height = 16};
+    Array<std::uint8_t, 3> quilt({32, 40, 3});
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Array<std::uint8_t, 3> view = row.view(0, i);
+        for (std::size_t y = 0; y < 16; ++y)
+            std::copy_n(&view(y, 0, 0), 60, &quilt((1 - i / 2) * 16 + y, i % 2 * 20, 0));
+    }
+    for (const char* name :
+         {"a_qs2x2a1.25.png", "a_qs2x2.png", "A_QS2x2A1.25.PNG", "a_qs2x2a1.25 (1).png", "a_qs2x2a1.25_hd.png"}) {
+        const TestFolder folder;
+        folder.write(name, image::png_file(quilt.view(), {}, image::Curve::srgb));
+        SCOPED_TRACE(name);
+        EXPECT_TRUE(is_view_set(folder.path() / name));
+        const ViewSet set = open_views(folder.path() / name, {});
+        expect_views(row, set);
+        EXPECT_NEAR(set.geometry.pixel_height, 1, 1e-12);
+    }
+    const TestFolder folder;
+    folder.write("a_qs2xa1.png", row.png(0, 0));
+    EXPECT_NE(error_of(folder.path() / "a_qs2xa1.png").find("a_qs2xa1.png: is no set"), std::string::npos);
+}
+
+TEST(SetVariations, ThreeNumbersAreTooMany) {
+    const TestFolder folder;
+    for (std::size_t i = 0; i < 9; ++i)
+        folder.write(fmt::format("{}_{}_{}.png", i / 3, i % 3, 1000 + 7 * i), scene.png(i / 3, i % 3));
+    EXPECT_NE(error_of(folder.path()).find("the names of 9 pictures such as 0_0_1000.png differ in 3 numbers"),
+              std::string::npos)
+        << error_of(folder.path());
+}
+
+TEST(SetVariations, AMapOfTheMiddleMayLieBesideThoseOfAllViews) {
+    const TestFolder folder;
+    const Array<float, 3> flat({scene.height, scene.width, 1}, 0.25f), other({scene.height, scene.width, 1}, 0.5f);
+    for (std::size_t i = 0; i < 9; ++i) {
+        folder.write(fmt::format("input_Cam{:03}.png", i), scene.png(i / 3, i % 3));
+        folder.write(fmt::format("gt_disp_lowres_Cam{:03}.pfm", i), image::pfm_file(flat));
+    }
+    folder.write("gt_disp_lowres.pfm", image::pfm_file(other));
+    const auto disparities = find_disparities(folder.path(), open_views(folder.path(), {}), 4);
+    ASSERT_NE(disparities, nullptr);
+    EXPECT_EQ((*disparities->at(0, 2))(3, 3), 0.25f);
+    EXPECT_EQ((*disparities->at(1, 1))(3, 3), 0.25f);
 }
 
 TEST(SetVariations, ASetInAFolderBelowIsNamed) {

@@ -13,6 +13,13 @@ const std::vector<std::string>& transfer_names() {
     return names;
 }
 
+std::optional<Transfer> transfer_named(const std::string& name) {
+    if (name.empty()) return {};
+    const auto found = std::ranges::find(transfer_names(), name);
+    if (found == transfer_names().end()) throw_unknown("transfer", name, transfer_names());
+    return static_cast<Transfer>(found - transfer_names().begin());
+}
+
 namespace exchange {
 
 // ITU-R BT.709-6, 1.2: E' = α E^0.45 − (α − 1) from E = β on, 4.5 E below, with the α and β of BT.2020 that make it

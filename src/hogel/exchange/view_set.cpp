@@ -8,14 +8,16 @@
 #include <bit>
 
 #include "hogel/error.h"
+#include "hogel/exchange/file_names.h"
 #include "hogel/image/picture_bytes.h"
 
 namespace hogel {
 
 Table<ViewLayout>& view_layouts() {
     using namespace exchange;
-    static Table<ViewLayout> table("layout", {transforms_layout(), hci_layout(), stanford_layout(), quilt_layout(),
-                                              npy_layout(), rows_columns_layout(), numbered_layout()});
+    static Table<ViewLayout> table(
+        "layout", {transforms_layout(), hci_layout(), stanford_layout(), quilt_layout(), npy_layout(), mat_layout(),
+                   film_layout(), rows_columns_layout(), numbered_layout()});
     return table;
 }
 
@@ -41,6 +43,11 @@ class ReorderedPictures final : public ViewPictures {
         const auto [r, c] = order_(row, column);
         return pictures_->name(r, c);
     }
+    std::shared_ptr<const image::Picture> look(std::size_t row, std::size_t column) const override {
+        const auto [r, c] = order_(row, column);
+        return pictures_->look(r, c);
+    }
+    void forget() const override { pictures_->forget(); }
 
   private:
     std::shared_ptr<const ViewPictures> pictures_;
@@ -59,12 +66,21 @@ std::string set_below(const std::filesystem::path& source) {
     return {};
 }
 
+// Why the pictures of a folder are none, as a sentence's part.
+std::string names_that_differ(const std::filesystem::path& source) {
+    const std::vector<NumberedFiles> groups = numbered_pictures(source);
+    if (groups.empty() || groups.front().files.size() < 3 || groups.front().varying.size() < 3) return {};
+    return fmt::format(", because the names of {} pictures such as {} differ in {} numbers and not in one or two",
+                       groups.front().files.size(), groups.front().files.front().path.filename().string(),
+                       groups.front().varying.size());
+}
+
 ViewLayout layout_of(const std::filesystem::path& source, const ViewOptions& options) {
     if (!options.layout.empty()) return view_layouts().find(options.layout);
     for (const ViewLayout& layout : view_layouts().rows())
         if (layout.probe(source)) return layout;
-    fail_source(source, fmt::format("is no set of views that is recognised{}; layouts are {}", set_below(source),
-                                    fmt::join(view_layouts().names(), ", ")));
+    fail_source(source, fmt::format("is no set of views that is recognised{}{}; layouts are {}", set_below(source),
+                                    names_that_differ(source), fmt::join(view_layouts().names(), ", ")));
 }
 
 }  // namespace
@@ -82,6 +98,10 @@ std::uint32_t max_code_of(const image::Picture& picture) {
 unsigned bits_of(const image::Picture& picture) {
     const std::uint32_t max = max_code_of(picture);
     return max == 0 ? 32 : std::max(8u, static_cast<unsigned>(std::bit_width(max)));
+}
+
+std::shared_ptr<const image::Picture> ViewPictures::look(std::size_t row, std::size_t column) const {
+    return looked_at_.get({row, column}, [&] { return std::make_shared<const image::Picture>(read(row, column)); });
 }
 
 image::Picture FilePictures::read(std::size_t row, std::size_t column) const {
@@ -143,10 +163,10 @@ ViewSet open_views(const std::filesystem::path& source, const ViewOptions& optio
     set.layout = layout.name;
     set = middle_of(mirrored(std::move(set), options.mirror_columns, options.mirror_rows), options.middle_columns,
                     options.middle_rows);
-    const image::Picture first = set.pictures->read(0, 0);
-    set.bits = bits_of(first);
-    set.max_code = max_code_of(first);
-    take_size(first, set);
+    const std::shared_ptr<const image::Picture> first = set.pictures->look(0, 0);
+    set.bits = bits_of(*first);
+    set.max_code = max_code_of(*first);
+    take_size(*first, set);
     return set;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "hogel/core/lru_cache.h"
 #include "hogel/exchange.h"
 #include "hogel/image/formats/formats.h"
 
@@ -26,6 +27,13 @@ class ViewPictures {
     virtual image::Picture read(std::size_t row, std::size_t column) const = 0;
     /// What messages call it.
     virtual std::string name(std::size_t row, std::size_t column) const = 0;
+    /// The same picture for those that look at a few views before all are read: it is kept until forget().
+    virtual std::shared_ptr<const image::Picture> look(std::size_t row, std::size_t column) const;
+    virtual void forget() const { looked_at_.clear(); }
+
+  private:
+    static constexpr std::size_t kept = 12;
+    mutable core::LruCache<std::pair<std::size_t, std::size_t>, image::Picture> looked_at_{kept};
 };
 
 /// What a set says of its cameras; lengths in metres at the size of the scene, 0 for what it does not say.
@@ -96,7 +104,7 @@ struct ViewTarget {
     std::filesystem::path path;
     std::size_t columns = 0, rows = 0, width = 0, height = 0, channels = 0;
     ViewGeometry geometry;  ///< lengths at the hologram
-    std::string format;     ///< "png", "ppm", "pfm" or "exr"
+    std::string format;     ///< "png", "ppm", "pfm" or "exr"; the layout's name where views are no pictures
     unsigned bits = 8;      ///< 8 to 16, or 32 for floating-point numbers
     Transfer transfer = Transfer::srgb;
     Metadata texts;  ///< for formats that hold texts
@@ -113,6 +121,8 @@ class ViewWriter {
     virtual std::filesystem::path write(std::size_t row, std::size_t column, const StoredView& view) = 0;
     /// The files that hold all views, or that describe them.
     virtual std::vector<std::filesystem::path> finish() { return {}; }
+    /// What a user of the set should know.
+    virtual std::vector<std::string> notes() const { return {}; }
 };
 
 /// Writes each view to a file of its own, whose name, without extension, is name(row, column).
@@ -127,6 +137,8 @@ ViewLayout hci_layout();
 ViewLayout stanford_layout();
 ViewLayout quilt_layout();
 ViewLayout npy_layout();
+ViewLayout mat_layout();
+ViewLayout film_layout();
 ViewLayout rows_columns_layout();
 ViewLayout numbered_layout();
 

@@ -40,6 +40,7 @@ Plan plan_export(const LightField& light_field, const ViewExportOptions& options
     const double samples = light_field.grid().samples();
     Plan plan;
     plan.memory = std::min(samples * sizeof(float), options.memory) * 1.5;
+    if (options.layout == "mat" || options.layout == "quilt") plan.memory += samples * 4;  // are written at once
     plan.disk = samples * (options.bits == 0 || options.bits <= 8 ? 1 : 2);
     plan.seconds = on_all_threads(samples * seconds_an_exported_sample);
     return plan;

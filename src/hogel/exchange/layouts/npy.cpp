@@ -131,6 +131,7 @@ ViewLayout npy_layout() {
             .text = "NumPy array [row of views][column of views][y][x][channel] of uint8, uint16 or float32",
             .is_folder = false,
             .cameras_only = false,
+            .has_pictures = false,
             .probe = probe,
             .open = open,
             .create = [](const ViewTarget& target) -> std::unique_ptr<ViewWriter> {

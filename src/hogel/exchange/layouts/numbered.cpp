@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures counted by one number in their names, row by row. As in the sets of OpenHolo (OpenHolo_LFCGH) they are
 // orthographic views by their directions: the first shows the rays that go to the left and to the top behind the
-// hologram, which an eye on the right and below sees. With orthographic = false they are those of cameras from the top
-// left.
+// hologram, which an eye on the right and below sees. With orthographic = false, or by names that cameras give, they
+// are those of cameras from the top left.
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
 
 #include "hogel/error.h"
 #include "hogel/exchange/file_names.h"
-#include "hogel/exchange/view_set.h"
+#include "hogel/exchange/view_order.h"
 
 namespace hogel::exchange {
 namespace fs = std::filesystem;
@@ -16,6 +19,15 @@ namespace {
 bool probe(const fs::path& source) {
     const std::vector<NumberedFiles> groups = numbered_pictures(source);
     return !groups.empty() && groups.front().varying.size() == 1 && groups.front().files.size() > 2;
+}
+
+// Whether names are those that cameras and films give: IMG_0001.JPG, Cam_004.png.
+bool names_cameras(const std::string& shape) {
+    std::string name = shape;
+    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+    for (const char* word : {"cam", "img", "dsc", "photo", "frame"})
+        if (name.find(word) != std::string::npos) return true;
+    return false;
 }
 
 ViewSet open(const fs::path& source, const ViewOptions& options) {
@@ -27,8 +39,13 @@ ViewSet open(const fs::path& source, const ViewOptions& options) {
     set.columns = grid.columns;
     set.rows = grid.rows;
     set.pictures = std::make_shared<FilePictures>(std::move(grid.files), set.columns);
-    set.geometry.orthographic = options.orthographic.value_or(true);
-    if (!options.orthographic) set.notes.emplace_back("numbered views were taken for orthographic ones");
+    take_size(*set.pictures->look(0, 0), set);
+    set = unwound_by_parallax(std::move(set), options);
+    set.geometry.orthographic = options.orthographic.value_or(!names_cameras(groups.front().shape));
+    if (!options.orthographic)
+        set.notes.emplace_back(set.geometry.orthographic
+                                   ? "numbered views were taken for orthographic ones"
+                                   : "numbered views were taken for those of cameras, by their names");
     return mirrored(std::move(set), set.geometry.orthographic, set.geometry.orthographic);
 }
 

@@ -5,6 +5,8 @@
 // says nothing of their spacing: the cone of the display is the field of view.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <mutex>
@@ -39,20 +41,22 @@ bool take_letter(std::string_view& text, char letter) {
     return true;
 }
 
-// The tiling that a name's last "_qs" tells; nothing without one.
+// The tiling that a name's last "_qs" tells, in any case and whatever follows it, without an aspect too; nothing
+// without one.
 std::optional<Tiling> tiling_of(const fs::path& path) {
-    const std::string stem = path.stem().string();
+    std::string stem = path.stem().string();
+    std::ranges::transform(stem, stem.begin(), [](unsigned char c) { return std::tolower(c); });
     const std::size_t at = stem.rfind("_qs");
     if (at == std::string::npos) return {};
     std::string_view text(stem);
     text.remove_prefix(at + 3);
     Tiling tiling;
     constexpr std::size_t max_tiles = 1000;
-    const bool known = take(text, tiling.columns) && take_letter(text, 'x') && take(text, tiling.rows) &&
-                       take_letter(text, 'a') && take(text, tiling.aspect) && text.empty() && tiling.columns > 0 &&
-                       tiling.rows > 0 && tiling.columns <= max_tiles && tiling.rows <= max_tiles &&
-                       tiling.aspect > 0 && std::isfinite(tiling.aspect);
-    return known ? std::optional(tiling) : std::nullopt;
+    if (!take(text, tiling.columns) || !take_letter(text, 'x') || !take(text, tiling.rows)) return {};
+    if (take_letter(text, 'a') && !(take(text, tiling.aspect) && tiling.aspect > 0 && std::isfinite(tiling.aspect)))
+        return {};
+    const bool fits = tiling.columns > 0 && tiling.rows > 0 && tiling.columns <= max_tiles && tiling.rows <= max_tiles;
+    return fits ? std::optional(tiling) : std::nullopt;
 }
 
 bool probe(const fs::path& source) {
@@ -123,7 +127,10 @@ ViewSet open(const fs::path& source, const ViewOptions& options) {
             fmt::format("the picture does not divide into {}x{} views; pixels at their edges are left out",
                         tiling->columns, tiling->rows));
     const double width = static_cast<double>(pictures->width()), height = static_cast<double>(pictures->height());
-    if (tiling->aspect > 0) set.geometry.pixel_height = width / height / tiling->aspect;
+    if (tiling->aspect > 0)
+        set.geometry.pixel_height = width / height / tiling->aspect;
+    else
+        set.notes.emplace_back("the name does not say the aspect of views; their pixels were taken to be square");
     set.pictures = std::move(pictures);
     return set;
 }

@@ -4,6 +4,9 @@
 // a finite distance, the centres (cx, cy) are shifted, each by another amount.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "hogel/core/output_file.h"
 #include "hogel/error.h"
 #include "hogel/exchange/camera_frames.h"
@@ -75,6 +78,28 @@ std::string cameras_text(const ViewTarget& target) {
     return text + "\n]\n}\n";
 }
 
+// By how much the centres of pictures are beside their middles at most: pixels across and down.
+std::pair<double, double> off_centre(const ViewTarget& target) {
+    const ViewGeometry& g = target.geometry;
+    const double step = g.spacing / (g.distance * g.pixel_tangent);
+    const auto most = [](std::size_t views, double by, double centre) {
+        return 0.5 * static_cast<double>(views - 1) * by + std::abs(centre);
+    };
+    return {most(target.columns, step, g.center_u / g.pixel_tangent),
+            most(target.rows, step * g.spacing_ratio, g.center_v / g.pixel_tangent)};
+}
+
+// Programs exist that take the middle of each picture for its centre (graphdeco-inria/gaussian-splatting, issue 1010).
+std::vector<std::string> off_centre_notes(const ViewTarget& target) {
+    const auto [across, down] = off_centre(target);
+    if (std::max(across, down) < 0.5) return {};
+    return {
+        fmt::format("pictures are off centre by up to {:.4g} pixels across and {:.4g} down, which is cx and cy of each "
+                    "frame; a program that ignores them, as Gaussian splatting's first one does, puts things in wrong "
+                    "places",
+                    across, down)};
+}
+
 void write_text(const fs::path& file, const std::string& text) {
     core::write_file(file, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
 }
@@ -90,6 +115,7 @@ class Writer final : public ViewWriter {
         write_text(target_.path / file_name, cameras_text(target_));
         return {target_.path / file_name};
     }
+    std::vector<std::string> notes() const override { return off_centre_notes(target_); }
 
   private:
     ViewTarget target_;
@@ -110,13 +136,14 @@ ViewLayout transforms_layout() {
 
 }  // namespace exchange
 
-void write_cameras(const LightFieldGrid& grid, const std::filesystem::path& file) {
+std::vector<std::string> write_cameras(const LightFieldGrid& grid, const std::filesystem::path& file) {
     validate(grid, ErrorCode::usage, "cameras");
     exchange::ViewTarget target = exchange::target_of(grid, file);
     if (target.geometry.orthographic)
         throw Error(ErrorCode::usage, "cameras stand on a fixed focal plane in front of the hologram; there is none");
     target.format = "png";
     exchange::write_text(file, exchange::cameras_text(target));
+    return exchange::off_centre_notes(target);
 }
 
 }  // namespace hogel

@@ -40,6 +40,20 @@ bool is_mat(std::span<const unsigned char> start) {
     return start.size() >= 128 && std::memcmp(start.data(), "MATLAB ", 7) == 0;
 }
 
+std::vector<NumberArray> mat_heads(const std::filesystem::path& path) {
+    return is_version_73(path) ? mat73_heads(path) : mat5_heads(path);
+}
+
+NumberArray read_mat_array(const std::filesystem::path& path, const std::string& name) {
+    constexpr std::size_t any = 32;
+    const std::string only[] = {name};
+    std::vector<NumberArray> arrays =
+        is_version_73(path) ? read_mat73(path, only, any) : read_mat5(path, all_bytes(path), only, any);
+    const auto found = std::ranges::find(arrays, name, &NumberArray::name);
+    if (found == arrays.end()) fail_external(path, fmt::format("it has no array '{}' of numbers", name));
+    return std::move(*found);
+}
+
 std::unique_ptr<FieldSource> open_mat(const std::filesystem::path& path, const ExternalField& what) {
     return open_arrays(path, what, arrays_of(path, what.variable));
 }

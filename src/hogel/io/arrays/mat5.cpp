@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
+#include "hogel/core/raw_file.h"
 #include "hogel/io/arrays/inflate.h"
 #include "hogel/io/arrays/mat.h"
 
@@ -59,7 +61,9 @@ class Elements {
     std::span<const unsigned char> rest_;
 };
 
-std::vector<unsigned char> inflated(const std::filesystem::path& path, std::span<const unsigned char> compressed) {
+// The array that is compressed, or its first `most` bytes.
+std::vector<unsigned char> inflated(const std::filesystem::path& path, std::span<const unsigned char> compressed,
+                                    std::size_t most = ~std::size_t{0}) {
     const auto fill = [&](std::span<unsigned char> bytes) {
         if (!inflate(path, compressed, bytes, Extent::first)) fail_external(path, "a compressed array is damaged");
     };
@@ -68,8 +72,9 @@ std::vector<unsigned char> inflated(const std::filesystem::path& path, std::span
     fill(bytes);
     std::uint32_t size = 0;
     std::memcpy(&size, &bytes[4], sizeof size);
-    if (size / max_expansion > compressed.size()) fail_external(path, "a compressed array is damaged");
-    bytes.resize(8 + std::size_t{size});
+    if (std::min<std::size_t>(size, most) / max_expansion > compressed.size())
+        fail_external(path, "a compressed array is damaged");
+    bytes.resize(std::min(8 + std::size_t{size}, most));
     fill(bytes);
     return bytes;
 }
@@ -86,59 +91,115 @@ bool number_of(std::uint32_t type, Number& number) {
     return false;
 }
 
-// Appends the array if it is numeric, has two or three axes, and is wanted.
-void take_array(const std::filesystem::path& path, std::span<const unsigned char> bytes,
-                std::span<const std::string> only, std::vector<NumberArray>& arrays) {
-    Elements parts(path, bytes);
+// The class of an array by its number in the flags: 6 double, 7 single, 8 to 15 whole numbers.
+constexpr Number classes[] = {Number::real,   Number::single, Number::int8,   Number::uint8, Number::int16,
+                              Number::uint16, Number::int32,  Number::uint32, Number::int64, Number::uint64};
+constexpr unsigned char first_number = 6, last_number = 15, complex_flag = 0x08;
+
+struct Head {
+    NumberArray array;
+    std::uint64_t count = 0;  // of numbers
+    bool is_complex = false;
+};
+
+// Reads what stands before the numbers of an array; nothing for one that is not numeric, or that is empty.
+std::optional<Head> read_head(const std::filesystem::path& path, Elements& parts) {
     const Element flags = parts.next(), extents = parts.next(), label = parts.next();
     if (flags.type != type_uint32 || flags.bytes.size() != 8 || extents.type != type_int32 || label.type != type_int8)
         fail_external(path, "an array's head is damaged");
-    constexpr unsigned char first_number = 6, last_number = 15, complex = 0x08;
-    NumberArray array;
-    array.name.assign(label.bytes.begin(), label.bytes.end());
-    array.by_columns = true;
+    Head head;
+    head.array.name.assign(label.bytes.begin(), label.bytes.end());
+    head.array.by_columns = true;
     const unsigned char kind = flags.bytes[0];
     const std::size_t axes = extents.bytes.size() / 4;
-    if (kind < first_number || kind > last_number || extents.bytes.size() % 4 != 0 || axes < 2 || axes > 3) return;
-    std::uint64_t count = 1;
+    if (kind < first_number || kind > last_number || extents.bytes.size() % 4 != 0 || axes < 2) return {};
+    head.count = 1;
     for (std::size_t axis = 0; axis < axes; ++axis) {
         std::int32_t extent = 0;
         std::memcpy(&extent, &extents.bytes[4 * axis], sizeof extent);
-        if (extent <= 0) return;
-        array.shape.push_back(static_cast<std::size_t>(extent));
-        count = std::min(count * static_cast<std::uint64_t>(extent), std::uint64_t{1} << 40);
+        if (extent <= 0) return {};
+        head.array.shape.push_back(static_cast<std::size_t>(extent));
+        // No element has more than 2³² bytes, and no product with another extent exceeds 64 bits.
+        head.count = std::min(head.count * static_cast<std::uint64_t>(extent), std::uint64_t{1} << 32);
     }
-    if (!is_wanted(array.name, count, only)) return;
+    head.is_complex = (flags.bytes[1] & complex_flag) != 0;
+    head.array.number_class = classes[kind - first_number];
+    // Doubles may be stored as small whole numbers, but phases are then still in radians.
+    head.array.floating = kind == first_number || kind == first_number + 1;
+    return head;
+}
+
+// Appends the array if it is numeric, has two axes to `max_axes`, and is wanted.
+void take_array(const std::filesystem::path& path, std::span<const unsigned char> bytes,
+                std::span<const std::string> only, std::size_t max_axes, std::vector<NumberArray>& arrays) {
+    Elements parts(path, bytes);
+    std::optional<Head> head = read_head(path, parts);
+    if (!head || head->array.shape.size() > max_axes || !is_wanted(head->array.name, head->count, only)) return;
+    NumberArray& array = head->array;
     const auto take = [&](Number& number, std::vector<unsigned char>& to) {
         const Element numbers = parts.next();
-        if (!number_of(numbers.type, number) || numbers.bytes.size() != count * bytes_of(number))
+        if (!number_of(numbers.type, number) || numbers.bytes.size() != head->count * bytes_of(number))
             fail_external(path, fmt::format("its array '{}' is damaged", array.name));
         to.assign(numbers.bytes.begin(), numbers.bytes.end());
     };
     take(array.real_number, array.real);
-    if ((flags.bytes[1] & complex) != 0) take(array.imaginary_number, array.imaginary);
-    // Doubles may be stored as small whole numbers, but phases are then still in radians.
-    array.floating = kind == first_number || kind == first_number + 1;
+    if (head->is_complex) take(array.imaginary_number, array.imaginary);
     arrays.push_back(std::move(array));
+}
+
+void require_version_5(const std::filesystem::path& path, std::span<const unsigned char> header) {
+    if (header.size() < header_bytes || header[126] != 'I' || header[127] != 'M')
+        fail_external(path, "it is not a little-endian MAT file");
+    if (header[125] != 1) fail_external(path, fmt::format("its MAT version {} is not known", header[125]));
 }
 
 }  // namespace
 
 std::vector<NumberArray> read_mat5(const std::filesystem::path& path, std::span<const unsigned char> bytes,
-                                   std::span<const std::string> only) {
-    if (bytes.size() < header_bytes || bytes[126] != 'I' || bytes[127] != 'M')
-        fail_external(path, "it is not a little-endian MAT file");
-    if (bytes[125] != 1) fail_external(path, fmt::format("its MAT version {} is not known", bytes[125]));
+                                   std::span<const std::string> only, std::size_t max_axes) {
+    require_version_5(path, bytes);
     std::vector<NumberArray> arrays;
     Elements elements(path, bytes.subspan(header_bytes));
     while (!elements.empty()) {
         const Element element = elements.next();
-        if (element.type == type_array) take_array(path, element.bytes, only, arrays);
+        if (element.type == type_array) take_array(path, element.bytes, only, max_axes, arrays);
         if (element.type != type_compressed) continue;
         const std::vector<unsigned char> held = inflated(path, element.bytes);
         Elements inside(path, held);
         const Element array = inside.next();
-        if (array.type == type_array) take_array(path, array.bytes, only, arrays);
+        if (array.type == type_array) take_array(path, array.bytes, only, max_axes, arrays);
+    }
+    return arrays;
+}
+
+std::vector<NumberArray> mat5_heads(const std::filesystem::path& path) {
+    const core::RawFile file(path, core::RawFile::Mode::read, path);
+    const std::uint64_t end = file.size();
+    const auto bytes_at = [&](std::uint64_t at, std::uint64_t count) {
+        std::vector<unsigned char> bytes(static_cast<std::size_t>(std::min(count, end - at)));
+        file.read(at, bytes.data(), bytes.size());
+        return bytes;
+    };
+    require_version_5(path, bytes_at(0, header_bytes));
+    constexpr std::size_t head_bytes = 1024, packed_bytes = 8192;  // enough for the head of an array
+    std::vector<NumberArray> arrays;
+    for (std::uint64_t at = header_bytes; at + 8 <= end;) {
+        std::uint32_t tag[2];
+        file.read(at, tag, sizeof tag);
+        const std::uint64_t size = tag[1];
+        std::vector<unsigned char> start;
+        if (tag[0] == type_array) start = bytes_at(at + 8, std::min<std::uint64_t>(size, head_bytes));
+        if (tag[0] == type_compressed) {
+            start = inflated(path, bytes_at(at + 8, std::min<std::uint64_t>(size, packed_bytes)), head_bytes);
+            std::uint32_t type = 0;
+            std::memcpy(&type, start.data(), sizeof type);
+            start.erase(start.begin(), start.begin() + (type == type_array ? 8 : static_cast<long>(start.size())));
+        }
+        if (!start.empty()) {
+            Elements parts(path, start);
+            if (std::optional<Head> head = read_head(path, parts)) arrays.push_back(std::move(head->array));
+        }
+        at += tag[0] >> 16 != 0 ? 8 : 8 + (tag[0] == type_compressed ? size : (size + 7) / 8 * 8);
     }
     return arrays;
 }

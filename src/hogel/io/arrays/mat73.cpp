@@ -36,29 +36,48 @@ bool is_numeric(const Hdf5V0Dataset& dataset) {
     return is_complex(dataset) || (dataset.members.size() == 1 && dataset.members[0].name.empty());
 }
 
+bool is_read(const Hdf5V0Dataset& dataset) {
+    return is_numeric(dataset) && dataset.shape.size() >= 2 && dataset.samples() > 0;
+}
+
+// What is known of an array before its numbers are read.
+NumberArray head_of(const Hdf5V0Dataset& dataset) {
+    NumberArray array;
+    array.name = dataset.name;
+    array.shape.assign(dataset.shape.rbegin(), dataset.shape.rend());
+    array.by_columns = true;
+    array.real_number = array.number_class = dataset.members[0].number;
+    array.floating = !is_whole(array.real_number);
+    return array;
+}
+
 }  // namespace
 
-std::vector<NumberArray> read_mat73(const std::filesystem::path& path, std::span<const std::string> only) {
+std::vector<NumberArray> read_mat73(const std::filesystem::path& path, std::span<const std::string> only,
+                                    std::size_t max_axes) {
     const Hdf5V0 file(path);
     std::vector<NumberArray> arrays;
     for (const Hdf5V0Dataset& dataset : file.datasets()) {
-        if (!is_numeric(dataset) || dataset.shape.size() < 2 || dataset.shape.size() > 3 || dataset.samples() == 0 ||
-            !is_wanted(dataset.name, dataset.samples(), only))
+        if (!is_read(dataset) || dataset.shape.size() > max_axes || !is_wanted(dataset.name, dataset.samples(), only))
             continue;
-        NumberArray array;
-        array.name = dataset.name;
-        array.shape.assign(dataset.shape.rbegin(), dataset.shape.rend());
-        array.by_columns = true;
-        array.real_number = dataset.members[0].number;
-        array.floating = !is_whole(array.real_number);
-        const std::vector<unsigned char> elements = file.read(dataset);
-        array.real = numbers_of(elements, dataset.element_bytes, dataset.members[0]);
+        NumberArray array = head_of(dataset);
+        std::vector<unsigned char> elements = file.read(dataset);
         if (is_complex(dataset)) {
+            array.real = numbers_of(elements, dataset.element_bytes, dataset.members[0]);
             array.imaginary_number = dataset.members[1].number;
             array.imaginary = numbers_of(elements, dataset.element_bytes, dataset.members[1]);
+        } else {
+            array.real = std::move(elements);
         }
         arrays.push_back(std::move(array));
     }
+    return arrays;
+}
+
+std::vector<NumberArray> mat73_heads(const std::filesystem::path& path) {
+    std::vector<NumberArray> arrays;
+    for (const Hdf5V0Dataset& dataset : Hdf5V0(path).datasets())
+        if (is_read(dataset)) arrays.push_back(head_of(dataset));
     return arrays;
 }
 

@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <string_view>
 
 #include "hogel/error.h"
@@ -14,9 +16,9 @@ namespace hogel::io::arrays {
 namespace {
 
 // Types of elements, and classes of arrays.
-constexpr unsigned type_int8 = 1, type_uint16 = 4, type_int32 = 5, type_uint32 = 6, type_single = 7, type_double = 9,
-                   type_array = 14;
-constexpr unsigned char class_text = 4, class_double = 6, class_single = 7;
+constexpr unsigned type_int8 = 1, type_uint8 = 2, type_uint16 = 4, type_int32 = 5, type_uint32 = 6, type_single = 7,
+                   type_double = 9, type_array = 14;
+constexpr unsigned char class_text = 4, class_double = 6, class_single = 7, class_uint8 = 9, class_uint16 = 11;
 
 template <class T>
 std::span<const unsigned char> bytes_of_values(std::span<const T> values) {
@@ -79,19 +81,48 @@ void MatWriter::text(const std::string& name, const std::string& value) {
     end_array(begin);
 }
 
-void MatWriter::array(const std::string& name, std::span<const std::size_t> shape, std::span<const float> real,
-                      std::span<const float> imaginary) {
-    constexpr std::size_t most = std::size_t{1} << 31;  // of an array, in bytes
-    if (real.size_bytes() + imaginary.size_bytes() > most - 4096)
+void MatWriter::require_size(std::uint64_t bytes) const {
+    constexpr std::uint64_t most = std::uint64_t{1} << 31;  // of an array, in bytes
+    if (bytes > most - 4096)
         throw Error(
             ErrorCode::usage,
             fmt::format("'{}': an array of {} bytes was asked for, but MAT files of version 5 hold at most 2 GiB",
-                        path_.string(), real.size_bytes() + imaginary.size_bytes()));
+                        path_.string(), bytes));
+}
+
+void MatWriter::array(const std::string& name, std::span<const std::size_t> shape, std::span<const float> real,
+                      std::span<const float> imaginary) {
+    require_size(real.size_bytes() + imaginary.size_bytes());
     const std::size_t begin = begin_array(name, class_single, !imaginary.empty(), shape);
     bytes_.reserve(bytes_.size() + real.size_bytes() + imaginary.size_bytes() + 64);
     element(type_single, bytes_of_values(real));
     if (!imaginary.empty()) element(type_single, bytes_of_values(imaginary));
     end_array(begin);
+}
+
+void MatWriter::begin_numbers(const std::string& name, std::span<const std::size_t> shape, Number number) {
+    struct Code {
+        Number number;
+        unsigned type;
+        unsigned char kind;
+    };
+    static constexpr Code codes[] = {{Number::uint8, type_uint8, class_uint8},
+                                     {Number::uint16, type_uint16, class_uint16},
+                                     {Number::single, type_single, class_single},
+                                     {Number::real, type_double, class_double}};
+    const auto* const code = std::ranges::find(codes, number, &Code::number);
+    if (code == std::end(codes)) throw Error(ErrorCode::internal, "a number that MAT files are not written with");
+    std::uint64_t bytes = bytes_of(number);
+    for (const std::size_t extent : shape) {
+        bytes *= extent;
+        require_size(bytes);
+    }
+    const std::size_t begin = begin_array(name, code->kind, false, shape);
+    element(code->type, {});
+    const auto size = static_cast<std::uint32_t>(bytes),
+               all = static_cast<std::uint32_t>(bytes_.size() - begin - 8 + (bytes + 7) / 8 * 8);
+    std::memcpy(&bytes_[bytes_.size() - 4], &size, sizeof size);
+    std::memcpy(&bytes_[begin + 4], &all, sizeof all);
 }
 
 }  // namespace hogel::io::arrays

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "hogel/io/arrays/numbers.h"
 
 namespace hogel::io::arrays {
 
@@ -24,9 +27,14 @@ class MatWriter {
     void array(const std::string& name, std::span<const std::size_t> shape, std::span<const float> real,
                std::span<const float> imaginary = {});
 
+    /// All of an array of numbers but these, which are to follow the bytes, the first index fastest, and then zeros up
+    /// to a multiple of eight; nothing else may follow. Throws as array() does.
+    void begin_numbers(const std::string& name, std::span<const std::size_t> shape, Number number);
+
     const std::vector<unsigned char>& bytes() const { return bytes_; }
 
   private:
+    void require_size(std::uint64_t bytes) const;
     std::size_t begin_array(const std::string& name, unsigned char kind, bool complex,
                             std::span<const std::size_t> shape);
     void end_array(std::size_t begin);

@@ -28,6 +28,7 @@ struct NumberArray {
     bool by_columns = false;         ///< whether the first index runs fastest, as in MATLAB
     Number real_number = Number::real, imaginary_number = Number::real;
     bool floating = false;  ///< whether its program takes it for floating-point numbers however they are stored
+    Number number_class = Number::real;          ///< what its program takes the numbers for; filled for MAT files
     std::vector<unsigned char> real, imaginary;  ///< `imaginary` is empty if the array is real
 
     std::size_t samples() const { return real.size() / bytes_of(real_number); }

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/films.h"
+
+#include <fmt/format.h>
+
+#include <system_error>
+#include <vector>
+
+#include "hogel/core/parallel.h"
+#include "hogel/core/program.h"
+#include "hogel/error.h"
+
+namespace hogel {
+namespace fs = std::filesystem;
+
+bool can_make_films() { return !core::find_program("ffmpeg").empty(); }
+
+void make_film(const fs::path& path, const fs::path& folder, const std::string& frames, double frames_a_second,
+               const std::string& comment, const Progress& progress) {
+    const core::StopScope scope(progress);
+    const std::string program = core::find_program("ffmpeg");
+    if (program.empty())
+        throw Error(ErrorCode::not_built_in,
+                    fmt::format("{}: films are made by ffmpeg, which is not installed", path.string()));
+    const std::string kind = path.extension().string(), film = (folder / ("film" + kind)).string();
+    std::vector<std::string> words{
+        program, "-y", "-framerate", fmt::format("{}", frames_a_second), "-i", (folder / frames).string()};
+    const auto add = [&](std::initializer_list<const char*> more) {
+        words.insert(words.end(), more.begin(), more.end());
+    };
+    if (kind == ".mp4")
+        add({"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-movflags", "+faststart"});
+    else if (kind == ".gif")
+        add({"-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse", "-loop", "0"});
+    else
+        add({"-plays", "0", "-f", "apng"});
+    if (!comment.empty()) words.insert(words.end(), {"-metadata", "comment=" + comment});
+    words.push_back(film);
+    if (!core::run_program(words))
+        throw Error(ErrorCode::cannot_write, fmt::format("{}: ffmpeg failed to make it", path.string()));
+    std::error_code error;
+    fs::rename(film, path, error);
+    if (error) throw Error(ErrorCode::cannot_write, fmt::format("{}: {}", path.string(), error.message()));
+}
+
+}  // namespace hogel
