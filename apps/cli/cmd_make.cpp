@@ -129,11 +129,11 @@ bool is_expected_cheap(const LightFieldGrid& grid, const HologramRequest& reques
 
 // The command that renders the light field again, from the options that describe the run.
 std::string render_command(const Metadata& run, const std::string& scene) {
-    constexpr std::array<std::string_view, 24> names{
-        "algorithm",  "shading", "shadow-map", "cache-spacing", "cull-back-faces", "hogels",
-        "directions", "samples", "size",       "fov",           "toward",          "front",
-        "as-is",      "fit",     "up",         "rotate",        "scale",           "move",
-        "colour",     "texture", "light",      "background",    "ground",          "point-size"};
+    constexpr std::array<std::string_view, 25> names{
+        "algorithm",    "shading", "shadow-map", "cache-spacing", "cull-back-faces", "hogels", "directions", "samples",
+        "size",         "fov",     "toward",     "front",         "as-is",           "fit",    "up",         "rotate",
+        "scene-camera", "scale",   "move",       "colour",        "texture",         "light",  "background", "ground",
+        "point-size"};
     std::string command = "hogel render " + scene + " -o lightfield.h5";
     for (const auto& [key, value] : run)
         for (const std::string_view name : names) {

@@ -326,8 +326,11 @@ Scene load_scene(const Session& session, const std::string& name, const RenderOp
     LightFieldRequest request = options.request();
     request.pose = options.scene.complete_pose();
     request.import.point_size = options.scene.point_size;
+    if (!request.pose.camera.empty() && (request.pose.up || request.pose.rotation != Vec3{} || options.as_is))
+        throw Error(ErrorCode::usage,
+                    "--scene-camera: turns and fits the scene itself; leave out --up, --rotate and --as-is");
     Stage stage(session, "scene");
-    const Scene scene = with_options({{"texture coordinates", "--texture"}},
+    const Scene scene = with_options({{"texture coordinates", "--texture"}, {"camera", "--scene-camera"}},
                                      [&] { return hogel::load_scene(name, request, stage.progress()); });
     options.scene.record(record, scene);
     for (const std::string& note : scene.notes) session.say(fmt::format("{}: note: {}", name, note));

@@ -118,7 +118,8 @@ ScenePose SceneOptions::complete_pose() const {
 }
 
 void SceneOptions::record(RunRecord& record, const Scene& scene) const {
-    if (pose.up != Vec3{0, 1, 0}) record.acted({"up"});
+    if (pose.up && *pose.up != Vec3{0, 1, 0}) record.acted({"up"});
+    if (!pose.camera.empty()) record.acted({"scene-camera"});
     if (pose.rotation != Vec3{}) record.acted({"rotate"});
     if (pose.scale != 1) record.acted({"scale"});
     if (pose.shift != Vec3{}) record.acted({"move"});
@@ -135,10 +136,16 @@ void SceneOptions::record(RunRecord& record, const Scene& scene) const {
 
 void add_scene_options(Command& command, SceneOptions& options) {
     command.group("Scene");
-    command.parsed("--up", "AXIS", "The axis of the scene that points upwards: y (default), z, x, or -y, -z, -x",
-                   [&options](const std::string& text) { options.pose.up = parse_up(text); });
+    command.parsed(
+        "--up", "AXIS",
+        "The axis of the scene that points upwards: y (default; of STL, 3MF and AMF files z), x, or -x, -y, -z",
+        [&options](const std::string& text) { options.pose.up = parse_up(text); });
     command.parsed("--rotate", "X,Y,Zdeg", "Turn the scene about x (to the right), then y (up), then z (to the viewer)",
                    [&options](const std::string& text) { options.pose.rotation = parse_rotation(text); });
+    command
+        .text("--scene-camera", options.pose.camera, "NAME",
+              "Take the view of a camera of the scene's file, by its name or number (default: front)")
+        .no_default();
     command.number("--scale", options.pose.scale, "F", "Enlarge the scene, after it was fitted to the hologram")
         .positive()
         .no_default();

@@ -83,7 +83,8 @@ HOGEL_API Metadata read_metadata(const std::filesystem::path& path);
 
 /// The exposure that maps the brightest parts of a picture to display white: the 99.5th percentile of each pixel's
 /// largest channel; or less, so that the median of the pixels that are not black stays below 0.55 of white, because a
-/// white body on black would be white all over.
+/// white body on black would be white all over. Pixels of the background that the picture's provenance names
+/// (background_of()) count as black.
 HOGEL_API double automatic_exposure(const Image& image);
 
 /// The difference of two pictures. PSNR, SSIM and the largest error are those of display values, sRGB of linear values

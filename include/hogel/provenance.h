@@ -32,6 +32,11 @@ HOGEL_API Metadata with_history(Metadata now, const Metadata& before);
 HOGEL_API Metadata to_metadata(const Provenance& provenance);
 HOGEL_API Provenance to_provenance(Metadata metadata);
 
+/// The entry that says which radiance rays have that meet nothing, which what renders a scene adds for a background
+/// that is not black; and that radiance again, black where there is no such entry. automatic_exposure() passes it over.
+HOGEL_API std::pair<std::string, std::string> background_entry(Rgb background);
+HOGEL_API Rgb background_of(const Provenance& provenance);
+
 /// Converts a camera to a text with all digits and back: "eye 0 0 0.3 focus 0 0 0 pupil 0.005 picture 400 400 5e-05
 /// 5e-05 0 0". Lengths are in metres; the focus is the depth and the two slopes of the plane in focus; the picture is
 /// its grid (columns, rows, pitches, centre). parse_camera() returns nothing for a text that is not a camera accepted

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -48,9 +49,18 @@ struct Material {
     /// Its green multiplies the roughness and its blue `metallic`, as numbers without a transfer curve; may be null.
     std::shared_ptr<const Image> metallic_roughness_texture;
     TextureSampling metallic_roughness_sampling;  ///< of that texture
-    AlphaMode alpha_mode = AlphaMode::opaque;     ///< what alpha means
-    float alpha = 1;                              ///< multiplied by that of vertices and of the base-colour texture
-    float alpha_cutoff = 0.5f;                    ///< of AlphaMode::mask
+    /// Its red, green and blue, as numbers from −1 to 1, are the normal's parts along growing u, along growing v and
+    /// away from the surface, the first two times `normal_scale`; may be null.
+    std::shared_ptr<const Image> normal_texture;
+    TextureSampling normal_sampling;  ///< of that texture
+    float normal_scale = 1;           ///< of the slopes of that texture
+    /// Its red multiplies the ambient light, by the part `occlusion_strength` of it; may be null.
+    std::shared_ptr<const Image> occlusion_texture;
+    TextureSampling occlusion_sampling;        ///< of that texture
+    float occlusion_strength = 1;              ///< 0: the texture does nothing
+    AlphaMode alpha_mode = AlphaMode::opaque;  ///< what alpha means
+    float alpha = 1;                           ///< multiplied by that of vertices and of the base-colour texture
+    float alpha_cutoff = 0.5f;                 ///< of AlphaMode::mask
 
     /// Whether there is a lobe.
     bool is_glossy() const { return reflectance > 0 || metallic > 0; }
@@ -74,30 +84,51 @@ struct Mesh {
     std::vector<TextureCoordinate> emission_coordinates;
     /// Those of the metallic-roughness texture; empty: `texture_coordinates`.
     std::vector<TextureCoordinate> metallic_roughness_coordinates;
-    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counterclockwise from outside
-    Material material;                                    ///< of all triangles
-    std::string name;                                     ///< for messages
+    std::vector<TextureCoordinate> normal_coordinates;     ///< of the normal texture; empty: `texture_coordinates`
+    std::vector<TextureCoordinate> occlusion_coordinates;  ///< of the occlusion texture; empty: `texture_coordinates`
+    std::vector<std::array<std::uint32_t, 3>> triangles;   ///< counterclockwise from outside
+    Material material;                                     ///< of all triangles
+    std::string name;                                      ///< for messages
 };
 
-/// A light. Point lights fall off with the square of the distance, directional ones do not.
+/// A light. Point lights fall off with the square of the distance, directional ones do not. A point light with a cone
+/// is a spot light.
 struct Light {
     /// A point light has a position, a directional one a direction.
     enum class Kind { point, directional };
     Kind kind = Kind::directional;  ///< decides which of the members below are used
     Vec3 position;                  ///< of a point light, metres
-    Vec3 direction;                 ///< in which the light of a directional light travels, unit length
+    Vec3 direction;                 ///< in which the light of a directional or spot light travels, unit length
     Rgb intensity;                  ///< point: radiant intensity; directional: irradiance at normal incidence
     bool casts_shadows = true;      ///< false: surfaces do not block it
+    /// Half-angles of a point light's cone about its direction, radians: the light is full up to the inner one and none
+    /// from the outer one on. With c the cosine of the angle from the direction, it is between them by the factor
+    /// ((c − cos outer) / (cos inner − cos outer))², as in glTF. From π on there is no cone.
+    double outer_cone = std::numbers::pi;
+    double inner_cone = 0;  ///< at most outer_cone
+};
+
+/// A camera that a scene's file holds, in the frame of the scene.
+struct SceneCamera {
+    std::string name;     ///< may be empty
+    Vec3 position;        ///< of its eye
+    Vec3 right{1, 0, 0};  ///< unit length
+    Vec3 up{0, 1, 0};     ///< unit length, across `right`
+    double angle = 0;     ///< from the lower to the upper edge of its picture, radians; 0: its rays are parallel
+    double height = 0;    ///< of its picture where rays are parallel
+    double nearest = 0;   ///< what lies nearer than this is not in its picture
 };
 
 /// Surfaces, lights, and the radiance of rays that meet nothing.
 struct Scene {
-    std::string name;           ///< for messages and files
-    std::vector<Mesh> meshes;   ///< in any order
-    std::vector<Light> lights;  ///< in any order
-    Rgb ambient{0, 0, 0};       ///< radiance from all directions, unshadowed
-    Rgb background{0, 0, 0};    ///< radiance of rays that meet nothing
-    Metadata provenance;        ///< what made it, if its file says so: write_baked_scene()
+    std::string name;                  ///< for messages and files
+    std::vector<Mesh> meshes;          ///< in any order
+    std::vector<Light> lights;         ///< in any order
+    Rgb ambient{0, 0, 0};              ///< radiance from all directions, unshadowed
+    Rgb background{0, 0, 0};           ///< radiance of rays that meet nothing
+    std::vector<SceneCamera> cameras;  ///< of its file; see frame_scene()
+    Vec3 up{0, 1, 0};                  ///< the axis that points upwards in its file, by which turn_scene() turns it
+    Metadata provenance;               ///< what made it, if its file says so: write_baked_scene()
     /// What the file of a scene holds that is not shown, or is shown otherwise: a line each, for people.
     std::vector<std::string> notes;
 };

@@ -69,8 +69,11 @@ HOGEL_API void fit_scene(Scene& scene, const Fit& fit);
 /// How a person turns, places and lights a scene of their own. Applied in the order of the members.
 struct ScenePose {
     // Before a scene is fitted to the hologram.
-    Vec3 up{0, 1, 0};    ///< the axis of the scene, or its opposite, that is turned upwards
-    Vec3 rotation = {};  ///< radians about x, then y, then z, as the viewer sees them, after that
+    std::optional<Vec3> up = {};  ///< the axis of the scene, or its opposite, that is turned upwards; none: Scene::up
+    Vec3 rotation = {};           ///< radians about x, then y, then z, as the viewer sees them, after that
+    /// The name or number of a camera of the scene's file whose picture the hologram is: see frame_scene(). In place of
+    /// turning and fitting; empty: none.
+    std::string camera = {};
     // After it.
     double scale = 1;                           ///< about the middle of the hologram
     Vec3 shift = {};                            ///< metres
@@ -80,6 +83,17 @@ struct ScenePose {
     std::optional<Rgb> background = {};         ///< radiance of rays that meet nothing
     std::optional<Rgb> ground = {};             ///< colour of a level ground under the scene; none: there is none
 };
+
+/// The camera of a scene by its name or its number, from 1. Throws Error(usage), which names those that there are.
+HOGEL_API const SceneCamera& find_camera(const Scene& scene, const std::string& name);
+
+/// Turns, scales and moves a scene so that the hologram is the picture of one of its cameras: an eye on the hologram's
+/// axis at the distance that is returned sees what the camera sees. The picture's height becomes that of the hologram.
+/// The hologram's plane lies where its disparity from that eye divides that of what the picture shows as `fit.front`
+/// says, so that a far background moves it little. What lies behind the eye, and touches what lies there, is removed.
+/// Lights move along; `fit.fill` means nothing. Throws Error(bad_input) where the camera sees nothing.
+/// @return  metres; infinite for a camera with parallel rays
+HOGEL_API double frame_scene(Scene& scene, const SceneCamera& camera, const Fit& fit);
 
 /// Turns a scene about the middle of the hologram, with its lights. Throws Error(usage) for an `up` that is no axis.
 HOGEL_API void turn_scene(Scene& scene, const ScenePose& pose);

@@ -32,7 +32,7 @@ OTHER = {
     "front": "0.7", "as-is": None, "fit": None, "hemicube": None, "frequencies": "633nm", "focal-plane": "-50mm", "interpolate": "2",
     "depth": None, "float": None,
     # scenes
-    "up": "z", "rotate": "10,20,30deg", "scale": "0.6", "move": "0.1,0.05,0.1mm", "colour": "#3060c0", "texture": "other.exr",
+    "up": "z", "rotate": "10,20,30deg", "scene-camera": "1", "scale": "0.6", "move": "0.1,0.05,0.1mm", "colour": "#3060c0", "texture": "other.exr",
     "light": "1,1,1:red:2", "background": "#406080", "ground": "#907050", "point-size": "0.5",
     "seed": "7",
     # holograms

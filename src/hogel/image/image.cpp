@@ -2,6 +2,7 @@
 #include "hogel/image.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -32,9 +33,20 @@ double median_of_lit(std::vector<float> values, float limit) {
     return *middle;
 }
 
+// Whether a pixel has that radiance, up to what packing takes from it. Black is no background.
+bool shows(const Image& image, std::size_t x, std::size_t y, Rgb background) {
+    const std::array<float, 3> expected{background.r, background.g, background.b};
+    const float near = 0.02f * std::max({background.r, background.g, background.b});
+    if (!(near > 0) || image.channels() != 3) return false;
+    for (std::size_t c = 0; c < 3; ++c)
+        if (!(std::abs(image.pixels(y, x, c) - expected[c]) <= near)) return false;
+    return true;
+}
+
 }  // namespace
 
 double automatic_exposure(const Image& image) {
+    const Rgb background = background_of(image.provenance);
     std::vector<float> largest;
     largest.reserve(image.width() * image.height());
     for (std::size_t y = 0; y < image.height(); ++y)
@@ -44,7 +56,7 @@ double automatic_exposure(const Image& image) {
                 const float sample = image.pixels(y, x, c);
                 if (std::isfinite(sample)) value = std::max(value, sample);
             }
-            largest.push_back(value);
+            largest.push_back(shows(image, x, y, background) ? 0 : value);
         }
     if (largest.empty()) return 1;
     const auto rank = static_cast<std::ptrdiff_t>(0.995 * static_cast<double>(largest.size() - 1));

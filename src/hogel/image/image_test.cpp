@@ -284,5 +284,30 @@ TEST(AutomaticExposure, leaves_a_white_body_on_black_its_shades) {
     EXPECT_NEAR(automatic_exposure(image), 0.5, 1e-6);
 }
 
+TEST(AutomaticExposure, passes_a_background_over) {
+    // A body on a third of the picture, before black and before brighter and darker backgrounds.
+    const auto picture = [](Rgb background, bool says_so) {
+        Image image(100, 90, 3);
+        for (std::size_t i = 0; i < 9000; ++i) {
+            const float body = i < 300 ? 0.05f : i < 2900 ? 0.2f : 0.3f;
+            const Rgb color = i < 3000 ? Rgb{body, body, body} : background;
+            image.pixels(i / 100, i % 100, 0) = color.r;
+            image.pixels(i / 100, i % 100, 1) = color.g;
+            image.pixels(i / 100, i % 100, 2) = color.b;
+        }
+        if (says_so) image.provenance.entries.push_back(background_entry(background));
+        return image;
+    };
+    const double on_black = automatic_exposure(picture({0, 0, 0}, false));
+    EXPECT_GT(on_black, 2);
+    for (const Rgb background : {Rgb{1, 1, 1}, Rgb{0.02f, 0.02f, 0.03f}, Rgb{0, 0, 7}}) {
+        EXPECT_EQ(automatic_exposure(picture(background, true)), on_black);
+        EXPECT_NE(automatic_exposure(picture(background, false)), on_black);
+    }
+    EXPECT_EQ(background_of({{{"background", "0.5 0.25 1"}}, {}}), (Rgb{0.5f, 0.25f, 1}));
+    for (const char* other : {"", "white", "1 1", "1 1 1 1", "nan 0 0"})
+        EXPECT_EQ(background_of({{{"background", other}}, {}}), (Rgb{0, 0, 0})) << other;
+}
+
 }  // namespace
 }  // namespace hogel::image

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <string_view>
 
@@ -13,6 +14,7 @@ namespace hogel {
 namespace {
 
 constexpr const char* camera_key = "camera";
+constexpr const char* background_key = "background";
 
 auto find_key(auto& metadata, const std::string& key) {
     return std::ranges::find(metadata, key, [](const auto& entry) { return entry.first; });
@@ -51,6 +53,20 @@ Provenance to_provenance(Metadata metadata) {
     }
     provenance.entries = std::move(metadata);
     return provenance;
+}
+
+std::pair<std::string, std::string> background_entry(Rgb background) {
+    return {background_key, fmt::format("{} {} {}", background.r, background.g, background.b)};
+}
+
+Rgb background_of(const Provenance& provenance) {
+    const auto found = find_key(provenance.entries, background_key);
+    Rgb background{0, 0, 0};
+    if (found == provenance.entries.end()) return background;
+    std::istringstream text(found->second);
+    Rgb read;
+    const bool whole = text >> read.r >> read.g >> read.b && (text >> std::ws).eof();
+    return whole && std::isfinite(read.r + read.g + read.b) ? read : background;
 }
 
 std::string describe(const Camera& camera) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 
 #include "hogel/core/parallel.h"
 #include "hogel/core/part.h"
@@ -11,6 +12,7 @@
 #include "hogel/pipeline.h"
 #include "hogel/render/cache_spacing.h"
 #include "hogel/shading/radiance_cache.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {
@@ -85,6 +87,57 @@ LightField open_light_field_or_views(const std::filesystem::path& path, const Pr
     return is_view_set(path) ? import_views(path, {}, progress).light_field : open_light_field(path);
 }
 
+namespace {
+
+/// Whether more than half of a surface of some detail are triangles so large that shadows between their corners are
+/// missed or smeared.
+bool is_coarse(const Scene& scene, double hologram_width) {
+    constexpr std::size_t some_detail = 100;  // triangles
+    if (triangle_count(scene) < some_detail) return false;
+    double all = 0, coarse = 0;
+    for (const Mesh& mesh : scene.meshes) {
+        if (!mesh.radiance.empty()) continue;
+        for (const auto& [a, b, c] : mesh.triangles) {
+            const Vec3 ab = mesh.positions[b] - mesh.positions[a], bc = mesh.positions[c] - mesh.positions[b];
+            const double area = length(cross(ab, bc)), side = std::max({length(ab), length(bc), length(ab + bc)});
+            all += area;
+            if (side > hologram_width / 8) coarse += area;
+        }
+    }
+    return coarse > 0.5 * all;
+}
+
+/// Turns and fits the scene of a file, or takes the view of its camera, and notes what was decided.
+void place_own(Scene& scene, const LightFieldRequest& request) {
+    const ScenePose& pose = request.pose;
+    const Fit fit{.width = request.grid.width(), .height = request.grid.height(), .front = request.front};
+    if (!pose.camera.empty()) {
+        const SceneCamera camera = find_camera(scene, pose.camera);
+        const double eye = frame_scene(scene, camera, fit);
+        scene.notes.push_back(eye < std::numeric_limits<double>::infinity()
+                                  ? fmt::format("its camera sees it so from {} before the hologram", format_length(eye))
+                                  : "its camera has parallel rays: it sees it so from far away");
+        return;
+    }
+    if (!request.fit) {
+        scene.up = {0, 1, 0};
+    } else if (scene.up == Vec3{0, 0, 1} && !pose.up) {
+        scene.notes.push_back("files of this kind have z upwards; if it lies, turn it by --up y");
+    }
+    if (!scene.cameras.empty()) {
+        std::string names;
+        for (std::size_t i = 0; i < std::min<std::size_t>(scene.cameras.size(), 4); ++i)
+            names += fmt::format("{}'{}'", i == 0 ? "" : ", ",
+                                 scene.cameras[i].name.empty() ? fmt::format("{}", i + 1) : scene.cameras[i].name);
+        scene.notes.push_back(fmt::format("it is seen from its front; --scene-camera takes the view of a camera: {}{}",
+                                          names, scene.cameras.size() > 4 ? " ..." : ""));
+    }
+    turn_scene(scene, pose);
+    if (request.fit) fit_scene(scene, fit);
+}
+
+}  // namespace
+
 Scene load_scene(const std::string& name, const LightFieldRequest& request, const Progress& progress) {
     const core::StopScope scope(progress);
     require_built_in(request);
@@ -94,6 +147,7 @@ Scene load_scene(const std::string& name, const LightFieldRequest& request, cons
     }
     const double width = request.grid.width();
     Scene scene = make_scene(name, width, progress);
+    if (!request.pose.camera.empty()) find_camera(scene, request.pose.camera);
     turn_scene(scene, request.pose);
     place_scene(scene, request.pose, width);
     return scene;
@@ -101,8 +155,11 @@ Scene load_scene(const std::string& name, const LightFieldRequest& request, cons
 
 Scene prepare_scene(Scene scene, const LightFieldRequest& request) {
     const double width = request.grid.width();
-    turn_scene(scene, request.pose);
-    if (request.fit) fit_scene(scene, {.width = width, .height = request.grid.height(), .front = request.front});
+    place_own(scene, request);
+    if (request.shading.model == "vertex" && is_coarse(scene, width))
+        scene.notes.push_back(
+            "its triangles are large, and light is computed at their corners: --shading direct computes it at each "
+            "point");
     if (scene.lights.empty()) add_default_lights(scene);
     place_scene(scene, request.pose, width);
     return scene;

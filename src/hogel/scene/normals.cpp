@@ -123,7 +123,11 @@ void add_normals(Mesh& mesh, double crease) {
             append_copy(mesh.positions, vertex);
             append_copy(mesh.colors, vertex);
             append_copy(mesh.radiance, vertex);
-            append_copy(mesh.texture_coordinates, vertex);
+            append_copy(mesh.alphas, vertex);
+            for (auto* coordinates :
+                 {&mesh.texture_coordinates, &mesh.emission_coordinates, &mesh.metallic_roughness_coordinates,
+                  &mesh.normal_coordinates, &mesh.occlusion_coordinates})
+                append_copy(*coordinates, vertex);
             mesh.normals.push_back(normal);
             uses[i].next_copy = copy;
             uses.push_back({group, none});

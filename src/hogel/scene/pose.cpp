@@ -98,8 +98,10 @@ Mesh level_ground(const Bounds& box, double hologram_width, Rgb base_color) {
 
 void turn_scene(Scene& scene, const ScenePose& pose) {
     const bool turned = pose.rotation != Vec3{};
-    if (!turned && pose.up == Vec3{0, 1, 0}) return;
-    const Rotation rotation = turned ? after(about_axes(pose.rotation), with_up(pose.up)) : with_up(pose.up);
+    const Vec3 up = pose.up.value_or(scene.up);
+    if (!turned && up == Vec3{0, 1, 0}) return;
+    const Rotation rotation = turned ? after(about_axes(pose.rotation), with_up(up)) : with_up(up);
+    scene.up = {0, 1, 0};
     for (Mesh& mesh : scene.meshes) {
         for (Vec3& position : mesh.positions) position = rotation(position);
         for (Vec3& normal : mesh.normals) normal = rotation(normal);

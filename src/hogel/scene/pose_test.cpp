@@ -49,9 +49,9 @@ TEST(Pose, every_axis_can_be_up_without_a_mirror_image) {
         EXPECT_EQ(dot(mesh.positions[0], cross(mesh.positions[1], mesh.positions[2])), volume);
     }
     Scene scene = corner();
-    turn_scene(scene, {.up = {0, 0, 1}});
+    turn_scene(scene, {.up = Vec3{0, 0, 1}});
     EXPECT_EQ(scene.meshes[0].positions[1], (Vec3{0, 0, -2}));  // what was behind in the drawing, −y faces the viewer
-    EXPECT_THROW(turn_scene(scene, {.up = {0, 1, 1}}), Error);
+    EXPECT_THROW(turn_scene(scene, {.up = Vec3{0, 1, 1}}), Error);
 }
 
 TEST(Pose, rotations_are_about_x_then_y_then_z_and_take_normals_and_lights_along) {

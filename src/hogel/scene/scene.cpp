@@ -65,6 +65,8 @@ void validate(const Scene& scene) {
         validate_attribute(mesh, mesh.emission_coordinates, "coordinates of the emission texture", true);
         validate_attribute(mesh, mesh.metallic_roughness_coordinates, "coordinates of the metallic-roughness texture",
                            true);
+        validate_attribute(mesh, mesh.normal_coordinates, "coordinates of the normal texture", true);
+        validate_attribute(mesh, mesh.occlusion_coordinates, "coordinates of the occlusion texture", true);
         for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
             for (std::uint32_t vertex : mesh.triangles[i])
                 if (vertex >= mesh.positions.size())

@@ -65,6 +65,18 @@ void add_looks(Checksums& sums, const Mesh& mesh) {
         add(m.metallic_roughness_sampling);
         sums.add(std::span(mesh.metallic_roughness_coordinates));
     }
+    if (m.normal_texture) {
+        sums.add(m.normal_texture);
+        add(m.normal_sampling);
+        sums.add({m.normal_scale});
+        sums.add(std::span(mesh.normal_coordinates));
+    }
+    if (m.occlusion_texture) {
+        sums.add(m.occlusion_texture);
+        add(m.occlusion_sampling);
+        sums.add({m.occlusion_strength});
+        sums.add(std::span(mesh.occlusion_coordinates));
+    }
 }
 
 }  // namespace
@@ -84,9 +96,11 @@ std::uint32_t checksum(const Scene& scene) {
         sums.add(m.base_color_texture);
         add_looks(sums, mesh);
     }
-    for (const Light& l : scene.lights)
+    for (const Light& l : scene.lights) {
         sums.add({static_cast<double>(l.kind), l.position.x, l.position.y, l.position.z, l.direction.x, l.direction.y,
                   l.direction.z, l.intensity.r, l.intensity.g, l.intensity.b, l.casts_shadows ? 1.0 : 0.0});
+        if (l.kind == Light::Kind::point && l.outer_cone < std::numbers::pi) sums.add({l.inner_cone, l.outer_cone});
+    }
     sums.add({scene.ambient.r, scene.ambient.g, scene.ambient.b, scene.background.r, scene.background.g,
               scene.background.b});
     return sums.sum();

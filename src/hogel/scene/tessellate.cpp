@@ -92,6 +92,8 @@ class Cutter {
         append(to_.texture_coordinates, from_.texture_coordinates);
         append(to_.emission_coordinates, from_.emission_coordinates);
         append(to_.metallic_roughness_coordinates, from_.metallic_roughness_coordinates);
+        append(to_.normal_coordinates, from_.normal_coordinates);
+        append(to_.occlusion_coordinates, from_.occlusion_coordinates);
         if (to_.positions.size() > std::numeric_limits<Index>::max())
             throw Error(ErrorCode::usage,
                         fmt::format("mesh '{}' with triangles cut {} times along an edge: more than 2^32 vertices",

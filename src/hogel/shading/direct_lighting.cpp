@@ -23,12 +23,14 @@ class DirectLighting final : public SampleLighting {
         lamps_ = LampTable(lights_);
         maps_.set(make_shadow_maps(scene, caster, options.shadow_map, maps_.release(), progress));
         lobes_ = metallic_roughness_textures(scene, options.filter_textures);
+        reliefs_ = normal_textures(scene, options.filter_textures);
+        occlusions_ = occlusion_textures(scene, options.filter_textures);
         ambient_ = scene.ambient;
         surfaces_.clear();
         normals_.clear();
         colors_.clear();
         for (const Mesh& mesh : scene.meshes) {
-            surfaces_.push_back({without_textures(mesh.material), !mesh.radiance.empty()});
+            surfaces_.push_back({without_textures(mesh.material), !mesh.radiance.empty(), ray_offset(mesh, 0)});
             for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
                 normals_.push_back(mesh.normals.empty() ? Vec3{0, 0, 0} : mesh.normals[i]);
                 colors_.push_back(vertex_color(mesh, i));
@@ -53,29 +55,31 @@ class DirectLighting final : public SampleLighting {
         std::ranges::fill(light, 0.0f);
         const bool glossy = surface.material.is_glossy();
         const SurfacePoint point(scene, triangle.vertices, weights);
-        const Vec3 normal = normal_at(triangle, weights);
+        const Vec3 normal = normal_at(scene, triangle, weights, 0);
         std::optional<Material> own;
         const Material& material = material_at(scene, triangle, weights, 0, own);
         LightUnderLobe sum;
         constexpr std::size_t block = 64;
         for (std::size_t first = 0; first < lights_.size(); first += block) {
             std::array<std::uint32_t, block> facing;  // lamps in front of the surface
-            std::array<double, block> cosines, falloffs;
+            std::array<double, block> cosines, falloffs, in_cones;
             std::size_t count = 0;
             for (std::size_t i = first; i < std::min(first + block, lights_.size()); ++i) {
                 const Illumination from = illuminate(lights_[i], point.position);
                 cosines[count] = dot(normal, from.to_light);
                 falloffs[count] = from.falloff;
+                in_cones[count] = from.in_cone;
                 facing[count] = static_cast<std::uint32_t>(i);
-                if (cosines[count] > 0) ++count;
+                if (cosines[count] > 0 && from.falloff > 0) ++count;
             }
             std::array<float, block> visible;
-            maps_.visibility(std::span(facing).first(count), point.position, point.flat_normal, visible.data());
+            maps_.visibility(std::span(facing).first(count), point.position + surface.above * normal, point.flat_normal,
+                             visible.data());
             for (std::size_t k = 0; k < count; ++k) {
                 if (!(visible[k] > 0)) continue;
                 sum.add(material, visible[k] * static_cast<float>(falloffs[k]) * lights_[facing[k]].intensity,
                         cosines[k]);
-                if (glossy) light[6 + facing[k]] = visible[k];
+                if (glossy) light[6 + facing[k]] = visible[k] * static_cast<float>(in_cones[k]);
             }
         }
         if (glossy) {
@@ -83,7 +87,8 @@ class DirectLighting final : public SampleLighting {
             put(sum.for_lobe, light.subspan<3, 3>());
         } else {
             const Rgb color = interpolate(colors_, triangle.vertices, weights);
-            put(surface.material.emission + color * (ambient_ + sum.arriving), light.first<3>());
+            put(surface.material.emission + color * (ambient_at(scene, triangle, weights, 0) + sum.arriving),
+                light.first<3>());
         }
     }
 
@@ -94,11 +99,11 @@ class DirectLighting final : public SampleLighting {
         if (!surface.material.is_glossy()) return texture * rgb(light.first<3>());
         const Rgb color = texture * interpolate(colors_, triangle.vertices, weights);
         const Rgb emission = texture * surface.material.emission, arriving = rgb(light.first<3>());
-        const Vec3 normal = normal_at(triangle, weights);
+        const Vec3 normal = normal_at(scene, triangle, weights, view.footprint);
         std::optional<Material> own;
         const Material& material = material_at(scene, triangle, weights, view.footprint, own);
         const Reflection reflection(material, color, dot(normal, view.to_viewer));
-        Rgb seen = emission + ambient_ * reflection.in_uniform_light() +
+        Rgb seen = emission + ambient_at(scene, triangle, weights, view.footprint) * reflection.in_uniform_light() +
                    reflection.diffuse({arriving, rgb(light.subspan<3, 3>())});
         if (const double cos_view = dot(normal, view.to_viewer); cos_view > 0)
             seen += reflection.lobe(gloss(lamps_, light.subspan(6).data(),
@@ -111,11 +116,13 @@ class DirectLighting final : public SampleLighting {
     struct Surface {
         Material material;
         bool given;
+        double above = 0;  ///< metres above the surface at which visibility is looked up
     };
 
     static Material without_textures(Material material) {
         material.emission = vertex_emission(material);
-        material.base_color_texture = material.emission_texture = material.metallic_roughness_texture = nullptr;
+        material.base_color_texture = material.emission_texture = material.metallic_roughness_texture =
+            material.normal_texture = material.occlusion_texture = nullptr;
         return material;
     }
     // The material of a mesh or, where a texture says more of its lobe, `own` with what it says at this point.
@@ -138,18 +145,29 @@ class DirectLighting final : public SampleLighting {
         values[2] = value.b;
     }
 
-    Vec3 normal_at(const ShadedScene::Triangle& triangle, const std::array<float, 3>& weights) const {
+    Rgb ambient_at(const ShadedScene& scene, const ShadedScene::Triangle& triangle, const std::array<float, 3>& weights,
+                   double footprint) const {
+        if (!occlusions_.has(triangle.mesh)) return ambient_;
+        const float here = occlusions_[triangle.mesh].sample(scene, triangle.vertices, weights, footprint).r;
+        return (1 + surfaces_[triangle.mesh].material.occlusion_strength * (here - 1)) * ambient_;
+    }
+
+    Vec3 normal_at(const ShadedScene& scene, const ShadedScene::Triangle& triangle, const std::array<float, 3>& weights,
+                   double footprint) const {
         const auto& [a, b, c] = triangle.vertices;
         const Vec3 sum =
             double{weights[0]} * normals_[a] + double{weights[1]} * normals_[b] + double{weights[2]} * normals_[c];
         const double size = length(sum);
-        return size > 0 ? sum / size : sum;
+        const Vec3 normal = size > 0 ? sum / size : sum;
+        if (!reliefs_.has(triangle.mesh) || !(size > 0)) return normal;
+        return mapped_normal(scene, reliefs_[triangle.mesh], triangle.vertices, weights, footprint, normal,
+                             surfaces_[triangle.mesh].material.normal_scale);
     }
 
     std::vector<Light> lights_;
     LampTable lamps_;
     ShadowMaps maps_;
-    MeshTextures lobes_;
+    MeshTextures lobes_, reliefs_, occlusions_;
     Rgb ambient_;
     std::vector<Surface> surfaces_;  // one per mesh
     std::vector<Vec3> normals_;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "hogel/scene.h"
 
@@ -12,14 +15,27 @@ struct Illumination {
     Vec3 to_light;  ///< unit length; zero at the position of a point light, which does not light that point
     double distance = std::numeric_limits<double>::infinity();
     double falloff = 1;  ///< irradiance at normal incidence per intensity
+    double in_cone = 1;  ///< the factor of a spot light's cone, which is in `falloff` too
 };
+
+/// The factor of a point light's cone in the direction from a point to the light.
+inline double in_cone(const Light& light, Vec3 to_light) {
+    if (!(light.outer_cone < std::numbers::pi)) return 1;
+    const double outer = std::cos(light.outer_cone), inner = std::cos(std::min(light.inner_cone, light.outer_cone));
+    // Between angles of nearly one cosine the edge is as wide as glTF has it.
+    const double part = (-dot(to_light, light.direction) - outer) / std::max(inner - outer, 1e-3);
+    const double share = std::clamp(part, 0.0, 1.0);
+    return share * share;
+}
 
 inline Illumination illuminate(const Light& light, Vec3 point) {
     if (light.kind == Light::Kind::directional) return {-normalize(light.direction)};
     const Vec3 to_light = light.position - point;
     const double distance = length(to_light);
-    if (distance == 0) return {{}, 0, 0};
-    return {to_light / distance, distance, 1 / (distance * distance)};
+    if (distance == 0) return {{}, 0, 0, 0};
+    const Vec3 towards = to_light / distance;
+    const double share = in_cone(light, towards);
+    return {towards, distance, share / (distance * distance), share};
 }
 
 }  // namespace hogel::shading

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/shading/lighting.h"
+
+#include <algorithm>
+
+#include "hogel/scenes.h"
 #include "hogel/shading/illumination.h"
 
 namespace hogel::shading {
@@ -13,6 +17,15 @@ double bytes_of_shadow_maps(const Scene& scene, const ShadingOptions& options) {
 double ray_offset(const Scene& scene) {
     const Bounds box = bounds(scene);
     return 1e-4 * length(box.high - box.low);
+}
+
+double ray_offset(const Mesh& mesh, double usual) {
+    if (mesh.name != points_name || mesh.triangles.empty()) return usual;
+    // A disc is a fan of triangles, of each of which the last side is one of the hexagon, as long as its radius.
+    double sum = 0;
+    for (const auto& triangle : mesh.triangles)
+        sum += length(mesh.positions[triangle[2]] - mesh.positions[triangle[1]]);
+    return std::max(usual, sum / static_cast<double>(mesh.triangles.size()));
 }
 
 Rgb irradiance(const Scene& scene, const trace::RayCaster& caster, double offset, Vec3 point, Vec3 normal) {

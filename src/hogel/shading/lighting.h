@@ -33,6 +33,11 @@ std::shared_ptr<Lighting> take_lighting(ShadedScene& shaded) {
 /// of the scene's diagonal.
 double ray_offset(const Scene& scene);
 
+/// The same above one mesh. The discs of a point cloud (points_name) stand through one another, so that corners of one
+/// lie under the next: there shadow rays start at the discs' mean radius.
+/// @param usual  ray_offset() of the scene
+double ray_offset(const Mesh& mesh, double usual);
+
 /// The irradiance at a point of a surface from all lights that are visible from there.
 Rgb irradiance(const Scene& scene, const trace::RayCaster& caster, double offset, Vec3 point, Vec3 normal);
 

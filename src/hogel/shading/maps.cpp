@@ -2,6 +2,7 @@
 #include "hogel/shading/maps.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -19,6 +20,16 @@ MeshTextures::Source metallic_roughness_of(const Mesh& mesh) {
     return {
         mesh.material.metallic_roughness_texture, mesh.material.metallic_roughness_sampling,
         mesh.metallic_roughness_coordinates.empty() ? mesh.texture_coordinates : mesh.metallic_roughness_coordinates};
+}
+
+MeshTextures::Source normal_of(const Mesh& mesh) {
+    return {mesh.material.normal_texture, mesh.material.normal_sampling,
+            mesh.normal_coordinates.empty() ? mesh.texture_coordinates : mesh.normal_coordinates};
+}
+
+MeshTextures::Source occlusion_of(const Mesh& mesh) {
+    return {mesh.material.occlusion_texture, mesh.material.occlusion_sampling,
+            mesh.occlusion_coordinates.empty() ? mesh.texture_coordinates : mesh.occlusion_coordinates};
 }
 
 /// Adds emission to what surfaces show by another lighting or, where that has none, by their vertices.
@@ -94,6 +105,34 @@ MeshTextures::MeshTextures(const Scene& scene, bool filtered, Of of) {
 MeshTextures emission_textures(const Scene& scene, bool filtered) { return {scene, filtered, emission_of}; }
 MeshTextures metallic_roughness_textures(const Scene& scene, bool filtered) {
     return {scene, filtered, metallic_roughness_of};
+}
+MeshTextures normal_textures(const Scene& scene, bool filtered) { return {scene, filtered, normal_of}; }
+MeshTextures occlusion_textures(const Scene& scene, bool filtered) { return {scene, filtered, occlusion_of}; }
+
+Vec3 mapped_normal(const ShadedScene& scene, const SurfaceTexture& map, const std::array<std::uint32_t, 3>& vertices,
+                   const std::array<float, 3>& weights, double footprint, Vec3 normal, float scale) {
+    const auto [a, b, c] = vertices;
+    const Vec3 ab = scene.positions[b] - scene.positions[a], ac = scene.positions[c] - scene.positions[a];
+    const TextureCoordinate &ta = map.coordinates[a], &tb = map.coordinates[b], &tc = map.coordinates[c];
+    const double u1 = double{tb.u} - ta.u, v1 = double{tb.v} - ta.v, u2 = double{tc.u} - ta.u, v2 = double{tc.v} - ta.v;
+    // On the triangle p = a + s ab + t ac and (u, v) is linear in s and t, so that dp/du is (v2 ab − v1 ac) over the
+    // determinant of that, of which the sign says on which side of it v grows.
+    const double area = u1 * v2 - u2 * v1;
+    if (area == 0) return normal;
+    const Vec3 along = std::copysign(1.0, area) * (v2 * ab - v1 * ac);
+    const Vec3 across = along - dot(along, normal) * normal;
+    const double size = length(across);
+    if (!(size > 0)) return normal;
+    const Vec3 t = across / size;
+    // Seen from the front, v grows to the left of growing u, unless the texture is mirrored.
+    const double side = std::copysign(1.0, area) * (dot(cross(ab, ac), normal) < 0 ? -1 : 1);
+    const Vec3 bitangent = side * cross(normal, t);
+    const Rgb value = map.sample(scene, vertices, weights, footprint);
+    const double x = scale * (2 * double{value.r} - 1), y = scale * (2 * double{value.g} - 1),
+                 z = 2 * double{value.b} - 1;
+    const Vec3 mapped = x * t + y * bitangent + z * normal;
+    const double mapped_size = length(mapped);
+    return mapped_size > 0 ? mapped / mapped_size : normal;
 }
 
 std::shared_ptr<const SampleLighting> with_maps(const Scene& scene, const ShadingOptions& options,

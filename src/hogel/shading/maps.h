@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -35,9 +36,19 @@ class MeshTextures {
     std::vector<TextureCoordinate> coordinates_;
 };
 
-/// Emission textures, and metallic-roughness textures.
+/// Emission textures, metallic-roughness textures, normal maps and occlusion maps.
 MeshTextures emission_textures(const Scene& scene, bool filtered);
 MeshTextures metallic_roughness_textures(const Scene& scene, bool filtered);
+MeshTextures normal_textures(const Scene& scene, bool filtered);
+MeshTextures occlusion_textures(const Scene& scene, bool filtered);
+
+/// The unit normal that a normal map gives at a point of a triangle whose interpolated normal is `normal` (unit
+/// length): with t along growing u and b along growing v, both across the normal, it is x t + y b + z normal for the
+/// numbers x, y, z of the map. The normal itself where the triangle has no directions of growing u and v.
+/// @param map    of the triangle's mesh
+/// @param scale  Material::normal_scale
+Vec3 mapped_normal(const ShadedScene& scene, const SurfaceTexture& map, const std::array<std::uint32_t, 3>& vertices,
+                   const std::array<float, 3>& weights, double footprint, Vec3 normal, float scale);
 
 /// Adds the light that surfaces with an emission texture emit, at each sample, to the lighting of a model, which may be
 /// null; returns that lighting if there are none.

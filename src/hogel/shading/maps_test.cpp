@@ -69,6 +69,56 @@ TEST(Maps, of_one_value_are_that_value_in_every_model) {
     }
 }
 
+TEST(Maps, of_level_normals_and_of_full_light_change_nothing) {
+    const Scene plain = lit_square();
+    Scene mapped = plain;
+    mapped.meshes[0].material.normal_texture = constant({0.5f, 0.5f, 1});
+    mapped.meshes[0].material.occlusion_texture = constant({1, 0, 0});
+    for (const float b1 : {0.1f, 0.35f, 0.6f})
+        expect_near(seen(plain, "direct", b1), seen(mapped, "direct", b1), "map");
+}
+
+// A normal map says the normal along growing u, along growing v and outwards, however the texture lies on the surface.
+TEST(Maps, of_tilted_normals_are_normals_of_vertices) {
+    const double x = 0.4, y = -0.2, z = std::sqrt(1 - x * x - y * y);
+    const auto stored = [](double value) { return static_cast<float>(0.5 * value + 0.5); };
+    struct Case {
+        std::vector<TextureCoordinate> coordinates;
+        Vec3 along_u, along_v;
+    };
+    const std::vector<Case> cases{{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {1, 0, 0}, {0, 1, 0}},
+                                  {{{1, 0}, {0, 0}, {0, 1}, {1, 1}}, {-1, 0, 0}, {0, 1, 0}},   // mirrored
+                                  {{{1, 0}, {1, 1}, {0, 1}, {0, 0}}, {0, -1, 0}, {1, 0, 0}}};  // turned
+    for (const bool glossy : {false, true})
+        for (const Case& test : cases) {
+            Scene by_vertices = lit_square();
+            Mesh& flat = by_vertices.meshes[0];
+            for (Vec3& p : flat.positions) p.z = 0;
+            flat.normals.assign(4, {0, 0, 1});
+            flat.texture_coordinates = test.coordinates;
+            if (!glossy) flat.material.reflectance = 0;
+            Scene by_map = by_vertices;
+            flat.normals.assign(4, x * test.along_u + y * test.along_v + z * Vec3{0, 0, 1});
+            by_map.meshes[0].material.normal_texture = constant({stored(x), stored(y), stored(z)});
+            for (const float b1 : {0.1f, 0.6f})
+                expect_near(seen(by_vertices, "direct", b1), seen(by_map, "direct", b1), glossy ? "glossy" : "matt");
+            by_map.meshes[0].material.normal_texture = constant({stored(2 * x), stored(2 * y), stored(z)});
+            by_map.meshes[0].material.normal_scale = 0.5f;
+            expect_near(seen(by_vertices, "direct", 0.3f), seen(by_map, "direct", 0.3f), "scale");
+        }
+}
+
+TEST(Maps, of_occlusion_take_ambient_light_alone) {
+    Scene scene = lit_square(), half = scene, dark = scene;
+    half.ambient = 0.7f * half.ambient;
+    scene.meshes[0].material.occlusion_texture = constant({0.4f, 9, 9});
+    scene.meshes[0].material.occlusion_strength = 0.5f;
+    for (const float reflectance : {0.0f, 0.04f}) {
+        scene.meshes[0].material.reflectance = half.meshes[0].material.reflectance = reflectance;
+        expect_near(seen(half, "direct", 0.3f), seen(scene, "direct", 0.3f), "occlusion");
+    }
+}
+
 TEST(Maps, have_coordinates_of_their_own) {
     Scene scene = lit_square();
     scene.lights.clear();

@@ -127,6 +127,7 @@ void shade_scene_into(const Scene& scene, const ShadingOptions& options, ShadedS
     shaded.provenance = {{"scene", scene.name}};
     if (!std::ranges::all_of(scene.meshes, [](const Mesh& mesh) { return !mesh.radiance.empty(); }))
         shaded.provenance.emplace_back("shading", options.model);
+    if (scene.background != Rgb{0, 0, 0}) shaded.provenance.push_back(background_entry(scene.background));
     shaded.provenance = with_history(std::move(shaded.provenance), scene.provenance);
 }
 

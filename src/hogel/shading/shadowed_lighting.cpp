@@ -23,6 +23,7 @@ class ShadowedLighting final : public SampleLighting {
         intensities_.clear();
         for (const Light& light : scene.lights) intensities_.push_back(light.intensity);
         given_.clear();
+        above_.clear();
         colors_.clear();
         unshadowed_.clear();
         std::size_t base = 0;
@@ -41,6 +42,9 @@ class ShadowedLighting final : public SampleLighting {
         const ShadedScene::Triangle& triangle = scene.triangles[index];
         const auto& vertices = triangle.vertices;
         const SurfacePoint point(scene, vertices, weights);
+        const double size = length(point.flat_normal);
+        const Vec3 above =
+            size > 0 ? point.position + above_[triangle.mesh] / size * point.flat_normal : point.position;
         Rgb sum = interpolate(unshadowed_, vertices, weights);
         constexpr auto reflected = static_cast<float>(std::numbers::inv_pi);
         constexpr std::size_t block = 64;
@@ -57,7 +61,7 @@ class ShadowedLighting final : public SampleLighting {
                 if (light != Rgb{0, 0, 0}) ++count;
             }
             std::array<float, block> visible;
-            maps_.visibility(std::span(shining).first(count), point.position, point.flat_normal, visible.data());
+            maps_.visibility(std::span(shining).first(count), above, point.flat_normal, visible.data());
             for (std::size_t i = 0; i < count; ++i)
                 sum += reflected * visible[i] * (intensities_[shining[i]] * lights[i]);
         }
@@ -71,6 +75,7 @@ class ShadowedLighting final : public SampleLighting {
     void add_mesh(const Scene& scene, const Mesh& mesh, std::size_t base) {
         const std::size_t n = mesh.positions.size(), lights = scene.lights.size();
         given_.push_back(!mesh.radiance.empty());
+        above_.push_back(ray_offset(mesh, 0));
         for (std::size_t i = 0; i < n; ++i) {
             const Rgb color = vertex_color(mesh, i);
             colors_.push_back(color);
@@ -89,7 +94,8 @@ class ShadowedLighting final : public SampleLighting {
 
     ShadowMaps maps_;
     std::vector<Rgb> intensities_;
-    std::vector<bool> given_;  // whether the radiance of a mesh is given
+    std::vector<bool> given_;    // whether the radiance of a mesh is given
+    std::vector<double> above_;  // metres above each mesh at which visibility is looked up
     std::vector<Rgb> colors_, unshadowed_;
     std::vector<float> irradiance_;  // [vertex][light], per intensity
 };

@@ -13,11 +13,12 @@ constexpr std::size_t vertices_per_task = 16;
 
 void light_vertices(const Scene& scene, ShadedScene& shaded) {
     const trace::RayCaster caster = shadow_caster(scene, shaded, "vertex");
-    const double offset = ray_offset(scene);
+    const double usual = ray_offset(scene);
     constexpr auto reflected = static_cast<float>(std::numbers::inv_pi);
     std::size_t base = 0;
     for (const Mesh& mesh : scene.meshes) {
         const std::size_t n = mesh.positions.size();
+        const double offset = ray_offset(mesh, usual);
         const std::size_t tasks = mesh.radiance.empty() ? (n + vertices_per_task - 1) / vertices_per_task : 0;
         core::parallel_for(tasks, [&](std::size_t task) {
             const std::size_t first = task * vertices_per_task;

@@ -17,15 +17,6 @@ std::vector<TextureCoordinate> coordinates_on(const GltfTexture& texture, const 
     return coordinates;
 }
 
-std::shared_ptr<const Image> white() {
-    static const auto picture = [] {
-        auto image = std::make_shared<Image>(1, 1, 1);
-        image->pixels(0, 0, 0) = 1;
-        return image;
-    }();
-    return picture;
-}
-
 }  // namespace
 
 void apply_looks(const GltfLooks& looks, ImportedMesh& part, Textures& textures) {
@@ -55,11 +46,19 @@ void apply_looks(const GltfLooks& looks, ImportedMesh& part, Textures& textures)
         material.emission_texture = textures.get(source.emission->image);
         material.emission_sampling = source.emission->sampling;
     } else if (material.emission != Rgb{0, 0, 0} && material.base_color_texture) {
-        material.emission_texture = white();  // so that the base-colour texture does not multiply the emission
+        material.emission_texture = white_picture();  // so that the base-colour texture does not multiply the emission
     }
     if (source.metallic_roughness && place(*source.metallic_roughness, mesh.metallic_roughness_coordinates)) {
         material.metallic_roughness_texture = textures.get(source.metallic_roughness->image, TexturePixels::numbers);
         material.metallic_roughness_sampling = source.metallic_roughness->sampling;
+    }
+    if (source.normal && place(*source.normal, mesh.normal_coordinates)) {
+        material.normal_texture = textures.get(source.normal->image, TexturePixels::numbers);
+        material.normal_sampling = source.normal->sampling;
+    }
+    if (source.occlusion && place(*source.occlusion, mesh.occlusion_coordinates)) {
+        material.occlusion_texture = textures.get(source.occlusion->image, TexturePixels::numbers);
+        material.occlusion_sampling = source.occlusion->sampling;
     }
     if (material.alpha_mode == AlphaMode::opaque) mesh.alphas.clear();
     part.second_coordinates.clear();

@@ -14,11 +14,13 @@
 #include <unistd.h>
 
 #include "hogel/error.h"
+#include "hogel/scene/mesh_files/assimp_notes.h"
 #include "hogel/scene/mesh_files/checks.h"
 #include "hogel/scene/mesh_files/files.h"
 #include "hogel/scene/mesh_files/gltf_looks.h"
 #include "hogel/scene/mesh_files/limits.h"
 #include "hogel/scene/mesh_files/materials.h"
+#include "hogel/scene/mesh_files/mtl.h"
 #include "hogel/scene/mesh_files/polygons.h"
 #include "hogel/scene/mesh_files/transfer.h"
 
@@ -164,8 +166,10 @@ std::vector<float> import_alphas(const aiMesh& source) {
 class Conversion {
   public:
     /// @param numbered  whether materials are only the numbers of those of GltfLooks
-    Conversion(const aiScene& source, const std::string& file, bool linear_colors, bool numbered, int pipe)
-        : source_(source), file_(file), linear_colors_(linear_colors), numbered_(numbered), sender_(pipe) {}
+    /// @param mtl       the materials of an OBJ file; lives longer than this
+    Conversion(const aiScene& source, const std::string& file, bool linear_colors, bool numbered,
+               const std::vector<MtlMaterial>& mtl, int pipe)
+        : source_(source), file_(file), linear_colors_(linear_colors), numbered_(numbered), sender_(pipe), mtl_(mtl) {}
 
     void run(std::uint64_t max_bytes) {
         for (const Placed& placed : place_meshes(source_, file_, max_bytes)) {
@@ -177,6 +181,7 @@ class Conversion {
                 imported.mesh.material = read_material(material);
                 imported.is_unlit = is_unlit(material);
                 imported.texture = send_texture(base_color_texture(material));
+                add_mtl(material, imported);
                 if (numbered_) add_looks(*placed.mesh, material, imported);
             }
             sender_.send(imported);
@@ -194,6 +199,31 @@ class Conversion {
         imported.second_coordinates = import_coordinates(mesh, 1);
     }
 
+    // What the material library says that assimp did not read.
+    void add_mtl(const aiMaterial& source, ImportedMesh& imported) {
+        aiString name;
+        if (source.Get(AI_MATKEY_NAME, name) != AI_SUCCESS) return;
+        const auto found = std::ranges::find(mtl_, std::string(name.C_Str()), &MtlMaterial::name);
+        if (found == mtl_.end()) return;
+        Material& material = imported.mesh.material;
+        material.alpha = static_cast<float>(found->alpha());
+        if (found->emission) material.emission = *found->emission;
+        const auto is_there = [&](const MtlTexture& map) { return !map.name.empty(); };
+        if (is_there(found->color)) imported.texture = send_texture(found->color.name);
+        if (is_there(found->opacity)) imported.opacity_texture = send_texture(found->opacity.name);
+        if (is_there(found->emission_map)) {
+            imported.emission_texture = send_texture(found->emission_map.name);
+            if (!found->emission) material.emission = {1, 1, 1};
+        }
+        if (found->color.clamp)
+            material.base_color_sampling = {TextureSampling::Wrap::clamp, TextureSampling::Wrap::clamp};
+        if (!found->color.is_moved()) return;
+        const auto moved = [&](float value, std::size_t i) {
+            return static_cast<float>(found->color.scale[i] * double{value} + found->color.offset[i]);
+        };
+        for (TextureCoordinate& at : imported.mesh.texture_coordinates) at = {moved(at.u, 0), moved(at.v, 1)};
+    }
+
     std::uint32_t send_texture(const std::string& name) {
         if (name.empty()) return ImportedMesh::no_texture;
         const auto [known, is_new] = textures_.emplace(name, static_cast<std::uint32_t>(textures_.size()));
@@ -205,8 +235,20 @@ class Conversion {
     const std::string& file_;
     bool linear_colors_, numbered_;
     Sender sender_;
+    const std::vector<MtlMaterial>& mtl_;
     std::map<std::string, std::uint32_t> textures_;
 };
+
+/// The materials of the libraries that assimp opened.
+std::vector<MtlMaterial> read_libraries(const FolderFiles& files, const std::string& file) {
+    std::vector<MtlMaterial> materials;
+    for (const std::filesystem::path& path : files.opened())
+        if (has_extension(path, {".mtl"})) {
+            const std::vector<MtlMaterial> read = parse_mtl(read_file(path, std::filesystem::file_size(path), file));
+            materials.insert(materials.end(), read.begin(), read.end());
+        }
+    return materials;
+}
 
 const char* const readable = "a mesh file that assimp can read";
 
@@ -230,7 +272,13 @@ void import_or_throw(const std::filesystem::path& path, const std::string& file,
         reject_file(file, message.empty() ? "not readable" : message, readable);
     }
     for (const auto& opened : files->opened()) Sender(pipe).send_file(opened);
-    Conversion(*source, file, is_gltf(path) || numbered, numbered, pipe).run(max_scene_bytes(files->bytes_opened()));
+    const std::vector<MtlMaterial> mtl = read_libraries(*files, file);
+    const bool is_obj = has_extension(path, {".obj"});
+    for (const std::string& note : notes_of(mtl)) Sender(pipe).send_note(note);
+    if (!numbered)
+        for (const std::string& note : notes_of(*source, !is_obj)) Sender(pipe).send_note(note);
+    Conversion(*source, file, is_gltf(path) || numbered, numbered, mtl, pipe)
+        .run(max_scene_bytes(files->bytes_opened()));
     // The process ends: nothing is freed one by one, where a damaged structure would be found.
     _exit(0);
 }

@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "hogel/provenance.h"
 
@@ -31,5 +32,8 @@ std::uintmax_t check_regular_file(const std::filesystem::path& path);
 /// Checks what a PLY file announces, which assimp 5.2 does not check. `bytes` is the whole file. Throws
 /// Error(bad_input) by reject_file().
 void check_ply(const std::string& file, std::string_view bytes);
+
+/// What a PLY file has that is not shown, a note each: colours of faces, edges, strips of triangles.
+std::vector<std::string> notes_of_ply(const std::string& file, std::string_view bytes);
 
 }  // namespace hogel::scene::mesh_files

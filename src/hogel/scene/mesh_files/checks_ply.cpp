@@ -216,4 +216,19 @@ void check_ply(const std::string& file, std::string_view bytes) {
         check_binary(file, header, data);
 }
 
+std::vector<std::string> notes_of_ply(const std::string& file, std::string_view bytes) {
+    std::vector<std::string> notes;
+    for (const Element& element : parse_header(file, bytes).elements) {
+        const auto has = [&](std::string_view name) {
+            return std::ranges::any_of(element.properties, [&](const Property& p) { return p.name == name; });
+        };
+        if (element.name == "face" && has("red")) notes.push_back("colours of faces are left out");
+        if (element.name == "face" && has("texcoord"))
+            notes.push_back("texture coordinates of faces' corners (texcoord) are left out");
+        if (element.count > 0 && (element.name == "edge" || element.name == "tristrips" || element.name == "material"))
+            notes.push_back(fmt::format("{} elements '{}' are left out", element.count, element.name));
+    }
+    return notes;
+}
+
 }  // namespace hogel::scene::mesh_files

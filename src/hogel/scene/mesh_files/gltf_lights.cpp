@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "hogel/scene/mesh_files/checks.h"
@@ -41,6 +42,57 @@ Affine transform_of(const Gltf& gltf, const Json& node, const std::string& where
             {t[0], t[1], t[2]}};
 }
 
+/// The unit direction in which a light or a camera of a node looks.
+Vec3 forward(const Gltf& gltf, const std::string& where, const Affine& to_world) {
+    const Vec3 direction = -to_world.axes[2];
+    if (!(length(direction) > 0)) gltf.reject(where, "has no direction", "a node that is not flat");
+    return normalize(direction);
+}
+
+void read_cone(const Gltf& gltf, const Json& json, const std::string& where, const Affine& to_world, Light& light) {
+    static const Json none = Json::object();
+    const Json* spot = find_object(gltf, json, where, {"spot"});
+    const std::string place = where + ".spot";
+    constexpr double right = std::numbers::pi / 2;
+    light.direction = forward(gltf, where, to_world);
+    light.outer_cone = std::clamp(number_or(gltf, spot ? *spot : none, place, "outerConeAngle", right / 2), 0.0, right);
+    light.inner_cone =
+        std::clamp(number_or(gltf, spot ? *spot : none, place, "innerConeAngle", 0), 0.0, light.outer_cone);
+}
+
+SceneCamera read_camera(const Gltf& gltf, const Json& json, const std::string& where, const Json& node,
+                        const Affine& to_world) {
+    SceneCamera camera;
+    for (const Json* named : {&node, &json})
+        if (const auto name = named->find("name"); camera.name.empty() && name != named->end() && name->is_string())
+            camera.name = one_line(*name);
+    camera.position = to_world.origin;
+    const Vec3 ahead = forward(gltf, where, to_world), side = cross(ahead, to_world.axes[1]);
+    if (!(length(side) > 0)) gltf.reject(where, "has no upward direction", "a node that is not flat");
+    camera.right = normalize(side);
+    camera.up = cross(camera.right, ahead);
+    const auto of = [&](const char* name, const char* part) {
+        const Json* object = find_object(gltf, json, where, {name});
+        const std::string place = where + "." + name;
+        if (object == nullptr) gltf.reject(place, "missing", "an object");
+        camera.nearest = std::max(0.0, number_or(gltf, *object, place, "znear", 0));
+        const double value = number_or(gltf, *object, place, part, 0);
+        if (!(value > 0)) gltf.reject(place + "." + part, "is not above zero", "a positive number");
+        return value;
+    };
+    const auto type = json.find("type");
+    if (type != json.end() && *type == "perspective") {
+        camera.angle = of("perspective", "yfov");
+        if (!(camera.angle < std::numbers::pi)) gltf.reject(where + ".perspective.yfov", "is π or more", "less");
+    } else if (type != json.end() && *type == "orthographic") {
+        camera.height = 2 * of("orthographic", "ymag") * length(to_world.axes[1]);
+    } else {
+        gltf.reject(where + ".type", "is unknown", "perspective or orthographic");
+    }
+    camera.nearest *= length(to_world.axes[2]);
+    return camera;
+}
+
 Light read_light(const Gltf& gltf, const Json& json, const std::string& where, const Affine& to_world,
                  GltfLooks& looks) {
     const auto color = numbers_or(gltf, json, where, "color", {1, 1, 1});
@@ -49,16 +101,16 @@ Light read_light(const Gltf& gltf, const Json& json, const std::string& where, c
     const auto part = [&](std::size_t i) { return static_cast<float>(intensity * std::clamp(color[i], 0.0, 1e3)); };
     light.intensity = {part(0), part(1), part(2)};
     const auto type = json.find("type");
+    if (json.contains("range"))
+        looks.notes.push_back(fmt::format("{} has a range, which is left out: its light reaches everywhere", where));
     const bool is_spot = type != json.end() && *type == "spot";
     if (is_spot || (type != json.end() && *type == "point")) {
         light.kind = Light::Kind::point;
         light.position = to_world.origin;
-        if (is_spot) looks.notes.push_back(fmt::format("{} is a spot light: it shines in all directions", where));
+        if (is_spot) read_cone(gltf, json, where, to_world, light);
     } else if (type != json.end() && *type == "directional") {
         light.kind = Light::Kind::directional;
-        const Vec3 direction = -to_world.axes[2];
-        if (!(length(direction) > 0)) gltf.reject(where, "has no direction", "a node that is not flat");
-        light.direction = normalize(direction);
+        light.direction = forward(gltf, where, to_world);
     } else {
         gltf.reject(where + ".type", "is unknown", "directional, point or spot");
     }
@@ -69,6 +121,7 @@ Light read_light(const Gltf& gltf, const Json& json, const std::string& where, c
 template <class Visit>
 void for_nodes(const Gltf& gltf, const Visit& visit) {
     const Json &scenes = gltf.list("scenes"), &nodes = gltf.list("nodes");
+    if (scenes.empty()) return;
     const std::size_t shown = gltf.reference(gltf.json, "document", "scene", "scenes").value_or(0);
     struct Todo {
         std::size_t node;
@@ -94,8 +147,6 @@ void for_nodes(const Gltf& gltf, const Visit& visit) {
 /// What the materials of a document have of which nothing is shown, and in how many.
 void note_materials(const Gltf& gltf, GltfLooks& looks) {
     static const std::map<std::string, std::string> names{
-        {"normalTexture", "normal maps"},
-        {"occlusionTexture", "occlusion maps"},
         {"KHR_materials_anisotropy", "anisotropy (KHR_materials_anisotropy)"},
         {"KHR_materials_clearcoat", "clear coats (KHR_materials_clearcoat)"},
         {"KHR_materials_dispersion", "dispersion (KHR_materials_dispersion)"},
@@ -141,14 +192,18 @@ void note_geometry(const Gltf& gltf, GltfLooks& looks) {
     if (!gltf.list("skins").empty())
         looks.notes.push_back("skins are left out: meshes have the pose in which they were modelled");
     if (!gltf.list("animations").empty()) looks.notes.push_back("animations are left out: it stands still");
-    if (const std::size_t cameras = gltf.list("cameras").size(); cameras > 0)
-        looks.notes.push_back(fmt::format("{} camera{} left out: the hologram is seen from its front", cameras,
-                                          cameras == 1 ? " is" : "s are"));
 }
 
 }  // namespace
 
 void read_lights(const Gltf& gltf, GltfLooks& looks) {
+    for_nodes(gltf, [&](const Json& node, const std::string& where, const Affine& to_world) {
+        const auto number = gltf.reference(node, where, "camera", "cameras");
+        if (!number) return;
+        const std::string camera = fmt::format("cameras[{}]", *number);
+        const Json& json = gltf.object(gltf.list("cameras"), *number, camera);
+        looks.cameras.push_back(read_camera(gltf, json, camera, node, to_world));
+    });
     const Json* extension = find_object(gltf, gltf.json, "document", {"extensions", "KHR_lights_punctual"});
     if (extension == nullptr) return;
     const auto list = extension->find("lights");

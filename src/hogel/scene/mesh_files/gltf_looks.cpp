@@ -12,6 +12,7 @@ namespace hogel::scene::mesh_files {
 namespace {
 
 float unit(double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)); }
+float finite_float(double value) { return static_cast<float>(std::clamp(value, -1e3, 1e3)); }
 float radiance(double value) { return static_cast<float>(std::clamp(value, 0.0, 1e6)); }
 
 class Looks {
@@ -82,6 +83,13 @@ class Looks {
         read.metallic_roughness = read_texture(*base, base_where, "metallicRoughnessTexture");
         read_specular_glossiness(json, where, read);
         read_emission(json, where, read);
+        read.normal = read_texture(json, where, "normalTexture");
+        if (const Json* relief = find_object(gltf_, json, where, {"normalTexture"}))
+            material.normal_scale = finite_float(number_or(gltf_, *relief, where + ".normalTexture", "scale", 1));
+        read.occlusion = read_texture(json, where, "occlusionTexture");
+        if (const Json* occlusion = find_object(gltf_, json, where, {"occlusionTexture"}))
+            material.occlusion_strength =
+                unit(number_or(gltf_, *occlusion, where + ".occlusionTexture", "strength", 1));
         read_alpha(json, where, material);
         read_reflectance(json, where, material);
         read.is_unlit = find_object(gltf_, json, where, {"extensions", "KHR_materials_unlit"}) != nullptr;

@@ -31,15 +31,16 @@ struct GltfTexture {
 struct GltfMaterial {
     Material material;  ///< without textures
     bool is_unlit = false;
-    std::optional<GltfTexture> color, emission, metallic_roughness;
+    std::optional<GltfTexture> color, emission, metallic_roughness, normal, occlusion;
 };
 
 /// What a glTF file says of looks, which is read here and not by assimp.
 struct GltfLooks {
     std::vector<GltfMaterial> materials;
     std::vector<TextureSource> images;
-    std::vector<Light> lights;       ///< of the scene that is shown, in its world frame
-    std::vector<std::string> notes;  ///< Scene::notes
+    std::vector<Light> lights;         ///< of the scene that is shown, in its world frame
+    std::vector<SceneCamera> cameras;  ///< the same
+    std::vector<std::string> notes;    ///< Scene::notes
 };
 
 /// A glTF file that was checked before assimp reads it.
@@ -62,7 +63,7 @@ std::optional<std::size_t> material_number(std::string_view name);
 /// checked.
 GltfLooks read_looks(const Gltf& gltf, const GltfBuffers& buffers);
 
-/// The lights of KHR_lights_punctual that the nodes of the scene hold.
+/// The lights of KHR_lights_punctual and the cameras that the nodes of the scene hold.
 void read_lights(const Gltf& gltf, GltfLooks& looks);
 
 /// Adds to the notes what of the document is not shown.

@@ -15,6 +15,7 @@
 #include "hogel/scene/mesh_files/gltf_looks.h"
 #include "hogel/scene/mesh_files/limits.h"
 #include "hogel/scene/mesh_files/materials.h"
+#include "hogel/scene/mesh_files/mtl.h"
 #include "hogel/scene/mesh_files/obj.h"
 #include "hogel/scene/mesh_files/off.h"
 #include "hogel/scene/mesh_files/points.h"
@@ -75,7 +76,10 @@ Read import_file(const std::filesystem::path& path, std::uintmax_t size, const s
         read.imported.provenance = std::move(checked.provenance);
         read.looks = std::move(checked.looks);
     } else if (has_extension(path, {".obj"})) {
-        read.imported = import_in_child(path, file, with_leading_zeros(read_file(path, size, file)));
+        std::string text = read_file(path, size, file);
+        std::vector<std::string> notes = notes_of_obj(text, path.parent_path());
+        read.imported = import_in_child(path, file, with_leading_zeros(std::move(text)));
+        read.imported.notes.insert(read.imported.notes.begin(), notes.begin(), notes.end());
     } else if (has_extension(path, {".ply"}) || starts_like_ply(start)) {
         const std::string bytes = read_file(path, size, file);
         check_ply(file, bytes);
@@ -83,6 +87,7 @@ Read import_file(const std::filesystem::path& path, std::uintmax_t size, const s
             read.imported.meshes.push_back({discs_of(*points, options, file)});
         else
             read.imported = import_in_child(path, file, {});
+        for (std::string& note : notes_of_ply(file, bytes)) read.imported.notes.push_back(std::move(note));
     } else if (has_extension(path, {".xyz", ".pts", ".asc"})) {
         read.imported.meshes.push_back({discs_of(read_xyz(file, read_file(path, size, file)), options, file)});
     } else if (has_extension(path, {".splat", ".ksplat", ".spz"})) {
@@ -109,7 +114,11 @@ Scene convert(Read read, const std::filesystem::path& path, const std::string& f
     scene.name = path.stem().string();
     scene.provenance = std::move(imported.provenance);
     scene.lights = std::move(read.looks.lights);
+    // Programs for design and printing have z upwards, and these formats do not say otherwise.
+    if (has_extension(path, {".stl", ".3mf", ".amf"})) scene.up = {0, 0, 1};
+    scene.cameras = std::move(read.looks.cameras);
     scene.notes = std::move(read.looks.notes);
+    scene.notes.insert(scene.notes.end(), imported.notes.begin(), imported.notes.end());
     for (ImportedMesh& part : imported.meshes) {
         Mesh& mesh = part.mesh;
         if (read.has_looks) {
@@ -117,6 +126,7 @@ Scene convert(Read read, const std::filesystem::path& path, const std::string& f
         } else {
             mesh.material.base_color_texture = textures.get(part.texture);
             if (mesh.texture_coordinates.empty()) mesh.material.base_color_texture = nullptr;
+            apply_obj_looks(part, textures);
         }
         show_unlit(part);
         if (!mesh.triangles.empty()) scene.meshes.push_back(std::move(mesh));

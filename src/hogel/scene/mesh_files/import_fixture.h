@@ -55,6 +55,14 @@ class Import : public testing::Test {
     fs::path folder_;
 };
 
+/// The start of a PLY file as text: vertices of three floats, with what further lines say of them.
+inline std::string ply_vertices(int count, const std::string& further = {}) {
+    return fmt::format(
+        "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n{}", count,
+        further);
+}
+inline const std::string ply_colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+
 /// The first byte of a list of n vertices in a PLY file.
 inline std::string face_of(int n) { return std::string(1, static_cast<char>(n)); }
 

@@ -24,12 +24,9 @@ TEST_F(Import, obj_polygons_become_triangles_of_the_same_area_and_orientation) {
 }
 
 TEST_F(Import, ply_colours_are_converted_from_display_values) {
-    const Scene scene =
-        import_scene(write("c.ply",
-                           "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-                           "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar "
-                           "blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
-                           "0 0 0 255 0 188\n1 0 0 255 0 188\n0 1 0 255 0 188\n3 0 1 2\n"));
+    const Scene scene = import_scene(write(
+        "c.ply", ply_vertices(3, ply_colors) + "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                                               "0 0 0 255 0 188\n1 0 0 255 0 188\n0 1 0 255 0 188\n3 0 1 2\n"));
     ASSERT_EQ(scene.meshes[0].colors.size(), 3u);
     EXPECT_NEAR(scene.meshes[0].colors[0].r, 1, 1e-6);
     EXPECT_NEAR(scene.meshes[0].colors[0].g, 0, 1e-6);

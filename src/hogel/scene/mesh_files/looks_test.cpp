@@ -215,20 +215,92 @@ TEST_F(Looks, lights_shine_from_where_their_nodes_are) {
     EXPECT_EQ(sun->intensity, (Rgb{1, 1, 1}));
     Parts spot = parts;
     spot.document.replace(spot.document.find("\"point\""), 7, "\"spot\"");
-    expect_note(spot, "lights[0] is a spot light");
+    const Scene spotted = read(spot);
+    const auto cone = std::ranges::find(spotted.lights, Light::Kind::point, &Light::kind);
+    ASSERT_NE(cone, spotted.lights.end());
+    EXPECT_EQ(cone->direction, (Vec3{0, 0, -1}));
+    EXPECT_NEAR(cone->outer_cone, std::numbers::pi / 4, 1e-12);  // glTF's defaults
+    EXPECT_EQ(cone->inner_cone, 0);
+    EXPECT_TRUE(spotted.notes.empty());
+    spot.document.replace(spot.document.find("\"intensity\""), 0,
+                          R"("range":9,"spot":{"innerConeAngle":0.25,"outerConeAngle":0.5},)");
+    const Scene narrow = read(spot);
+    EXPECT_EQ(std::ranges::find(narrow.lights, Light::Kind::point, &Light::kind)->inner_cone, 0.25);
+    EXPECT_EQ(std::ranges::find(narrow.lights, Light::Kind::point, &Light::kind)->outer_cone, 0.5);
+    expect_note(spot, "lights[0] has a range");
     Parts unknown = parts;
     unknown.document.replace(unknown.document.find("\"point\""), 7, "\"glow\"");
     expect_refusal("x.gltf", file(unknown), "lights[0].type is unknown");
 }
 
+TEST_F(Looks, maps_of_normals_and_of_occlusion_have_their_factors) {
+    const Mesh relief = mesh({.material = R"({"normalTexture":{"index":0,"scale":0.5,"texCoord":1},
+        "occlusionTexture":{"index":0,"strength":0.25}})"});
+    ASSERT_TRUE(relief.material.normal_texture);
+    EXPECT_EQ(relief.material.normal_texture->pixels(1, 1, 2), 1);
+    EXPECT_NEAR(relief.material.normal_texture->pixels(0, 1, 1), 1, 1e-6);  // numbers without a transfer curve
+    EXPECT_EQ(relief.material.normal_scale, 0.5f);
+    EXPECT_EQ(relief.normal_coordinates.at(1).u, 0.5f);
+    ASSERT_TRUE(relief.material.occlusion_texture);
+    EXPECT_EQ(relief.material.occlusion_strength, 0.25f);
+    EXPECT_EQ(relief.occlusion_coordinates.at(1).u, 1);
+    EXPECT_TRUE(read({.material = R"({"normalTexture":{"index":0},"occlusionTexture":{"index":0}})"}).notes.empty());
+}
+
+TEST_F(Looks, cameras_stand_where_their_nodes_are) {
+    const std::string node = R"("mesh":0,"children":[1]},{"name":"left","translation":[1,2,3],"camera":0,
+"rotation":[0,0.70710678,0,0.70710678],"scale":[2,2,2])";
+    const std::string lens = R"("cameras":[{"type":"perspective","perspective":{"yfov":0.5,"znear":0.25}}],)";
+    const Scene scene = read({.node = node, .document = lens});
+    ASSERT_EQ(scene.cameras.size(), 1u);
+    const SceneCamera& camera = scene.cameras[0];
+    EXPECT_EQ(camera.name, "left");
+    EXPECT_EQ(camera.position, (Vec3{1, 2, 3}));
+    EXPECT_EQ(camera.angle, 0.5);
+    EXPECT_NEAR(camera.nearest, 0.5, 1e-6);
+    EXPECT_NEAR(length(camera.right - Vec3{0, 0, -1}), 0, 1e-6);  // −z, turned by a quarter about y, is −x
+    EXPECT_NEAR(length(camera.up - Vec3{0, 1, 0}), 0, 1e-6);
+    const Scene parallel =
+        read({.node = node, .document = R"("cameras":[{"type":"orthographic","orthographic":{"ymag":3,"znear":0}}],)"});
+    EXPECT_EQ(parallel.cameras.at(0).angle, 0);
+    EXPECT_NEAR(parallel.cameras.at(0).height, 12, 1e-6);
+    EXPECT_TRUE(scene.notes.empty());
+    expect_refusal("a.gltf", file({.node = node, .document = R"("cameras":[{"type":"perspective"}],)"}),
+                   "cameras[0].perspective missing");
+    expect_refusal("b.gltf", file({.node = node, .document = R"("cameras":[{"type":"fisheye"}],)"}),
+                   "cameras[0].type is unknown");
+}
+
+TEST_F(Looks, vertices_that_are_split_for_normals_keep_all_that_they_have) {
+    // Two triangles at a right angle share an edge, and no normals are given.
+    const std::string bytes = raw<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) + raw<float>({0, 0, 1, 0, 0, 1, 1, 1}) +
+                              raw<std::uint16_t>({0, 1, 2, 0, 2, 3});
+    const Scene scene = import_scene(
+        write("s.gltf",
+              fmt::format(R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
+"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"TEXCOORD_0":1}},"indices":2,"material":0}}]}}],
+"materials":[{{"emissiveFactor":[1,1,1],"emissiveTexture":{{"index":0}},"normalTexture":{{"index":0}},
+"occlusionTexture":{{"index":0}},"pbrMetallicRoughness":{{"metallicRoughnessTexture":{{"index":0}}}}}}],
+"textures":[{{"source":0}}],"images":[{{"uri":"data:image/x-tga;base64,{}"}}],
+"accessors":[{{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,1,1]}},
+{{"bufferView":1,"componentType":5126,"count":4,"type":"VEC2"}},{{"bufferView":2,"componentType":5123,"count":6,"type":"SCALAR"}}],
+"bufferViews":[{{"buffer":0,"byteLength":48}},{{"buffer":0,"byteOffset":48,"byteLength":32}},{{"buffer":0,"byteOffset":80,"byteLength":12}}],
+"buffers":[{{"byteLength":92,"uri":"data:application/octet-stream;base64,{}"}}]}})",
+                          base64(picture(four)), base64(bytes))));
+    const Mesh& mesh = scene.meshes.at(0);
+    ASSERT_EQ(mesh.positions.size(), 6u);
+    EXPECT_EQ(mesh.emission_coordinates.size(), 6u);
+    EXPECT_EQ(mesh.metallic_roughness_coordinates.size(), 6u);
+    EXPECT_EQ(mesh.normal_coordinates.size(), 6u);
+    EXPECT_EQ(mesh.occlusion_coordinates.size(), 6u);
+    validate(scene);
+}
+
 TEST_F(Looks, what_is_left_out_is_noted_by_name) {
-    expect_note({.material = R"({"normalTexture":{"index":0}})"}, "normal maps of 1 material are left out");
-    expect_note({.material = R"({"occlusionTexture":{"index":0}})"}, "occlusion maps");
     for (const std::string name :
          {"anisotropy", "clearcoat", "dispersion", "iridescence", "sheen", "transmission", "volume"})
         expect_note({.material = R"({"extensions":{"KHR_materials_)" + name + R"(":{}}})"}, "KHR_materials_" + name);
     expect_note({.document = R"("animations":[{"channels":[],"samplers":[]}],)"}, "animations are left out");
-    expect_note({.document = R"("cameras":[{"type":"perspective"}],)"}, "1 camera is left out");
     expect_note({.document = R"("skins":[{"joints":[0]}],)"}, "skins are left out");
     expect_note({.document = R"("extensionsUsed":["ACME_glow","KHR_materials_ior"],)"}, "left out: ACME_glow");
     const std::string textured = R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})";

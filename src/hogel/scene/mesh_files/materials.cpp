@@ -32,6 +32,15 @@ Image from_texels(const TextureSource& source) {
 
 }  // namespace
 
+std::shared_ptr<const Image> white_picture() {
+    static const auto picture = [] {
+        auto image = std::make_shared<Image>(1, 1, 1);
+        image->pixels(0, 0, 0) = 1;
+        return image;
+    }();
+    return picture;
+}
+
 Material read_material(const aiMaterial& source) {
     Material material;
     aiString name;
@@ -104,6 +113,65 @@ std::shared_ptr<const Image> Textures::get(std::uint32_t number, image::TextureP
     auto& known = images_[{number, pixels}];
     if (!known) known = std::make_shared<Image>(load(sources_[number], pixels));
     return known;
+}
+
+std::shared_ptr<const Image> Textures::with_opacity(std::uint32_t color, std::uint32_t opacity) {
+    const std::shared_ptr<const Image> alphas = get(opacity, image::TexturePixels::color_and_alpha);
+    if (!alphas) return nullptr;
+    auto& known = with_opacity_[{color, opacity}];
+    if (known) return known;
+    const bool has_alpha = alphas->channels() == 4;
+    const std::shared_ptr<const Image> picture = get(color),
+                                       brightness = has_alpha ? alphas : get(opacity, image::TexturePixels::numbers);
+    const std::size_t width = picture ? picture->width() : alphas->width(),
+                      height = picture ? picture->height() : alphas->height();
+    auto whole = std::make_shared<Image>(width, height, 4);
+    for (std::size_t y = 0; y < height; ++y)
+        for (std::size_t x = 0; x < width; ++x) {
+            for (std::size_t c = 0; c < 3; ++c)
+                whole->pixels(y, x, c) = picture ? picture->pixels(y, x, std::min(c, picture->channels() - 1)) : 1;
+            const std::size_t row = (2 * y + 1) * brightness->height() / (2 * height),
+                              column = (2 * x + 1) * brightness->width() / (2 * width);
+            if (has_alpha) {
+                whole->pixels(y, x, 3) = brightness->pixels(row, column, 3);
+                continue;
+            }
+            float sum = 0;
+            for (std::size_t c = 0; c < brightness->channels(); ++c) sum += brightness->pixels(row, column, c);
+            whole->pixels(y, x, 3) = sum / static_cast<float>(brightness->channels());
+        }
+    return known = std::move(whole);
+}
+
+namespace {
+
+/// Whether nearly all texels are there or not there, as those of leaves and fences.
+bool is_cut_out(const Image& picture) {
+    std::size_t between = 0;
+    const std::size_t texels = picture.width() * picture.height();
+    for (std::size_t i = 0; i < texels; ++i) {
+        const float alpha = picture.pixels.data()[4 * i + 3];
+        between += alpha > 0.1f && alpha < 0.9f ? 1 : 0;
+    }
+    return between <= texels / 20;
+}
+
+}  // namespace
+
+void apply_obj_looks(ImportedMesh& part, Textures& textures) {
+    Mesh& mesh = part.mesh;
+    Material& material = mesh.material;
+    const bool has_coordinates = !mesh.texture_coordinates.empty();
+    if (has_coordinates)
+        if (auto picture = textures.with_opacity(part.texture, part.opacity_texture)) {
+            material.alpha_mode = material.alpha == 1 && is_cut_out(*picture) ? AlphaMode::mask : AlphaMode::blend;
+            material.base_color_texture = std::move(picture);
+        }
+    if (material.alpha < 1) material.alpha_mode = AlphaMode::blend;
+    if (material.emission == Rgb{0, 0, 0}) return;
+    // The base-colour texture does not multiply emission.
+    if (has_coordinates) material.emission_texture = textures.get(part.emission_texture);
+    if (!material.emission_texture && material.base_color_texture) material.emission_texture = white_picture();
 }
 
 Image Textures::load(const TextureSource& source, image::TexturePixels pixels) const {

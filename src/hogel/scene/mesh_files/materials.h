@@ -29,6 +29,9 @@ std::string base_color_texture(const aiMaterial& source);
 /// @param file  name of the mesh for messages, as the caller gave it
 TextureSource find_texture(const aiScene& source, const std::string& name, const std::string& file);
 
+/// One white texel.
+std::shared_ptr<const Image> white_picture();
+
 /// Decodes textures, each when it is first asked for.
 class Textures {
   public:
@@ -38,13 +41,21 @@ class Textures {
     /// Null for a number that does not exist. Throws Error(bad_input) for a missing or damaged picture.
     std::shared_ptr<const Image> get(std::uint32_t number, image::TexturePixels pixels = image::TexturePixels::color);
 
+    /// A picture with the opacity of another as its fourth channel: that one's alpha, or its brightness where it has
+    /// none. White where there is no picture of that number; null where there is none of the opacity.
+    std::shared_ptr<const Image> with_opacity(std::uint32_t color, std::uint32_t opacity);
+
   private:
     Image load(const TextureSource& source, image::TexturePixels pixels) const;
 
     std::vector<TextureSource> sources_;
     std::map<std::pair<std::uint32_t, image::TexturePixels>, std::shared_ptr<const Image>> images_;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::shared_ptr<const Image>> with_opacity_;
     std::filesystem::path folder_;
     std::string file_;
 };
+
+/// Gives a mesh of an OBJ file its opacity and its emission by pictures. `part` has its base-colour texture.
+void apply_obj_looks(ImportedMesh& part, Textures& textures);
 
 }  // namespace hogel::scene::mesh_files

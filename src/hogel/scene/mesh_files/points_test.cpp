@@ -90,9 +90,7 @@ TEST(Discs, are_found_in_clouds_of_any_shape) {
 
 using PointFiles = Import;
 const std::string header =
-    "element vertex 4\nproperty float x\nproperty float y\nproperty double z\nproperty uchar red\nproperty uchar "
-    "green\n"
-    "property uchar blue\nend_header\n";
+    "element vertex 4\nproperty float x\nproperty float y\nproperty double z\n" + ply_colors + "end_header\n";
 
 TEST_F(PointFiles, of_ply_are_read_as_text_and_as_bytes_of_either_order) {
     std::string little = "ply\nformat binary_little_endian 1.0\n" + header;
@@ -148,9 +146,7 @@ TEST_F(PointFiles, as_text_have_coordinates_and_a_colour_or_a_normal) {
 }
 
 TEST_F(PointFiles, of_gaussian_splats_are_refused_by_that_name) {
-    const std::string splats =
-        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nproperty float "
-        "f_dc_0\nend_header\n0 0 0 1\n";
+    const std::string splats = ply_vertices(1, "property float f_dc_0\n") + "end_header\n0 0 0 1\n";
     expect_refusal("s.ply", splats, "Gaussian splats");
     expect_refusal("s.splat", "0123456789", "Gaussian splats");
 }

@@ -14,17 +14,18 @@
 namespace hogel::scene::mesh_files {
 namespace {
 
-enum class Tag : std::uint32_t { end, error, file, texture, mesh };
+enum class Tag : std::uint32_t { end, error, file, note, texture, mesh };
 constexpr std::size_t max_text = 1 << 16;
 
 /// Everything that goes before the arrays of a mesh or texture, as it lies in memory: both sides are one program.
 struct Head {
     Tag tag = Tag::end;
-    std::uint32_t texture = 0;
+    std::uint32_t texture = 0, opacity_texture = 0, emission_texture = 0;
     TextureSource::Kind kind = TextureSource::Kind::file;
     std::uint32_t is_unlit = 0, material = 0, width = 0, height = 0;
     Rgb base_color, emission;
-    float reflectance = 0, metallic = 0, roughness = 0;
+    float reflectance = 0, metallic = 0, roughness = 0, alpha = 1;
+    std::uint32_t clamp = 0;                ///< whether the base-colour texture does not repeat
     std::uint64_t text = 0;                 ///< bytes of the name or message
     std::array<std::uint64_t, 8> counts{};  ///< elements of the arrays, in the order of arrays_of()
 };
@@ -107,6 +108,8 @@ TextureSource receive_texture(Receiver& from, const Head& head) {
 ImportedMesh receive_mesh(Receiver& from, const Head& head) {
     ImportedMesh imported;
     imported.texture = head.texture;
+    imported.opacity_texture = head.opacity_texture;
+    imported.emission_texture = head.emission_texture;
     imported.is_unlit = head.is_unlit != 0;
     imported.material = head.material;
     Material& material = imported.mesh.material;
@@ -115,6 +118,8 @@ ImportedMesh receive_mesh(Receiver& from, const Head& head) {
     material.reflectance = head.reflectance;
     material.metallic = head.metallic;
     material.roughness = head.roughness;
+    material.alpha = head.alpha;
+    if (head.clamp != 0) material.base_color_sampling = {TextureSampling::Wrap::clamp, TextureSampling::Wrap::clamp};
     imported.mesh.name = from.text(head);
     for_arrays(imported, [&](std::size_t i, auto& array) { from.array(head.counts[i], array); });
     return imported;
@@ -148,6 +153,8 @@ void Sender::send(const ImportedMesh& imported) const {
     Head head;
     head.tag = Tag::mesh;
     head.texture = imported.texture;
+    head.opacity_texture = imported.opacity_texture;
+    head.emission_texture = imported.emission_texture;
     head.is_unlit = imported.is_unlit ? 1 : 0;
     head.material = imported.material;
     head.base_color = mesh.material.base_color;
@@ -155,6 +162,8 @@ void Sender::send(const ImportedMesh& imported) const {
     head.reflectance = mesh.material.reflectance;
     head.metallic = mesh.material.metallic;
     head.roughness = mesh.material.roughness;
+    head.alpha = mesh.material.alpha;
+    head.clamp = mesh.material.base_color_sampling.wrap_u == TextureSampling::Wrap::clamp ? 1 : 0;
     head.text = mesh.name.size();
     for_arrays(imported, [&](std::size_t i, const auto& array) { head.counts[i] = array.size(); });
     core::ChildProcess::write(pipe_, &head, sizeof head);
@@ -165,6 +174,8 @@ void Sender::send(const ImportedMesh& imported) const {
 }
 
 void Sender::send_file(const std::filesystem::path& path) const { send_text(pipe_, Tag::file, path.string()); }
+
+void Sender::send_note(const std::string& note) const { send_text(pipe_, Tag::note, note); }
 
 void Sender::send_error(const std::string& message) const { send_text(pipe_, Tag::error, message); }
 
@@ -183,6 +194,9 @@ Imported receive(core::ChildProcess& child, const std::filesystem::path& folder,
                 return imported;
             case Tag::file:
                 from.file(head);
+                break;
+            case Tag::note:
+                imported.notes.push_back(one_line(from.text(head)));
                 break;
             case Tag::texture:
                 imported.textures.push_back(receive_texture(from, head));

@@ -27,7 +27,9 @@ struct ImportedMesh {
     static constexpr std::uint32_t no_texture = ~std::uint32_t{0};
     Mesh mesh;
     std::uint32_t texture = no_texture;  ///< number of a TextureSource that was sent before
-    bool is_unlit = false;               ///< the material's colour is its radiance (glTF: KHR_materials_unlit)
+    /// OBJ: the pictures of opacity and of emission, the same.
+    std::uint32_t opacity_texture = no_texture, emission_texture = no_texture;
+    bool is_unlit = false;  ///< the material's colour is its radiance (glTF: KHR_materials_unlit)
     static constexpr std::uint32_t no_material = ~std::uint32_t{0};
     std::uint32_t material = no_material;                    ///< number in GltfLooks::materials
     std::vector<TextureCoordinate> second_coordinates = {};  ///< TEXCOORD_1
@@ -37,7 +39,7 @@ struct Imported {
     std::vector<ImportedMesh> meshes;
     std::vector<TextureSource> textures;
     Metadata provenance;             ///< which the parent reads
-    std::vector<std::string> notes;  ///< the same
+    std::vector<std::string> notes;  ///< Scene::notes
 };
 
 /// In the child: sends what was read, piece by piece, so that it is not held twice.
@@ -48,6 +50,8 @@ class Sender {
     void send_file(const std::filesystem::path& path) const;
     void send(const TextureSource& texture) const;
     void send(const ImportedMesh& mesh) const;
+    /// Of Scene::notes.
+    void send_note(const std::string& note) const;
     /// Instead of anything further: what import_scene() is to say.
     void send_error(const std::string& message) const;
     /// After the last piece.
