@@ -103,6 +103,13 @@ inline void see(NearestTriangle& seen, std::uint32_t index, const ObliqueTriangl
     if (hit && hit.depth >= min_depth && depth < seen.depth) seen = {depth, index};
 }
 
+/// The point of triangle `index`, projected along the ray's direction, that the ray through (s, t) sees.
+inline VisiblePoint visible_point(std::size_t index, const ObliqueTriangle& triangle, double s, double t) {
+    const ObliqueTriangle::Hit hit = triangle.at(s, t);
+    return {index, static_cast<float>(hit.weights[0]), static_cast<float>(hit.weights[1]),
+            static_cast<float>(hit.weights[2]), hit.depth};
+}
+
 /// Shades the triangle that the ray of hogel (t, s) of the tile in direction (v, u) sees, and stores the sample in the
 /// tile.
 inline void store(LightFieldTile& tile, const ShadedScene& scene, const LightFieldGrid& grid,
@@ -110,10 +117,8 @@ inline void store(LightFieldTile& tile, const ShadedScene& scene, const LightFie
     VisiblePoint point;
     if (seen.triangle != NearestTriangle::none) {
         const ObliqueTriangle triangle(scene, seen.triangle, grid, static_cast<double>(u), static_cast<double>(v));
-        const ObliqueTriangle::Hit hit =
-            triangle.at(grid.s(static_cast<double>(tile.range.s0 + s)), grid.t(static_cast<double>(tile.range.t0 + t)));
-        point = {seen.triangle, static_cast<float>(hit.weights[0]), static_cast<float>(hit.weights[1]),
-                 static_cast<float>(hit.weights[2]), hit.depth};
+        point = visible_point(seen.triangle, triangle, grid.s(static_cast<double>(tile.range.s0 + s)),
+                              grid.t(static_cast<double>(tile.range.t0 + t)));
     }
     store(tile, scene, grid, point, t, s, v, u);
 }
