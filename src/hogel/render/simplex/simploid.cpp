@@ -62,18 +62,19 @@ class SimploidRenderer final : public Renderer, public CountsVisits {
 
     void set_scene(std::shared_ptr<const ShadedScene> scene) override {
         scene_ = std::move(scene);
-        triangles_ = triangles_with_area(*scene_, std::move(triangles_));
+        with_area_ = triangles_with_area(*scene_, std::move(with_area_));
+        triangles_ = slab_triangles(*scene_, std::move(triangles_));
     }
 
     void read(LightFieldTile& tile) const override {
-        const std::vector<TriangleBlock> blocks = blocks_in_view(tile.range);
+        const TriangleBlocks blocks = blocks_in_view(tile.range);
         // Processes one V at a time, so that neighbouring triangles write to neighbouring memory.
         Array<std::uint64_t, 3> words(simploid_buffer(axes_, tile.range));
         Visits visits;
         for (std::size_t slow = 0; slow < axes_.slow_directions(); ++slow) {
             core::throw_if_stopped();
             std::ranges::fill(words.elements(), nothing_seen());
-            const SlabRays rays(*scene_, grid_, tile.range, slow);
+            const SlabRays rays(triangles_, scene_->fronts_only, grid_, tile.range, slow);
             Slab(*this, rays, tile.range, words.elements().data(), visits).scan_convert(blocks);
             store_slab(tile, rays, slow, words);
         }
@@ -98,19 +99,19 @@ class SimploidRenderer final : public Renderer, public CountsVisits {
     }
 
     // The triangles that hogels of a region may see.
-    std::vector<TriangleBlock> blocks_in_view(const HogelRange& range) const {
+    TriangleBlocks blocks_in_view(const HogelRange& range) const {
         const Slopes all = slopes();
         const double per_pitch = 1 / grid_.pitch, row_sign = -axes_.fast_sign();
         const double first_row = axes_.slow_hogel(range, 0), first_hogel = axes_.fast_hogel(range, 0);
         const auto last_row = static_cast<double>(axes_.slow_hogels(range) - 1),
                    last_hogel = static_cast<double>(axes_.fast_hogels(range) - 1);
-        std::vector<TriangleBlock> blocks;
+        TriangleBlocks blocks;
         std::size_t used = TriangleBlock::size;
-        for (const std::uint32_t index : triangles_) {
+        for (const std::uint32_t index : with_area_) {
             std::array<double, 3> rows, depths;
             Range seen_rows, seen_columns;
             for (std::size_t i = 0; i < 3; ++i) {
-                const Vec3& p = scene_->positions[scene_->triangles[index].vertices[i]];
+                const Vec3& p = triangles_[index].corners[i];
                 const double depth = -p.z * per_pitch;
                 rows[i] = row_sign * ((axes_.transposed() ? p.x : p.y) - first_row) * per_pitch;
                 depths[i] = row_sign * depth;
@@ -133,35 +134,65 @@ class SimploidRenderer final : public Renderer, public CountsVisits {
         const std::span<const std::uint64_t> all = words.elements();
         std::size_t number = 0;
         for (std::size_t row = 0; row < rays.rows(); ++row)
-            for (std::size_t i = 0; i < rays.hogels(); ++i)
+            for (std::size_t i = 0; i < rays.hogels(); ++i) {
+                const auto [t, s, v, u] = axes_.sample(row, i, slow, 0);
+                const SampleRow to(tile, axes_.transposed() ? grid_.directions_u : 1, t, s, v, u);
                 for (std::size_t fast = 0; fast < rays.directions(); ++fast, ++number) {
-                    fetch_ahead(all, number);
-                    const auto [t, s, v, u] = axes_.sample(row, i, slow, fast);
-                    store(tile, *scene_, grid_, rays.sees(triangle_of(all[number]), row, i, fast), t, s, v, u);
+                    constexpr std::size_t ahead = 24;
+                    if (number + ahead < all.size())
+                        if (const auto later = triangle_of(all[number + ahead]); later != NearestTriangle::none)
+                            triangles_[later].fetch();
+                    const std::uint32_t index = triangle_of(all[number]);
+                    if (index == NearestTriangle::none) {
+                        to.store(fast, scene_->background, std::numeric_limits<double>::infinity());
+                        continue;
+                    }
+                    const SlabTriangle& triangle = triangles_[index];
+                    const VisiblePoint point = rays.sees(index, row, i, fast);
+                    if (triangle.needs_samples) {
+                        const auto at = axes_.sample(row, i, slow, fast);
+                        store(tile, *scene_, grid_, point, at.t, at.s, at.v, at.u);
+                    } else {
+                        const auto& [a, b, c] = triangle.radiance;
+                        to.store(fast, point.b0 * a + point.b1 * b + point.b2 * c, point.depth);
+                    }
                 }
-    }
-
-    // Asks for what samples after this one show. Neighbouring rays may see triangles that are anywhere in memory.
-    void fetch_ahead(std::span<const std::uint64_t> words, std::size_t number) const {
-        constexpr std::size_t vertices_ahead = 8, triangles_ahead = 16;
-        if (number + triangles_ahead >= words.size()) return;
-        const auto* const triangles = scene_->triangles.data();
-        if (const auto later = triangle_of(words[number + triangles_ahead]); later != NearestTriangle::none)
-            __builtin_prefetch(triangles + later);
-        if (const auto soon = triangle_of(words[number + vertices_ahead]); soon != NearestTriangle::none)
-            for (const std::uint32_t vertex : triangles[soon].vertices) {
-                __builtin_prefetch(scene_->positions.data() + vertex);
-                __builtin_prefetch(scene_->radiance.data() + vertex);
             }
     }
+
+    // The samples of one hogel and one V in a tile, as store() writes them.
+    class SampleRow {
+      public:
+        SampleRow(LightFieldTile& tile, std::size_t stride, std::size_t t, std::size_t s, std::size_t v, std::size_t u)
+            : stride_(stride), channels_(tile.radiance.extent(0)) {
+            for (std::size_t c = 0; c < channels_; ++c) radiance_[c] = &tile.radiance(c, t, s, v, u);
+            if (tile.depth.size() > 0) depth_ = &tile.depth(t, s, v, u);
+        }
+
+        void store(std::size_t direction, Rgb radiance, double depth) const {
+            const std::size_t i = direction * stride_;
+            if (channels_ == 3) {
+                radiance_[0][i] = radiance.r;
+                radiance_[1][i] = radiance.g;
+                radiance_[2][i] = radiance.b;
+            } else {
+                radiance_[0][i] = luminance(radiance);
+            }
+            if (depth_) depth_[i] = static_cast<float>(depth);
+        }
+
+      private:
+        std::size_t stride_, channels_;
+        std::array<float*, 3> radiance_{};
+        float* depth_ = nullptr;
+    };
 
     // The rays of a tile with one V.
     class Slab {
       public:
         Slab(const SimploidRenderer& renderer, const SlabRays& rays, const HogelRange& range, std::uint64_t* words,
              Visits& visits)
-            : scene_(*renderer.scene_),
-              axes_(renderer.axes_),
+            : axes_(renderer.axes_),
               rays_(rays),
               words_(words),
               visits_(visits),
@@ -170,13 +201,17 @@ class SimploidRenderer final : public Renderer, public CountsVisits {
               first_hogel_(axes_.fast_hogel(range, 0) / renderer.grid_.pitch * axes_.fast_sign()),
               bands_(max_bands) {}
 
-        void scan_convert(const std::vector<TriangleBlock>& blocks) {
+        void scan_convert(const TriangleBlocks& blocks) {
             const SlabRows rows{static_cast<float>(rays_.slow_slope()), static_cast<float>(rays_.rows() - 1)};
             std::array<std::uint32_t, TriangleBlock::size> found;
             for (const TriangleBlock& block : blocks) {
                 if (!rows.may_show(block)) continue;
                 const std::size_t count = find_in_rows(block, rows, found.data());
-                for (std::size_t i = 0; i < count; ++i) slice(found[i]);
+                constexpr std::size_t ahead = 8;
+                for (std::size_t i = 0; i < count; ++i) {
+                    rays_.triangle(found[std::min(i + ahead, count - 1)]).fetch();
+                    slice(found[i]);
+                }
             }
             draw();
         }
@@ -202,10 +237,9 @@ class SimploidRenderer final : public Renderer, public CountsVisits {
 
         ProjectedTriangle project(std::uint32_t index) const {
             ProjectedTriangle projected;
-            const auto& vertices = scene_.triangles[index].vertices;
             const double row_sign = -axes_.fast_sign();  // t is counted downwards, s to the right
             for (std::size_t i = 0; i < 3; ++i) {
-                const Vec3& p = scene_.positions[vertices[i]];
+                const Vec3& p = rays_.triangle(index).corners[i];
                 const double depth = -p.z * per_pitch_;
                 const double fast = (axes_.transposed() ? p.y : p.x) * per_pitch_;
                 const double slow = (axes_.transposed() ? p.x : p.y) * per_pitch_;
@@ -220,7 +254,7 @@ class SimploidRenderer final : public Renderer, public CountsVisits {
             band.row = row;
             const double at = rays_.slow_hogel(row);
             for (std::size_t i = 0; i < 3; ++i) {
-                const Vec3& p = scene_.positions[scene_.triangles[index].vertices[i]];
+                const Vec3& p = rays_.triangle(index).corners[i];
                 band.depth[i] = -p.z;
                 band.fast[i] = axes_.transposed() ? p.y : p.x;
                 // As ObliqueTriangle rounds.
@@ -251,7 +285,6 @@ class SimploidRenderer final : public Renderer, public CountsVisits {
             band_count_ = 0;
         }
 
-        const ShadedScene& scene_;
         const RowAxes& axes_;
         const SlabRays& rays_;
         std::uint64_t* words_;
@@ -264,7 +297,8 @@ class SimploidRenderer final : public Renderer, public CountsVisits {
     std::shared_ptr<const ShadedScene> scene_;
     LightFieldGrid grid_;
     RowAxes axes_;
-    std::vector<std::uint32_t> triangles_;
+    std::vector<std::uint32_t> with_area_;
+    SlabTriangles triangles_;
 };
 
 }  // namespace

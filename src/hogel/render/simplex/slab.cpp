@@ -11,6 +11,16 @@ Vec3 direction_of(const LightFieldGrid& grid, const RowAxes& axes, std::size_t s
 
 }  // namespace
 
+SlabTriangles slab_triangles(const ShadedScene& scene, SlabTriangles list) {
+    list.resize(scene.triangles.size());
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const auto& [a, b, c] = scene.triangles[i].vertices;
+        list[i] = {
+            corners_of(scene, i), {scene.radiance[a], scene.radiance[b], scene.radiance[c]}, scene.needs_samples(i)};
+    }
+    return list;
+}
+
 TriangleBlock::TriangleBlock() {
     // Of no triangle, and in no row.
     constexpr float nowhere = 1e30f;
@@ -61,8 +71,10 @@ double SlabRays::fast_slope_of(const LightFieldGrid& grid, const RowAxes& axes, 
     return (axes.transposed() ? direction.y : direction.x) / direction.z;
 }
 
-SlabRays::SlabRays(const ShadedScene& scene, const LightFieldGrid& grid, const HogelRange& range, std::size_t slow)
-    : scene_(scene),
+SlabRays::SlabRays(std::span<const SlabTriangle> triangles, bool fronts_only, const LightFieldGrid& grid,
+                   const HogelRange& range, std::size_t slow)
+    : triangles_(triangles),
+      fronts_only_(fronts_only),
       grid_(grid),
       range_(range),
       axes_(grid),

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "hogel/array.h"
 #include "hogel/render/oblique_triangle.h"
 #include "hogel/render/ordered_bits.h"
 #include "hogel/render/row_axes.h"
@@ -21,6 +22,24 @@ namespace hogel::render::simplex {
 // The inner loops of `simploid` over the rays of one V, a slab of the region. Here t and V stand for the slow axis of
 // RowAxes, s and U for the fast one. The kernels exist as twins, a plain and a vector version, which find the same
 // triangles, test the same samples and write the same bits.
+
+/// What rays need of a triangle, on two cache lines: rays that are neighbours may see triangles that are anywhere in
+/// memory.
+struct alignas(64) SlabTriangle {
+    std::array<Vec3, 3> corners;
+    std::array<Rgb, 3> radiance;  ///< at the corners
+    bool needs_samples = false;   ///< ShadedScene::needs_samples()
+
+    void fetch() const {
+        __builtin_prefetch(this);
+        __builtin_prefetch(reinterpret_cast<const char*>(this) + 64);
+    }
+};
+
+/// The triangles of a scene, in huge pages where the system grants them.
+using SlabTriangles = std::vector<SlabTriangle, CacheLineAllocator<SlabTriangle>>;
+/// @param list  an earlier list whose memory is reused
+SlabTriangles slab_triangles(const ShadedScene& scene, SlabTriangles list = {});
 
 /// 64 triangles, and where hogels of a region see their corners: at a V of slope dy/dζ a corner is in row `row` − slope
 /// · `depth`. Both are in rows of hogels, and rounded, so that they only tell which triangles need not be looked at.
@@ -35,6 +54,7 @@ struct alignas(64) TriangleBlock {
     void set(std::size_t i, std::uint32_t index, const std::array<double, 3>& rows,
              const std::array<double, 3>& depths);
 };
+using TriangleBlocks = std::vector<TriangleBlock, CacheLineAllocator<TriangleBlock>>;
 
 /// The rows of one V, for the search for triangles that cover some of them.
 struct SlabRows {
@@ -82,12 +102,14 @@ struct Band {
     void include(SegmentPoint p) { points[count++] = p; }
 };
 
-/// The rays of one V of a region.
+/// The rays of one V of a region, and the triangles that they may meet. All arguments must outlive this object.
 class SlabRays {
   public:
-    SlabRays(const ShadedScene& scene, const LightFieldGrid& grid, const HogelRange& range, std::size_t slow);
+    SlabRays(std::span<const SlabTriangle> triangles, bool fronts_only, const LightFieldGrid& grid,
+             const HogelRange& range, std::size_t slow);
 
-    const ShadedScene& scene() const { return scene_; }
+    const SlabTriangle& triangle(std::uint32_t index) const { return triangles_[index]; }
+    bool fronts_only() const { return fronts_only_; }
     const RowAxes& axes() const { return axes_; }
     std::size_t rows() const { return rows_; }
     std::size_t hogels() const { return hogels_; }
@@ -97,18 +119,14 @@ class SlabRays {
     const double* slopes() const { return slopes_.data(); }
     /// The same in hogels, counted as the region's hogels are.
     const double* steps() const { return steps_.data(); }
-    /// A triangle projected along one of the directions.
-    ObliqueTriangle projected(std::uint32_t triangle, std::size_t direction) const {
-        const double along = slopes_[direction];
-        return axes_.transposed() ? ObliqueTriangle(scene_, triangle, slow_slope_, along)
-                                  : ObliqueTriangle(scene_, triangle, along, slow_slope_);
-    }
-    /// The point that the ray of a hogel and direction of a row sees of a triangle, which may be NearestTriangle::none.
-    VisiblePoint sees(std::uint32_t triangle, std::size_t row, std::size_t hogel, std::size_t direction) const {
-        if (triangle == NearestTriangle::none) return {};
-        const double slow = slow_hogel(row), fast = fast_hogel(hogel);
-        return visible_point(triangle, projected(triangle, direction), axes_.transposed() ? slow : fast,
-                             axes_.transposed() ? fast : slow);
+    /// The point that the ray of a hogel and direction of a row sees of a triangle; its depth is infinite if there is
+    /// none.
+    VisiblePoint sees(std::uint32_t index, std::size_t row, std::size_t hogel, std::size_t direction) const {
+        const double slow = slow_hogel(row), fast = fast_hogel(hogel), along = slopes_[direction];
+        const auto& corners = triangles_[index].corners;
+        if (axes_.transposed())
+            return visible_point(index, ObliqueTriangle(corners, fronts_only_, slow_slope_, along), slow, fast);
+        return visible_point(index, ObliqueTriangle(corners, fronts_only_, along, slow_slope_), fast, slow);
     }
 
     double slow_hogel(std::size_t row) const { return axes_.slow_hogel(range_, row); }
@@ -131,7 +149,8 @@ class SlabRays {
   private:
     static constexpr std::size_t padding = 64;
 
-    const ShadedScene& scene_;
+    std::span<const SlabTriangle> triangles_;
+    bool fronts_only_;
     const LightFieldGrid& grid_;
     const HogelRange& range_;
     RowAxes axes_;

@@ -153,7 +153,7 @@ class BandDrawer {
   public:
     BandDrawer(const SlabRays& rays, std::uint64_t* words, Visits& visits)
         : rays_(rays), words_(words), visits_(visits), hits_(words) {
-        const bool fronts = rays.scene().fronts_only, transposed = rays.axes().transposed();
+        const bool fronts = rays.fronts_only(), transposed = rays.axes().transposed();
         without_negative_ = fronts && !transposed;
         without_positive_ = fronts && transposed;
     }

@@ -32,8 +32,8 @@ std::array<double, 3> three(std::mt19937& random, double middle, double size) {
 }
 
 // Blocks of triangles of all sizes near some rows, some with corners on them, the last block not full.
-std::vector<TriangleBlock> random_blocks(std::mt19937& random) {
-    std::vector<TriangleBlock> blocks(6);
+TriangleBlocks random_blocks(std::mt19937& random) {
+    TriangleBlocks blocks(6);
     std::uniform_real_distribution<double> middle(-30, 50);
     std::uint32_t index = 0;
     for (TriangleBlock& block : blocks)
@@ -142,10 +142,9 @@ TEST_P(SlabKernels, twins_draw_the_same) {
             const std::size_t fast_hogels = 1 + random() % 8;
             const HogelRange range{1, 2, fast_hogels, 3};
             const std::size_t slow = random() % RowAxes(grid).slow_directions();
-            ShadedScene none;
-            Drawn drawn = random_bands(random, grid, range, SlabRays(none, grid, range, slow));
-            drawn.scene.fronts_only = round % 3 == 0;
-            const SlabRays rays(drawn.scene, grid, range, slow);
+            const Drawn drawn = random_bands(random, grid, range, SlabRays({}, false, grid, range, slow));
+            const SlabTriangles triangles = slab_triangles(drawn.scene);
+            const SlabRays rays(triangles, round % 3 == 0, grid, range, slow);
             const std::size_t count = rays.word(rays.rows(), 0, 0);
             std::vector<std::uint64_t> fast(count, nothing_seen()), plain = fast;
             Visits of_fast, of_plain;
@@ -171,8 +170,7 @@ TEST(Slab, words_order_samples_by_depth_and_triangle) {
 TEST(Slab, coordinates_of_hogels_are_exact) {
     for (const LightFieldGrid& grid : grids()) {
         const HogelRange range{3, 1, 5, 6};
-        ShadedScene none;
-        const SlabRays rays(none, grid, range, 2);
+        const SlabRays rays({}, false, grid, range, 2);
         for (std::size_t i = 0; i < rays.hogels(); ++i)
             EXPECT_EQ(rays.fast_hogel(i), (rays.first_fast() + rays.fast_sign() * double(i)) * rays.pitch());
     }
