@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -17,6 +16,7 @@
 #include "hogel/photograph.h"
 #include "hogel/propagate.h"
 #include "hogel/ray_photograph.h"
+#include "hogel/render/test_renderers.h"
 #include "hogel/renderer.h"
 #include "hogel/scene_hologram.h"
 #include "hogel/scenes.h"
@@ -137,6 +137,11 @@ std::vector<Verb> field_verbs() {
              const Camera camera = camera_of(grid.plane);
              photograph(waves, {&camera, 1}, {}, progress);
          }},
+        {"photograph_behind_a_diffuser",
+         [](const Progress& progress) {
+             const Camera camera = camera_of(grid.plane);
+             photograph(waves, {&camera, 1}, {.vertical_diffuser = true}, progress);
+         }},
         {"photograph_by_plane_waves",
          [](const Progress& progress) {
              const Camera camera = camera_of(grid.plane);
@@ -208,11 +213,8 @@ INSTANTIATE_TEST_SUITE_P(Fields, Stop, testing::ValuesIn(field_verbs()),
                          [](const auto& test) { return test.param.name; });
 INSTANTIATE_TEST_SUITE_P(Scenes, Stop, testing::ValuesIn(scene_verbs()),
                          [](const auto& test) { return test.param.name; });
-INSTANTIATE_TEST_SUITE_P(Renderers, Stop, testing::ValuesIn(renderings()), [](const auto& test) {
-    std::string name = test.param.name;
-    std::ranges::replace(name, '-', '_');
-    return name;
-});
+INSTANTIATE_TEST_SUITE_P(Renderers, Stop, testing::ValuesIn(renderings()),
+                         [](const auto& test) { return render::test_name(test.param.name); });
 
 TEST_P(Stop, ends_the_work_within_a_second) {
     std::stop_source source;

@@ -11,6 +11,12 @@
 
 namespace hogel::render {
 
+/// The positions of a triangle's vertices.
+inline std::array<Vec3, 3> corners_of(const ShadedScene& scene, std::size_t index) {
+    const auto& [a, b, c] = scene.triangles[index].vertices;
+    return {scene.positions[a], scene.positions[b], scene.positions[c]};
+}
+
 /// A triangle projected along one direction (U, V) onto the hologram plane, in which rays of that direction are points.
 ///
 /// The renderers that collect candidate samples instead of testing every one (`simplex`, `simploid`, `simplex3d`,
@@ -25,12 +31,14 @@ namespace hogel::render {
 class ObliqueTriangle {
   public:
     /// Along the slopes U = dx/dζ and V = dy/dζ.
-    ObliqueTriangle(const ShadedScene& scene, std::size_t index, double U, double V) : fronts_only_(scene.fronts_only) {
+    ObliqueTriangle(const ShadedScene& scene, std::size_t index, double U, double V)
+        : ObliqueTriangle(corners_of(scene, index), scene.fronts_only, U, V) {}
+    ObliqueTriangle(const std::array<Vec3, 3>& corners, bool fronts_only, double U, double V)
+        : fronts_only_(fronts_only) {
         for (std::size_t i = 0; i < 3; ++i) {
-            const Vec3& p = scene.positions[scene.triangles[index].vertices[i]];
-            depth_[i] = -p.z;
-            s_[i] = p.x - U * depth_[i];
-            t_[i] = p.y - V * depth_[i];
+            depth_[i] = -corners[i].z;
+            s_[i] = corners[i].x - U * depth_[i];
+            t_[i] = corners[i].y - V * depth_[i];
         }
     }
 
@@ -103,6 +111,13 @@ inline void see(NearestTriangle& seen, std::uint32_t index, const ObliqueTriangl
     if (hit && hit.depth >= min_depth && depth < seen.depth) seen = {depth, index};
 }
 
+/// The point of triangle `index`, projected along the ray's direction, that the ray through (s, t) sees.
+inline VisiblePoint visible_point(std::size_t index, const ObliqueTriangle& triangle, double s, double t) {
+    const ObliqueTriangle::Hit hit = triangle.at(s, t);
+    return {index, static_cast<float>(hit.weights[0]), static_cast<float>(hit.weights[1]),
+            static_cast<float>(hit.weights[2]), hit.depth};
+}
+
 /// Shades the triangle that the ray of hogel (t, s) of the tile in direction (v, u) sees, and stores the sample in the
 /// tile.
 inline void store(LightFieldTile& tile, const ShadedScene& scene, const LightFieldGrid& grid,
@@ -110,10 +125,8 @@ inline void store(LightFieldTile& tile, const ShadedScene& scene, const LightFie
     VisiblePoint point;
     if (seen.triangle != NearestTriangle::none) {
         const ObliqueTriangle triangle(scene, seen.triangle, grid, static_cast<double>(u), static_cast<double>(v));
-        const ObliqueTriangle::Hit hit =
-            triangle.at(grid.s(static_cast<double>(tile.range.s0 + s)), grid.t(static_cast<double>(tile.range.t0 + t)));
-        point = {seen.triangle, static_cast<float>(hit.weights[0]), static_cast<float>(hit.weights[1]),
-                 static_cast<float>(hit.weights[2]), hit.depth};
+        point = visible_point(seen.triangle, triangle, grid.s(static_cast<double>(tile.range.s0 + s)),
+                              grid.t(static_cast<double>(tile.range.t0 + t)));
     }
     store(tile, scene, grid, point, t, s, v, u);
 }

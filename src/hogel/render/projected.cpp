@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "hogel/render/sample_store.h"
+#include "hogel/shading/radiance_cache.h"
 #include "hogel/units.h"
 
 namespace hogel::render {
@@ -20,36 +23,74 @@ constexpr double min_w = 1e-6;
 double w_at(double depth, double focal) { return 1 - depth / focal; }
 double depth_of_projection(double projected, double focal) { return projected / (1 + projected / focal); }
 
+// Where the light of a projected triangle is found. These are the meshes of the projected scene.
+enum LightAt : std::uint32_t {
+    vertices,  // interpolated between the vertices
+    cached,    // in a radiance cache
+    samples,   // at every ray
+};
+
+// Between two corners with the weights w, the position of a point and of its projection differ by at most a quarter of
+// the relative difference of the weights: less than this times a quarter is taken for nothing.
+constexpr double max_difference = 1e-3;
+
+// The light of a projected triangle is linear enough if its corners are at similar distances from the focal plane.
+LightAt light_at(const ShadedScene& scene, std::size_t index, double focal) {
+    const ShadedScene::Triangle& triangle = scene.triangles[index];
+    if (scene.is_lit(index)) {
+        const bool plain = scene.radiance_cache && triangle.texture == ShadedScene::no_texture;
+        if (!plain) return samples;
+        const shading::LightGrid& grid = scene.radiance_cache->grid(index);
+        return grid.points && grid.is_radiance ? cached : samples;
+    }
+    if (triangle.texture != ShadedScene::no_texture) return samples;
+    const auto [a, b, c] = triangle.vertices;
+    const auto [low, high] = std::minmax(
+        {w_at(-scene.positions[a].z, focal), w_at(-scene.positions[b].z, focal), w_at(-scene.positions[c].z, focal)});
+    return high - low <= max_difference * low ? vertices : samples;
+}
+
 // Shades points of the projected scene as those of the scene itself that they are the projections of.
 class UnprojectedLighting final : public SampleLighting {
   public:
     UnprojectedLighting(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
         : scene_(std::move(scene)), grid_(grid), focal_(grid.focal_plane()->depth) {}
 
-    // One number without meaning: every sample is shaded by itself, in radiance().
-    Size size_of_light(std::size_t) const override { return {0, 1}; }
-    bool light_is_radiance(std::size_t) const override { return false; }
-    void light_on(const ShadedScene&, std::size_t, const std::array<float, 3>&, std::span<float> light) const override {
-        light[0] = 0;
+    // For samples one number without meaning, because every one is shaded by itself, in radiance().
+    Size size_of_light(std::size_t mesh) const override {
+        return mesh == vertices ? Size{0, 0} : mesh == cached ? Size{3, 0} : Size{0, 1};
+    }
+    bool light_is_radiance(std::size_t mesh) const override { return mesh == cached; }
+    void light_on(const ShadedScene& projected, std::size_t index, const std::array<float, 3>& weights,
+                  std::span<float> light) const override {
+        if (projected.triangles[index].mesh == cached)
+            scene_->lighting->light_on(*scene_, index, unprojected_weights(index, weights), light);
+        else
+            light[0] = 0;
     }
 
     Rgb radiance(const ShadedScene& projected, std::size_t index, const std::array<float, 3>& weights,
-                 std::span<const float>, Rgb, const ViewSample& view) const override {
-        // P/w = Σ b′_i P_i/w_i, so that P = Σ b_i P_i with b_i = w b′_i/w_i; and Σ b_i = 1.
-        const auto& vertices = scene_->triangles[index].vertices;
+                 std::span<const float> light, Rgb texture, const ViewSample& view) const override {
+        if (projected.triangles[index].mesh == cached) return texture * Rgb{light[0], light[1], light[2]};
         Vec3 seen{};
-        std::array<double, 3> b{};
-        double sum = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            seen = seen + static_cast<double>(weights[i]) * projected.positions[vertices[i]];
-            b[i] = weights[i] / w_at(-scene_->positions[vertices[i]].z, focal_);
-            sum += b[i];
-        }
-        return radiance_at(*scene_, index, static_cast<float>(b[0] / sum), static_cast<float>(b[1] / sum),
-                           static_cast<float>(b[2] / sum), view_of(seen, view.to_viewer));
+        for (std::size_t i = 0; i < 3; ++i)
+            seen = seen + static_cast<double>(weights[i]) * projected.positions[scene_->triangles[index].vertices[i]];
+        const auto [b0, b1, b2] = unprojected_weights(index, weights);
+        return radiance_at(*scene_, index, b0, b1, b2, view_of(seen, view.to_viewer));
     }
 
   private:
+    // P/w = Σ b′_i P_i/w_i, so that P = Σ b_i P_i with b_i = w b′_i/w_i; and Σ b_i = 1.
+    std::array<float, 3> unprojected_weights(std::size_t index, const std::array<float, 3>& projected) const {
+        std::array<double, 3> b;
+        double sum = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            b[i] = projected[i] / w_at(-scene_->positions[scene_->triangles[index].vertices[i]].z, focal_);
+            sum += b[i];
+        }
+        return {static_cast<float>(b[0] / sum), static_cast<float>(b[1] / sum), static_cast<float>(b[2] / sum)};
+    }
+
     // The sample that sees the point through the focal plane; it sees its projection from that direction.
     ViewSample view_of(Vec3 projection, Vec3 to_viewer) const {
         const double u = -to_viewer.x / to_viewer.z, v = -to_viewer.y / to_viewer.z, depth = -projection.z;
@@ -61,6 +102,23 @@ class UnprojectedLighting final : public SampleLighting {
     LightFieldGrid grid_;
     double focal_;
 };
+
+// For each projected triangle with cached light the spacing that gives it as many points as the triangle itself has; 0
+// for others.
+std::vector<float> spacing_of_points(const ShadedScene& scene, const ShadedScene& projected) {
+    std::vector<float> spacing(projected.triangles.size());
+    for (std::size_t i = 0; i < spacing.size(); ++i) {
+        if (projected.triangles[i].mesh != cached) continue;
+        const auto [a, b, c] = projected.triangles[i].vertices;
+        const auto& at = projected.positions;
+        const double longest = std::max({length(at[b] - at[a]), length(at[c] - at[b]), length(at[a] - at[c])});
+        const double cells = scene.radiance_cache->grid(i).rows;
+        constexpr double rounding = 1e-5;  // so that no row is added
+        spacing[i] = static_cast<float>((1 + rounding) * longest /
+                                        (cells > 0 ? cells + 2 * double{shading::LightGrid::inset} : 1));
+    }
+    return spacing;
+}
 
 class UnprojectedRenderer final : public Renderer {
   public:
@@ -100,8 +158,13 @@ std::shared_ptr<const ShadedScene> projected_scene(const std::shared_ptr<const S
     projected->radiance = scene->radiance;
     projected->texture_coordinates = scene->texture_coordinates;
     projected->triangles = scene->triangles;
-    for (ShadedScene::Triangle& triangle : projected->triangles) {
+    bool lit = false, cache = false;
+    for (std::size_t i = 0; i < projected->triangles.size(); ++i) {
+        ShadedScene::Triangle& triangle = projected->triangles[i];
         triangle.texture = ShadedScene::no_texture;
+        triangle.mesh = light_at(*scene, i, focal);
+        lit = lit || triangle.mesh != vertices;
+        cache = cache || triangle.mesh == cached;
         for (const std::uint32_t vertex : triangle.vertices)
             if (!(w_at(-scene->positions[vertex].z, focal) >= min_w))
                 throw Error(ErrorCode::usage,
@@ -114,7 +177,8 @@ std::shared_ptr<const ShadedScene> projected_scene(const std::shared_ptr<const S
         const double w = w_at(-p.z, focal);
         projected->positions.push_back(w >= min_w ? p * (1 / w) : Vec3{});
     }
-    projected->lighting = std::make_shared<UnprojectedLighting>(scene, grid);
+    if (lit) projected->lighting = std::make_shared<UnprojectedLighting>(scene, grid);
+    if (cache) shading::add_radiance_cache(*projected, spacing_of_points(*scene, *projected));
     return projected;
 }
 

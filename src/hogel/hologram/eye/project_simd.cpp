@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "hogel/core/with_count.h"
 #include "hogel/hologram/eye/project.h"
 #include "hogel/hologram/transpose_lanes.h"
 
@@ -15,6 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace hogel::hologram::eye {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+using core::HWY_NAMESPACE::with_count;
 using hologram::HWY_NAMESPACE::transpose_sixteen;
 
 #if HWY_TARGET == HWY_SCALAR
@@ -28,17 +30,6 @@ using V = hn::Vec<D>;
 
 // Functions whose two parts fill a row of sixteen numbers.
 constexpr std::size_t together = lanes / 2;
-
-// Calls use(std::integral_constant<count>) with count = 1 … max.
-template <std::size_t max, class Use>
-HWY_INLINE void with_count(std::size_t count, const Use& use) {
-    if constexpr (max > 0) {
-        if (count == max)
-            use(std::integral_constant<std::size_t, max>());
-        else
-            with_count<max - 1>(count, use);
-    }
-}
 
 // lines[part][function][row] of sixteen rows: the sums over all columns of weights times waves, whose phases are
 // counted from the middle.

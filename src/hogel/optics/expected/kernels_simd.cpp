@@ -7,15 +7,16 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <type_traits>
 #include <vector>
 
+#include "hogel/core/with_count.h"
 #include "hogel/optics/expected/kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hogel::optics::expected {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+using core::HWY_NAMESPACE::with_count;
 
 using D = hn::CappedTag<float, SpotBasis::lanes>;
 using V = hn::Vec<D>;
@@ -23,17 +24,6 @@ constexpr std::size_t lanes = SpotBasis::lanes;
 
 // Sums that are held in registers.
 constexpr std::size_t together = 8;
-
-// Calls use(std::integral_constant<count>) with count = 1 … max.
-template <std::size_t max, class Use>
-HWY_INLINE void with_count(std::size_t count, const Use& use) {
-    if constexpr (max > 0) {
-        if (count == max)
-            use(std::integral_constant<std::size_t, max>());
-        else
-            with_count<max - 1>(count, use);
-    }
-}
 
 // out[i][…] = Σ_j weights[j · stride + i] in[j][…], sixteen numbers in a row.
 template <std::size_t count>

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "hogel/render/ordered_bits.h"
 
 namespace hogel::render::epi {
 
@@ -58,12 +59,6 @@ struct EpipolarPlane {
     static constexpr std::uint32_t background = 0;  ///< number of its span; others begin at 1
     static constexpr std::uint64_t empty = ~std::uint64_t{0} << 32 | background;
 };
-
-/// The bits of a float such that unsigned comparison orders them as the floats, also below zero.
-constexpr std::uint32_t ordered_bits(float value) {
-    const auto bits = std::bit_cast<std::uint32_t>(value);
-    return bits ^ (bits >> 31 != 0 ? 0xffffffffu : 0x80000000u);
-}
 
 /// The destination of the values of a plane's samples: the row of directions of column c begins at values[i] + c ·
 /// strides[i], for each value i of SpanValues; null for a value that is not needed.

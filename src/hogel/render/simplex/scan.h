@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "hogel/render/simplex/volume.h"
 #include "hogel/render/span.h"
@@ -20,6 +22,36 @@ double crossing(const std::array<double, Size>& a, const std::array<double, Size
     return (weight_a * a[axis::s] + weight_b * b[axis::s]) / (weight_a * a[axis::q] + weight_b * b[axis::q]);
 }
 
+/// The range of numbers that are included.
+struct Extent {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+
+    void include(double value) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+    /// Includes the columns where row t meets the triangle of three projected points, whose columns and rows are (s,
+    /// t).
+    template <class Points, class Places>
+    void include_row(const std::array<std::size_t, 3>& corners, const Points& points, const Places& st, double t) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t a = corners[i], b = corners[i == 2 ? 0 : i + 1];
+            const double ta = st[a][1], tb = st[b][1];
+            // A row within the margin of a corner may not cross either edge there, so the corner is included.
+            if (std::abs(ta - t) <= scan_margin) include(st[a][0]);
+            if ((ta <= t && t <= tb) || (tb <= t && t <= ta)) include(crossing(points[a], points[b], t));
+        }
+    }
+    /// Of `n`.
+    Span samples(std::size_t n) const { return samples_between(low, high, n); }
+};
+
+/// The column and row of hogels (s, t) of a projected point.
+inline std::array<double, 2> place_in_hogels(const ProjectedPoint& point) {
+    const double depth = 1 / point[axis::q];
+    return {point[axis::s] * depth, point[axis::t] * depth};
+}
+
 /// The rows and columns of hogels that a slice of a projected volume at one U and one V covers.
 ///
 /// [K] calls the edges of the slice curves in (s, t). They are straight: (s, t) = (S, T)/Q is a central projection of
@@ -34,7 +66,7 @@ class SliceInHogels {
 
   private:
     const Simplex<2>& slice_;
-    std::array<double, 3> s_, t_;
+    std::array<std::array<double, 2>, 3> st_;
 };
 
 }  // namespace hogel::render::simplex

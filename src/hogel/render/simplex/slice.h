@@ -6,20 +6,36 @@
 #include <vector>
 
 #include "hogel/render/simplex/volume.h"
+#include "hogel/render/span.h"
 
 namespace hogel::render::simplex {
 
 // Points have `Size` coordinates, those of ProjectedPoint and perhaps values that are interpolated with them.
 
-/// Sorts the corners of a simplex along an axis, equal ones by their other coordinates. Simplices that share corners
-/// then have them in the same order, so slices through shared faces are bit for bit equal.
+/// Whether a point comes before another along an axis, equal ones by their other coordinates.
+template <std::size_t Size>
+bool is_before(const std::array<double, Size>& a, const std::array<double, Size>& b, std::size_t axis) {
+    return a[axis] != b[axis] ? a[axis] < b[axis] : a < b;
+}
+
+/// Sorts the corners of a simplex along an axis. Simplices that share corners then have them in the same order, so
+/// slices through shared faces are bit for bit equal.
 template <std::size_t Size, std::size_t N>
 void sort_along(std::size_t axis, std::array<std::array<double, Size>, N>& corners) {
     using Point = std::array<double, Size>;
     std::sort(corners.begin(), corners.end(), [axis](const Point& a, const Point& b) {
         // Moved-from arrays of numbers keep their values. NOLINTNEXTLINE(clang-analyzer-cplusplus.Move)
-        return a[axis] != b[axis] ? a[axis] < b[axis] : a < b;
+        return is_before(a, b, axis);
     });
+}
+
+/// The samples of [0, n) whose planes what lies between `first` and `last` along an axis has points on both sides of:
+/// first < sample <= last.
+inline Span samples_cut(double first, double last, std::size_t n) {
+    const double from = std::max(std::floor(first) + 1, 0.0);
+    const double upto = std::min(std::floor(last), static_cast<double>(n) - 1);
+    if (!(from <= upto)) return {};
+    return {static_cast<std::size_t>(from), static_cast<std::size_t>(upto) + 1};
 }
 
 /// The point between a and b where the coordinate of that axis is `value`; a[axis] < value <= b[axis].
@@ -60,9 +76,11 @@ template <std::size_t Size, std::size_t N, class Use>
 void slice_at_samples(std::array<std::array<double, Size>, N> simplex, std::size_t axis, std::size_t samples,
                       const Use& use) {
     sort_along(axis, simplex);
-    const double last = std::min(std::floor(simplex.back()[axis]), static_cast<double>(samples) - 1);
-    for (double value = std::max(std::floor(simplex.front()[axis]) + 1, 0.0); value <= last; ++value)
+    const Span cut = samples_cut(simplex.front()[axis], simplex.back()[axis], samples);
+    for (std::size_t i = cut.first; i < cut.end; ++i) {
+        const auto value = static_cast<double>(i);
         slice(simplex, axis, value, [&](const auto& piece) { use(value, piece); });
+    }
 }
 
 /// Replaces simplices of four or five corners by their parts where axis >= bound (keep_above) or axis < bound

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/render/simplex/strip.h"
 
-#include <limits>
-
 #include "hogel/render/simplex/scan.h"
 
 namespace hogel::render::simplex {
@@ -48,38 +46,20 @@ std::size_t into_strips(std::span<const Simplex<4>> simplices, Strip<4>& strip) 
 
 StripInHogels::StripInHogels(const Strip<2>& slice) : slice_(slice), st_(points_in_hogels()) {
     st_.clear();
-    for (const ProjectedPoint& point : slice.points) {
-        const double depth = 1 / point[axis::q];
-        st_.push_back({point[axis::s] * depth, point[axis::t] * depth});
-    }
+    for (const ProjectedPoint& point : slice.points) st_.push_back(place_in_hogels(point));
 }
 
 Span StripInHogels::rows(std::size_t nt) const {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const auto& [s, t] : st_) {
-        low = std::min(low, t);
-        high = std::max(high, t);
-    }
-    return samples_between(low, high, nt);
+    Extent rows;
+    for (const auto& [s, t] : st_) rows.include(t);
+    return rows.samples(nt);
 }
 
 Span StripInHogels::columns(std::size_t row, std::size_t ns) const {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    const auto include = [&](double s) {
-        low = std::min(low, s);
-        high = std::max(high, s);
-    };
-    const double level = static_cast<double>(row);
-    for (const auto& [s, t] : st_)
-        if (std::abs(t - level) <= scan_margin) include(s);
-    for (const auto& corners : slice_.simplices)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::size_t a = corners[i], b = corners[i == 2 ? 0 : i + 1];
-            const double ta = st_[a][1], tb = st_[b][1];
-            if ((ta <= level && level <= tb) || (tb <= level && level <= ta))
-                include(crossing(slice_.points[a], slice_.points[b], level));
-        }
-    return samples_between(low, high, ns);
+    Extent columns;
+    for (const auto& [a, b, c] : slice_.simplices)
+        columns.include_row({a, b, c}, slice_.points, st_, static_cast<double>(row));
+    return columns.samples(ns);
 }
 
 }  // namespace hogel::render::simplex

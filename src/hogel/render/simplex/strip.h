@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -46,8 +45,7 @@ class SlicedStrip {
         order_.resize(count);
         for (std::size_t i = 0; i < count; ++i) order_[i] = static_cast<std::uint16_t>(i);
         std::ranges::sort(order_, [&](std::uint16_t a, std::uint16_t b) {
-            const ProjectedPoint &p = strip.points[a], &q = strip.points[b];
-            return p[axis] != q[axis] ? p[axis] < q[axis] : p < q;
+            return is_before(strip.points[a], strip.points[b], axis);
         });
         points_.resize(count);
         rank_.resize(count);
@@ -65,12 +63,7 @@ class SlicedStrip {
     }
 
     /// The slices that the strip reaches, of the samples 0 to n − 1.
-    Span samples(std::size_t n) const {
-        const double first = std::max(std::floor(points_.front()[axis_]) + 1, 0.0);
-        const double last = std::min(std::floor(points_.back()[axis_]), static_cast<double>(n) - 1);
-        if (!(first <= last)) return {};
-        return {static_cast<std::size_t>(first), static_cast<std::size_t>(last) + 1};
-    }
+    Span samples(std::size_t n) const { return samples_cut(points_.front()[axis_], points_.back()[axis_], n); }
 
     /// Replaces `out` by the slice at a value; values must rise. Source: [K] 5.6.2, as slice().
     void slice(double value, Strip<N - 1>& out) {
