@@ -93,6 +93,11 @@ class Loader {
                                                       "fewer --hogels or --directions would do",
                                                       options_.memory, request.grid.samples()));
         const LightField whole = cli::render_light_field(session_, scene, options_.render, record_);
+        // The faces of a hemicube are read by each picture, which must not render them anew.
+        if (whole.has_sides()) {
+            const LightField kept = hogel::prepare_for_reading(whole, 2, false, progress("rendering"));
+            return show(kept, kept, "rendering");
+        }
         if (first > 1) show(whole, with_fewer_hogels(lit, request, first), "rendering");
         show(whole, whole, "rendering");
     }

@@ -33,11 +33,11 @@ hardened() {
     readelf -hW "$1" | grep -q 'DYN (' || fail "$1: not position independent"
 }
 
-for file in "$work"/debs/usr/bin/hogel "$work"/debs/usr/lib/*/libhogel.so.*.*.* "$work"/tarball/bin/hogel \
+for file in "$work"/debs/usr/bin/hogel* "$work"/debs/usr/lib/*/libhogel.so.*.*.* "$work"/tarball/bin/hogel* \
     "$work"/tarball/lib/libhogel.so.*.*.*; do
     hardened "$file"
 done
-if readelf -dW "$work"/debs/usr/bin/hogel "$work"/debs/usr/lib/*/libhogel.so.*.*.* | grep -E 'RPATH|RUNPATH'; then
+if readelf -dW "$work"/debs/usr/bin/hogel* "$work"/debs/usr/lib/*/libhogel.so.*.*.* | grep -E 'RPATH|RUNPATH'; then
     fail "a Debian package says where libraries are"
 fi
 if grep -rlF "$built_in" "$work"; then fail "the files above name $built_in"; fi

@@ -13,7 +13,7 @@ mkdir "$work/unpacked" "$work/a folder"
 tar -C "$work/unpacked" -xzf "$tarball"
 mv "$work"/unpacked/* "$work/a folder/hogel"
 hogel="$work/a folder/hogel"
-for file in "$hogel"/bin/hogel "$hogel"/lib/*.so*; do
+for file in "$hogel"/bin/hogel* "$hogel"/lib/*.so*; do
     if ldd "$file" | grep 'not found'; then fail "$file lacks a library"; fi
 done
 outside=$(ldd "$hogel/bin/hogel" | awk '$2 == "=>" { print $1, $3 }' | grep -v ' /tmp/' | cut -d' ' -f1 |
