@@ -142,8 +142,9 @@ TEST(Planes, of_off_axis_recordings_are_found) {
             Field field = hologram_of(of);
             for (std::size_t i = 0; i < field.samples.size(); ++i) {
                 const double x = double(i % field.grid().plane.width);
-                field.samples.data()[i] = Complex(std::norm(std::complex<double>(field.samples.data()[i]) * 0.2 +
-                                                            std::polar(1.0, -2 * pi * frequency * x)));
+                const double light = std::norm(std::complex<double>(field.samples.data()[i]) * 0.2 +
+                                               std::polar(1.0, -2 * pi * frequency * x));
+                field.samples.data()[i] = Complex(float(light));
             }
             OrderSelection selection;
             selection.without_mean = true;
