@@ -126,11 +126,6 @@ def checks_of(a, b, squares=8):
     return [[a if (row // 4 + column // 4) % 2 else b for column in range(4 * squares)] for row in range(4 * squares)]
 
 
-def stripes(a, b, count=7):
-    """Where the front of the sphere has a hole, its back has one too: nothing is seen from inside, where lighting differs."""
-    return [[b if column // 4 % 2 else a for column in range(4 * count)]] * 4
-
-
 def waves():
     """A normal map of waves along u."""
     slopes = 0.5 * np.sin(2 * np.pi * np.arange(64) / 16)
@@ -201,8 +196,6 @@ MATERIALS = {
     "glow": ({"pbrMetallicRoughness": metal((0, 0, 0, 1), 0, 1), "emissiveFactor": [1, 1, 1], "emissiveTexture": TEXTURE,
               "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 3}}},
              [checks_of((255, 120, 60), (60, 90, 20))], None, SAME),
-    "mask": ({"pbrMetallicRoughness": metal(baseColorTexture=TEXTURE), "alphaMode": "MASK", "doubleSided": True},
-             [stripes((255, 255, 255, 255), (255, 255, 255, 0))], 0.06, SUM),
     "relief": ({"pbrMetallicRoughness": metal(roughness=0.6), "normalTexture": TEXTURE}, [waves()], None, SUM),
 }
 
