@@ -118,7 +118,7 @@ ScenePose SceneOptions::complete_pose() const {
 }
 
 void SceneOptions::record(RunRecord& record, const Scene& scene) const {
-    if (pose.up && *pose.up != Vec3{0, 1, 0}) record.acted({"up"});
+    if (pose.up) record.acted({"up"});
     if (!pose.camera.empty()) record.acted({"scene-camera"});
     if (pose.rotation != Vec3{}) record.acted({"rotate"});
     if (pose.scale != 1) record.acted({"scale"});

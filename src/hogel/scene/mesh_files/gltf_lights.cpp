@@ -130,7 +130,8 @@ void for_nodes(const Gltf& gltf, const Visit& visit) {
     std::vector<Todo> todo;
     const auto add = [&](const Json& owner, const char* name, const Affine& parent) {
         if (const auto list = owner.find(name); list != owner.end())
-            for (const Json& number : *list) todo.push_back({number.get<std::size_t>(), parent});
+            for (std::size_t i = list->size(); i-- > 0;)  // the first is on top
+                todo.push_back({(*list)[i].get<std::size_t>(), parent});
     };
     add(scenes[shown], "nodes", {});
     while (!todo.empty()) {

@@ -260,6 +260,10 @@ TEST_F(Looks, cameras_stand_where_their_nodes_are) {
     EXPECT_NEAR(camera.nearest, 0.5, 1e-6);
     EXPECT_NEAR(length(camera.right - Vec3{0, 0, -1}), 0, 1e-6);  // −z, turned by a quarter about y, is −x
     EXPECT_NEAR(length(camera.up - Vec3{0, 1, 0}), 0, 1e-6);
+    const Scene both = read(
+        {.node = R"("mesh":0,"children":[1,2]},{"name":"a","camera":0},{"name":"b","camera":0)", .document = lens});
+    ASSERT_EQ(both.cameras.size(), 2u);
+    EXPECT_EQ(both.cameras[0].name, "a");  // in the order of the nodes
     const Scene parallel =
         read({.node = node, .document = R"("cameras":[{"type":"orthographic","orthographic":{"ymag":3,"znear":0}}],)"});
     EXPECT_EQ(parallel.cameras.at(0).angle, 0);

@@ -66,7 +66,7 @@ MtlTexture parse_texture(Line line, std::set<std::string>& left_out) {
             std::array<double, 2>& values = option == "-s" ? texture.scale : texture.offset;
             for (std::size_t i = 0; i < 3; ++i) {
                 const auto number = line.number();
-                if (number && i < 2 && option != "-t") values[i] = *number;
+                if (number && i < 2 && option != "-t") values[i] = std::clamp(*number, -1e6, 1e6);
             }
             if (option == "-t") left_out.insert("turbulence of textures (-t)");
         } else if (option == "-mm") {
@@ -171,18 +171,21 @@ std::vector<MtlMaterial> parse_mtl(std::string_view text) { return Parser().pars
 
 std::vector<std::string> notes_of(const std::vector<MtlMaterial>& materials) {
     std::map<std::string, std::size_t> counts;
-    std::vector<std::string> notes;
+    std::vector<const std::string*> invisible;
     for (const MtlMaterial& material : materials) {
         for (const std::string& what : material.left_out) ++counts[what];
-        if (material.alpha() == 0 && material.opacity.name.empty())
-            notes.push_back(
-                fmt::format("material '{}' is invisible: its opacity is 0 (d, Tr)", one_line(material.name)));
+        if (material.alpha() == 0) invisible.push_back(&material.name);
         const auto elsewhere = [&](const MtlTexture& map) {
             return !map.name.empty() && (map.scale != material.color.scale || map.offset != material.color.offset);
         };
         if (elsewhere(material.opacity) || elsewhere(material.emission_map))
             ++counts["places of map_d and map_Ke (-s, -o) other than those of map_Kd"];
     }
+    std::vector<std::string> notes;
+    if (!invisible.empty())
+        notes.push_back(
+            fmt::format("material '{}'{} invisible: its opacity is 0 (d, Tr)", one_line(*invisible[0]),
+                        invisible.size() == 1 ? " is" : fmt::format(" (and {} more) is", invisible.size() - 1)));
     for (const auto& [what, count] : counts)
         notes.push_back(fmt::format("{} of {} material{} are left out", what, count, count == 1 ? "" : "s"));
     return notes;
