@@ -116,7 +116,8 @@ INSTANTIATE_TEST_SUITE_P(Renderers, Combinations, ::testing::ValuesIn(renderer_n
 
 // Rounding decides for rays along edges. With a radiance cache, epi interpolates between knots where the other
 // renderers read the cache, which makes a difference at the edges of shadows. In the projection of a scene through a
-// fixed focal plane the points of the cache are at other places.
+// fixed focal plane the points of the cache are at other places, and what is interpolated between vertices is shifted
+// by up to a hundredth of a sample.
 TEST_P(Combinations, agree_with_ray_casting) {
     std::size_t hits = 0, rays = 0, hemicubes = 0, focal_planes = 0;
     std::size_t number = 0;
@@ -149,9 +150,9 @@ TEST_P(Combinations, agree_with_ray_casting) {
             values += truth.radiance.size();
         }
         const bool projected = one.front.focal_plane() && !renderers().find(GetParam()).takes_focal_plane;
-        const bool has_knots = (GetParam() == "epi" || projected) && one.spacing > 0;
+        const bool interpolates = projected || (GetParam() == "epi" && one.spacing > 0);
         EXPECT_LE(far_off, 1 + values / 300) << one.text();
-        EXPECT_LE(off, 1 + values / (has_knots ? 10 : 300)) << one.text();
+        EXPECT_LE(off, 1 + values / (interpolates ? 10 : 300)) << one.text();
         EXPECT_LE(depths_off, 1 + values / 900) << one.text();
     }
     EXPECT_GT(hits, rays / 2);

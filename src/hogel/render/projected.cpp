@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "hogel/render/oblique_triangle.h"
 #include "hogel/render/sample_store.h"
 #include "hogel/shading/radiance_cache.h"
 #include "hogel/units.h"
@@ -30,24 +31,34 @@ enum LightAt : std::uint32_t {
     samples,   // at every ray
 };
 
-// Between two corners with the weights w, the position of a point and of its projection differ by at most a quarter of
-// the relative difference of the weights: less than this times a quarter is taken for nothing.
-constexpr double max_difference = 1e-3;
+// A point of a triangle and the point of its projection with the same weights lie at most this far apart where light is
+// interpolated between vertices, as a share of what a sample covers.
+constexpr double max_shift = 0.01;
 
-// The light of a projected triangle is linear enough if its corners are at similar distances from the focal plane.
-LightAt light_at(const ShadedScene& scene, std::size_t index, double focal) {
+// How far: on an edge between corners with w and w (1 + d) at most a quarter of d of its length.
+double shift(const ShadedScene& scene, std::size_t index, double focal) {
+    const auto [a, b, c] = corners_of(scene, index);
+    const auto [low, high] = std::minmax({w_at(-a.z, focal), w_at(-b.z, focal), w_at(-c.z, focal)});
+    return 0.25 * (high - low) / low * std::max({length(b - a), length(c - b), length(a - c)});
+}
+
+// The smallest width that a sample has on a triangle, as cache_spacing() knows it.
+double width_of_samples(const ShadedScene& scene, std::size_t index, const LightFieldGrid& grid) {
+    const auto [a, b, c] = corners_of(scene, index);
+    const auto [low, high] = std::minmax({a.z, b.z, c.z});
+    return std::max(grid.pitch, std::max({low, -high, 0.0}) * std::max(grid.step_u(), grid.step_v()));
+}
+
+LightAt light_at(const ShadedScene& scene, std::size_t index, const LightFieldGrid& grid) {
     const ShadedScene::Triangle& triangle = scene.triangles[index];
-    if (scene.is_lit(index)) {
-        const bool plain = scene.radiance_cache && triangle.texture == ShadedScene::no_texture;
-        if (!plain) return samples;
-        const shading::LightGrid& grid = scene.radiance_cache->grid(index);
-        return grid.points && grid.is_radiance ? cached : samples;
-    }
     if (triangle.texture != ShadedScene::no_texture) return samples;
-    const auto [a, b, c] = triangle.vertices;
-    const auto [low, high] = std::minmax(
-        {w_at(-scene.positions[a].z, focal), w_at(-scene.positions[b].z, focal), w_at(-scene.positions[c].z, focal)});
-    return high - low <= max_difference * low ? vertices : samples;
+    if (scene.is_lit(index)) {
+        if (!scene.radiance_cache) return samples;
+        const shading::LightGrid& points = scene.radiance_cache->grid(index);
+        return points.points && points.is_radiance ? cached : samples;
+    }
+    return shift(scene, index, grid.focal_plane()->depth) <= max_shift * width_of_samples(scene, index, grid) ? vertices
+                                                                                                              : samples;
 }
 
 // Shades points of the projected scene as those of the scene itself that they are the projections of.
@@ -162,7 +173,7 @@ std::shared_ptr<const ShadedScene> projected_scene(const std::shared_ptr<const S
     for (std::size_t i = 0; i < projected->triangles.size(); ++i) {
         ShadedScene::Triangle& triangle = projected->triangles[i];
         triangle.texture = ShadedScene::no_texture;
-        triangle.mesh = light_at(*scene, i, focal);
+        triangle.mesh = light_at(*scene, i, grid);
         lit = lit || triangle.mesh != vertices;
         cache = cache || triangle.mesh == cached;
         for (const std::uint32_t vertex : triangle.vertices)
