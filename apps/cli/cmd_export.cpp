@@ -52,11 +52,19 @@ int export_walk(Options options, const LightField& light_field, const Session& s
     return 0;
 }
 
+// The layout that the name of an output asks for: those of files have endings of their own.
+std::string layout_for(const std::filesystem::path& output, const std::string& otherwise) {
+    if (output.extension() == ".npy") return "npy";
+    if (output.extension() == ".mat") return "mat";
+    return output.has_extension() && output.stem().string().find("_qs") != std::string::npos ? "quilt" : otherwise;
+}
+
 int export_light_field(Options options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a light field", options.input));
     const LightField light_field = open_light_field_or_views(options.input);
     if (is_film(options.output)) return export_walk(options, light_field, session);
+    if (!session.command->given("--layout")) options.views.layout = layout_for(options.output, options.views.layout);
     const ViewLayout layout =
         with_options({{"", "--layout"}}, [&] { return view_layouts().find(options.views.layout); });
     const std::filesystem::path output = options.output;
@@ -71,7 +79,8 @@ int export_light_field(Options options, const Session& session) {
         options.views.format = output.extension().string().substr(1);
     options.views.transfer = transfer_named(options.transfer);
     RunRecord record(session);
-    record.acted({"input", "layout", "exposure"});
+    record.acted({"input", "exposure"});
+    record.acted("layout", options.views.layout);
     options.views.metadata = record.metadata();
     state_plan(session, plan_export(light_field, options.views), "exporting", options.output);
     Stage stage(session, "exporting");
@@ -106,7 +115,7 @@ void add_export(Command& command, Session& session) {
     command.examples(
         "  hogel export antinous.h5 -o views --layout hci\n"
         "  hogel export antinous.h5 -o views --pictures ppm --bits 10\n"
-        "  hogel export antinous.h5 -o views.npy --layout npy\n"
+        "  hogel export antinous.h5 -o views.npy\n"
         "  hogel export antinous.h5 -o walk.mp4");
     command.positional("input", options->input, "X.h5|X.hgl", "Light field");
     command
@@ -115,10 +124,13 @@ void add_export(Command& command, Session& session) {
               "middle row of views, by ffmpeg")
         .required();
     add_force_flag(command, options->force);
+    add_json_flag(command, session);
+    command.group("Views");
     std::string layouts;
     for (const ViewLayout& layout : view_layouts().rows())
         if (layout.create != nullptr) layouts += fmt::format("\n{}: {}", layout.name, layout.text);
-    command.text("--layout", options->views.layout, "NAME", "How the views are stored" + layouts);
+    command.text("--layout", options->views.layout, "NAME",
+                 "How they are stored (by the ending .npy, .mat or _qs8x6a0.75.png: as that says)" + layouts);
     command
         .choice("--pictures", options->views.format, {"png", "ppm", "pfm", "exr"}, "FORMAT",
                 "png, ppm (8 to 16 bits), pfm or exr (floating-point numbers; default: as imported, else png)")
@@ -133,7 +145,6 @@ void add_export(Command& command, Session& session) {
         .no_default();
     command.number("--exposure", options->views.exposure, "NUMBER", "What linear values are multiplied by").positive();
     command.number("--frame-rate", options->frame_rate, "NUMBER", "Of films, views a second").positive();
-    add_json_flag(command, session);
     command.work([options, &session] { return export_light_field(*options, session); });
 }
 

@@ -225,6 +225,7 @@ void add_import(Command& command, Session& session) {
         "  hogel import antinous -o antinous.h5 --size 40mm\n"
         "  hogel import chess -o chess.hgl --size 60mm --fov 12deg\n"
         "  hogel import head_qs8x6a0.75.png -o head.h5 --fov 40deg\n"
+        "  hogel import lytro.mat -o lytro.h5 --size 40mm --fov 5deg\n"
         "  hogel import sockets -o sockets.h5 --projection orthographic --views 20x20");
     command.positional("source", options->source, "SOURCE", "Folder of pictures, or a file: a quilt, an array, a film");
     add_light_field_output(command, options->output, "Store the depth of rays, by the disparity or depth of the set",

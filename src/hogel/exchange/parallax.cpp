@@ -32,6 +32,9 @@ double squared_difference(View<const float, 2> a, View<const float, 2> b, std::s
     return sum;
 }
 
+// Mean product of the movements of blocks in two comparisons: a quarter of them by half a pixel in both.
+constexpr double enough_movement = 0.25 * 0.25;
+
 // The index of the smallest error, or of one that is hardly larger and nearer to no shift at all, because patterns
 // repeat.
 std::size_t nearest_minimum(const std::vector<double>& errors, std::size_t no_shift) {
@@ -113,9 +116,14 @@ Array<BlockMatch, 2> match_blocks(View<const float, 2> a, View<const float, 2> b
 }
 
 bool move_oppositely(const Array<BlockMatch, 2>& a, const Array<BlockMatch, 2>& b) {
-    // In most blocks, by half a pixel each.
     const auto [same, opposite] = same_and_opposite(a, b);
-    return opposite > 4 * same && opposite > 0.25 * static_cast<double>(a.size()) * 0.25;
+    return opposite > 4 * same && opposite > enough_movement * static_cast<double>(a.size());
+}
+
+bool move_alike(const Array<BlockMatch, 2>& a, const Array<BlockMatch, 2>& b) {
+    const auto [same, opposite] = same_and_opposite(a, b);
+    return same > 4 * opposite && same > enough_movement * static_cast<double>(a.size()) &&
+           total_error(b) < clear_ratio * total_error(a);
 }
 
 bool moves_up_and_down(View<const float, 2> a, View<const float, 2> b) {

@@ -23,6 +23,9 @@ constexpr int max_parallax = 32;
 /// Whether blocks with texture clearly move the other way in one of two comparisons of views than in the other.
 bool move_oppositely(const Array<BlockMatch, 2>& a, const Array<BlockMatch, 2>& b);
 
+/// Whether they clearly move the same way in both, and are found as well in the second as in the first.
+bool move_alike(const Array<BlockMatch, 2>& a, const Array<BlockMatch, 2>& b);
+
 /// Whether things clearly move up and down from one view to another, rather than sideways.
 bool moves_up_and_down(View<const float, 2> a, View<const float, 2> b);
 

@@ -160,6 +160,17 @@ TEST(SetVariations, PathsOfOneCameraAreUnwound) {
     }
 }
 
+TEST(SetVariations, NineViewsOfARailAreOneRow) {
+    const TestScene rail{.columns = 9, .rows = 1, .width = 128, .height = 96};
+    const TestScene square{.columns = 3, .rows = 3, .width = 128, .height = 96};
+    for (const TestScene* made : {&rail, &square}) {
+        const TestFolder folder;
+        for (std::size_t i = 0; i < 9; ++i)
+            folder.write(fmt::format("IMG_{:04}.png", i), made->png(i / made->columns, i % made->columns));
+        expect_views(*made, open_views(folder.path(), {}));
+    }
+}
+
 TEST(SetVariations, QuiltsByManyNames) {
     const TestScene row{.columns = 4, .rows = 1, .width = 20, .height = 16};
     Array<std::uint8_t, 3> quilt({32, 40, 3});

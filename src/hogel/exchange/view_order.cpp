@@ -30,6 +30,14 @@ bool runs_down(const ViewSet& set) {
 
 }  // namespace
 
+bool is_one_row(const ViewSet& set) {
+    if (set.rows < 2 || set.columns < 2) return false;
+    const std::size_t row = (set.rows - 2) / 2, last = set.columns - 1;
+    const Array<float, 2> end = grey_view(set, row, last);
+    return move_alike(match_blocks(grey_view(set, row, last - 1), end, false, max_parallax),
+                      match_blocks(end, grey_view(set, row + 1, 0), false, max_parallax));
+}
+
 ViewSet unwound_by_parallax(ViewSet set, const ViewOptions& options) {
     if (options.mirror_columns || options.mirror_rows || set.rows < 2 || set.columns < 2) return set;
     const std::size_t n = set.columns, m = set.rows;

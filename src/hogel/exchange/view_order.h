@@ -15,6 +15,10 @@ namespace hogel::exchange {
 ViewSet ordered_by_parallax(ViewSet set, const ViewOptions& options, const std::string& first,
                             const std::string& second);
 
+/// Whether the views of a set, which are taken for several rows, go on moving the same way from the end of a row to the
+/// beginning of the next: then they are one row.
+bool is_one_row(const ViewSet& set);
+
 /// A set whose views are counted by one number, row by row unless the parallax says column by column; it also says
 /// whether every second row (or column) runs back, as the path of a single camera does. What differs from rows that all
 /// run the same way is noted. Nothing is changed where options mirror the set.

@@ -40,6 +40,12 @@ ViewSet open(const fs::path& source, const ViewOptions& options) {
     set.rows = grid.rows;
     set.pictures = std::make_shared<FilePictures>(std::move(grid.files), set.columns);
     take_size(*set.pictures->look(0, 0), set);
+    if (options.columns == 0 && is_one_row(set)) {
+        const std::size_t n = set.columns, all = n * set.rows;
+        set = reordered(std::move(set), 1, all,
+                        [=](std::size_t, std::size_t column) { return std::pair(column / n, column % n); });
+        set.notes.emplace_back("by their parallax, the views are one row");
+    }
     set = unwound_by_parallax(std::move(set), options);
     set.geometry.orthographic = options.orthographic.value_or(!names_cameras(groups.front().shape));
     if (!options.orthographic)
