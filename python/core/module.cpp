@@ -17,4 +17,6 @@ PYBIND11_MODULE(_core, module) {
     add_fields(module);
     add_holograms(module);
     add_photographs(module);
+    add_patterns(module);
+    add_elsewhere(module);
 }

@@ -37,6 +37,7 @@ from .camera import camera
 from .errors import BadInputError, CancelledError, CannotWriteError, Error, InternalError, NotBuiltInError, UsageError
 from .hologram import Field, Hologram, hologram_request
 from .light_field import Face, LightField
+from .pattern import Pattern
 from .picture import Picture
 from .scene import Scene, light, request
 from .units import angle, cm, deg, length, m, mm, nm, rad, um
@@ -61,6 +62,7 @@ __all__ = [
     "LightFieldGrid",
     "Material",
     "NotBuiltInError",
+    "Pattern",
     "Perspective",
     "Picture",
     "Scene",
@@ -73,12 +75,14 @@ __all__ = [
     "coders",
     "deg",
     "defaults",
+    "encodings",
     "hologram_methods",
     "hologram_request",
     "length",
     "light",
     "m",
     "mm",
+    "modulators",
     "nm",
     "open",
     "parts",
@@ -115,6 +119,16 @@ def shading_models() -> list[str]:
 def hologram_methods() -> list[str]:
     """The names of the methods by which a light field becomes fringes, of `method`."""
     return _core.hologram_methods()
+
+
+def encodings() -> list[str]:
+    """The names of the ways to show a field by a modulator, of `encoding`."""
+    return _core.encodings()
+
+
+def modulators() -> list[str]:
+    """The names of common modulators, of `device`."""
+    return _core.modulators()
 
 
 def coders() -> list[str]:

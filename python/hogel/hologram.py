@@ -14,6 +14,7 @@ from ._progress import Progress, reporting
 from .camera import camera as camera_of
 from .errors import BadInputError, UsageError
 from .light_field import Path, _choice, array_of
+from .pattern import Pattern, modulator_of, pattern_of
 from .picture import Picture
 
 
@@ -223,6 +224,22 @@ class Field:
             field.center_y + units.length(offset_y, "offset_y"),
         )
 
+    def focus(
+        self,
+        *,
+        between: Optional[Sequence[units.Length]] = None,
+        planes: int = 0,
+        max_side: int = 1024,
+        progress: Progress = None,
+    ) -> _core.FocusSearch:
+        """Where an unknown field is in focus: `planes` of the result, the clearest first, each with its depth behind the
+        hologram, prominence, brightest and cell; and the contrasts at all depths. `between`: two depths to search between."""
+        first, last = (0.0, 0.0) if between is None else units.lengths(between, "between")
+        if between is not None and first == last:
+            raise UsageError("between: two different depths were expected")
+        with reporting(progress, "focus") as report:
+            return _core.find_focus(self._source, first, last, planes, max_side, report)
+
     def fourier_image(self, focal_length: units.Length, *, progress: Progress = None) -> "Field":
         """The field in the back focal plane of a lens in whose front focal plane this one lies."""
         with reporting(progress, "propagating") as report:
@@ -273,9 +290,30 @@ class Hologram:
             raise UsageError("hologram: at least one field was expected")
 
     @classmethod
-    def open(cls, path: Path) -> "Hologram":
-        """Opens a hologram (.h5). Samples are read when they are needed."""
-        return cls(_core.open_hologram(os.fspath(path)), os.fspath(path))
+    def open(
+        cls,
+        path: Path,
+        *,
+        pitch: Optional[units.Length] = None,
+        wavelength: Union[units.Length, Sequence[units.Length], None] = None,
+        values: Optional[str] = None,
+        phase_code: Union[str, _core.PhaseCode, None] = None,
+        imaginary: Optional[Path] = None,
+        phases: Optional[Path] = None,
+        zero: Optional[float] = None,
+        variable: str = "",
+        conjugate: bool = False,
+    ) -> "Hologram":
+        """Opens a hologram (.h5), or the field of another program: .npy, .npz, .mat, .ohc, .exr, or pictures of amplitudes,
+        phases, or real and imaginary parts. Pitch and wavelength are for files that do not say them; values is "amplitude" or
+        "phase"; the rest are the options of `hogel photo` of these names (docs/holograms-from-elsewhere.md)."""
+        name = os.fspath(path)
+        described = values is not None or phase_code is not None or imaginary is not None or phases is not None
+        if not described and not _core.is_external_field(name):
+            if pitch is not None or wavelength is not None:
+                raise UsageError(f"pitch, wavelength: {name} has its own")
+            return cls(_core.open_hologram(name), name)
+        return cls(_external(name, pitch, wavelength, _description(values, phase_code, imaginary, phases, zero, variable, conjugate)), name)
 
     def __len__(self) -> int:
         return len(self._sources)
@@ -357,6 +395,33 @@ class Hologram:
             raise BadInputError("hologram: is empty; no light comes from it to the eye")
         return pictures[0] if cameras is None else pictures
 
+    def slm(
+        self,
+        *,
+        encoding: str = "auto",
+        device: Optional[str] = None,
+        pixels: Optional[units.Counts] = None,
+        pixel_pitch: Optional[units.Length] = None,
+        levels: int = 256,
+        reference: units.Angle = 0,
+        clip: Optional[float] = None,
+        window: Optional[int] = None,
+        iterations: int = 0,
+        phase_code: Union[str, _core.PhaseCode] = "hogel",
+        progress: Progress = None,
+    ) -> Pattern:
+        """The pattern of a modulator that shows the hologram: a device by name (hogel.modulators()), or pixels and
+        pixel_pitch. The options are those of `hogel slm`.
+
+        >>> import hogel, numpy as np
+        >>> wave = hogel.Field.from_array(np.exp(1j * np.arange(64.0))[:, None] * np.ones(64), pitch="8um", wavelength="532nm")
+        >>> pattern = hogel.Hologram(wave).slm(encoding="phase", pixels=64, pixel_pitch="8um")
+        >>> np.asarray(pattern).shape, np.asarray(pattern).dtype
+        ((64, 64, 1), dtype('uint8'))
+        """
+        modulator = modulator_of(device, pixels, pixel_pitch, levels)
+        return pattern_of(self, encoding, modulator, reference, clip, window, iterations, phase_code, progress)
+
     def compare(self, other: "Hologram", *, progress: Progress = None) -> dict[str, float]:
         """sqnr and psnr (decibels) and max_error of another hologram of this sampling."""
         with reporting(progress, "comparing") as report:
@@ -367,6 +432,40 @@ class Hologram:
         text = repr(self[0])
         waves = ", ".join(units.say_length(value) for value in self.wavelengths)
         return text.replace("Field(", "Hologram(", 1).replace(units.say_length(self.wavelengths[0]), waves, 1)
+
+
+def _description(
+    values: Optional[str], phase_code: Any, imaginary: Any, phases: Any, zero: Optional[float], variable: str, conjugate: bool
+) -> _core.ExternalField:
+    what = _core.ExternalField()
+    if phase_code is not None:
+        what.phase_code = _core.parse_phase_code(phase_code) if isinstance(phase_code, str) else phase_code
+        if phases is None:
+            what.values = _core.ExternalField.Values.phase
+    if values is not None:
+        what.values = _choice(_core.ExternalField.Values, values, "values")
+    if imaginary is not None:
+        what.imaginary = os.fspath(imaginary)
+    if phases is not None:
+        what.phases = os.fspath(phases)
+    what.zero, what.variable, what.conjugate = zero, variable, conjugate
+    return what
+
+
+def _external(name: str, pitch: Any, wavelength: Any, what: _core.ExternalField) -> list[_core.FieldSource]:
+    facts = _core.external_facts(name, what)
+    if pitch is not None:
+        what.pitch_x = what.pitch_y = units.length(pitch, "pitch")
+    waves = list(facts.wavelengths) if wavelength is None else units.lengths(wavelength, "wavelength")
+    if pitch is None and not facts.pitch_x > 0:
+        raise UsageError(f"pitch: {name} does not say the distance of its samples")
+    if len(waves) != facts.colours:
+        raise UsageError(f"wavelength: {name} has {facts.colours} field{'' if facts.colours == 1 else 's'}, and {len(waves)} were said")
+    fields = []
+    for colour, wave in enumerate(waves):
+        what.colour, what.wavelength = colour, wave
+        fields.append(_core.open_external_field(name, what))
+    return fields
 
 
 def _wave_camera(name: str, expected: bool, diffuser: str, film_distance: float) -> Any:

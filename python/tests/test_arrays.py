@@ -165,6 +165,39 @@ class Slices(InFolder):
         self.assertLess(resident() - before, 60e6)
 
 
+class Elsewhere(InFolder):
+    def test_fields_of_other_programs(self):
+        samples = (random_array(12, 16) - 0.5 + 1j * random_array(12, 16, seed=2)).astype(np.complex64)
+        np.save("a.npy", samples)
+        read = hogel.Hologram.open("a.npy", pitch="2um", wavelength="532nm")
+        np.testing.assert_array_equal(np.asarray(read[0]), samples)
+        np.testing.assert_array_equal(read[0][3:9:2, ::-3], samples[3:9:2, ::-3])
+        other = hogel.Hologram.open("a.npy", pitch="2um", wavelength="532nm", conjugate=True)
+        np.testing.assert_array_equal(np.asarray(other[0]), samples.conj())
+        read.save("b.mat")
+        self.assertEqual(hogel.Hologram.open("b.mat").wavelengths, [532e-9])
+        with self.assertRaisesRegex(hogel.UsageError, "^pitch: "):
+            hogel.Hologram.open("a.npy", wavelength="532nm")
+        with self.assertRaisesRegex(hogel.UsageError, "^wavelength: "):
+            hogel.Hologram.open("a.npy", pitch="2um")
+
+    def test_patterns_come_back(self):
+        phase = 2 * np.pi * random_array(32, 40)
+        wave = hogel.Field.from_array(np.exp(1j * phase), pitch="8um", wavelength="532nm")
+        pattern = hogel.Hologram(wave).slm(encoding="phase", pixels=(40, 32), pixel_pitch="8um")
+        pattern.save("p.png")
+        read = hogel.Hologram.open("p.png", phase_code="hogel", pitch="8um", wavelength="532nm")
+        self.assertLess(np.abs(np.asarray(read[0]) - np.exp(1j * phase)).max(), 0.03)
+        np.testing.assert_allclose(pattern.transmission(), np.asarray(read[0]), atol=1e-3)
+
+    def test_focus_is_found(self):
+        points = np.zeros((256, 256), np.complex64)
+        points[64::32, 64::32] = 1
+        far = hogel.Field.from_array(points, pitch="4um", wavelength="532nm").propagate("3mm")
+        found = far.focus(between=("1mm", "5mm"))
+        self.assertAlmostEqual(found.planes[0].depth, 3e-3, delta=2 * found.depth_of_focus)
+
+
 class OwnCode(unittest.TestCase):
     def test_functions(self):
         def colours(s, t, u, v):

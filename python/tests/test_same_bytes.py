@@ -144,6 +144,24 @@ class SameBytes(InFolder):
         moved.save("p.npy")
         self.assert_same("c.npy", "p.npy")
 
+    def test_slm(self):
+        command_line("hologram", "pumpkin", "-o", "holo.h5", "--hogels", "8x6", "--directions", "8", "--size", "1.6384mm",
+                     "--pitch", "6.4um", "--fov", "2.5deg", "--wavelength", "532nm")
+        cases = [
+            (["--encoding", "double-phase", "--pixels", "320x200", "--pixel-pitch", "6.4um"],
+             dict(encoding="double-phase", pixels=(320, 200), pixel_pitch="6.4um")),
+            (["--encoding", "gerchberg-saxton", "--device", "leto", "--iterations", "3", "--phase-code", "slmsuite"],
+             dict(encoding="gerchberg-saxton", device="leto", iterations=3, phase_code="slmsuite")),
+            (["--encoding", "phase", "--pixels", "256x192", "--pixel-pitch", "6.4um", "--levels", "64"],
+             dict(encoding="phase", pixels=(256, 192), pixel_pitch="6.4um", levels=64)),
+        ]
+        for number, (words, options) in enumerate(cases):
+            with self.subTest(" ".join(words)):
+                command_line("slm", "holo.h5", "-o", f"c{number}.png", *words)
+                pattern = hogel.Hologram.open("holo.h5").slm(**options)
+                pattern.save(f"p{number}.png", metadata=_core.read_metadata(f"c{number}.png"))
+                self.assert_same(f"c{number}.png", f"p{number}.png")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// Patterns of modulators, and pictures as plain numbers.
+#include "hogel/pattern.h"
+
+#include "arrays.h"
+#include "core.h"
+#include "hogel/field.h"
+#include "hogel/image.h"
+#include "hogel/phase_code.h"
+
+namespace hogel::python {
+namespace {
+
+using py::arg;
+using Source = std::shared_ptr<const FieldSource>;
+
+void add_phase_codes(py::module_& module) {
+    py::class_<PhaseCode>(module, "PhaseCode")
+        .def(py::init([](double range, double offset, bool inverted, bool closed) {
+                 return PhaseCode{range, offset, inverted, closed};
+             }),
+             arg("range") = PhaseCode().range, arg("offset") = 0.0, arg("inverted") = false, arg("closed") = false)
+        .def_readwrite("range", &PhaseCode::range)
+        .def_readwrite("offset", &PhaseCode::offset)
+        .def_readwrite("inverted", &PhaseCode::inverted)
+        .def_readwrite("closed", &PhaseCode::closed);
+    module.def("phase_codes", [] { return phase_codes().names(); });
+    module.def("parse_phase_code", &parse_phase_code, arg("text"));
+}
+
+void add_encodings(py::module_& module) {
+    py::enum_<Encoding> kind(module, "Encoding");
+    kind.value("phase", Encoding::phase)
+        .value("double_phase", Encoding::double_phase)
+        .value("gerchberg_saxton", Encoding::gerchberg_saxton)
+        .value("gradient", Encoding::gradient)
+        .value("intensity", Encoding::intensity)
+        .value("bipolar", Encoding::bipolar)
+        .value("burckhardt", Encoding::burckhardt)
+        .value("lee", Encoding::lee)
+        .value("binary", Encoding::binary);
+    module.def("encodings", [] { return encodings().names(); });
+    module.def(
+        "encoding", [](const std::string& name) { return encodings().find(name).encoding; }, arg("name"));
+    module.def("is_phase_only", &is_phase_only, arg("encoding"));
+    py::class_<Modulator>(module, "Modulator")
+        .def(
+            py::init([](std::size_t width, std::size_t height, double pitch, unsigned levels, const std::string& name) {
+                return Modulator{name, width, height, pitch, levels};
+            }),
+            arg("width"), arg("height"), arg("pitch"), arg("levels") = 256, arg("name") = "")
+        .def_readonly("name", &Modulator::name)
+        .def_readonly("width", &Modulator::width)
+        .def_readonly("height", &Modulator::height)
+        .def_readonly("pitch", &Modulator::pitch)
+        .def_readonly("levels", &Modulator::levels);
+    module.def("modulators", [] { return modulators().names(); });
+    module.def(
+        "modulator", [](const std::string& name) { return modulators().find(name); }, arg("name"));
+}
+
+// The numbers of a picture and what they count up to.
+template <class Raw, class Values>
+py::tuple numbers_of(Raw&& raw, Values Raw::*values, std::size_t largest) {
+    return py::make_tuple(array_of(std::move(raw.*values)), largest);
+}
+
+void add_raw_pixels(py::module_& module) {
+    module.def(
+        "write_raw_pixels",
+        [](const std::filesystem::path& path, const py::array_t<std::uint8_t, py::array::c_style>& levels,
+           const py::object& metadata) {
+            const Metadata entries = metadata_of(metadata);
+            const View<const std::uint8_t, 3> view(levels.data(), shape_of<3>(levels, "levels"));
+            run(py::none(), [&](const Progress&) { write_raw_pixels(path, view, entries); });
+        },
+        arg("path"), arg("levels"), arg("metadata"));
+    module.def("require_raw_pixels_name", &require_raw_pixels_name, arg("path"));
+    module.def(
+        "read_raw_pixels",
+        [](const std::filesystem::path& path) {
+            auto raw = run_for(py::none(), [&](const Progress&) { return read_raw_pixels(path); });
+            const std::size_t levels = raw.levels;
+            return numbers_of(std::move(raw), &RawPixels::values, levels);
+        },
+        arg("path"));
+    module.def(
+        "read_raw_channels",
+        [](const std::filesystem::path& path) {
+            auto raw = run_for(py::none(), [&](const Progress&) { return read_raw_channels(path); });
+            const std::size_t largest = raw.largest;
+            return numbers_of(std::move(raw), &RawChannels::values, largest);
+        },
+        arg("path"));
+}
+
+}  // namespace
+
+void add_patterns(py::module_& module) {
+    add_phase_codes(module);
+    add_encodings(module);
+    add_raw_pixels(module);
+    py::class_<PatternOptions>(module, "PatternOptions")
+        .def(py::init([](const Modulator& modulator) {
+                 PatternOptions options;
+                 options.modulator = modulator;
+                 return options;
+             }),
+             arg("modulator"))
+        .def_readwrite("encoding", &PatternOptions::encoding)
+        .def_readwrite("reference_angle", &PatternOptions::reference_angle)
+        .def_readwrite("clip", &PatternOptions::clip)
+        .def_readwrite("window", &PatternOptions::window)
+        .def_readwrite("iterations", &PatternOptions::iterations)
+        .def_readwrite("phase_code", &PatternOptions::phase_code);
+    py::class_<Pattern, std::shared_ptr<Pattern>>(module, "Pattern")
+        .def_property_readonly("values",
+                               [](const std::shared_ptr<Pattern>& p) {
+                                   return array_over(p->values.data(), p->values.shape(), py::cast(p));
+                               })
+        .def_property_readonly("levels",
+                               [](const std::shared_ptr<Pattern>& p) {
+                                   return array_over(p->levels.data(), p->levels.shape(), py::cast(p));
+                               })
+        .def_readonly("efficiency", &Pattern::efficiency)
+        .def_readonly("light_field_efficiency", &Pattern::light_field_efficiency)
+        .def_readonly("reference_angle", &Pattern::reference_angle)
+        .def_readonly("iterations", &Pattern::iterations)
+        .def_readonly("correlation", &Pattern::correlation);
+    module.def(
+        "suitable_encoding",
+        [](const Source& field, const PatternOptions& options) {
+            return run_for(py::none(), [&](const Progress&) { return suitable_encoding(*field, options); });
+        },
+        arg("field"), arg("options"));
+    module.def(
+        "encode_pattern",
+        [](const Source& field, const PatternOptions& options, const py::object& report) {
+            return run_for(report, [&](const Progress& p) {
+                return std::make_shared<Pattern>(encode_pattern(*field, options, p));
+            });
+        },
+        arg("field"), arg("options"), arg("report"));
+    module.def(
+        "transmission",
+        [](const Pattern& pattern, Encoding encoding, const PhaseCode& code) {
+            return array_of(transmission(pattern, encoding, code));
+        },
+        arg("pattern"), arg("encoding"), arg("phase_code") = PhaseCode());
+}
+
+}  // namespace hogel::python

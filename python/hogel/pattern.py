@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Patterns of spatial light modulators."""
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any, Optional, Union
+
+import numpy as np
+
+from . import _core, units
+from ._progress import Progress, reporting
+from .errors import UsageError
+
+if TYPE_CHECKING:
+    from .hologram import Hologram
+
+
+class Pattern:
+    """The levels of a modulator's pixels, for one wavelength or three: `np.asarray(pattern)` is [y][x][c] of bytes. Made
+    by Hologram.slm()."""
+
+    def __init__(self, levels: "np.ndarray[Any, Any]", encoding: str, modulator: _core.Modulator, parts: list[_core.Pattern]) -> None:
+        self.levels, self.encoding, self.modulator, self._parts = levels, encoding, modulator, parts
+
+    def __array__(self, dtype: Any = None) -> "np.ndarray[Any, Any]":
+        return self.levels if dtype is None else self.levels.astype(dtype, copy=False)
+
+    @property
+    def efficiency(self) -> list[float]:
+        """For each wavelength, the share of the light on the modulator that goes into the hologram's wave."""
+        return [part.efficiency for part in self._parts]
+
+    @property
+    def correlation(self) -> list[float]:
+        """For each wavelength, of patterns of phases: how like the hologram's wave theirs is within its band."""
+        return [part.correlation for part in self._parts]
+
+    @property
+    def reference_angle(self) -> list[float]:
+        """For each wavelength, the angle of the reference wave, radians; 0 without one."""
+        return [part.reference_angle for part in self._parts]
+
+    def transmission(self, number: int = 0) -> "np.ndarray[Any, Any]":
+        """The complex transmission [y][x] of the modulator for a wavelength, before a phase code other than hogel's."""
+        return _core.transmission(self._parts[number], _core.encoding(self.encoding))
+
+    def save(self, path: Union[str, "os.PathLike[str]"], *, metadata: Any = None) -> None:
+        """Writes .png or .bmp of 8 bits, the levels as they are."""
+        name = os.fspath(path)
+        _core.require_writable(name)
+        if metadata is None:
+            metadata = [("software", f"hogel {_core.__version__}"), ("command", "hogel.Hologram.slm")]
+        _core.write_raw_pixels(name, self.levels, metadata)
+
+    def __repr__(self) -> str:
+        m = self.modulator
+        shares = ", ".join(f"{100 * share:.3g} %" for share in self.efficiency)
+        return f"Pattern({m.width}x{m.height} pixels {units.say_length(m.pitch)} apart, {self.encoding}, efficiency {shares})"
+
+
+def modulator_of(
+    device: Optional[str], pixels: Optional[units.Counts], pixel_pitch: Optional[units.Length], levels: int
+) -> _core.Modulator:
+    """A modulator by name, or described."""
+    described = pixels is not None or pixel_pitch is not None
+    if (device is None) != described:
+        raise UsageError("device, pixels, pixel_pitch: name a modulator, or describe one by its pixels and their pitch")
+    if device is not None:
+        return _core.modulator(device)
+    if pixels is None or pixel_pitch is None:
+        raise UsageError("pixels, pixel_pitch: a modulator is described by both")
+    columns, rows = units.counts(pixels, "pixels")
+    if not 1 <= min(columns, rows) <= max(columns, rows) <= 65536:
+        raise UsageError("pixels: 1 to 65536 were expected on a side")
+    if not 2 <= levels <= 256:
+        raise UsageError("levels: 2 to 256 were expected")
+    return _core.Modulator(columns, rows, units.length(pixel_pitch, "pixel_pitch"), levels)
+
+
+def pattern_of(
+    hologram: "Hologram",
+    encoding: str,
+    modulator: _core.Modulator,
+    reference: units.Angle,
+    clip: Optional[float],
+    window: Optional[int],
+    iterations: int,
+    phase_code: Union[str, _core.PhaseCode],
+    progress: Progress,
+) -> Pattern:
+    """See Hologram.slm()."""
+    fields = hologram._sources
+    if len(fields) not in (1, 3):
+        raise UsageError(f"slm: a pattern takes one or three wavelengths, not {len(fields)}")
+    options = _core.PatternOptions(modulator)
+    options.reference_angle = units.angle(reference, "reference")
+    if clip is not None:
+        options.clip = clip
+    if window is not None:
+        options.window = window
+    options.iterations = iterations
+    options.phase_code = _core.parse_phase_code(phase_code) if isinstance(phase_code, str) else phase_code
+    if encoding == "auto":
+        alone = all(_core.suitable_encoding(field, options) == _core.Encoding.phase for field in fields)
+        encoding = "phase" if alone else "gradient"
+    options.encoding = _core.encoding(encoding)
+    with reporting(progress, "pattern") as report:
+        parts = [_core.encode_pattern(field, options, report) for field in fields]
+    return Pattern(np.stack([part.levels for part in parts], axis=-1), encoding, modulator, parts)
