@@ -19,10 +19,10 @@ struct PhaseCode {
     bool closed = false;                  ///< whether V stands for the whole range; otherwise V + 1 would
 
     /// The phase of a number, in radians. @param largest  V; 0 for numbers that are not whole
-    double phase(double number, double largest) const;
+    HOGEL_API double phase(double number, double largest) const;
     /// The number from 0 to `largest` whose phase is nearest to one in radians, in whole turns. Where the range is less
     /// than a turn, phases beyond it get the nearer end; where it is more, the smallest numbers that will do.
-    unsigned level(double phase, unsigned largest) const;
+    HOGEL_API unsigned level(double phase, unsigned largest) const;
 
     friend bool operator==(const PhaseCode&, const PhaseCode&) = default;
 };
