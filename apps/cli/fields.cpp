@@ -164,10 +164,12 @@ void add_reconstruction_options(Command& command, FieldOptions& options) {
 bool is_external(const std::string& name, const FieldOptions& options) {
     std::error_code status;
     if (!std::filesystem::is_regular_file(name, status)) return false;
-    if (is_view_set(name)) return false;
-    if (is_external_field(name)) return true;
     const bool described =
         !options.values.empty() || !options.phase_code.empty() || !options.imaginary.empty() || !options.phases.empty();
+    // An array of four axes can be a light field or a field of several colours: who says what its numbers are means the
+    // latter.
+    if (!described && is_view_set(name)) return false;
+    if (is_external_field(name)) return true;
     return described && file_kind(name) == FileKind::picture;
 }
 
