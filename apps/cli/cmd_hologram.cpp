@@ -59,10 +59,12 @@ int straight_from_scene(const Options& options, const SceneHologramMethod& metho
     if (method.uses_spacing) record.acted({"spacing"});
     if (method.uses_planes) record.acted({"planes"});
     const auto scene = light_scene(session, load_scene(session, options.input, render, record), render, record);
-    record.idle("background");  // what no surface sends out is not seen
-    const auto sinks =
-        create_hologram(options.output, grids,
-                        {.type = options.type(), .metadata = with_history(record.metadata(), scene->provenance)});
+    // What no surface sends out is not seen.
+    record.idle("background");
+    Metadata made_of = scene->provenance;
+    std::erase_if(made_of, [](const auto& entry) { return entry.first == "background"; });
+    const auto sinks = create_hologram(options.output, grids,
+                                       {.type = options.type(), .metadata = with_history(record.metadata(), made_of)});
     SceneHologramOptions how;
     how.seed = session.seed;
     how.spacing = options.hologram.spacing;

@@ -159,9 +159,11 @@ void add_scene_class(py::module_& module) {
         .def_property(
             "ground", [](const ScenePose& p) { return p.ground ? std::optional(colour_of(*p.ground)) : std::nullopt; },
             [](ScenePose& p, const Colour& c) { p.ground = rgb_of(c); })
+        .def_property(
+            "up", [](const ScenePose& p) { return p.up ? std::optional(point_of(*p.up)) : std::nullopt; },
+            [](ScenePose& p, const Point& up) { p.up = vector_of(up); })
         .def("set_texture",
              [](ScenePose& p, const Image& picture) { p.texture = std::make_shared<const Image>(picture); });
-    add_vector(pose, "up", &ScenePose::up);
     add_vector(pose, "rotation", &ScenePose::rotation);
     add_vector(pose, "shift", &ScenePose::shift);
 }

@@ -56,7 +56,7 @@ OTHER = {
     "device": "leto", "pixels": "90x70", "pixel-pitch": ACTS, "levels": "4",
     # sets of views
     "layout": ACTS, "transfer": "linear", "views": "6x8", "mirror": "columns", "projection": "orthographic", "disparity": "1",
-    "column": "first", "middle": "4x4", "densify": "2 --estimate-disparity", "estimate-disparity": ACTS,
+    "column": "first", "depth-scale": "7", "middle": "4x4", "densify": "2 --estimate-disparity", "estimate-disparity": ACTS,
     # prints
     "strips": None, "order": "rows",
 }

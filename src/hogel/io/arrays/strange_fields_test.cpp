@@ -183,7 +183,7 @@ TEST_F(StrangeFields, of_matlab_may_be_pairs_behind_rows_and_columns) {
 }
 
 TEST_F(StrangeFields, in_exr_files_are_named_before_or_after_their_colour) {
-    if (!core::part("pictures").built_in) GTEST_SKIP() << "this build reads no pictures";
+    if (without_pictures()) return;
     const auto written = [&](const std::vector<std::string>& names) {
         image::NamedChannels picture;
         for (std::size_t i = 0; i < names.size(); ++i) {

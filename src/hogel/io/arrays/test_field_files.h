@@ -10,8 +10,11 @@
 #include <vector>
 
 #include "hogel/core/output_file.h"
+#include "hogel/core/part.h"
 #include "hogel/error.h"
 #include "hogel/files.h"
+#include "hogel/image.h"
+#include "hogel/screen.h"
 
 namespace hogel::io::arrays {
 
@@ -29,6 +32,18 @@ class FieldFiles : public testing::Test {
     fs::path write(const std::string& name, const Bytes& bytes) const {
         core::write_file(directory_ / name, bytes);
         return directory_ / name;
+    }
+
+    // Whether this build has no pictures; then it says so.
+    static bool without_pictures() {
+        if (core::part("pictures").built_in) return false;
+        try {
+            encode_png(Image(1, 1, 1), 1);
+            ADD_FAILURE() << "a picture was written";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::not_built_in) << error.what();
+        }
+        return true;
     }
 
     fs::path directory_ = fs::path(testing::TempDir()) / ("hogel_fields_" + std::to_string(::getpid()));
