@@ -640,7 +640,7 @@ class ScenePose:
     rotation: Sequence[float]
     scale: float
     shift: Sequence[float]
-    up: Sequence[float]
+    up: Optional[Sequence[float]]
     def __init__(self) -> None: ...
     def set_texture(self, arg0: Image) -> None: ...
 
