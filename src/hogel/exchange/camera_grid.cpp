@@ -172,18 +172,18 @@ class Arrangement {
             below += x * x + y * y;
         }
         const double inverse = above / below;
-        double shift = 0, most_off = 0;
+        double shift = 0, max_off = 0;
         std::size_t worst = 0;
         for (std::size_t i = 0; i < frames_.size(); ++i) {
             const double dx = inverse * first.focal_x * places_[i].x, dy = -inverse * first.focal_y * places_[i].y;
             const double off = std::max(std::abs(frames_[i].center_x - a - dx), std::abs(frames_[i].center_y - b - dy));
-            if (off > most_off) most_off = off, worst = i;
+            if (off > max_off) max_off = off, worst = i;
             shift = std::max({shift, std::abs(dx), std::abs(dy)});
         }
-        if (most_off > max_pixels_off)
+        if (max_off > max_pixels_off)
             fail(worst,
                  fmt::format("its centre (cx, cy) is {:.3g} pixels beside what makes all pictures agree on a plane",
-                             most_off));
+                             max_off));
         ViewGeometry& geometry = grid_.geometry;
         constexpr double no_shift = 1e-3;  // pixels
         if (shift < no_shift)

@@ -62,7 +62,7 @@ LightField every_nth_hogel(const LightField& light_field, std::size_t n) {
     if (n == 1) return light_field;
     const std::size_t odd = n % 2 == 1 ? n : n + 1;
     const LightFieldGrid& grid = light_field.grid();
-    // Of an even number of hogels at least the two beside the middle stay, which are closer than that.
+    // If their number is even, at least the two hogels beside the middle stay, which are closer than that.
     if (left_of(grid.hogels_s, odd) == 0 || left_of(grid.hogels_t, odd) == 0)
         return n <= 3 ? light_field : every_nth_hogel(light_field, odd - 2);
     return light_field.wrapped([&](const LightField::Source& face) { return std::make_shared<EveryNth>(face, odd); });

@@ -122,7 +122,7 @@ TEST_F(StrangeFields, of_levels_that_lost_their_type_are_refused) {
     };
     expect_refused(whole("<i8", std::int64_t()), coded, ErrorCode::bad_input, "uint8");
     expect_refused(whole("<i2", std::int16_t()), coded, ErrorCode::bad_input, "uint8");
-    // Of two levels, black is no phase and white half a turn.
+    // With two levels, black is no phase and white half a turn.
     coded.phase_code = parse_phase_code("hogel");
     const std::string start = npy_beginning("|b1", std::vector<std::size_t>{1, 2});
     Bytes bits(start.begin(), start.end());
@@ -160,7 +160,7 @@ TEST_F(StrangeFields, have_parameters_of_many_names) {
                     .complaint.empty());
 }
 
-// Of the arrays of a data set, the one pair whose names say that they are parts.
+// A data set has one pair of arrays whose names say that they are parts.
 TEST_F(StrangeFields, are_found_among_pictures) {
     const auto plane = [](double value) { return npy_of({value, value, value, value}, {2, 2}); };
     const fs::path path =

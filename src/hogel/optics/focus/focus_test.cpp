@@ -133,7 +133,7 @@ TEST(Planes, of_unknown_depth_are_found) {
         }
 }
 
-// Of an off-axis recording the order is cut out; its light has few frequencies.
+// The order of an off-axis recording is cut out; its light has few frequencies.
 TEST(Planes, of_off_axis_recordings_are_found) {
     const double frequency = 0.31;
     for (const Surface surface : {Surface::smooth, Surface::rough})
@@ -154,7 +154,7 @@ TEST(Planes, of_off_axis_recordings_are_found) {
         }
 }
 
-// Of an in-line recording the twin is as far on the other side.
+// The twin of an in-line recording is as far on the other side.
 TEST(Planes, of_in_line_recordings_are_found_on_either_side) {
     const Case of{grid_of(224, 224, 3.45_um, 532_nm), 33.3, Surface::smooth, 1, 9};
     Field field = hologram_of(of);

@@ -26,7 +26,7 @@ class PlaneWaves {
     /// Reads look 0.
     PlaneWaves(const FieldSource& field, const Region& region);
 
-    /// Of the intensity at a depth, metres behind the field: waves go back to it.
+    /// The sums for the intensity at a depth, metres behind the field: waves go back to it.
     LightSums at(double depth) const;
 
     /// Half the width of the frequencies, cycles a metre, that hold nine tenths of the amplitudes: the mean of both

@@ -42,7 +42,7 @@ struct Extent {
             if ((ta <= t && t <= tb) || (tb <= t && t <= ta)) include(crossing(points[a], points[b], t));
         }
     }
-    /// Of `n`.
+    /// Those of `n` samples that lie between low and high.
     Span samples(std::size_t n) const { return samples_between(low, high, n); }
 };
 

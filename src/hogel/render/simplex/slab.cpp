@@ -22,7 +22,7 @@ SlabTriangles slab_triangles(const ShadedScene& scene, SlabTriangles list) {
 }
 
 TriangleBlock::TriangleBlock() {
-    // Of no triangle, and in no row.
+    // Padding belongs to no triangle and lies in no row.
     constexpr float nowhere = 1e30f;
     for (std::size_t corner = 0; corner < 3; ++corner) {
         std::ranges::fill(row[corner], nowhere);

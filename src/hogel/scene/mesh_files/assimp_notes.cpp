@@ -6,6 +6,7 @@
 
 #include <array>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace hogel::scene::mesh_files {
@@ -30,12 +31,12 @@ constexpr std::array textures{std::pair{aiTextureType_OPACITY, "opacity maps"},
 using Counts = std::map<std::string, std::size_t>;
 
 void count_material(const aiMaterial& material, Counts& counts) {
-    std::map<std::string, bool> has;
+    std::set<std::string> has;
     for (const auto& [type, words] : textures)
-        if (material.GetTextureCount(type) > 0) has[words] = true;
+        if (material.GetTextureCount(type) > 0) has.insert(words);
     float opacity = 1;
-    if (material.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS && opacity < 1) has["opacity"] = true;
-    for (const auto& [words, is_there] : has) counts[words] += is_there ? 1 : 0;
+    if (material.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS && opacity < 1) has.insert("opacity");
+    for (const std::string& words : has) ++counts[words];
 }
 
 }  // namespace

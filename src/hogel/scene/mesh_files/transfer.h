@@ -50,7 +50,7 @@ class Sender {
     void send_file(const std::filesystem::path& path) const;
     void send(const TextureSource& texture) const;
     void send(const ImportedMesh& mesh) const;
-    /// Of Scene::notes.
+    /// For Scene::notes.
     void send_note(const std::string& note) const;
     /// Instead of anything further: what import_scene() is to say.
     void send_error(const std::string& message) const;
