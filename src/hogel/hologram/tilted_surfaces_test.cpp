@@ -2,6 +2,7 @@
 // Whether surfaces of one radiance are as bright as their rays at any slope, whatever the method.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <ostream>
 #include <random>
@@ -79,10 +80,14 @@ class TiltedSurface : public testing::TestWithParam<Shown> {
     }
 };
 
+// Every slope at one or two of three depths: each photograph takes a large part of a second.
 TEST_P(TiltedSurface, is_as_bright_as_its_rays) {
-    for (const double depth : {0.1 * GetParam().far, -0.35 * GetParam().far, GetParam().far})
-        for (const double slope : {0.0, 0.05, 0.1, 0.3, 1.0, 1.5})
+    const std::array depths{0.1 * GetParam().far, -0.35 * GetParam().far, GetParam().far};
+    const std::array slopes{0.0, 0.05, 0.1, 0.3, 1.0, 1.5};
+    for (std::size_t i = 0; i < depths.size(); ++i)
+        for (std::size_t j = i % 2; j < slopes.size(); j += 2)
             for (const bool across : {true, false}) {
+                const double depth = depths[i], slope = slopes[j];
                 if (slope == 0 && !across) continue;
                 // Either axis alone on one side, and both axes on the other.
                 const Plane plane = depth > 0 ? Plane{depth, across ? slope : 0, across ? 0 : -slope}
