@@ -70,7 +70,7 @@ async function holograms(context) {
 async function run() {
   const browser = await launch();
   execFileSync(hogel, ["render", "pumpkin", "-o", input, "--hogels", "120", "--directions", "24", "--depth", "-q"]);
-  let server = await serve(hogel, input, "--looks", "4");
+  let server = await serve(hogel, input, "--looks", "2");
   const context = await browser.newContext({viewport: {width: 1280, height: 800}, acceptDownloads: true});
   const page = await context.newPage();
   const said = [], elsewhere = [];
@@ -155,7 +155,7 @@ async function run() {
   // Waves appear with one look and refine; the command repeats them. A link holds the method.
   const shown = (page, test) => page.evaluate(test => new Promise((resolve, reject) => {
     const canvas = document.getElementById("picture"), looks = [], wanted = new Function("about", `return ${test}`);
-    const late = setTimeout(() => reject(new Error(`no picture with ${test} came`)), 60000);
+    const late = setTimeout(() => reject(new Error(`no picture with ${test} came`)), 180000);
     canvas.addEventListener("hogel-picture", function listen(event) {
       if (event.detail.looks) looks.push(event.detail.looks);
       if (!wanted(event.detail)) return;
@@ -164,22 +164,22 @@ async function run() {
       resolve({...event.detail, seen: looks});
     });
   }), test);
-  let waves = shown(page, "about.looks === 4 && about.of_looks === 4");
+  let waves = shown(page, "about.looks === 2 && about.of_looks === 2");
   await page.selectOption("#by", "waves");
   const refined = await waves;
   expect(refined.seen[0] === 1, `looks that were shown: ${refined.seen}`);
-  expect((await page.locator("#timing").textContent()).includes("look 4 of 4"), "the page does not say how many looks there are");
+  expect((await page.locator("#timing").textContent()).includes("look 2 of 2"), "the page does not say how many looks there are");
   await page.waitForFunction(() => location.hash.includes("by=waves"));
   const likenessOfWaves = await psnr(page);
   expect(likenessOfWaves > 40, `waves differ from hogel photo: ${likenessOfWaves} dB`);
-  console.log(`waves, 4 looks, beside hogel photo: ${likenessOfWaves.toFixed(1)} dB`);
-  waves = shown(page, "about.looks === 4 && about.psnr !== undefined");
+  console.log(`waves, 2 looks, beside hogel photo: ${likenessOfWaves.toFixed(1)} dB`);
+  waves = shown(page, "about.looks === 2 && about.psnr !== undefined");
   await page.locator("#picture").focus();
   await page.keyboard.press("w");
   const side = await waves;
   expect(side.width >= 1.9 * side.height, `side by side there are ${side.width} x ${side.height} pixels`);
   if (shots) await page.screenshot({path: path.join(shots, "view_side.png")});
-  waves = shown(page, "about.looks === 4 && about.psnr !== undefined");
+  waves = shown(page, "about.looks === 2 && about.psnr !== undefined");
   await page.keyboard.press("w");
   await waves;
   if (shots) await page.screenshot({path: path.join(shots, "view_difference.png")});
@@ -233,7 +233,7 @@ async function run() {
   await ended(server);
   await page.waitForFunction(() => !document.getElementById("problem").hidden);
   if (shots) await page.screenshot({path: path.join(shots, "view_lost.png")});
-  server = await serve(hogel, input, "--looks", "4", "--port", String(port));
+  server = await serve(hogel, input, "--looks", "2", "--port", String(port));
   await page.waitForFunction(() => document.getElementById("problem").hidden, null, {timeout: 20000});
   await page.evaluate(() => document.getElementById("picture").focus());
   fine = picture(page);

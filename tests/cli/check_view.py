@@ -20,7 +20,7 @@ import subprocess
 import sys
 import time
 
-INPUT, HOLOGRAM = sys.argv[1:3]
+INPUT, HOLOGRAM = (sys.argv[1:] + ["", ""])[:2]
 VIEW = "eye=5,-3,100mm&focus=2mm&pupil=3mm&resolution=90x70&pupil-samples=16"
 
 
@@ -349,4 +349,5 @@ def main():
     print("address, page, state, pictures, waves, insides, hologram, readings, refusals, web socket, newest wins, depth in focus, stop")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -8,10 +8,12 @@ const kinds = {
 const captions = {
   hogel: "Directions to the right and up, of the hogel under the pointer.", views: "Each picture is one direction.",
   "s-u": "s to the right, U down: a point makes a line, whose slope is its depth.", "t-v": "V to the right, t down.",
-  depth: "White is nearest, black holds nothing.", intensity: "One pixel a sample, around the pointer.",
-  phase: "One pixel a sample; black is −180°, white 180°.", real: "One pixel a sample; grey is zero.",
+  depth: "White is nearest, black holds nothing.", intensity: "140 × 140 samples around the pointer.",
+  phase: "140 × 140 samples; black is −180°, white 180°.", real: "140 × 140 samples; grey is zero.",
   spectrum: "Frequency zero in the middle, half a cycle a sample at the edges.",
 };
+
+const sides = {intensity: 140, phase: 140, real: 140, spectrum: 256};  // samples; a sample is at least two pixels of the screen
 
 export class InsideLook {
   // ask(words): a promise of the picture's Blob. The pictures are asked for one at a time, the newest spot next.
@@ -57,7 +59,7 @@ export class InsideLook {
     this.going = true;
     const what = this.what, [x, y] = this.at.map(value => Math.min(Math.max(value, 0), 1).toFixed(5));
     try {
-      const url = URL.createObjectURL(await this.ask({what, x, y, side: 560}));
+      const url = URL.createObjectURL(await this.ask({what, x, y, side: sides[what] ?? 560}));
       if (this.url) URL.revokeObjectURL(this.url);
       this.url = url;
       for (const id of ["inside-picture", "large-picture"]) {

@@ -8,12 +8,12 @@ import {Stage} from "./stage.js";
 import {keys, listen} from "./keys.js";
 
 const by = id => document.getElementById(id);
-const inMotion = {samples: 4, pixels: 512, quality: 80}, atRest = {samples: 16, quality: 93};
+const inMotion = {samples: 4, pixels: 512, quality: 80}, atRest = {samples: 16, quality: 93}, speckled = 98;  // which suffers most from JPEG
 const pause = 140;  // milliseconds without a change that are rest
 
 const view = new View();
 let field = {center_u: 0, center_v: 0, tan_half_u: 0.1, tan_half_v: 0.1, ready: false};  // the server's last state
-let number = 0, wanted = false, drawn = null, resting = 0, hovering = 0;
+let number = 0, wanted = 0, drawn = null, resting = 0, hovering = 0;
 const asked = new Map();  // number of a request → when it was made necessary
 
 // Requests
@@ -30,7 +30,7 @@ function ask(moving, since) {
   asked.set(id, since);
   for (const old of asked.keys()) if (old < id - 64) asked.delete(old);
   const looks = moving && view.by !== "rays" ? {looks: 1} : {};
-  link.send("picture?" + query({...words(moving), ...looks, quality: (moving ? inMotion : atRest).quality, moving: moving ? "yes" : "no", id}));
+  link.send("picture?" + query({...words(moving), ...looks, quality: moving ? inMotion.quality : view.by === "rays" ? atRest.quality : speckled, moving: moving ? "yes" : "no", id}));
 }
 
 // What the server makes of an address, which holds the token if there is one.
@@ -46,14 +46,16 @@ function changed() {
   show();
   if (!wanted) {
     const since = performance.now();
-    wanted = true;
-    requestAnimationFrame(() => { wanted = false; ask(true, since); });
+    wanted = requestAnimationFrame(() => { wanted = 0; ask(true, since); });
   }
   clearTimeout(resting);
   resting = setTimeout(rest, pause);
 }
 
 function rest() {
+  // A screen may be so slow that the frame of the last change is still to come; it would replace the fine picture.
+  cancelAnimationFrame(wanted);
+  wanted = 0;
   ask(false, performance.now());
   inside.look();
   history.replaceState(null, "", location.pathname + location.search + hash(view.words()));
