@@ -39,9 +39,12 @@ void add_view_options(Command& command, ViewOptions& options, Session& session) 
     command.examples(
         "  hogel view pumpkin.h5\n"
         "  hogel view bunny.ply --hogels 200 --size 30mm\n"
-        "  hogel view pumpkin.hgl --port 8080 --no-browser");
-    command.positional("input", options.input, "X.h5|SCENE|FOLDER",
-                       "Light field, set of views, mesh file, built-in scene, or a folder of hogel make");
+        "  hogel view pumpkin.hgl --port 8080 --no-browser\n"
+        "  hogel view hologram.h5\n"
+        "  hogel view phase.png --phase-code slmsuite --pitch 8um --wavelength 532nm");
+    command.positional("input", options.input, "X.h5|SCENE|F.h5|FOLDER",
+                       "Light field, set of views, mesh file, built-in scene, hologram, another program's field, or a "
+                       "folder of hogel make");
     command.whole("--port", options.port, max_port, "Port to listen on; 0: one that is free");
     command.text("--host", options.host, "ADDRESS", "Address to listen on; one of others needs --token");
     command
@@ -53,8 +56,12 @@ void add_view_options(Command& command, ViewOptions& options, Session& session) 
         .number("--memory", options.memory, "GB",
                 "For the samples of the light field; of a larger one some hogels are left out")
         .range(0.001, 1e6);
+    command.count("--looks", options.looks, "Photographs by waves averaged against speckle, unless of a hologram file");
+    add_hologram_options(command, options.hologram);
     add_render_options(command, options.render);
     add_hemicube_option(command, options.render);
+    add_field_options(command, options.field, false, true);
+    add_reconstruction_options(command, options.field);
     add_json_flag(command, session);
 }
 
@@ -67,10 +74,9 @@ std::string require_viewable(const ViewOptions& options) {
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: holds no lightfield.h5; 'hogel make --keep-light-field' keeps it", options.input));
     }
-    if (input_kind(options.input) == InputKind::hologram)
-        throw Error(ErrorCode::usage, fmt::format("{}: is a hologram; view its light field or scene, or photograph it "
-                                                  "with 'hogel photo'",
-                                                  options.input));
+    if (is_external(options.input, options.field)) return options.input;
+    require_described(options.input, options.field);
+    input_kind(options.input);
     return options.input;
 }
 

@@ -5,11 +5,12 @@
 #include <string>
 
 #include "command_line.h"
+#include "fields.h"
 #include "inputs.h"
 
 namespace hogel::cli {
 
-inline constexpr const char* view_summary = "Look around in a light field or a scene, in a browser";
+inline constexpr const char* view_summary = "Look around in a light field, a hologram or a scene, in a browser";
 
 /// The options of `hogel view`. hogel reads them to refuse what is wrong, and the viewer, a program of its own that
 /// hogel then becomes, to act on them.
@@ -20,7 +21,10 @@ struct ViewOptions {
     std::string token;       ///< empty: none, on this machine alone
     bool no_browser = false;
     double memory = 4;  ///< GB for the samples of the light field
+    std::size_t looks = defaults.looks;
     RenderOptions render;
+    HologramChoices hologram;
+    FieldOptions field;
 };
 void add_view_options(Command& command, ViewOptions& options, Session& session);
 

@@ -4,16 +4,13 @@
 
 #include <cstdio>
 #include <exception>
-#include <functional>
 #include <memory>
-#include <optional>
-#include <thread>
 
-#include "cli/concerns.h"
 #include "cli/program.h"
 #include "cli/view_options.h"
 #include "hogel/error.h"
 #include "view/browser.h"
+#include "view/loader.h"
 #include "view/viewer.h"
 
 namespace hogel::view {
@@ -21,108 +18,6 @@ namespace {
 
 using cli::Session;
 using cli::ViewOptions;
-
-// Prepares the light field on a thread of its own, a coarse one first, while the server already answers.
-class Loader {
-  public:
-    Loader(const Session& session, const ViewOptions& options, std::string input, Viewer& viewer)
-        : session_(session),
-          options_(options),
-          input_(std::move(input)),
-          memory_(static_cast<std::size_t>(options.memory * 1e9)),
-          viewer_(viewer),
-          record_(session) {}
-
-    /// Opens a file, so that what is wrong with it is known before there is a page.
-    void open() {
-        if (input_kind(input_) == InputKind::light_field) file_ = open_light_field_or_views(input_);
-    }
-
-    void load(const std::function<void()>& failed) {
-        thread_ = std::jthread([this, failed] {
-            try {
-                if (file_)
-                    show_file(*file_);
-                else
-                    show_scene();
-                viewer_.say("", 1);
-            } catch (...) {
-                error_ = std::current_exception();
-                failed();
-            }
-        });
-    }
-
-    /// Waits for the thread and throws what it threw.
-    void finish() {
-        if (thread_.joinable()) thread_.join();
-        if (error_) std::rethrow_exception(error_);
-    }
-
-  private:
-    Progress progress(const char* what) {
-        return Progress(session_.stop.get_token(), [this, what](double fraction) {
-            viewer_.say(what, fraction);
-            return true;
-        });
-    }
-
-    void show(const LightField& whole, const LightField& shown, const char* what) {
-        viewer_.show(std::make_shared<Subject>(whole, shown, memory_, progress(what)));
-    }
-
-    void show_file(const LightField& light_field) {
-        const LightFieldGrid& grid = light_field.grid();
-        const std::size_t finest = step_that_fits(grid, memory_), first = step_of_first_look(grid);
-        if (finest > 1)
-            session_.say(fmt::format("{}: every {} of {}x{} hogels, which fit into --memory {:g}", input_,
-                                     finest == 3 ? "3rd" : fmt::format("{}th", finest), grid.hogels_s, grid.hogels_t,
-                                     options_.memory));
-        if (first > finest) show(light_field, every_nth_hogel(light_field, first), "opening");
-        show(light_field, every_nth_hogel(light_field, finest), "reading");
-    }
-
-    void show_scene() {
-        viewer_.say("lighting", 0);
-        const Scene scene = cli::load_scene(session_, input_, options_.render, record_);
-        const auto lit = cli::light_scene(session_, scene, options_.render, record_);
-        LightFieldRequest request = options_.render.request();
-        const std::size_t finest = step_that_fits(request.grid, memory_), first = step_of_first_look(request.grid);
-        if (finest > 1)
-            throw Error(ErrorCode::usage, fmt::format("--memory {:g}: the light field has {:.3g} samples of 2 bytes; "
-                                                      "fewer --hogels or --directions would do",
-                                                      options_.memory, request.grid.samples()));
-        const LightField whole = cli::render_light_field(session_, scene, options_.render, record_);
-        // The faces of a hemicube are read by each picture, which must not render them anew.
-        if (whole.has_sides()) {
-            const LightField kept = hogel::prepare_for_reading(whole, 2, false, progress("rendering"));
-            return show(kept, kept, "rendering");
-        }
-        if (first > 1) show(whole, with_fewer_hogels(lit, request, first), "rendering");
-        show(whole, whole, "rendering");
-    }
-
-    // The same hologram with hogels `step` times as wide.
-    static LightField with_fewer_hogels(const std::shared_ptr<const ShadedScene>& lit, LightFieldRequest request,
-                                        std::size_t step) {
-        LightFieldGrid& grid = request.grid;
-        const double width = grid.width();
-        grid.hogels_t = std::max<std::size_t>(1, grid.hogels_t / step);
-        grid.hogels_s = std::max<std::size_t>(1, grid.hogels_s / step);
-        grid.pitch = width / static_cast<double>(grid.hogels_s);
-        return hogel::render_light_field(lit, request);
-    }
-
-    const Session& session_;
-    const ViewOptions& options_;
-    std::string input_;
-    std::size_t memory_;
-    Viewer& viewer_;
-    cli::RunRecord record_;
-    std::optional<LightField> file_;
-    std::exception_ptr error_;
-    std::jthread thread_;
-};
 
 // A word of a command line as a shell reads it.
 std::string quoted(const std::string& word) {
@@ -141,7 +36,7 @@ std::string photo_command(char* const* arguments, const ViewOptions& options, co
     for (char* const* at = arguments + 2; *at != nullptr; ++at) {
         const std::string word = *at, name = word.substr(0, word.find('='));
         if (name == "--no-browser" || name == "--json") continue;
-        if (name == "--port" || name == "--host" || name == "--token" || name == "--memory") {
+        if (name == "--port" || name == "--host" || name == "--token" || name == "--memory" || name == "--looks") {
             if (name == word && at[1] != nullptr) ++at;
             continue;
         }

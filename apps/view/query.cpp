@@ -19,7 +19,9 @@ namespace {
 
 constexpr std::size_t max_query = 2048, max_words = 64;
 // A picture's cost: a screen of 3840x2160 with 64 points of the pupil takes seconds, and stops when the next is asked.
-constexpr std::size_t max_side = 4096, max_samples = 1024;
+constexpr std::size_t max_side = 4096, max_samples = 1024, max_looks = 1024;
+// Words that stand beside those of a view.
+constexpr std::string_view of_others[] = {"token", "x", "y", "what", "colour", "side"};
 
 using Words = std::map<std::string, std::string>;
 
@@ -86,6 +88,11 @@ double exposure(const std::string& text) {
     return *number;
 }
 
+By method(const std::string& text) {
+    const std::string known = choice("by", text, {"rays", "waves", "side", "difference"});
+    return known == "rays" ? By::rays : known == "waves" ? By::waves : known == "side" ? By::side : By::difference;
+}
+
 double fraction(const Words& words, const std::string& name) {
     const auto found = words.find(name);
     const std::optional<double> number = found == words.end() ? std::nullopt : cli::parse_number(found->second);
@@ -127,6 +134,10 @@ View parse_view(const Words& words) {
             view.camera.focus = cli::parse_any_length(text, name);
         else if (name == "pupil")
             view.camera.pupil = positive_length(name, text);
+        else if (name == "by")
+            view.by = method(text);
+        else if (name == "looks")
+            view.looks = whole(name, text, max_looks);
         else if (name == "eyes")
             view.eyes = positive_length(name, text);
         else if (name == "resolution")
@@ -138,14 +149,14 @@ View parse_view(const Words& words) {
         else if (name == "display")
             view.logarithmic = choice(name, text, {"intensity", "log"}) == "log";
         else if (name == "format")
-            view.format = choice(name, text, {"jpeg", "png"});
+            view.format = choice(name, text, {"jpeg", "png", "exr"});
         else if (name == "quality")
             view.quality = static_cast<int>(whole(name, text, 100));
         else if (name == "moving")
             view.moving = choice(name, text, {"yes", "no"}) == "yes";
         else if (name == "id")
             view.id = text.substr(0, 40);
-        else if (name != "token" && name != "x" && name != "y")
+        else if (!std::ranges::count(of_others, name))
             throw Error(ErrorCode::usage, fmt::format("query: '{}' is unknown", name.substr(0, 40)));
     }
     return view;
@@ -158,5 +169,16 @@ View of_eye(View view, int side) {
 }
 
 Spot parse_spot(const Words& words) { return {fraction(words, "x"), fraction(words, "y")}; }
+
+Inside parse_inside(const Words& words) {
+    constexpr std::size_t max_inside = 1024, max_colours = 3;
+    Inside inside;
+    for (const auto& [name, text] : words) {
+        if (name == "what") inside.what = text.substr(0, 40);
+        if (name == "colour") inside.colour = whole(name, text, max_colours) - 1;
+        if (name == "side") inside.side = whole(name, text, max_inside);
+    }
+    return inside;
+}
 
 }  // namespace hogel::view

@@ -14,18 +14,28 @@ namespace hogel::view {
 /// twice.
 std::map<std::string, std::string> parse_query(std::string_view query);
 
+/// How a picture is made.
+enum class By {
+    rays,
+    waves,
+    side,        ///< both, side by side, rays left
+    difference,  ///< the magnitude of their difference
+};
+
 /// One picture, in words that are the options of `hogel photo` without their dashes. So a query, the address of the
 /// page and a command line say the same, and cli::make_cameras() makes the same camera of them.
 struct View {
     cli::CameraOptions camera;
     std::size_t pupil_samples = 16;
+    By by = By::rays;
+    std::size_t looks = 0;  ///< of waves, whose mean is shown; 0: all of the subject
     double eyes = 0;      ///< metres between two eyes, whose pictures stand side by side, the left one left; 0: one eye
     double exposure = 0;  ///< 0: the automatic one of the light field
-    bool logarithmic = false;  ///< display=log
-    std::string format = "jpeg";
-    int quality = 90;     ///< of a JPEG picture
-    bool moving = false;  ///< asked for while something is dragged: see Worker::Job
-    std::string id;       ///< comes back with the picture
+    bool logarithmic = false;     ///< display=log
+    std::string format = "jpeg";  ///< jpeg, png or exr
+    int quality = 90;             ///< of a JPEG picture
+    bool moving = false;          ///< asked for while something is dragged: see Worker::Job
+    std::string id;               ///< comes back with the picture
 };
 
 /// Throws Error(usage), which names the word.
@@ -39,5 +49,13 @@ struct Spot {
     double x = 0, y = 0;
 };
 Spot parse_spot(const std::map<std::string, std::string>& words);
+
+/// What a look inside shows: a word that the subject knows ("hogel", "fringes", "spectrum").
+struct Inside {
+    std::string what;
+    std::size_t colour = 0;  ///< of several holograms
+    std::size_t side = 256;  ///< pixels
+};
+Inside parse_inside(const std::map<std::string, std::string>& words);
 
 }  // namespace hogel::view

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
-#include <utility>
-#include <vector>
 
 #include "cli/display.h"
 #include "hogel/error.h"
@@ -16,161 +14,138 @@ namespace hogel::view {
 namespace {
 
 constexpr std::size_t max_pixels = std::size_t{3840} * 2160;
-constexpr double first_look_samples = 8e6;  // 32 MB: a few hundredths of a second from the page cache
 
-// A light field with sides or unusual directions is read by each photograph instead of being kept.
-std::size_t step_for(const LightFieldGrid& grid, double samples) {
-    const double step = std::sqrt(grid.samples() / samples);
-    if (step <= 1) return 1;
-    const auto n = static_cast<std::size_t>(std::ceil(step));
-    return n % 2 == 1 ? n : n + 1;
+bool needs_rays(By by) { return by != By::waves; }
+
+// The magnitude of the difference of two pictures; grey beside colour counts as that grey in all of its channels.
+Image difference(const Image& a, const Image& b) {
+    Image result(a.width(), a.height(), std::max(a.channels(), b.channels()));
+    for (std::size_t y = 0; y < a.height(); ++y)
+        for (std::size_t x = 0; x < a.width(); ++x)
+            for (std::size_t c = 0; c < result.channels(); ++c)
+                result.pixels(y, x, c) = std::abs(a.pixels(y, x, std::min(c, a.channels() - 1)) -
+                                                  b.pixels(y, x, std::min(c, b.channels() - 1)));
+    return result;
 }
 
-View front_view(const LightFieldGrid& grid) {
-    View view;
-    view.camera.resolution = {128, 0};
-    view.camera.eye.x = -grid.center_u() * view.camera.eye.z;
-    view.camera.eye.y = -grid.center_v() * view.camera.eye.z;
-    return view;
+// Both pictures as they are beside each other, shown with one exposure.
+Photograph together(const View& view, const Image& rays, const Image& waves, double exposure) {
+    Photograph both;
+    both.exposure = exposure;
+    // In motion there is no time for it.
+    if (!view.moving && rays.channels() == waves.channels()) both.psnr = compare(waves, rays, exposure).psnr;
+    if (view.by == By::difference) {
+        both.picture = view.logarithmic ? cli::logarithmic(difference(rays, waves)) : difference(rays, waves);
+        return both;
+    }
+    both.picture =
+        view.logarithmic ? side_by_side(cli::logarithmic(rays), cli::logarithmic(waves)) : side_by_side(rays, waves);
+    return both;
 }
 
-// The point of the hologram that a spot of a picture looks through.
+}  // namespace
+
 std::pair<double, double> point_at(const Camera& camera, const Spot& spot) {
     const Grid& picture = camera.picture;
     return {picture.center_x + (spot.x - 0.5) * picture.size_x(), picture.center_y + (0.5 - spot.y) * picture.size_y()};
 }
 
+Reading ray_at(const Camera& camera, const Spot& spot) {
+    Reading reading;
+    std::tie(reading.x, reading.y) = point_at(camera, spot);
+    reading.across = std::atan((reading.x - camera.eye.x) / camera.eye.z);
+    reading.up = std::atan((reading.y - camera.eye.y) / camera.eye.z);
+    return reading;
+}
+
+std::pair<View, Spot> in_one_picture(const View& view, const Spot& spot) {
+    const bool right = spot.x >= 0.5;
+    const Spot inner{std::min(2 * spot.x - (right ? 1 : 0), 1.0), spot.y};
+    if (view.eyes > 0) return {of_eye(view, right ? 1 : -1), inner};
+    View one = view;
+    one.by = right ? By::waves : By::rays;
+    return {one, inner};
+}
+
 Image side_by_side(const Image& left, const Image& right) {
-    Image both(2 * left.width(), left.height(), left.channels());
-    for (std::size_t y = 0; y < left.height(); ++y) {
-        std::ranges::copy(left.pixels[y].elements(), both.pixels[y].elements().begin());
-        std::ranges::copy(right.pixels[y].elements(), both.pixels[y].elements().begin() +
-                                                          static_cast<std::ptrdiff_t>(left.width() * left.channels()));
-    }
+    Image both(left.width() + right.width(), left.height(), std::max(left.channels(), right.channels()));
+    const auto put = [&](const Image& from, std::size_t first) {
+        for (std::size_t y = 0; y < from.height(); ++y)
+            for (std::size_t x = 0; x < from.width(); ++x)
+                for (std::size_t c = 0; c < both.channels(); ++c)
+                    both.pixels(y, first + x, c) = from.pixels(y, x, std::min(c, from.channels() - 1));
+    };
+    put(left, 0);
+    put(right, left.width());
     return both;
 }
 
-// The eye that a spot of two pictures belongs to, and the spot in its picture.
-std::pair<View, Spot> in_one_picture(const View& view, const Spot& spot) {
-    const bool right = spot.x >= 0.5;
-    return {of_eye(view, right ? 1 : -1), {std::min(2 * spot.x - (right ? 1 : 0), 1.0), spot.y}};
-}
-
-// The contrast of a few pixels: the mean square of their second differences, over all channels.
-double contrast(const Image& image) {
-    double sum = 0;
-    for (std::size_t y = 1; y + 1 < image.height(); ++y)
-        for (std::size_t x = 1; x + 1 < image.width(); ++x)
-            for (std::size_t c = 0; c < image.channels(); ++c) {
-                const auto& p = image.pixels;
-                const double bend =
-                    4.0 * p(y, x, c) - p(y, x - 1, c) - p(y, x + 1, c) - p(y - 1, x, c) - p(y + 1, x, c);
-                sum += bend * bend;
-            }
-    return sum;
-}
-
-}  // namespace
-
-std::size_t step_that_fits(const LightFieldGrid& grid, std::size_t memory) {
-    return step_for(grid, static_cast<double>(memory) / 2);
-}
-
-std::size_t step_of_first_look(const LightFieldGrid& grid) { return step_for(grid, first_look_samples); }
-
-Subject::Subject(LightField light_field, LightField shown, std::size_t memory, const Progress& progress)
-    : light_field_(std::move(light_field)),
-      shown_(shown.grid()),
-      photographer_(std::move(shown), {.memory = memory}, progress) {
-    exposure_ = automatic_exposure(photographer_.photograph(camera(front_view(grid())), {.pupil_samples = 4}));
-}
-
 Camera Subject::camera(const View& view) const {
-    const Camera camera = cli::make_cameras(view.camera, grid().width(), grid().height()).front();
+    const Camera camera = cli::make_cameras(view.camera, width(), height()).front();
     if (camera.picture.samples() > max_pixels)
         throw Error(ErrorCode::usage, fmt::format("resolution: {}x{} pixels; expected at most {} in all",
                                                   camera.picture.width, camera.picture.height, max_pixels));
     return camera;
 }
 
-Image Subject::photograph(const View& view, const Progress& progress) {
-    if (view.eyes > 0)
-        return side_by_side(photograph(of_eye(view, -1), progress), photograph(of_eye(view, 1), progress));
-    Image picture = photographer_.photograph(camera(view), {.pupil_samples = view.pupil_samples}, progress);
-    return view.logarithmic ? cli::logarithmic(picture) : picture;
+void Subject::require(const View& view) const {
+    camera(view);
+    if (needs_rays(view.by) && !has_rays())
+        throw Error(ErrorCode::usage, "by: a hologram has no rays to follow; by=waves would do");
+    if (view.by != By::rays && looks() == 0)
+        throw Error(ErrorCode::usage, "by: there are no waves yet; by=rays would do");
+    if (view.by != By::rays && view.by != By::waves && view.eyes > 0)
+        throw Error(ErrorCode::usage, "by: rays and waves are compared from one eye; leave out eyes");
 }
 
-Reading Subject::read(const View& view, const Spot& spot) const {
-    if (view.eyes > 0)
-        return std::apply([&](const View& one, const Spot& at) { return read(one, at); }, in_one_picture(view, spot));
-    const Camera camera = this->camera(view);
-    Reading reading;
-    std::tie(reading.x, reading.y) = point_at(camera, spot);
-    const double U = (reading.x - camera.eye.x) / camera.eye.z, V = (reading.y - camera.eye.y) / camera.eye.z;
-    reading.across = std::atan(U);
-    reading.up = std::atan(V);
-    const LightFieldGrid& grid = this->grid();
-    const double i = std::round(reading.x / grid.pitch + 0.5 * static_cast<double>(grid.hogels_s) - 0.5);
-    const double j = std::round(0.5 * static_cast<double>(grid.hogels_t) - 0.5 - reading.y / grid.pitch);
-    // Not where directions are sines, whose columns are not at U.
-    if (grid.has_frequencies() || i < 0 || j < 0 || i >= static_cast<double>(grid.hogels_s) ||
-        j >= static_cast<double>(grid.hogels_t))
-        return reading;
-    const LightFieldGrid own = grid.of_hogel(i, j);
-    const double k = std::round(own.column(U)), l = std::round(own.row(V));
-    if (k < 0 || l < 0 || k >= static_cast<double>(own.directions_u) || l >= static_cast<double>(own.directions_v))
-        return reading;
-    LightFieldTile tile(grid, {static_cast<std::size_t>(i), static_cast<std::size_t>(j), 1, 1}, has_depth());
-    light_field_.front().read(tile);
-    const auto u = static_cast<std::size_t>(k), v = static_cast<std::size_t>(l);
-    reading.inside = true;
-    for (std::size_t c = 0; c < 3; ++c) reading.radiance[c] = tile.radiance(std::min(c, grid.channels - 1), 0, 0, v, u);
-    if (tile.depth.size() > 0 && std::isfinite(tile.depth(0, 0, v, u))) reading.depth = tile.depth(0, 0, v, u);
-    return reading;
+FocusSearch Subject::find_focus(const Progress&) {
+    throw Error(ErrorCode::usage, "the depths of a light field are looked for under the pointer: 'focus?'");
 }
 
-double Subject::focus(const View& view, const Spot& spot, const Progress& progress) {
-    if (view.eyes > 0)
-        return std::apply([&](const View& one, const Spot& at) { return focus(one, at, progress); },
-                          in_one_picture(view, spot));
-    if (has_depth()) {
-        // Beside an object's edge the ray may pass it: the nearest of the rays around it decides.
-        std::optional<double> nearest;
-        for (const auto& [dx, dy] : {std::pair{0.0, 0.0}, {-0.01, 0.0}, {0.01, 0.0}, {0.0, -0.01}, {0.0, 0.01}}) {
-            if (nearest) break;
-            nearest = read(view, {std::clamp(spot.x + dx, 0.0, 1.0), std::clamp(spot.y + dy, 0.0, 1.0)}).depth;
-        }
-        if (nearest && *nearest > -0.95 * view.camera.eye.z) return *nearest;
-    }
-    return sharpest(view, spot, progress);
+Photograph Subject::photograph(const View& view, const Progress& progress) {
+    Photograph last;
+    photograph(
+        view, [&](const Photograph& picture) { last = picture; }, progress);
+    return last;
 }
 
-double Subject::sharpest(const View& view, const Spot& spot, const Progress& progress) {
-    constexpr int pixels = 25, planes = 21;
-    const Camera whole = camera(view);
-    Camera patch = whole;
-    // A narrow pupil has everything in focus.
-    patch.pupil = std::max(whole.pupil, 0.02 * whole.eye.z);
-    std::tie(patch.picture.center_x, patch.picture.center_y) = point_at(whole, spot);
-    patch.picture.width = patch.picture.height = pixels;
-    patch.picture.pitch_x = patch.picture.pitch_y = std::max(whole.picture.pitch_x, 0.5 * shown_.pitch);
-    // A light field shows depths of up to a few times pitch/step sharply: [K] 2.3.
-    double reach = 6 * grid().pitch / std::max(grid().step_u(), 1e-9), middle = 0, best = -1;
-    for (int round = 0; round < 2; ++round) {
-        const double around = middle;
-        for (int i = 0; i < planes; ++i) {
-            const double depth = around + reach * (2.0 * i / (planes - 1) - 1);
-            if (!(depth > -0.9 * whole.eye.z)) continue;
-            patch.focus_depth = depth;
-            const double value = contrast(photographer_.photograph(patch, {.pupil_samples = 32}, progress));
-            if (value > best) {
-                best = value;
-                middle = depth;
-            }
-        }
-        reach *= 2.0 / (planes - 1);
-    }
-    return middle;
+void Subject::photograph(const View& view, const Shown& shown, const Progress& progress) {
+    if (view.eyes > 0) return photograph_eyes(view, shown, progress);
+    photograph_eye(view, view.looks, shown, progress);
+}
+
+void Subject::photograph_eye(const View& view, std::size_t looks, const Shown& shown, const Progress& progress) {
+    const double exposure = view.logarithmic ? 1 : view.exposure > 0 ? view.exposure : this->exposure();
+    Image rays;
+    if (needs_rays(view.by)) rays = by_rays(view, progress);
+    if (view.by == By::rays)
+        return shown({view.logarithmic ? cli::logarithmic(rays) : std::move(rays), exposure, 0, {}});
+    by_waves(
+        view, looks,
+        [&](const Image& waves, std::size_t so_far) {
+            Photograph picture;
+            if (view.by == By::waves)
+                picture = {view.logarithmic ? cli::logarithmic(waves) : waves, exposure, 0, {}};
+            else
+                picture = together(view, rays, waves, exposure);
+            picture.looks = so_far;
+            shown(picture);
+        },
+        progress);
+}
+
+// One eye after the other: of waves first one look of both, then all.
+void Subject::photograph_eyes(const View& view, const Shown& shown, const Progress& progress) {
+    const auto both = [&](std::size_t looks) {
+        Photograph pictures[2];
+        for (const int side : {-1, 1})
+            photograph_eye(
+                of_eye(view, side), looks, [&](const Photograph& one) { pictures[side > 0] = one; }, progress);
+        pictures[0].picture = side_by_side(pictures[0].picture, pictures[1].picture);
+        shown(pictures[0]);
+    };
+    if (view.by == By::waves && view.looks != 1) both(1);
+    both(view.looks);
 }
 
 }  // namespace hogel::view

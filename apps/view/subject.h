@@ -3,62 +3,90 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 
+#include "hogel/focus.h"
 #include "hogel/image.h"
 #include "hogel/pipeline.h"
 #include "view/query.h"
 
 namespace hogel::view {
 
-/// What is known of the ray that a spot of a picture shows.
+/// What is known of the ray that a spot of a picture shows, and of the hologram where it crosses it.
 struct Reading {
     double x = 0, y = 0;              ///< where it crosses the hologram, metres
     double across = 0, up = 0;        ///< its direction behind the hologram, radians to the right and up
-    bool inside = false;              ///< whether the light field has it; the rest is known then
+    bool inside = false;              ///< whether the subject has it; the rest is known then
     std::array<float, 3> radiance{};  ///< of the nearest sample; equal for grey
     std::optional<double> depth;      ///< metres behind the hologram, where the light field knows it
+    std::optional<double> phase;      ///< of the hologram's nearest sample, radians
 };
 
-/// A light field that is looked at: its samples in memory, in the order that eyes want them.
+/// A picture, or the mean of the looks so far.
+struct Photograph {
+    Image picture;               ///< in linear light; with display=log its logarithm
+    double exposure = 1;         ///< the factor with which it is shown
+    std::size_t looks = 0;       ///< of waves
+    std::optional<double> psnr;  ///< of waves beside rays, where both are shown: decibels of display values
+};
+
+/// What is looked at: a light field or a hologram. photograph(), focus() and find_focus() are for one thread at a time,
+/// but rays may be photographed beside waves.
 class Subject {
   public:
-    /// Reads `shown`, which is `light_field` or some hogels of it; readings come from `light_field` itself.
-    Subject(LightField light_field, LightField shown, std::size_t memory, const Progress& progress);
+    /// Receives pictures that become better; the last one is whole.
+    using Shown = std::function<void(const Photograph&)>;
 
-    const LightFieldGrid& grid() const { return light_field_.grid(); }
-    const LightFieldGrid& shown() const { return shown_; }
-    bool has_depth() const { return light_field_.has_depth(); }
+    virtual ~Subject() = default;
+
+    virtual double width() const = 0;  ///< of the hologram, metres
+    virtual double height() const = 0;
+    virtual bool has_rays() const = 0;
+    /// The number of looks by waves; 0: there are no waves.
+    virtual std::size_t looks() const = 0;
+    /// Facts for the page, in SI units, as members of one object.
+    virtual nlohmann::ordered_json facts() const = 0;
     /// The automatic exposure of the view from the front, the same for all, so that nothing flickers.
-    double exposure() const { return exposure_; }
+    virtual double exposure() const = 0;
+
+    virtual Reading read(const View& view, const Spot& spot) const = 0;
+    /// The depth of what lies at a spot.
+    virtual double focus(const View& view, const Spot& spot, const Progress& progress) = 0;
+    /// A picture of what lies under a spot that is no photograph. Throws Error(usage) for what the subject has not.
+    virtual Photograph inside(const View& view, const Spot& spot, const Inside& inside, const Progress& progress) = 0;
+    /// How sharp the whole is at many depths. Throws Error(usage) for a subject whose depths are known.
+    virtual FocusSearch find_focus(const Progress& progress);
 
     /// The camera of `hogel photo` with those options. Throws Error(usage).
     Camera camera(const View& view) const;
-    /// The picture that `hogel photo --geometric` takes, in linear light; with display=log its logarithm; of two eyes
-    /// both pictures. One at a time. Throws Error(cancelled).
-    Image photograph(const View& view, const Progress& progress);
-    /// The factor with which it is shown.
-    double exposure(const View& view) const {
-        return view.logarithmic ? 1 : view.exposure > 0 ? view.exposure : exposure_;
-    }
+    /// Throws Error(usage) for a view that no picture shows.
+    void require(const View& view) const;
+    /// Shows the pictures that `hogel photo` takes; of two eyes both. Throws Error(cancelled).
+    void photograph(const View& view, const Shown& shown, const Progress& progress);
+    /// The last of them.
+    Photograph photograph(const View& view, const Progress& progress);
 
-    Reading read(const View& view, const Spot& spot) const;
-    /// The depth of what lies at a spot: as the light field knows it, otherwise where a few pixels around the spot are
-    /// sharpest.
-    double focus(const View& view, const Spot& spot, const Progress& progress);
+  protected:
+    /// Receives the mean of so many looks.
+    using ShownLooks = std::function<void(const Image&, std::size_t)>;
+    virtual Image by_rays(const View& view, const Progress& progress) = 0;
+    /// The first looks of the hologram, each of which is shown; `looks` 0: all.
+    virtual void by_waves(const View& view, std::size_t looks, const ShownLooks& shown, const Progress& progress) = 0;
 
   private:
-    double sharpest(const View& view, const Spot& spot, const Progress& progress);
-
-    LightField light_field_;
-    LightFieldGrid shown_;
-    RayPhotographer photographer_;
-    double exposure_ = 1;
+    void photograph_eye(const View& view, std::size_t looks, const Shown& shown, const Progress& progress);
+    void photograph_eyes(const View& view, const Shown& shown, const Progress& progress);
 };
 
-/// The step between hogels at which a light field's samples fit into `memory` as halves.
-std::size_t step_that_fits(const LightFieldGrid& grid, std::size_t memory);
-/// The step for a first look, which is read in a moment; 1 where the whole is.
-std::size_t step_of_first_look(const LightFieldGrid& grid);
+/// The point of the hologram that a spot of a picture looks through.
+std::pair<double, double> point_at(const Camera& camera, const Spot& spot);
+/// The ray of a spot, without what a subject knows of it.
+Reading ray_at(const Camera& camera, const Spot& spot);
+/// The eye that a spot of two pictures side by side belongs to, or the method, and the spot in its picture.
+std::pair<View, Spot> in_one_picture(const View& view, const Spot& spot);
+/// Two pictures of one height as one.
+Image side_by_side(const Image& left, const Image& right);
 
 }  // namespace hogel::view

@@ -17,11 +17,13 @@
 
 namespace hogel::view {
 
-/// The site of one light field: the page, pictures by HTTP, and conversations by WebSocket.
+/// The site of one light field or hologram: the page, pictures by HTTP, and conversations by WebSocket.
 ///
-/// GET /picture?VIEW answers with a picture, and GET /reading?VIEW&x=0.5&y=0.5 with what is there. In a conversation
-/// the page sends "picture?VIEW", "reading?VIEW&x=&y=" or "focus?VIEW&x=&y="; it gets texts, JSON objects whose `type`
-/// is state, reading, focus or error, and pictures: a line of JSON about the picture, a line feed, and the file.
+/// GET /picture?VIEW answers with a picture, /inside?VIEW&x=0.5&y=0.5&what=hogel with one of what lies there,
+/// /reading?VIEW&x=&y= with what is known of it, /sharpness with the contrast of a hologram at many depths. In a
+/// conversation the page sends "picture?VIEW", "reading?VIEW&x=&y=" or "focus?VIEW&x=&y="; it gets texts, JSON objects
+/// whose `type` is state, reading, focus or error, and pictures: a line of JSON about the picture, a line feed, and the
+/// file.
 class Viewer final : public Site, public std::enable_shared_from_this<Viewer> {
   public:
     /// @param name   the input as it is named on the command line
@@ -29,7 +31,7 @@ class Viewer final : public Site, public std::enable_shared_from_this<Viewer> {
     Viewer(Access access, std::string name, std::string photo);
     ~Viewer() override;
 
-    /// Shows a light field from now on, in place of one that was coarser.
+    /// Shows a subject from now on, in place of one that was coarser.
     void show(std::shared_ptr<Subject> subject);
     /// Says how far the work on the next one is: "rendering", 0 to 1. An empty text: it is done.
     void say(const std::string& what, double fraction);
@@ -45,6 +47,7 @@ class Viewer final : public Site, public std::enable_shared_from_this<Viewer> {
     std::string state() const;
     void tell(const std::string& text);
     std::string refusal(const Request& request) const;
+    void answer_about(const Request& request, const std::function<void(Response)>& reply);
 
     Access access_;
     std::string name_, photo_;
@@ -54,7 +57,8 @@ class Viewer final : public Site, public std::enable_shared_from_this<Viewer> {
     double fraction_ = 0;
     std::map<std::uint64_t, std::weak_ptr<Socket>> sockets_;
     std::atomic<std::uint64_t> clients_ = 0;
-    Worker worker_;  // last, so that its thread ends before what it uses
+    // Last, so that their threads end before what they use. Waves are slow, and rays and readings do not wait for them.
+    Worker rays_, waves_;
 };
 
 }  // namespace hogel::view

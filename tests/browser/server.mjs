@@ -18,6 +18,7 @@ export async function launch() {
 // Starts `hogel view`; `address` is what it prints.
 export async function serve(hogel, input, ...options) {
   const server = spawn(hogel, ["view", input, "--no-browser", ...options], {stdio: ["ignore", "pipe", "inherit"]});
+  process.once("exit", () => server.kill());  // also where a test fails
   server.address = await new Promise((resolve, reject) => {
     server.stdout.once("data", data => resolve(String(data).trim()));
     server.once("exit", status => reject(new Error(`hogel view ended with status ${status}`)));

@@ -41,10 +41,36 @@ async function psnr(page) {
   return JSON.parse(told).psnr ?? Infinity;
 }
 
+// A hologram: photographs by waves, fringes, and the focus finder, by which one goes to a plane.
+async function holograms(context) {
+  execFileSync(hogel, ["render", "sphere", "-o", "sphere.h5", "--hogels", "40", "--directions", "12", "--size", "4mm", "-q"]);
+  execFileSync(hogel, ["hologram", "sphere.h5", "-o", "hologram.h5", "--pitch", "2.2um", "--wavelength", "633nm", "-q"]);
+  const server = await serve(hogel, "hologram.h5"), page = await context.newPage();
+  page.on("pageerror", error => expect(false, `hologram: ${error}`));
+  await page.goto(server.address);
+  await ready(page);
+  expect(!(await page.locator("#by").isVisible()), "a hologram is offered by rays");
+  expect((await page.locator("#facts").textContent()).includes("efficiency"), "the facts of a hologram");
+  for (const what of ["intensity", "phase", "real", "spectrum"]) {
+    await page.selectOption("#inside-what", what);
+    await page.waitForFunction(what => document.getElementById("inside-picture").naturalWidth > 0 && document.getElementById("inside-what").value === what, what);
+    await page.waitForTimeout(300);
+    if (shots) await page.screenshot({path: path.join(shots, `hologram_${what}.png`)});
+  }
+  await page.locator("#find").click();
+  await page.waitForSelector("#finder-plot svg", {timeout: 60000});
+  const box = await page.locator("#finder-plot svg").boundingBox(), before = await page.locator("#focus-out").textContent();
+  await page.mouse.click(box.x + 0.2 * box.width, box.y + 0.5 * box.height);
+  expect(await page.locator("#focus-out").textContent() !== before, "a click on the plot does not go to a depth");
+  if (shots) await page.screenshot({path: path.join(shots, "hologram_finder.png")});
+  await page.close();
+  await ended(server);
+}
+
 async function run() {
   const browser = await launch();
   execFileSync(hogel, ["render", "pumpkin", "-o", input, "--hogels", "120", "--directions", "24", "--depth", "-q"]);
-  let server = await serve(hogel, input);
+  let server = await serve(hogel, input, "--looks", "2");
   const context = await browser.newContext({viewport: {width: 1280, height: 800}, acceptDownloads: true});
   const page = await context.newPage();
   const said = [], elsewhere = [];
@@ -126,6 +152,59 @@ async function run() {
   await page.keyboard.press("2");
   await fine;
 
+  // Waves appear with one look and refine; the command repeats them. A link holds the method.
+  const shown = (page, test) => page.evaluate(test => new Promise((resolve, reject) => {
+    const canvas = document.getElementById("picture"), looks = [], wanted = new Function("about", `return ${test}`);
+    const late = setTimeout(() => reject(new Error(`no picture with ${test} came`)), 180000);
+    canvas.addEventListener("hogel-picture", function listen(event) {
+      if (event.detail.looks) looks.push(event.detail.looks);
+      if (!wanted(event.detail)) return;
+      canvas.removeEventListener("hogel-picture", listen);
+      clearTimeout(late);
+      resolve({...event.detail, seen: looks});
+    });
+  }), test);
+  let waves = shown(page, "about.looks === 2 && about.of_looks === 2");
+  await page.selectOption("#by", "waves");
+  const refined = await waves;
+  expect(refined.seen[0] === 1, `looks that were shown: ${refined.seen}`);
+  expect((await page.locator("#timing").textContent()).includes("look 2 of 2"), "the page does not say how many looks there are");
+  await page.waitForFunction(() => location.hash.includes("by=waves"));
+  const likenessOfWaves = await psnr(page);
+  expect(likenessOfWaves > 40, `waves differ from hogel photo: ${likenessOfWaves} dB`);
+  console.log(`waves, 2 looks, beside hogel photo: ${likenessOfWaves.toFixed(1)} dB`);
+  waves = shown(page, "about.looks === 2 && about.psnr !== undefined");
+  await page.locator("#picture").focus();
+  await page.keyboard.press("w");
+  const side = await waves;
+  expect(side.width >= 1.9 * side.height, `side by side there are ${side.width} x ${side.height} pixels`);
+  if (shots) await page.screenshot({path: path.join(shots, "view_side.png")});
+  waves = shown(page, "about.looks === 2 && about.psnr !== undefined");
+  await page.keyboard.press("w");
+  await waves;
+  if (shots) await page.screenshot({path: path.join(shots, "view_difference.png")});
+  fine = picture(page);
+  await page.keyboard.press("w");
+  await fine;
+  expect(await page.locator("#by").inputValue() === "rays", "w does not come back to rays");
+
+  // A look inside follows the pointer.
+  const inside = page => page.evaluate(() => new Promise(resolve => document.getElementById("inside-picture").addEventListener("hogel-inside", event => resolve(event.detail), {once: true})));
+  for (const what of ["hogel", "views", "s-u", "t-v", "depth"]) {
+    const came = inside(page);
+    await page.selectOption("#inside-what", what);
+    expect((await came).what === what, `a look at ${what}`);
+    if (shots) await page.screenshot({path: path.join(shots, `inside_${what}.png`)});
+  }
+  const followed = inside(page);
+  await page.selectOption("#inside-what", "hogel");
+  await followed;
+  await page.mouse.move(middle[0] + 10, middle[1]);
+  await inside(page);
+  await page.locator("#inside-large").click();
+  expect(await page.locator("#large").isVisible(), "the look inside does not become large");
+  await page.keyboard.press("Escape");
+
   // A reading under the pointer.
   await page.mouse.move(middle[0] + 3, middle[1]);
   await page.waitForFunction(() => document.getElementById("reading").textContent.includes("on the hologram"));
@@ -154,17 +233,18 @@ async function run() {
   await ended(server);
   await page.waitForFunction(() => !document.getElementById("problem").hidden);
   if (shots) await page.screenshot({path: path.join(shots, "view_lost.png")});
-  server = await serve(hogel, input, "--port", String(port));
+  server = await serve(hogel, input, "--looks", "2", "--port", String(port));
   await page.waitForFunction(() => document.getElementById("problem").hidden, null, {timeout: 20000});
   await page.evaluate(() => document.getElementById("picture").focus());
   fine = picture(page);
   await page.keyboard.press("ArrowRight");
   await fine;
+  await holograms(context);
   expect(elsewhere.length === 0, `requests leave the machine: ${elsewhere}`);
   await browser.close();
   await ended(server);
 }
 
 try { await run(); } finally { process.chdir(tmpdir()); rmSync(folder, {recursive: true, force: true}); }
-console.log(failures.length ? `${failures.length} wrong` : "drag, link, focus, keys, save, two eyes, reading, names, widths, lost server");
+console.log(failures.length ? `${failures.length} wrong` : "drag, link, focus, keys, save, two eyes, waves, insides, hologram, reading, names, widths, lost server");
 process.exit(failures.length ? 1 : 0);

@@ -3,7 +3,8 @@
 """Checks what `hogel view` serves, as a browser and as a stranger would ask: the page, pictures that equal those of
 `hogel photo`, the WebSocket, and what must be refused or survived.
 
-usage: check_view.py X.h5     in a folder with that light field, 24x20 hogels of a sphere with depth; hogel in the PATH
+usage: check_view.py X.h5 H.h5     in a folder with that light field, 24x20 hogels of a sphere with depth, and its hologram;
+                                   hogel in the PATH
 """
 import base64
 import hashlib
@@ -11,6 +12,7 @@ import http.client
 import json
 import os
 import pathlib
+import resource
 import signal
 import socket
 import struct
@@ -18,13 +20,13 @@ import subprocess
 import sys
 import time
 
-INPUT = sys.argv[1]
+INPUT, HOLOGRAM = (sys.argv[1:] + ["", ""])[:2]
 VIEW = "eye=5,-3,100mm&focus=2mm&pupil=3mm&resolution=90x70&pupil-samples=16"
 
 
 class Server:
-    def __init__(self, *options):
-        self.process = subprocess.Popen(["hogel", "view", INPUT, "--no-browser", *options], stdout=subprocess.PIPE,
+    def __init__(self, *options, input=INPUT):
+        self.process = subprocess.Popen(["hogel", "view", input, "--no-browser", *options], stdout=subprocess.PIPE,
                                         stderr=subprocess.PIPE, text=True)
         self.address = self.process.stdout.readline().strip()
         self.port = int(self.address.split(":")[2].split("/")[0])
@@ -143,7 +145,7 @@ def check_pages(server, state):
     expect(status == 200 and b"<!doctype html>" in page, "the page")
     expect("default-src 'none'" in headers["Content-Security-Policy"], "the page's policy")
     expect(b"http://" not in page and b"https://" not in page, "the page names another server")
-    for name in ("main.js", "view.js", "link.js", "stage.js", "keys.js", "style.css", "icon.svg"):
+    for name in ("main.js", "view.js", "link.js", "stage.js", "keys.js", "inside.js", "finder.js", "style.css", "icon.svg"):
         expect(server.get("/" + name)[0] == 200, name)
     expect((state["hogels_s"], state["hogels_t"], state["directions_u"], state["depth"]) == (24, 20, 16, True), "state")
 
@@ -158,6 +160,62 @@ def check_pictures(server, state):
         expect(pixels(file)["max_error"] == 0, f"picture {path} is not that of hogel photo")
     status, headers, file = server.get(f"/picture?{VIEW}&quality=95")
     expect(headers["Content-Type"] == "image/jpeg" and file[:3] == b"\xff\xd8\xff", "a JPEG picture")
+
+
+def check_waves(server, state):
+    """Looks add up to what hogel photo --wave takes, and the newest view stops them."""
+    small = "eye=5,-3,100mm&focus=2mm&pupil=3mm&resolution=40x32"
+    options = " ".join(f"--{word.replace('=', ' ', 1)}" for word in small.split("&"))
+    page = WebSocket(server)
+    page.send(f"picture?{small}&by=waves&looks=3&format=png&id=w")
+    pictures = [page.until("picture")]
+    while pictures[-1]["looks"] < 3:
+        pictures.append(page.until("picture"))
+    expect(all(each["of_looks"] == 3 for each in pictures), "the number of looks")
+    subprocess.run(f"{state['photo']} -q -o photo.png --wave --looks 3 {options} --exposure {state['exposure']!r}", shell=True,
+                   check=True)
+    expect(pixels(pictures[-1]["file"])["max_error"] == 0, "the mean of three looks is not that of hogel photo")
+    expect(pictures[-1]["file"] == server.get(f"/picture?{small}&by=waves&looks=3&format=png")[2], "waves by both ways")
+    both = server.get(f"/picture?{small}&by=side&looks=1&format=png")[2]
+    expect(struct.unpack(">II", both[16:24]) == (80, 32), "side by side")
+    page.send(f"picture?{small}&by=difference&looks=1&id=d")
+    while (told := page.until("picture"))["id"] != "d":
+        pass
+    expect(told["psnr"] > 3, f"rays beside waves: {told['psnr']} dB")
+    page.send(f"picture?{small}&by=waves&looks=1000&id=long")
+    page.send(f"picture?{small}&id=rays")
+    while page.until("picture")["id"] != "rays":
+        pass
+    status, headers, file = server.get(f"/picture?{small}&format=exr")
+    expect(status == 200 and file[:4] == b"\x76\x2f\x31\x01", "an EXR picture")
+    expect(server.get(f"/picture?{small}&by=difference&eyes=63mm")[0] == 400, "a difference of two eyes")
+
+
+def check_insides(server):
+    there = f"{VIEW}&x=0.4&y=0.6"
+    for what in ("hogel", "views", "s-u", "t-v", "depth"):
+        status, headers, file = server.get(f"/inside?{there}&what={what}&side=200")
+        expect(status == 200 and file[1:4] == b"PNG", f"inside {what}: {status} {file[:200]}")
+    expect(struct.unpack(">II", server.get(f"/inside?{there}&what=s-u")[2][16:24]) == (24, 16), "24 hogels, 16 directions")
+    for query in ("what=hogel", f"{there}&what=phase", f"{there}&what=", f"{there}&what=hogel&side=5000", f"{there}&what=hogel&colour=4"):
+        expect(server.get("/inside?" + query)[0] == 400, query)
+    expect(server.get("/sharpness?")[0] == 400, "the depths of a light field")
+
+
+def check_hologram():
+    server = Server(input=HOLOGRAM)
+    state = server.wait()
+    expect(state["kind"] == "hologram" and not state["rays"] and 0 < state["efficiency"] < 1, f"state {state}")
+    subprocess.run(f"{state['photo']} -q -o photo.png --eye 1,0,100mm --resolution 40x33 --exposure 1", shell=True, check=True)
+    file = server.get("/picture?eye=1,0,100mm&resolution=40x33&exposure=1&by=waves&format=png")[2]
+    expect(pixels(file)["max_error"] == 0, "a picture of the hologram is not that of hogel photo")
+    expect(server.get("/picture?eye=1,0,100mm")[0] == 400, "a hologram by rays")
+    for what in ("intensity", "phase", "real", "spectrum"):
+        file = server.get(f"/inside?eye=1,0,100mm&x=0.5&y=0.5&side=64&colour=2&what={what}")[2]
+        expect(struct.unpack(">II", file[16:24]) == (64, 64), f"inside {what}")
+    reading = json.loads(server.get("/reading?eye=1,0,100mm&x=0.5&y=0.5")[2])
+    expect(reading["inside"] and -180 <= reading["phase_deg"] <= 180, f"reading {reading}")
+    server.stop(signal.SIGTERM)
 
 
 def check_readings(server):
@@ -180,7 +238,7 @@ def check_refusals(server):
         expect(WebSocket(server, **socket_headers).status == 403, f"web socket {headers}")
     for path in ("/../../etc/passwd", "/..%2f..%2fetc/passwd", "//etc/passwd", "/web/main.js", "/main.js/", "/.", "/x.h5"):
         expect(server.get(path)[0] == 404, path)
-    for query in ("eye=0,0,-1mm", "eye=x", "focus=-1m", "resolution=99999", "resolution=4000x4000", "pupil-samples=0", "format=gif", "what=1", "id=%00"):
+    for query in ("eye=0,0,-1mm", "eye=x", "focus=-1m", "resolution=99999", "resolution=4000x4000", "pupil-samples=0", "format=gif", "word=1", "by=sound", "id=%00"):
         expect(server.get("/picture?" + query)[0] == 400, query)
     for method in ("POST", "PUT", "DELETE", "OPTIONS", "HEAD", "TRACE"):
         expect(server.get("/", method=method)[0] == 405, method)
@@ -190,16 +248,16 @@ def check_refusals(server):
                  b"GET /" + b"a" * 70000 + b" HTTP/1.1\r\n\r\n", b"GET / HTTP/1.1\r\nHost: a\r\nContent-Length: 99999999999\r\n\r\n"):
         expect(not server.raw(text).startswith(b"HTTP/1.1 200"), f"{text[:30]!r}")
     # Connections that say nothing: more than there may be, and the page still comes.
-    idle = [socket.create_connection(("127.0.0.1", server.port), timeout=5) for _ in range(600)]
+    idle = [socket.create_connection(("127.0.0.1", server.port), timeout=20) for _ in range(1000)]
     for connection in idle[::2]:
         try:
             connection.sendall(b"GET / HTTP/1.1\r\nHo")
         except OSError:
             pass
-    expect(server.get("/")[0] == 200, "the page beside 600 idle connections")
+    expect(server.get("/")[0] == 200, "the page beside 1,000 idle connections")
     for connection in idle:
         connection.close()
-    expect(server.get("/")[0] == 200, "the page after 600 idle connections")
+    expect(server.get("/")[0] == 200, "the page after 1,000 idle connections")
 
 
 def check_web_socket(server):
@@ -265,11 +323,16 @@ def check_token():
 
 
 def main():
+    most = resource.getrlimit(resource.RLIMIT_NOFILE)[1]
+    resource.setrlimit(resource.RLIMIT_NOFILE, (min(4096, most) if most > 0 else 4096, most))
     server = Server()
     expect(server.address == f"http://127.0.0.1:{server.port}/", server.address)
     state = server.wait()
     check_pages(server, state)
     check_pictures(server, state)
+    check_waves(server, state)
+    check_insides(server)
+    check_hologram()
     check_readings(server)
     check_refusals(server)
     check_web_socket(server)
@@ -283,7 +346,8 @@ def main():
         status, seconds, words = running.stop(number)
         expect(status == 128 + number and words == "hogel: stopped\n", f"stop: {status} {words}")
         expect(seconds < 1 * float(os.environ.get("HOGEL_PATIENCE", 1)), f"stop took {seconds} s")
-    print("address, page, state, pictures, readings, refusals, web socket, newest wins, depth in focus, stop")
+    print("address, page, state, pictures, waves, insides, hologram, readings, refusals, web socket, newest wins, depth in focus, stop")
 
 
-main()
+if __name__ == "__main__":
+    main()

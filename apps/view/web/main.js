@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page of `hogel view`. It makes no picture itself: it asks the server, which is hogel, and draws what comes.
-import {View, command, hash, query} from "./view.js";
+import {View, command, hash, methods, query} from "./view.js";
+import {InsideLook} from "./inside.js";
+import {plot} from "./finder.js";
 import {Link} from "./link.js";
 import {Stage} from "./stage.js";
 import {keys, listen} from "./keys.js";
 
 const by = id => document.getElementById(id);
-const inMotion = {samples: 4, pixels: 512, quality: 80}, atRest = {samples: 16, quality: 93};
+const inMotion = {samples: 4, pixels: 512, quality: 80}, atRest = {samples: 16, quality: 93}, speckled = 98;  // which suffers most from JPEG
 const pause = 140;  // milliseconds without a change that are rest
 
 const view = new View();
 let field = {center_u: 0, center_v: 0, tan_half_u: 0.1, tan_half_v: 0.1, ready: false};  // the server's last state
-let number = 0, wanted = false, drawn = null, resting = 0, hovering = 0;
+let number = 0, wanted = 0, drawn = null, resting = 0, hovering = 0;
 const asked = new Map();  // number of a request → when it was made necessary
 
 // Requests
 
 function words(moving) {
   const pixels = moving ? Math.min(stage.pixels, inMotion.pixels) : stage.pixels, how = moving ? inMotion : atRest;
-  const columns = view.eyes > 0 ? Math.max(1, pixels >> 1) : pixels, rows = Math.max(1, Math.round(pixels * stage.aspect));
+  const columns = view.pair ? Math.max(1, pixels >> 1) : pixels, rows = Math.max(1, Math.round(pixels * stage.aspect));
   return {...view.words(), resolution: `${columns}x${rows}`, "pupil-samples": how.samples};
 }
 
@@ -27,7 +29,16 @@ function ask(moving, since) {
   const id = ++number;
   asked.set(id, since);
   for (const old of asked.keys()) if (old < id - 64) asked.delete(old);
-  link.send("picture?" + query({...words(moving), quality: (moving ? inMotion : atRest).quality, moving: moving ? "yes" : "no", id}));
+  const looks = moving && view.by !== "rays" ? {looks: 1} : {};
+  link.send("picture?" + query({...words(moving), ...looks, quality: moving ? inMotion.quality : view.by === "rays" ? atRest.quality : speckled, moving: moving ? "yes" : "no", id}));
+}
+
+// What the server makes of an address, which holds the token if there is one.
+async function get(path, words) {
+  const token = new URLSearchParams(location.search).get("token");
+  const answer = await fetch(path + query({...words, ...(token ? {token} : {})}));
+  if (!answer.ok) throw new Error((await answer.json()).message);
+  return answer;
 }
 
 // The view has changed: a coarse picture with the next frame of the screen, a fine one when it holds still.
@@ -35,15 +46,18 @@ function changed() {
   show();
   if (!wanted) {
     const since = performance.now();
-    wanted = true;
-    requestAnimationFrame(() => { wanted = false; ask(true, since); });
+    wanted = requestAnimationFrame(() => { wanted = 0; ask(true, since); });
   }
   clearTimeout(resting);
   resting = setTimeout(rest, pause);
 }
 
 function rest() {
+  // A screen may be so slow that the frame of the last change is still to come; it would replace the fine picture.
+  cancelAnimationFrame(wanted);
+  wanted = 0;
   ask(false, performance.now());
+  inside.look();
   history.replaceState(null, "", location.pathname + location.search + hash(view.words()));
 }
 
@@ -51,9 +65,10 @@ async function picture(about, blob) {
   const id = Number(about.id), since = asked.get(id);
   if (!(await stage.draw(blob, id))) return;
   drawn = about;
-  asked.delete(id);
+  if (about.looks === about.of_looks) asked.delete(id);
   const latency = since === undefined ? 0 : performance.now() - since;
-  by("timing").textContent = `${about.width} × ${about.height}, ${about.pupil_samples} points of the pupil, ${Math.round(latency)} ms`;
+  const how = about.looks ? `look ${about.looks} of ${about.of_looks}, ${about.seconds.toFixed(1)} s` : `${about.pupil_samples} points of the pupil, ${Math.round(latency)} ms`;
+  by("timing").textContent = `${about.width} × ${about.height}, ${how}${about.psnr ? `, ${about.psnr.toFixed(1)} dB apart` : ""}`;
   stage.canvas.dispatchEvent(new CustomEvent("hogel-picture", {detail: {...about, latency}}));
 }
 
@@ -62,7 +77,7 @@ async function picture(about, blob) {
 const millimetres = value => `${+value.toFixed(Math.abs(value) < 10 ? 2 : 1)} mm`;
 
 function show() {
-  const aspect = field.ready ? field.height_m / field.width_m / (view.eyes > 0 ? 2 : 1) : 1;
+  const aspect = field.ready ? field.height_m / field.width_m / (view.pair ? 2 : 1) : 1;
   if (aspect !== stage.aspect) { stage.aspect = aspect; stage.fit(); }
   const stops = view.exposure === null || !field.exposure ? 0 : Math.log2(view.exposure / field.exposure);
   const reach = focusReach();
@@ -77,16 +92,21 @@ function show() {
   by("stops").value = stops;
   by("stops-out").textContent = view.exposure === null ? "automatic" : `${stops > 0 ? "+" : ""}${stops.toFixed(1)} stops`;
   by("display").value = view.display;
+  by("by").value = view.by;
   by("stereo").checked = view.eyes > 0;
+  by("stereo").disabled = view.two;
   by("eye").textContent = view.eye.map(value => value.toFixed(1)).join(", ") + " mm";
   for (const id of ["distance", "focus", "pupil", "stops"]) by(id).setAttribute("aria-valuetext", by(`${id}-out`).textContent);
 }
 
 // Depths that the slider spans: what the light field resolves, several times over, or the depth in focus if that is farther.
 function focusReach() {
-  const resolved = field.ready ? 6e3 * field.width_m / field.hogels_s / (2 * field.tan_half_u / field.directions_u) : 20;
+  const resolved = field.hogels_s ? 6e3 * field.width_m / field.hogels_s / (2 * field.tan_half_u / field.directions_u) : field.pitch_m ? 1e3 * reachOfSamples() : 20;
   return Math.max(1, +resolved.toPrecision(2), Math.abs(view.focus));
 }
+
+// Where samples and size of a hologram resolve alike, in metres.
+const reachOfSamples = () => Math.max(field.samples_x, field.samples_y) * field.pitch_m ** 2 / field.wavelengths_m[0];
 
 let saidUntil = 0;
 function say(text) {
@@ -109,8 +129,10 @@ function state(message) {
   by("cover-text").textContent = field.work ? `${field.work[0].toUpperCase()}${field.work.slice(1)}, ${Math.round(100 * field.fraction)} %` : "";
   by("bar").value = field.fraction;
   if (!field.ready) return;
-  const coarse = field.shown_hogels_s < field.hogels_s ? `, shown by ${field.shown_hogels_s} across` : "";
-  by("facts").textContent = `${field.hogels_s} × ${field.hogels_t} hogels of ${field.directions_u} × ${field.directions_v} directions${coarse}`;
+  by("facts").textContent = facts();
+  by("by-control").hidden = !field.rays || !field.looks;
+  by("finder").hidden = field.kind !== "hologram";
+  inside.offer(field);
   if (first) {
     view.reset(field);
     view.read(location.hash);
@@ -119,13 +141,22 @@ function state(message) {
   if (first || finer) ask(false, performance.now());
 }
 
+function facts() {
+  if (field.kind === "hologram")
+    return `${field.samples_x} × ${field.samples_y} samples of ${+(1e6 * field.pitch_m).toPrecision(4)} µm, ${field.wavelengths_m.map(each => Math.round(1e9 * each)).join(", ")} nm, ` +
+      `efficiency ${(100 * field.efficiency).toPrecision(2)} %`;
+  const coarse = field.shown_hogels_s < field.hogels_s ? `, shown by ${field.shown_hogels_s} across` : "";
+  return `${field.hogels_s} × ${field.hogels_t} hogels of ${field.directions_u} × ${field.directions_v} directions${coarse}`;
+}
+
 function reading(message) {
   const side = (value, positive, negative) => `${Math.abs(value).toFixed(2)}° ${value < 0 ? negative : positive}`;
   const parts = [`x ${millimetres(1e3 * message.x_m)}, y ${millimetres(1e3 * message.y_m)} on the hologram`,
                  `${side(message.across_deg, "right", "left")}, ${side(message.up_deg, "up", "down")}`];
-  if (!message.inside) parts.push("outside the light field");
-  if (message.radiance) parts.push(`radiance ${message.radiance.map(value => +value.toPrecision(3)).join(" ")}`);
+  if (!message.inside) parts.push(`outside the ${field.kind}`);
+  if (message.radiance) parts.push(`${field.kind === "hologram" ? "intensity" : "radiance"} ${message.radiance.map(value => +value.toPrecision(3)).join(" ")}`);
   if (message.depth_m !== undefined) parts.push(`depth ${millimetres(1e3 * message.depth_m)}`);
+  if (message.phase_deg !== undefined) parts.push(`phase ${message.phase_deg.toFixed(0)}°`);
   by("reading").textContent = parts.join(" · ");
 }
 
@@ -144,27 +175,40 @@ const to = {
     if (what === "stops") view.exposure = (view.exposure ?? field.exposure) * 2 ** (direction / 3);
     changed();
   },
-  stereo() { view.eyes = view.eyes > 0 ? 0 : 63; changed(); },
+  stereo() { if (!view.two) { view.eyes = view.eyes > 0 ? 0 : 63; changed(); } },
+  by(method) {
+    if (!field.rays || !field.looks) return;
+    view.by = method;
+    if (view.two) view.eyes = 0;
+    changed();
+  },
+  method() { to.by(methods[(methods.indexOf(view.by) + 1) % methods.length]); },
+  inside() { inside.next(); },
+  async find() {
+    if (field.kind !== "hologram") return say("The depths of a light field are found by a click on the picture");
+    say("Looking for planes in focus");
+    try {
+      by("finder-plot").replaceChildren(...plot(await (await get("/sharpness?", {by: "waves"})).json(), depth => { view.focus = Math.max(depth, -0.9 * view.eye[2]); changed(); }));
+      say("");
+    } catch (error) { say(error.message); }
+  },
   tone() { view.display = view.display === "log" ? "intensity" : "log"; changed(); },
   focusAt(x, y) { link.send("focus?" + query({...words(false), x: x.toFixed(5), y: y.toFixed(5)})); },
   focusMiddle() { to.focusAt(0.5, 0.5); },
   reset() { view.reset(field); changed(); },
-  async save() {
-    const token = new URLSearchParams(location.search).get("token");
-    const all = {...words(false), format: "png", ...(token ? {token} : {})};
+  async save(format = "png") {
     try {
-      const answer = await fetch("/picture?" + query(all));
-      if (!answer.ok) throw new Error((await answer.json()).message);
-      const link = Object.assign(document.createElement("a"), {href: URL.createObjectURL(await answer.blob()), download: "view.png"});
+      const answer = await get("/picture?", {...words(false), format}), name = `view.${format}`;
+      const link = Object.assign(document.createElement("a"), {href: URL.createObjectURL(await answer.blob()), download: name});
       link.click();
       setTimeout(() => URL.revokeObjectURL(link.href), 10000);
-      say("Saved view.png");
+      say(`Saved ${name}`);
     } catch (error) { say(`Not saved: ${error.message}`); }
   },
   copyCommand() {
     const all = words(false);
     if (drawn && all.display !== "log") all.exposure = String(+drawn.exposure.toPrecision(9));
-    copy(command(field.photo ?? "hogel photo LIGHTFIELD", all, view));
+    copy(command(field.photo ?? "hogel photo LIGHTFIELD", all, view, field));
   },
   copyLink() { copy(location.origin + location.pathname + location.search + hash(view.words())); },
   full() { document.fullscreenElement ? document.exitFullscreen() : by("stage").requestFullscreen?.(); },
@@ -183,12 +227,15 @@ const stage = new Stage(by("picture"), {
   zoom: to.zoom,
   click: to.focusAt,
   hover(x, y) {
+    inside.point(x, y);
     if (hovering || !field.ready) return;
     hovering = setTimeout(() => { hovering = 0; }, 100);
     link.send("reading?" + query({...words(false), x: Math.min(Math.max(x, 0), 1).toFixed(5), y: Math.min(Math.max(y, 0), 1).toFixed(5)}));
   },
 });
 stage.fit();
+
+const inside = new InsideLook(by, async there => (await get("/inside?", {...words(false), ...there})).blob());
 
 const link = new Link({
   onOpen() { problem(""); if (field.ready) ask(false, performance.now()); },
@@ -211,10 +258,12 @@ by("stops").addEventListener("input", event => {
   changed();
 });
 by("display").addEventListener("change", event => { view.display = event.target.value; changed(); });
+by("by").addEventListener("change", event => to.by(event.target.value));
+by("find").addEventListener("click", to.find);
 by("stereo").addEventListener("change", to.stereo);
 by("controls").addEventListener("reset", event => { event.preventDefault(); to.reset(); });
 by("controls").addEventListener("submit", event => event.preventDefault());
-for (const [id, act] of Object.entries({save: to.save, "copy-command": to.copyCommand, "copy-link": to.copyLink, full: to.full, help: to.help}))
+for (const [id, act] of Object.entries({save: () => to.save(), "save-exr": () => to.save("exr"), "copy-command": to.copyCommand, "copy-link": to.copyLink, full: to.full, help: to.help}))
   by(id).addEventListener("click", act);
 
 const themes = ["system", "light", "dark"];

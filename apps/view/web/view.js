@@ -4,6 +4,7 @@
 const tidy = number => String(+number.toFixed(4));
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
 
+export const methods = ["rays", "waves", "side", "difference"];
 export const nearest = 20, farthest = 5000;
 
 export class View {
@@ -16,13 +17,20 @@ export class View {
     this.exposure = null;  // automatic
     this.display = "intensity";
     this.eyes = 0;  // between two eyes; 0: one
+    this.by = field.rays === false ? "waves" : "rays";
   }
+
+  // Whether two pictures of one eye are compared.
+  get two() { return this.by === "side" || this.by === "difference"; }
+  // Whether two pictures stand side by side.
+  get pair() { return this.eyes > 0 || this.by === "side"; }
 
   // The words that a link keeps.
   words() {
     const words = {eye: `${this.eye.map(tidy).join(",")}mm`, focus: `${tidy(this.focus)}mm`, pupil: `${tidy(this.pupil)}mm`};
     if (this.exposure !== null) words.exposure = String(+this.exposure.toPrecision(6));
     if (this.display !== "intensity") words.display = this.display;
+    if (this.by !== "rays") words.by = this.by;
     if (this.eyes > 0) words.eyes = `${tidy(this.eyes)}mm`;
     return words;
   }
@@ -39,6 +47,8 @@ export class View {
     if (exposure > 0 && Number.isFinite(exposure)) this.exposure = exposure;
     const eyes = length(words.get("eyes"));
     this.eyes = eyes > 0 ? eyes : 0;
+    if (methods.includes(words.get("by"))) this.by = words.get("by");
+    if (this.two) this.eyes = 0;
     if (["intensity", "log"].includes(words.get("display"))) this.display = words.get("display");
   }
 
@@ -60,11 +70,14 @@ export class View {
 export const query = words => Object.entries(words).map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&");
 // Commas are themselves in an address, and read better.
 export const hash = words => "#" + query(words).replaceAll("%2C", ",");
-// The command that repeats a view, two of them for two eyes: `photo` is that of the light field, from the server.
-export function command(photo, words, view) {
-  const {eyes, ...others} = words;
-  const one = (name, eye) => `${photo} -o ${name} --geometric ${Object.entries({...others, eye}).map(([word, value]) => `--${word} ${value}`).join(" ")}`;
-  if (!eyes) return one("view.png", words.eye);
+// The command that repeats a view, two of them for two eyes or two methods: `photo` is that of the subject, from the server.
+export function command(photo, words, view, field) {
+  const {eyes, by, "pupil-samples": samples, ...others} = words;
+  const how = waves => field.rays === false ? {} : waves ? {wave: "", looks: field.looks} : {geometric: "", "pupil-samples": samples};
+  const one = (name, eye, waves) => `${photo} -o ${name} ${Object.entries({...how(waves), ...others, eye}).map(([word, value]) => `--${word} ${value}`).join(" ").replaceAll("  ", " ")}`;
+  const waves = view.by !== "rays";
+  if (view.two) return `${one("rays.png", words.eye, false)} && ${one("waves.png", words.eye, true)}`;
+  if (!eyes) return one("view.png", words.eye, waves);
   const of = side => `${[view.eye[0] + side * view.eyes / 2, view.eye[1], view.eye[2]].map(tidy).join(",")}mm`;
-  return `${one("left.png", of(-1))} && ${one("right.png", of(1))}`;
+  return `${one("left.png", of(-1), waves)} && ${one("right.png", of(1), waves)}`;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "view/subject.h"
+#include "view/light_field_subject.h"
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ LightField stripes(bool with_depth) {
     return LightField(buffer);
 }
 
-Subject subject(bool with_depth) { return {stripes(with_depth), stripes(with_depth), 1 << 28, {}}; }
+LightFieldSubject subject(bool with_depth) { return {stripes(with_depth), stripes(with_depth), 1 << 28, {}}; }
 
 View view_from(Vec3 eye) {
     View view;
@@ -40,19 +40,19 @@ View view_from(Vec3 eye) {
     return view;
 }
 
-TEST(Subject, focuses_at_the_depth_that_is_known) {
+TEST(LightFieldSubject, focuses_at_the_depth_that_is_known) {
     EXPECT_NEAR(subject(true).focus(view_from({0, 0, 0.1}), {0.5, 0.5}, {}), behind, 1e-9);
 }
 
-TEST(Subject, focuses_where_pixels_are_sharpest_otherwise) {
-    Subject one = subject(false);
+TEST(LightFieldSubject, focuses_where_pixels_are_sharpest_otherwise) {
+    LightFieldSubject one = subject(false);
     for (const double x : {-4e-3, 0.0, 5e-3})
         EXPECT_NEAR(one.focus(view_from({x, 0, 0.1}), {0.4, 0.6}, {}), behind, 0.15e-3) << x;
 }
 
 // The ray through a pixel is that of the camera: from the eye to the pixel's point of the hologram.
-TEST(Subject, reads_the_ray_that_a_pixel_shows) {
-    Subject one = subject(true);
+TEST(LightFieldSubject, reads_the_ray_that_a_pixel_shows) {
+    LightFieldSubject one = subject(true);
     const View view = view_from({4e-3, -2e-3, 0.1});
     const Camera camera = one.camera(view);
     for (const auto& [column, row] : {std::pair{0.0, 0.0}, {40.0, 30.0}, {79.0, 59.0}, {12.0, 50.0}}) {
@@ -70,24 +70,25 @@ TEST(Subject, reads_the_ray_that_a_pixel_shows) {
     EXPECT_FALSE(one.read(view_from({50e-3, 0, 0.1}), {0.5, 0.5}).inside);
 }
 
-TEST(Subject, pictures_equal_those_of_photograph) {
-    Subject one = subject(false);
+TEST(LightFieldSubject, pictures_equal_those_of_photograph) {
+    LightFieldSubject one = subject(false);
     View view = view_from({3e-3, 1e-3, 0.12});
     view.pupil_samples = 7;
     const Camera camera = one.camera(view);
     const Image expected = photograph(stripes(false), {&camera, 1}, {.pupil_samples = 7}).front();
-    EXPECT_TRUE(std::ranges::equal(one.photograph(view, {}).pixels.elements(), expected.pixels.elements()));
+    EXPECT_TRUE(
+        std::ranges::equal(one.photograph(view, Progress()).picture.pixels.elements(), expected.pixels.elements()));
 }
 
-TEST(Subject, two_eyes_see_two_pictures) {
-    Subject one = subject(true);
+TEST(LightFieldSubject, two_eyes_see_two_pictures) {
+    LightFieldSubject one = subject(true);
     View both = view_from({3e-3, 1e-3, 0.12});
     both.eyes = 4e-3;
-    const Image pair = one.photograph(both, {});
+    const Image pair = one.photograph(both, Progress()).picture;
     ASSERT_EQ(pair.width(), 160u);
     for (const int side : {-1, 1}) {
         const double x = side < 0 ? 1e-3 : 5e-3, first = side < 0 ? 0 : 0.5;
-        const Image alone = one.photograph(view_from({x, 1e-3, 0.12}), {});
+        const Image alone = one.photograph(view_from({x, 1e-3, 0.12}), Progress()).picture;
         const std::size_t begin = side < 0 ? 0 : 80;
         for (std::size_t row = 0; row < 60; ++row)
             for (std::size_t column = 0; column < 80; ++column)
@@ -100,17 +101,17 @@ TEST(Subject, two_eyes_see_two_pictures) {
     }
 }
 
-TEST(Subject, refuses_pictures_beyond_any_screen) {
+TEST(LightFieldSubject, refuses_pictures_beyond_any_screen) {
     View view = view_from({0, 0, 0.1});
     view.camera.resolution = {4096, 4096};
     EXPECT_THROW(subject(false).camera(view), Error);
     std::stop_source stopped;
     stopped.request_stop();
-    Subject one = subject(false);
+    LightFieldSubject one = subject(false);
     EXPECT_THROW(one.photograph(view_from({0, 0, 0.1}), Progress(stopped.get_token())), Error);
 }
 
-TEST(Subject, steps_make_light_fields_fit) {
+TEST(LightFieldSubject, steps_make_light_fields_fit) {
     LightFieldGrid grid{640, 640, 1e-3, 64, 64, Perspective{0.1, 0.1}, 3};
     for (const double memory : {1e7, 1e9, 4e9, 2e10}) {
         const std::size_t step = step_that_fits(grid, static_cast<std::size_t>(memory));

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/answers.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+#include <vector>
+
+#include "hogel/screen.h"
+
+namespace hogel::view {
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+// An EXR file is written as a file, in a folder that no other user can enter.
+std::string exr_file(const Image& picture) {
+    std::string name = (std::filesystem::temp_directory_path() / "hogel-view-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr)
+        throw Error(ErrorCode::cannot_write, name + ": cannot be made; the folder of TMPDIR must be writable");
+    const std::filesystem::path folder = name, file = folder / "picture.exr";
+    std::string bytes;
+    std::error_code none;
+    try {
+        write_image(file, picture);
+        std::ifstream stream(file, std::ios::binary);
+        bytes.assign(std::istreambuf_iterator<char>(stream), {});
+    } catch (...) {
+        std::filesystem::remove_all(folder, none);
+        throw;
+    }
+    std::filesystem::remove_all(folder, none);
+    return bytes;
+}
+
+}  // namespace
+
+std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+Response failure(unsigned status, const std::string& why) {
+    return {status, json_type, dump({{"type", "error"}, {"message", why}})};
+}
+
+Response failure(const Error& error) {
+    return failure(error.code() == ErrorCode::usage       ? 400
+                   : error.code() == ErrorCode::cancelled ? 503
+                                                          : 500,
+                   error.what());
+}
+
+Response answer_with(const Json& json) { return {200, json_type, dump(json)}; }
+
+std::string encode(const Photograph& photograph, const View& view) {
+    if (view.format == "exr") return exr_file(photograph.picture);
+    const std::vector<unsigned char> file = view.format == "png"
+                                                ? encode_png(photograph.picture, photograph.exposure)
+                                                : encode_jpeg(photograph.picture, photograph.exposure, view.quality);
+    return {file.begin(), file.end()};
+}
+
+std::string type_of(const View& view) {
+    return view.format == "exr" ? "image/x-exr" : view.format == "png" ? "image/png" : "image/jpeg";
+}
+
+Json told(const Photograph& photograph, const View& view, const Subject& subject, double seconds) {
+    Json json{{"type", "picture"},
+              {"id", view.id},
+              {"format", view.format},
+              {"width", photograph.picture.width()},
+              {"height", photograph.picture.height()},
+              {"exposure", photograph.exposure},
+              {"pupil_samples", view.pupil_samples},
+              {"seconds", seconds}};
+    if (photograph.looks > 0) {
+        const std::size_t all = view.looks > 0 ? std::min(view.looks, subject.looks()) : subject.looks();
+        json["looks"] = photograph.looks;
+        json["of_looks"] = all;
+    }
+    if (photograph.psnr && std::isfinite(*photograph.psnr)) json["psnr"] = *photograph.psnr;
+    return json;
+}
+
+Json told(const Reading& reading, const std::string& id) {
+    Json json{{"type", "reading"},
+              {"id", id},
+              {"x_m", reading.x},
+              {"y_m", reading.y},
+              {"across_deg", reading.across * degrees},
+              {"up_deg", reading.up * degrees},
+              {"inside", reading.inside}};
+    if (reading.inside) json["radiance"] = reading.radiance;
+    if (reading.depth) json["depth_m"] = *reading.depth;
+    if (reading.phase) json["phase_deg"] = *reading.phase * degrees;
+    return json;
+}
+
+// Of the contrasts that of edges and that of the size of squares that shows the clearest plane.
+Json told(const FocusSearch& search) {
+    Json planes = Json::array(), edges = Json::array(), squares = Json::array();
+    std::size_t kind = 0;
+    for (std::size_t i = 0; !search.planes.empty() && i < FocusSearch::cells.size(); ++i)
+        if (FocusSearch::cells[i] == search.planes.front().cell) kind = i;
+    for (const FocusSearch::Contrasts& contrasts : search.contrasts) {
+        edges.push_back(contrasts[FocusSearch::edges]);
+        squares.push_back(contrasts[kind]);
+    }
+    for (const FocusPlane& plane : search.planes)
+        planes.push_back({{"depth_m", plane.depth},
+                          {"prominence", plane.prominence},
+                          {"contrast", plane.brightest ? "highest" : "lowest"},
+                          {"cell", plane.cell}});
+    return {
+        {"type", "sharpness"}, {"depths_m", search.depths},        {"edges", edges},
+        {"squares", squares},  {"cell", FocusSearch::cells[kind]}, {"depth_of_focus_m", search.light_depth_of_focus},
+        {"planes", planes}};
+}
+
+}  // namespace hogel::view

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "hogel/error.h"
+#include "view/server.h"
+#include "view/subject.h"
+
+namespace hogel::view {
+
+using Json = nlohmann::ordered_json;
+
+inline constexpr const char* json_type = "application/json";
+
+/// A line.
+std::string dump(const Json& json);
+
+Response failure(unsigned status, const std::string& why);
+Response failure(const Error& error);
+/// An answer of a job, by which a page learns of it too.
+Response answer_with(const Json& json);
+
+/// The file of a picture in the view's format.
+std::string encode(const Photograph& photograph, const View& view);
+/// The type of that file: "image/png".
+std::string type_of(const View& view);
+/// What the page is told of it. @param seconds  that it took so far
+Json told(const Photograph& photograph, const View& view, const Subject& subject, double seconds);
+Json told(const Reading& reading, const std::string& id);
+Json told(const FocusSearch& search);
+
+/// Does the work of a job, which throws nothing then; gives `refuse` the answer that says what went wrong.
+template <class Work, class Refuse>
+void attempt(const Work& work, const Refuse& refuse) {
+    try {
+        work();
+    } catch (const Error& error) {
+        refuse(failure(error));
+    } catch (const std::exception& error) {
+        refuse(failure(500, error.what()));
+    }
+}
+
+}  // namespace hogel::view

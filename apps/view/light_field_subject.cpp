@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/light_field_subject.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace hogel::view {
+namespace {
+
+constexpr double first_look_samples = 8e6;  // 32 MB: a few hundredths of a second from the page cache
+
+// A light field with sides or unusual directions is read by each photograph instead of being kept.
+std::size_t step_for(const LightFieldGrid& grid, double samples) {
+    const double step = std::sqrt(grid.samples() / samples);
+    if (step <= 1) return 1;
+    const auto n = static_cast<std::size_t>(std::ceil(step));
+    return n % 2 == 1 ? n : n + 1;
+}
+
+View front_view(const LightFieldGrid& grid) {
+    View view;
+    view.camera.resolution = {128, 0};
+    view.camera.eye.x = -grid.center_u() * view.camera.eye.z;
+    view.camera.eye.y = -grid.center_v() * view.camera.eye.z;
+    return view;
+}
+
+// The contrast of a few pixels: the mean square of their second differences, over all channels.
+double contrast(const Image& image) {
+    double sum = 0;
+    for (std::size_t y = 1; y + 1 < image.height(); ++y)
+        for (std::size_t x = 1; x + 1 < image.width(); ++x)
+            for (std::size_t c = 0; c < image.channels(); ++c) {
+                const auto& p = image.pixels;
+                const double bend =
+                    4.0 * p(y, x, c) - p(y, x - 1, c) - p(y, x + 1, c) - p(y - 1, x, c) - p(y + 1, x, c);
+                sum += bend * bend;
+            }
+    return sum;
+}
+
+}  // namespace
+
+std::size_t step_that_fits(const LightFieldGrid& grid, std::size_t memory) {
+    return step_for(grid, static_cast<double>(memory) / 2);
+}
+
+std::size_t step_of_first_look(const LightFieldGrid& grid) { return step_for(grid, first_look_samples); }
+
+LightFieldSubject::LightFieldSubject(LightField light_field, LightField shown, std::size_t memory,
+                                     const Progress& progress, std::unique_ptr<Waves> waves)
+    : light_field_(std::move(light_field)),
+      shown_(shown.grid()),
+      photographer_(std::move(shown), {.memory = memory}, progress),
+      waves_(std::move(waves)) {
+    exposure_ = automatic_exposure(photographer_.photograph(camera(front_view(grid())), {.pupil_samples = 4}));
+}
+
+nlohmann::ordered_json LightFieldSubject::facts() const {
+    const LightFieldGrid& grid = this->grid();
+    return {{"kind", "light field"},
+            {"hogels_s", grid.hogels_s},
+            {"hogels_t", grid.hogels_t},
+            {"shown_hogels_s", shown_.hogels_s},
+            {"directions_u", grid.directions_u},
+            {"directions_v", grid.directions_v},
+            {"tan_half_u", grid.half_u()},
+            {"tan_half_v", grid.half_v()},
+            {"center_u", grid.center_u()},
+            {"center_v", grid.center_v()},
+            {"channels", grid.channels},
+            {"depth", light_field_.has_depth()}};
+}
+
+Image LightFieldSubject::by_rays(const View& view, const Progress& progress) {
+    const std::lock_guard lock(photographing_);
+    return photographer_.photograph(camera(view), {.pupil_samples = view.pupil_samples}, progress);
+}
+
+void LightFieldSubject::by_waves(const View& view, std::size_t looks, const ShownLooks& shown,
+                                 const Progress& progress) {
+    waves_->photograph(camera(view), looks, shown, progress);
+}
+
+Reading LightFieldSubject::read(const View& view, const Spot& spot) const {
+    if (view.eyes > 0 || view.by == By::side)
+        return std::apply([&](const View& one, const Spot& at) { return read(one, at); }, in_one_picture(view, spot));
+    const Camera camera = this->camera(view);
+    Reading reading = ray_at(camera, spot);
+    const double U = (reading.x - camera.eye.x) / camera.eye.z, V = (reading.y - camera.eye.y) / camera.eye.z;
+    const LightFieldGrid& grid = this->grid();
+    const double i = std::round(reading.x / grid.pitch + 0.5 * static_cast<double>(grid.hogels_s) - 0.5);
+    const double j = std::round(0.5 * static_cast<double>(grid.hogels_t) - 0.5 - reading.y / grid.pitch);
+    // Not where directions are sines, whose columns are not at U.
+    if (grid.has_frequencies() || i < 0 || j < 0 || i >= static_cast<double>(grid.hogels_s) ||
+        j >= static_cast<double>(grid.hogels_t))
+        return reading;
+    const LightFieldGrid own = grid.of_hogel(i, j);
+    const double k = std::round(own.column(U)), l = std::round(own.row(V));
+    if (k < 0 || l < 0 || k >= static_cast<double>(own.directions_u) || l >= static_cast<double>(own.directions_v))
+        return reading;
+    LightFieldTile tile(grid, {static_cast<std::size_t>(i), static_cast<std::size_t>(j), 1, 1},
+                        light_field_.has_depth());
+    light_field_.front().read(tile);
+    const auto u = static_cast<std::size_t>(k), v = static_cast<std::size_t>(l);
+    reading.inside = true;
+    for (std::size_t c = 0; c < 3; ++c) reading.radiance[c] = tile.radiance(std::min(c, grid.channels - 1), 0, 0, v, u);
+    if (tile.depth.size() > 0 && std::isfinite(tile.depth(0, 0, v, u))) reading.depth = tile.depth(0, 0, v, u);
+    return reading;
+}
+
+double LightFieldSubject::focus(const View& view, const Spot& spot, const Progress& progress) {
+    if (view.eyes > 0 || view.by == By::side)
+        return std::apply([&](const View& one, const Spot& at) { return focus(one, at, progress); },
+                          in_one_picture(view, spot));
+    if (light_field_.has_depth()) {
+        // Beside an object's edge the ray may pass it: the nearest of the rays around it decides.
+        std::optional<double> nearest;
+        for (const auto& [dx, dy] : {std::pair{0.0, 0.0}, {-0.01, 0.0}, {0.01, 0.0}, {0.0, -0.01}, {0.0, 0.01}}) {
+            if (nearest) break;
+            nearest = read(view, {std::clamp(spot.x + dx, 0.0, 1.0), std::clamp(spot.y + dy, 0.0, 1.0)}).depth;
+        }
+        if (nearest && *nearest > -0.95 * view.camera.eye.z) return *nearest;
+    }
+    return sharpest(view, spot, progress);
+}
+
+double LightFieldSubject::sharpest(const View& view, const Spot& spot, const Progress& progress) {
+    constexpr int pixels = 25, planes = 21;
+    const Camera whole = camera(view);
+    Camera patch = whole;
+    // A narrow pupil has everything in focus.
+    patch.pupil = std::max(whole.pupil, 0.02 * whole.eye.z);
+    std::tie(patch.picture.center_x, patch.picture.center_y) = point_at(whole, spot);
+    patch.picture.width = patch.picture.height = pixels;
+    patch.picture.pitch_x = patch.picture.pitch_y = std::max(whole.picture.pitch_x, 0.5 * shown_.pitch);
+    // A light field shows depths of up to a few times pitch/step sharply: [K] 2.3.
+    const std::lock_guard lock(photographing_);
+    double reach = 6 * grid().pitch / std::max(grid().step_u(), 1e-9), middle = 0, best = -1;
+    for (int round = 0; round < 2; ++round) {
+        const double around = middle;
+        for (int i = 0; i < planes; ++i) {
+            const double depth = around + reach * (2.0 * i / (planes - 1) - 1);
+            if (!(depth > -0.9 * whole.eye.z)) continue;
+            patch.focus_depth = depth;
+            const double value = contrast(photographer_.photograph(patch, {.pupil_samples = 32}, progress));
+            if (value > best) {
+                best = value;
+                middle = depth;
+            }
+        }
+        reach *= 2.0 / (planes - 1);
+    }
+    return middle;
+}
+
+}  // namespace hogel::view

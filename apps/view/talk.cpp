@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/talk.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "view/answers.h"
+
+namespace hogel::view {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Words = std::map<std::string, std::string>;
+
+void send(const std::weak_ptr<Socket>& to, std::string text) {
+    if (const auto socket = to.lock()) socket->send_text(std::move(text));
+}
+
+// Work whose failure is told, unless it was stopped for a newer view.
+template <class Work>
+void attempt_for(const std::weak_ptr<Socket>& to, const Work& work) {
+    constexpr unsigned stopped = 503;
+    attempt(work, [&](Response refused) {
+        if (refused.status != stopped) send(to, std::move(refused.body));
+    });
+}
+
+}  // namespace
+
+Viewer::Talk::Talk(std::weak_ptr<Viewer> viewer, std::weak_ptr<Socket> socket, std::uint64_t pictures,
+                   std::uint64_t readings)
+    : viewer_(std::move(viewer)), socket_(std::move(socket)), pictures_(pictures), readings_(readings) {}
+
+Viewer::Talk::~Talk() {
+    const auto viewer = viewer_.lock();
+    if (!viewer) return;
+    viewer->rays_.drop(pictures_);
+    viewer->waves_.drop(pictures_);
+    viewer->rays_.drop(readings_);
+    const std::lock_guard lock(viewer->mutex_);
+    viewer->sockets_.erase(pictures_);
+}
+
+void Viewer::Talk::receive(std::string_view text) {
+    const auto viewer = viewer_.lock();
+    if (!viewer) return;
+    attempt_for(socket_, [&] {
+        const std::size_t end = std::min(text.find('?'), text.size());
+        const std::string_view verb = text.substr(0, end);
+        const Words words = parse_query(end < text.size() ? text.substr(end + 1) : "");
+        if (verb == "picture")
+            ask(*viewer, parse_view(words));
+        else if (verb == "reading" || verb == "focus")
+            ask_there(*viewer, parse_view(words), parse_spot(words), verb == "focus");
+        else
+            throw Error(ErrorCode::usage, "a message begins with picture?, reading? or focus?");
+    });
+}
+
+void Viewer::Talk::resume() {
+    const auto viewer = viewer_.lock();
+    if (!viewer || !held_) return;
+    const View newest = *held_;
+    attempt_for(socket_, [&] { ask(*viewer, newest); });
+}
+
+// What the page cannot take yet is held back, the newest alone.
+void Viewer::Talk::ask(Viewer& viewer, const View& view) {
+    const auto socket = socket_.lock();
+    const auto subject = viewer.subject();
+    if (!socket || !subject) return;
+    if (socket->is_busy()) {
+        held_ = view;
+        return;
+    }
+    held_.reset();
+    subject->require(view);
+    const auto work = [subject, view, to = socket_](std::stop_token stop) {
+        const Clock::time_point began = Clock::now();
+        const auto shown = [&](const Photograph& photograph) {
+            const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
+            const Json about = told(photograph, view, *subject, seconds);
+            const auto there = to.lock();
+            // Of looks that follow each other faster than the page takes them only the last is owed.
+            const bool last = !about.contains("looks") || about["looks"] == about["of_looks"];
+            if (there && (last || !there->is_busy())) there->send_picture(dump(about) + encode(photograph, view));
+        };
+        attempt_for(to, [&] { subject->photograph(view, shown, Progress(stop)); });
+    };
+    const bool rays = view.by == By::rays;
+    (rays ? viewer.waves_ : viewer.rays_).drop(pictures_);
+    (rays ? viewer.rays_ : viewer.waves_).put(pictures_, {work, view.moving});
+}
+
+void Viewer::Talk::ask_there(Viewer& viewer, const View& view, const Spot& spot, bool focus) {
+    const auto subject = viewer.subject();
+    if (!subject) return;
+    subject->require(view);
+    const auto work = [subject, view, spot, focus, to = socket_](std::stop_token stop) {
+        attempt_for(to, [&] {
+            if (focus)
+                send(to, dump({{"type", "focus"}, {"depth_m", subject->focus(view, spot, Progress(stop))}}));
+            else
+                send(to, dump(told(subject->read(view, spot), view.id)));
+        });
+    };
+    viewer.rays_.put(readings_, {work, false});
+}
+
+}  // namespace hogel::view

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "view/viewer.h"
+
+namespace hogel::view {
+
+/// One page that looks.
+class Viewer::Talk final : public Conversation {
+  public:
+    Talk(std::weak_ptr<Viewer> viewer, std::weak_ptr<Socket> socket, std::uint64_t pictures, std::uint64_t readings);
+    ~Talk() override;
+
+    void receive(std::string_view text) override;
+    void resume() override;
+
+  private:
+    void ask(Viewer& viewer, const View& view);
+    void ask_there(Viewer& viewer, const View& view, const Spot& spot, bool focus);
+
+    std::weak_ptr<Viewer> viewer_;
+    std::weak_ptr<Socket> socket_;
+    std::uint64_t pictures_, readings_;  // as clients of the workers, which take them in turn
+    std::optional<View> held_;
+};
+
+}  // namespace hogel::view

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/waves.h"
+
+#include <algorithm>
+#include <stop_token>
+#include <utility>
+
+#include "hogel/error.h"
+
+namespace hogel::view {
+
+Waves::Waves(Make make, std::size_t looks, std::size_t memory, Progress making)
+    : make_(std::move(make)), looks_(looks), memory_(memory), making_(std::move(making)) {}
+
+void Waves::photograph(const Camera& camera, std::size_t looks, const Shown& shown, const Progress& progress) {
+    if (!photographer_) photographer_.emplace(make_(), PhotographOptions{.memory = memory_}, making_);
+    const std::size_t wanted = looks == 0 ? looks_ : std::min(looks, looks_);
+    // The photographer has one number of looks, and stops on request: here after the last one that is wanted.
+    std::stop_source enough;
+    const std::stop_callback forward(progress.stop(), [&enough] { enough.request_stop(); });
+    bool complete = false;
+    const auto count = [&](const Image& picture, std::size_t so_far) {
+        if (complete) return;
+        complete = so_far >= wanted;
+        shown(picture, so_far);
+        if (complete) enough.request_stop();
+    };
+    try {
+        photographer_->photograph(camera, count, Progress(enough.get_token()));
+    } catch (const Error& error) {
+        if (!complete || error.code() != ErrorCode::cancelled) throw;
+    }
+}
+
+}  // namespace hogel::view

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/waves.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <stop_token>
+#include <vector>
+
+#include "hogel/error.h"
+#include "view/hologram_subject.h"
+#include "view/light_field_subject.h"
+
+namespace hogel::view {
+namespace {
+
+constexpr std::size_t all_looks = 3;
+
+LightField ramp() {
+    const LightFieldGrid grid{24, 20, 0.25e-3, 8, 8, Perspective{0.08, 0.08}, 1};
+    auto buffer = std::make_shared<LightFieldBuffer>(grid, false);
+    for (std::size_t i = 0; i < buffer->radiance.size(); ++i)
+        buffer->radiance.data()[i] = 0.5f + 0.001f * static_cast<float>(i % 701);
+    return LightField(buffer);
+}
+
+Fields holograms(std::size_t looks) {
+    HologramRequest request;
+    request.channels = mono(633e-9);
+    request.pitch = 2.5e-6;
+    request.looks = looks;
+    return make_holograms(ramp(), request);
+}
+
+std::unique_ptr<Waves> waves(int* made = nullptr) {
+    const auto make = [made] {
+        if (made != nullptr) ++*made;
+        return holograms(all_looks);
+    };
+    return std::make_unique<Waves>(make, all_looks, std::size_t{1} << 28, Progress());
+}
+
+std::unique_ptr<LightFieldSubject> subject() {
+    return std::make_unique<LightFieldSubject>(ramp(), ramp(), std::size_t{1} << 28, Progress(), waves());
+}
+
+View view_by(By by) {
+    View view;
+    view.camera.eye = {2e-3, -1e-3, 0.12};
+    view.camera.pupil = 3e-3;
+    view.camera.resolution = {48, 40};
+    view.by = by;
+    return view;
+}
+
+Image expected(const Camera& camera, std::size_t looks) {
+    return photograph_colours(holograms(looks), {&camera, 1}).front();
+}
+
+bool equal(const Image& a, const Image& b) { return std::ranges::equal(a.pixels.elements(), b.pixels.elements()); }
+
+// Each picture is the mean of so many looks, which a command line would take.
+TEST(Waves, refine_look_by_look) {
+    const auto one = subject();
+    std::vector<std::size_t> shown;
+    one->photograph(
+        view_by(By::waves),
+        [&](const Photograph& photograph) {
+            shown.push_back(photograph.looks);
+            EXPECT_TRUE(equal(photograph.picture, expected(one->camera(view_by(By::waves)), photograph.looks)))
+                << photograph.looks;
+        },
+        {});
+    EXPECT_EQ(shown, (std::vector<std::size_t>{1, 2, 3}));
+}
+
+TEST(Waves, stop_after_the_looks_that_are_wanted) {
+    int made = 0;
+    const auto one = waves(&made);
+    const Camera camera = subject()->camera(view_by(By::waves));
+    EXPECT_EQ(made, 0);
+    for (const std::size_t wanted : {1, 2, 1, 3}) {
+        std::size_t last = 0;
+        one->photograph(camera, wanted, [&](const Image&, std::size_t looks) { last = looks; }, {});
+        EXPECT_EQ(last, wanted);
+    }
+    EXPECT_EQ(made, 1);
+}
+
+TEST(Waves, stop_for_a_newer_view) {
+    const auto one = waves();
+    const Camera camera = subject()->camera(view_by(By::waves));
+    std::stop_source newer;
+    std::size_t last = 0;
+    const auto until_first = [&](const Image&, std::size_t looks) {
+        last = looks;
+        newer.request_stop();
+    };
+    EXPECT_THROW(one->photograph(camera, 0, until_first, Progress(newer.get_token())), Error);
+    EXPECT_EQ(last, 1u);
+    one->photograph(camera, 0, [&](const Image&, std::size_t looks) { last = looks; }, {});
+    EXPECT_EQ(last, all_looks);
+}
+
+TEST(Waves, stand_beside_rays) {
+    const auto one = subject();
+    const Image rays = one->photograph(view_by(By::rays), {}).picture;
+    const Image by_waves = one->photograph(view_by(By::waves), {}).picture;
+    const Photograph both = one->photograph(view_by(By::side), {});
+    ASSERT_EQ(both.picture.width(), 96u);
+    const Photograph apart = one->photograph(view_by(By::difference), {});
+    ASSERT_EQ(apart.picture.width(), 48u);
+    for (std::size_t y = 0; y < 40; ++y)
+        for (std::size_t x = 0; x < 48; ++x) {
+            EXPECT_EQ(both.picture.pixels(y, x, 0), rays.pixels(y, x, 0));
+            EXPECT_EQ(both.picture.pixels(y, 48 + x, 0), by_waves.pixels(y, x, 0));
+            EXPECT_EQ(apart.picture.pixels(y, x, 0), std::abs(rays.pixels(y, x, 0) - by_waves.pixels(y, x, 0)));
+        }
+    ASSERT_TRUE(apart.psnr);
+    EXPECT_EQ(*apart.psnr, compare(by_waves, rays, one->exposure()).psnr);
+    // A spot of the right half is of the same ray as one of the left half.
+    EXPECT_EQ(one->read(view_by(By::side), {0.75, 0.5}).across, one->read(view_by(By::rays), {0.5, 0.5}).across);
+}
+
+TEST(Waves, of_two_eyes_are_two_pictures) {
+    const auto one = subject();
+    View both = view_by(By::waves), left = both;
+    both.eyes = 4e-3;
+    left.camera.eye.x -= 2e-3;
+    std::vector<std::size_t> shown;
+    Photograph last;
+    one->photograph(both,
+                    [&](const Photograph& photograph) {
+                        shown.push_back(photograph.looks);
+                        last = photograph;
+                    },
+                    {});
+    EXPECT_EQ(shown, (std::vector<std::size_t>{1, all_looks}));
+    const Image alone = one->photograph(left, {}).picture;
+    for (std::size_t x = 0; x < 48; ++x) EXPECT_EQ(last.picture.pixels(20, x, 0), alone.pixels(20, x, 0));
+}
+
+TEST(Waves, are_refused_where_there_are_none) {
+    LightFieldSubject coarse(ramp(), ramp(), std::size_t{1} << 28, Progress());
+    EXPECT_THROW(coarse.require(view_by(By::waves)), Error);
+    HologramSubject hologram(holograms(1), std::size_t{1} << 30, Progress());
+    EXPECT_THROW(hologram.require(view_by(By::rays)), Error);
+    EXPECT_THROW(hologram.require(view_by(By::side)), Error);
+    View stereo = view_by(By::difference);
+    stereo.eyes = 6e-3;
+    EXPECT_THROW(subject()->require(stereo), Error);
+    EXPECT_NO_THROW(hologram.require(view_by(By::waves)));
+}
+
+}  // namespace
+}  // namespace hogel::view
