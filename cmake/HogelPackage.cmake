@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# What cpack makes of a build: with HOGEL_PACKAGE=debian the packages hogel, libhogelN (N is HOGEL_SOVERSION) and libhogel-dev,
-# to be configured with -DCMAKE_INSTALL_PREFIX=/usr; with HOGEL_PACKAGE=tarball one archive that runs from any folder and brings
+# What cpack makes of a build: with HOGEL_PACKAGE=debian the packages hogel, libhogelN (N is HOGEL_SOVERSION), libhogel-dev and,
+# with HOGEL_PYTHON, python3-hogel, to be configured with -DCMAKE_INSTALL_PREFIX=/usr; with HOGEL_PACKAGE=tarball one archive that runs from any folder and brings
 # the libraries that hogel needs. The same sources give the same bytes: every date is SOURCE_DATE_EPOCH, from the environment or
 # else of the last commit. cmake/package/make.sh makes both.
 set(HOGEL_PACKAGE "tarball" CACHE STRING "What cpack makes: debian or tarball")
@@ -80,6 +80,20 @@ if(HOGEL_PACKAGE STREQUAL "debian")
       set_target_properties(hogel_view PROPERTIES INSTALL_RPATH "")
     endif()
     list(APPEND CPACK_COMPONENTS_ALL program)
+  endif()
+  if(TARGET _core)
+    set_target_properties(_core PROPERTIES INSTALL_RPATH "")
+    list(APPEND CPACK_COMPONENTS_ALL python)
+    set(CPACK_COMPONENT_PYTHON_DEPENDS library program)
+    # The module is compiled for one version of Python.
+    math(EXPR next "${Python_VERSION_MINOR} + 1")
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+        "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, python3-tqdm, ffmpeg")
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/cmake/package/python/postinst"
+                                                  "${PROJECT_SOURCE_DIR}/cmake/package/python/prerm")
+    hogel_debian_package(python python3-hogel python "full-parallax holographic stereograms, Python module"
+                         "This package holds the Python module, hogel.")
   endif()
   hogel_debian_package(program hogel graphics "full-parallax holographic stereograms, command line"
                        "This package holds the command line, hogel.")

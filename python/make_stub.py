@@ -13,7 +13,7 @@ from pathlib import Path
 HEAD = '''# SPDX-License-Identifier: Apache-2.0
 # The types of the extension module; written by python/make_stub.py, which a test compares with this file.
 import os
-from typing import Any, Callable, ClassVar, Dict, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, ClassVar, Dict, List, Optional, Sequence, Tuple, Union, overload
 
 import numpy
 

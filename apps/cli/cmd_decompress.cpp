@@ -53,7 +53,7 @@ int decompress_file(const Options& options, const Session& session) {
     record.acted({"input"});
     if (options.layers > 0) record.acted({"layers"});
     record.acted(file.type == SampleType::single ? "float" : "half", "yes");
-    file.metadata = record.metadata();
+    file.metadata = with_history(record.metadata(), to_metadata(light_field.provenance()));
     file.with_depth = light_field.has_depth();
     const auto sinks = create_light_field(options.output, light_field.grids(), file);
     Stage stage(session, "decompressing");

@@ -23,7 +23,10 @@ cmake --build "$work/found" >"$work/log" 2>&1 || { cat "$work/log"; fail "a proj
 g++ -std=c++20 "$sources/tests/install/main.cpp" -o "$work/pkg" $(pkg-config --cflags --libs hogel)
 "$work/pkg"
 
-apt-get -q -y purge hogel libhogel-dev "$(dpkg-query -W -f '${Package}\n' 'libhogel[0-9]*' | head -n 1)" >/tmp/apt.log 2>&1 ||
+install "$packages"/python3-hogel_*.deb
+(cd "$work" && python3 "$sources/cmake/package/check_python.py")
+
+apt-get -q -y purge python3-hogel hogel libhogel-dev "$(dpkg-query -W -f '${Package}\n' 'libhogel[0-9]*' | head -n 1)" >/tmp/apt.log 2>&1 ||
     { cat /tmp/apt.log; fail "apt-get purge"; }
 left=$(find /usr -path '*hogel*' ! -path '*/hogweed*' | head)
 [ -z "$left" ] || fail "left behind: $left"

@@ -29,15 +29,19 @@ hardened() {
     grep -qE 'BIND_NOW|Flags:.* NOW' <<<"$dynamic" || fail "$1: no immediate binding"
     symbols=$(readelf --dyn-syms -W "$1")
     grep -q __stack_chk_fail <<<"$symbols" || fail "$1: no stack protector"
-    grep -qE '__(memcpy|memmove|memset|snprintf|vsnprintf|fprintf|printf|read|strcpy)_chk' <<<"$symbols" || fail "$1: not fortified"
+    case $1 in
+        */_core.*) ;;  # the Python module calls none of the functions that have fortified twins
+        *) grep -qE '__(memcpy|memmove|memset|snprintf|vsnprintf|fprintf|printf|read|strcpy)_chk' <<<"$symbols" || fail "$1: not fortified" ;;
+    esac
     readelf -hW "$1" | grep -q 'DYN (' || fail "$1: not position independent"
 }
 
-for file in "$work"/debs/usr/bin/hogel* "$work"/debs/usr/lib/*/libhogel.so.*.*.* "$work"/tarball/bin/hogel* \
+for file in "$work"/debs/usr/bin/hogel* "$work"/debs/usr/lib/*/libhogel.so.*.*.* "$work"/debs/usr/lib/python3/dist-packages/hogel/_core.*.so "$work"/tarball/bin/hogel* \
     "$work"/tarball/lib/libhogel.so.*.*.*; do
     hardened "$file"
 done
-if readelf -dW "$work"/debs/usr/bin/hogel* "$work"/debs/usr/lib/*/libhogel.so.*.*.* | grep -E 'RPATH|RUNPATH'; then
+if readelf -dW "$work"/debs/usr/bin/hogel* "$work"/debs/usr/lib/*/libhogel.so.*.*.* \
+    "$work"/debs/usr/lib/python3/dist-packages/hogel/_core.*.so | grep -E 'RPATH|RUNPATH'; then
     fail "a Debian package says where libraries are"
 fi
 if grep -rlF "$built_in" "$work"; then fail "the files above name $built_in"; fi

@@ -23,8 +23,8 @@ pack() {
 }
 
 rm -rf "$build/packages"
-configure "$@" -DHOGEL_PACKAGE=debian -DCMAKE_INSTALL_PREFIX=/usr "-DCMAKE_INSTALL_LIBDIR=lib/$(gcc -print-multiarch)"
+configure "$@" -DHOGEL_PACKAGE=debian -DHOGEL_PYTHON=ON -DCMAKE_INSTALL_PREFIX=/usr "-DCMAKE_INSTALL_LIBDIR=lib/$(gcc -print-multiarch)"
 pack
-configure "$@" -DHOGEL_PACKAGE=tarball -DCMAKE_INSTALL_PREFIX=/usr/local -DCMAKE_INSTALL_LIBDIR=lib
+configure "$@" -DHOGEL_PACKAGE=tarball -DHOGEL_PYTHON=OFF -DCMAKE_INSTALL_PREFIX=/usr/local -DCMAKE_INSTALL_LIBDIR=lib
 pack
 mv "$build"/packages/*.deb "$build"/packages/*.tar.gz "$out"

@@ -32,6 +32,8 @@ void add_photographs(py::module_& module);
 void add_images(py::module_& module);
 void add_patterns(py::module_& module);
 void add_elsewhere(py::module_& module);
+void add_views(py::module_& module);
+void add_plans(py::module_& module);
 
 /// Runs work on a thread of its own, without the lock of the interpreter, and waits for it. The calling thread looks
 /// for signals every 50 ms, so that Ctrl-C stops the work, which then leaves nothing half-written, and raises

@@ -75,6 +75,43 @@ void add_focus(py::module_& module) {
             });
         },
         arg("field"), arg("from_"), arg("to"), arg("planes"), arg("max_side"), arg("report"));
+    module.def(
+        "focus_region",
+        [](const FieldGrid& grid, std::size_t width, std::size_t height) {
+            FocusOptions options;
+            options.width = width;
+            options.height = height;
+            const Region region = focus_region(grid, options);
+            return py::make_tuple(region.x0, region.y0, region.width, region.height);
+        },
+        arg("grid"), arg("width") = 0, arg("height") = 0);
+}
+
+void add_orders(py::module_& module) {
+    py::class_<OrderSelection> selection(module, "OrderSelection");
+    py::enum_<OrderSelection::Which>(selection, "Which")
+        .value("center", OrderSelection::Which::center)
+        .value("right", OrderSelection::Which::right)
+        .value("left", OrderSelection::Which::left)
+        .value("at", OrderSelection::Which::at);
+    selection.def(py::init<>())
+        .def_readwrite("without_mean", &OrderSelection::without_mean)
+        .def("set_reference_source",
+             [](OrderSelection& s, double x, double y, double z) {
+                 s.reference_source = Vec3{x, y, z};
+             })
+        .def_readwrite("which", &OrderSelection::which)
+        .def_readwrite("frequency_x", &OrderSelection::frequency_x)
+        .def_readwrite("frequency_y", &OrderSelection::frequency_y)
+        .def_readwrite("radius", &OrderSelection::radius);
+    module.def(
+        "select_order",
+        [](const Source& hologram, const OrderSelection& how, const py::object& report) {
+            auto made = run_for(report, [&](const Progress& p) { return select_order(*hologram, how, p); });
+            Source field = std::make_shared<const Field>(std::move(made.field));
+            return py::make_tuple(std::move(field), made.frequency_x, made.frequency_y, made.radius);
+        },
+        arg("hologram"), arg("selection"), arg("report"));
 }
 
 }  // namespace
@@ -82,6 +119,7 @@ void add_focus(py::module_& module) {
 void add_elsewhere(py::module_& module) {
     add_external_fields(module);
     add_focus(module);
+    add_orders(module);
 }
 
 }  // namespace hogel::python

@@ -6,6 +6,7 @@
 
 #include "core.h"
 #include "hogel/pipeline.h"
+#include "hogel/scene_hologram.h"
 
 namespace hogel::python {
 namespace {
@@ -47,6 +48,26 @@ void add_methods(py::module_& module) {
     module.def("hologram_methods", [] { return hologram_methods().names(); });
     module.def(
         "hologram_method", [](const std::string& name) { return hologram_methods().find(name).method; }, arg("name"));
+    module.def("scene_hologram_methods", [] {
+        std::vector<std::tuple<std::string, std::string, bool, bool>> rows;
+        for (const SceneHologramMethod& row : scene_hologram_methods().rows())
+            rows.emplace_back(row.name, row.text, row.uses_spacing, row.uses_planes);
+        return rows;
+    });
+    module.def(
+        "make_scene_hologram",
+        [](const std::string& method, const std::shared_ptr<ShadedScene>& scene, const FieldGrid& grid,
+           std::size_t channel, std::uint64_t seed, double spacing, std::size_t planes,
+           const py::object& report) -> std::shared_ptr<const FieldSource> {
+            return run_for(report, [&](const Progress& p) {
+                validate(grid, ErrorCode::usage, "hologram");
+                const SceneHologramOptions options{channel, seed, spacing, planes};
+                return std::make_shared<const Field>(
+                    scene_hologram_methods().find(method).make(*scene, grid, options, p));
+            });
+        },
+        arg("method"), arg("scene"), arg("grid"), arg("channel"), arg("seed"), arg("spacing"), arg("planes"),
+        arg("report"));
     module.def("line_pitch", &line_pitch, arg("method"));
     module.def("needs_depth", &needs_depth, arg("method"));
 }
@@ -103,13 +124,14 @@ void add_holograms(py::module_& module) {
     module.def(
         "write_holograms",
         [](const std::filesystem::path& path, const Fields& holograms, bool half, const py::object& metadata,
-           const py::object& report) {
+           const std::optional<std::string>& resume, const py::object& report) {
             HologramFileOptions options;
             options.type = half ? SampleType::half : SampleType::single;
             options.metadata = metadata_of(metadata);
+            options.resume = resume;
             run(report, [&](const Progress& p) { write_holograms(path, holograms, options, p); });
         },
-        arg("path"), arg("holograms"), arg("half"), arg("metadata"), arg("report"));
+        arg("path"), arg("holograms"), arg("half"), arg("metadata"), arg("resume"), arg("report"));
     module.def(
         "write_fields",
         [](const std::filesystem::path& path, const Fields& fields, const py::object& metadata,

@@ -72,14 +72,33 @@ void add_light_field_files(py::module_& module) {
     module.def(
         "write_light_field",
         [](const std::filesystem::path& path, const LightField& light_field, bool single, bool with_depth,
-           const py::object& metadata, const py::object& report) {
+           const py::object& metadata, const std::optional<std::string>& resume, const py::object& report) {
             LightFieldFileOptions options;
             options.type = single ? SampleType::single : SampleType::half;
             options.with_depth = with_depth;
             options.metadata = metadata_of(metadata);
+            options.resume = resume;
             run(report, [&](const Progress& p) { write_light_field(path, light_field, options, p); });
         },
-        arg("path"), arg("light_field"), arg("single"), arg("with_depth"), arg("metadata"), arg("report"));
+        arg("path"), arg("light_field"), arg("single"), arg("with_depth"), arg("metadata"), arg("resume"),
+        arg("report"));
+    module.def("every_nth_hogel", &every_nth_hogel, arg("light_field"), arg("n"));
+    module.def(
+        "read_stream_info",
+        [](const std::filesystem::path& path) {
+            const StreamInfo info = read_stream_info(path);
+            py::dict facts;
+            facts["coder"] = info.method.coder;
+            facts["transform"] = info.method.transform;
+            facts["tile"] = py::make_tuple(info.tile.ns, info.tile.nt);
+            facts["layers"] = info.layer_ends.size();
+            facts["layers_there"] = info.layers_there;
+            facts["layer_ends"] = info.layer_ends;
+            facts["chrominance"] = info.chrominance;
+            facts["version"] = info.version;
+            return facts;
+        },
+        arg("path"));
 }
 
 void add_compression(py::module_& module) {
@@ -107,6 +126,18 @@ void add_compression(py::module_& module) {
         },
         arg("light_field"), arg("path"), arg("options"), arg("report"));
     module.def("coders", [] { return coders().names(); });
+    module.def(
+        "coder_info",
+        [](const std::string& name) {
+            const CoderInfo& coder = coders().find(name);
+            py::dict facts;
+            facts["text"] = coder.text;
+            facts["transform"] = coder.transform;
+            facts["quantisation_table"] = coder.quantisation_table;
+            facts["three_pass"] = coder.three_pass;
+            return facts;
+        },
+        arg("name"));
     module.def("transform_names", &transform_names);
     module.def("default_overhead", &default_overhead, arg("symbols"));
     module.def("default_depth_error", &default_depth_error, arg("grid"), arg("range"));

@@ -293,6 +293,12 @@ void add_light_fields(py::module_& module) {
         },
         arg("scene"), arg("request"), arg("report"));
     module.def(
+        "render_light_field",
+        [](const std::shared_ptr<ShadedScene>& scene, const LightFieldRequest& request) {
+            return run_for(py::none(), [&](const Progress&) { return render_light_field(scene, request); });
+        },
+        arg("scene"), arg("request"));
+    module.def(
         "compare",
         [](const LightField& a, const LightField& b, const py::object& report) {
             const auto c = run_for(report, [&](const Progress& p) { return compare(a, b, p); });

@@ -19,4 +19,6 @@ PYBIND11_MODULE(_core, module) {
     add_photographs(module);
     add_patterns(module);
     add_elsewhere(module);
+    add_views(module);
+    add_plans(module);
 }

@@ -55,6 +55,15 @@ void add_photographs(py::module_& module) {
         },
         arg("hologram"), arg("look"), arg("cameras"), arg("report"));
     module.def(
+        "photograph_directly",
+        [](const std::shared_ptr<const FieldSource>& hologram, const Camera& camera, std::size_t pupil_points_across,
+           std::size_t subpixels) {
+            return run_for(py::none(), [&](const Progress&) {
+                return photograph_directly(*hologram, camera, pupil_points_across, subpixels);
+            });
+        },
+        arg("hologram"), arg("camera"), arg("pupil_points_across"), arg("subpixels"));
+    module.def(
         "require_light_towards",
         [](const FieldGrid& hologram, const Camera& camera, bool vertical_diffuser) {
             require_light_towards(hologram, camera, vertical_diffuser);

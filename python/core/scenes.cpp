@@ -2,6 +2,8 @@
 // Scenes: built-in ones, mesh files, and meshes from arrays.
 #include "hogel/scenes.h"
 
+#include <algorithm>
+
 #include "arrays.h"
 #include "core.h"
 #include "hogel/bake.h"
@@ -142,11 +144,22 @@ void add_scene_class(py::module_& module) {
         .def_readwrite("meshes", &Scene::meshes)
         .def_readwrite("lights", &Scene::lights)
         .def_readonly("notes", &Scene::notes)
+        .def_property_readonly("is_lit",
+                               [](const Scene& s) {
+                                   return std::ranges::any_of(s.meshes,
+                                                              [](const Mesh& mesh) { return mesh.radiance.empty(); });
+                               })
+        .def_property_readonly("has_points",
+                               [](const Scene& s) {
+                                   return std::ranges::any_of(
+                                       s.meshes, [](const Mesh& mesh) { return mesh.name == points_name; });
+                               })
         .def("copy", [](const Scene& s) { return s; });
     add_colour(scene, "ambient", &Scene::ambient);
     add_colour(scene, "background", &Scene::background);
     py::class_<ScenePose> pose(module, "ScenePose");
     pose.def(py::init<>())
+        .def_readwrite("camera", &ScenePose::camera)
         .def_readwrite("scale", &ScenePose::scale)
         .def_readwrite("lights", &ScenePose::lights)
         .def_property(
@@ -222,6 +235,7 @@ void add_scene_functions(py::module_& module) {
             });
         },
         arg("scene"), arg("rays"), arg("bounces"), arg("tessellation"), arg("seed"), arg("report"));
+    module.def("require_baked_scene_name", &require_baked_scene_name, arg("path"));
     module.def(
         "write_baked_scene",
         [](const std::filesystem::path& path, const Scene& scene, const py::object& metadata) {
@@ -229,6 +243,24 @@ void add_scene_functions(py::module_& module) {
             run(py::none(), [&](const Progress&) { write_baked_scene(path, scene, entries); });
         },
         arg("path"), arg("scene"), arg("metadata"));
+}
+
+void add_shading(py::module_& module) {
+    py::class_<ShadedScene, std::shared_ptr<ShadedScene>>(module, "ShadedScene")
+        .def_property_readonly("is_lit",
+                               [](const ShadedScene& s) {
+                                   for (std::size_t i = 0; i < s.triangles.size(); ++i)
+                                       if (s.is_lit(i)) return true;
+                                   return false;
+                               })
+        .def_readonly("metadata", &ShadedScene::provenance);
+    module.def(
+        "light_scene",
+        [](const Scene& scene, const LightFieldRequest& request, const py::object& report) {
+            return run_for(report, [&](const Progress& p) { return light_scene(scene, request, p); });
+        },
+        arg("scene"), arg("request"), arg("report"));
+    module.def("shadow_map_bytes", &shadow_map_bytes, arg("scene"), arg("options"));
 }
 
 }  // namespace
@@ -262,8 +294,12 @@ void add_scenes(py::module_& module) {
         .def_readwrite("hemicube_across", &LightFieldRequest::hemicube_across)
         .def_readwrite("hemicube_down", &LightFieldRequest::hemicube_down)
         .def_readwrite("interpolate", &LightFieldRequest::interpolate)
+        .def_property(
+            "point_size", [](const LightFieldRequest& r) { return r.import.point_size; },
+            [](LightFieldRequest& r, double size) { r.import.point_size = size; })
         .def("grids", &LightFieldRequest::grids);
     add_scene_functions(module);
+    add_shading(module);
     module.def("renderers", [] { return renderers().names(); });
     module.def("shading_models", [] { return shading_models().names(); });
 }

@@ -28,6 +28,7 @@ from ._core import (
     LightFieldGrid,
     Material,
     Perspective,
+    Plan,
     ThreadLimit,
     __version__,
     parts,
@@ -35,11 +36,17 @@ from ._core import (
 )
 from .camera import camera
 from .errors import BadInputError, CancelledError, CannotWriteError, Error, InternalError, NotBuiltInError, UsageError
-from .hologram import Field, Hologram, hologram_request
-from .light_field import Face, LightField
+from .face import Face
+from .field import Field
+from .hologram import Hologram
+from .light_field import LightField
+from .method import hologram_request
 from .pattern import Pattern
 from .picture import Picture
-from .scene import Scene, light, request
+from .pose import light
+from .requests import request
+from .scene import Scene, add_renderer
+from .views import export_views, film, import_views, is_view_set, view_layouts, views_of, write_cameras
 from .units import angle, cm, deg, length, m, mm, nm, rad, um
 
 
@@ -65,19 +72,27 @@ __all__ = [
     "Pattern",
     "Perspective",
     "Picture",
+    "Plan",
     "Scene",
     "ThreadLimit",
     "UsageError",
     "__version__",
+    "add_renderer",
     "angle",
     "camera",
     "cm",
     "coders",
-    "deg",
+    "compare",
     "defaults",
+    "deg",
     "encodings",
+    "export_views",
+    "film",
     "hologram_methods",
     "hologram_request",
+    "import_views",
+    "info",
+    "is_view_set",
     "length",
     "light",
     "m",
@@ -90,11 +105,15 @@ __all__ = [
     "rad",
     "renderers",
     "request",
+    "scene_hologram_methods",
     "scenes",
     "shading_models",
     "show_progress",
     "thread_count",
     "um",
+    "view_layouts",
+    "views_of",
+    "write_cameras",
 ]
 
 #: The defaults of all options, in metres and radians.
@@ -119,6 +138,11 @@ def shading_models() -> list[str]:
 def hologram_methods() -> list[str]:
     """The names of the methods by which a light field becomes fringes, of `method`."""
     return _core.hologram_methods()
+
+
+def scene_hologram_methods() -> dict[str, str]:
+    """The methods of Scene.hologram(), which need no light field: names, and a line about each."""
+    return {name: text for name, text, _, _ in _core.scene_hologram_methods()}
 
 
 def encodings() -> list[str]:
@@ -153,6 +177,28 @@ def open(path: _Union[str, "_os.PathLike[str]"]) -> _Union[LightField, Hologram,
     if kind == kinds.picture:
         return Picture.open(path)
     return Scene.load(path)
+
+
+def info(path: _Union[str, "_os.PathLike[str]"]) -> dict[str, object]:
+    """What `hogel info` says of a file: facts and what made it as texts, and numbers."""
+    _, text, numbers = _core.summarize(_os.fspath(path))
+    return {**dict(text), **dict(numbers)}
+
+
+def compare(
+    a: _Union[str, "_os.PathLike[str]"], b: _Union[str, "_os.PathLike[str]"], *, exposure: _Union[float, None] = None
+) -> dict[str, float]:
+    """How much two files of one kind differ, as `hogel compare` says: pictures, light fields or holograms, of which `a` is
+    the truth."""
+    truth, other = open(a), open(b)
+    if isinstance(truth, Picture) and isinstance(other, Picture):
+        factor = min(1.0, truth.exposure("auto")) if exposure is None else float(exposure)
+        return truth.compare(other, factor)
+    if isinstance(truth, LightField) and isinstance(other, LightField):
+        return truth.compare(other)
+    if isinstance(truth, Hologram) and isinstance(other, Hologram):
+        return truth.compare(other)
+    raise BadInputError(f"{a} and {b} are not files of one kind")
 
 
 def program() -> str:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Optional, Union
+from typing import Any, Optional, Union
 
-from . import _core, units
+from . import _core, _record, units
 from ._core import Camera
 from .errors import UsageError
 
@@ -83,3 +83,22 @@ def camera(
     )
     _core.validate_camera(made)
     return made
+
+
+def camera_record(**given: Any) -> _record.Record:
+    """The options of camera() as `hogel photo` says them."""
+    defaults = _core.defaults
+    acted = {
+        "eye": _record.length(given.get("eye"), (0.0, 0.0, defaults["eye_distance"])),
+        "gaze": _record.length(given.get("gaze"), (0.0, 0.0, 0.0)),
+        "focus": _record.length(given.get("focus")),
+        "focus-tilt": _record.angle(given.get("focus_tilt")),
+        "angle-of-view": _record.angle(given.get("angle_of_view")),
+        "resolution": _record.words(given.get("resolution"), defaults["resolution"]),
+    }
+    if given.get("f_number"):
+        acted["f-number"] = _record.number(given["f_number"])
+        acted["focal-length"] = _record.length(given.get("focal_length"), defaults["focal_length"])
+    else:
+        acted["pupil"] = _record.length(given.get("pupil"), defaults["pupil"])
+    return acted

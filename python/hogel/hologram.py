@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Complex fields on a plane, and holograms: fields of one or several wavelengths."""
+"""Holograms: fields of one or several wavelengths."""
 from __future__ import annotations
 
 import os
@@ -8,264 +8,16 @@ from typing import Any, Optional, Union
 
 import numpy as np
 
-from . import _core, units
-from ._indices import arranged, axes_of
+from . import _core, _record, units
 from ._progress import Progress, reporting
+from ._samples import Path
 from .camera import camera as camera_of
+from .camera import camera_record
+from .elsewhere import description, external_fields
 from .errors import BadInputError, UsageError
-from .light_field import Path, _choice, array_of
+from .field import Field
 from .pattern import Pattern, modulator_of, pattern_of
 from .picture import Picture
-
-
-def _channel(wavelength: float) -> int:
-    """The channel of a picture for light of a wavelength: 0 red, 1 green, 2 blue."""
-    return 0 if wavelength >= 580e-9 else 1 if wavelength >= 490e-9 else 2
-
-
-def _method(
-    name: str, phase: Optional[str], lobes: str, basis: Optional[str], tolerance: float, line_pitch: Optional[units.Length]
-) -> Any:
-    method = _core.hologram_method(name)
-    if basis is not None and basis != "pieces" and basis not in _core.transform_names():
-        _core.throw_unknown("transform", basis, _core.transform_names())
-    if line_pitch is not None:
-        if not hasattr(method, "line_pitch") or method.line_pitch is None:
-            raise UsageError(f"line_pitch: belongs to the methods lines and basis-lines, not {name}")
-        method.line_pitch = units.length(line_pitch, "line_pitch")
-    average = _choice(_core.LobeAverage, lobes, "lobes")
-    if isinstance(method, (_core.Fourier, _core.Lines)):
-        method.average = average
-        if phase is not None:
-            method.phases = _choice(_core.Phases, phase, "phase")
-    elif isinstance(method, _core.Basis):
-        method.transform = basis or _core.defaults["basis"]
-        method.tolerance = tolerance
-        if phase is not None:
-            method.phases = _choice(_core.SharedPhases, phase, "phase")
-    elif isinstance(method, _core.OverlapAdd):
-        if phase is not None:
-            method.phases = _choice(_core.PointPhases, phase, "phase")
-    elif phase is not None:
-        raise UsageError(f"phase: is not for the method {name}, whose phases are those of the points")
-    return method
-
-
-def hologram_request(
-    wavelength: Union[units.Length, Sequence[units.Length], None] = None,
-    pitch: Optional[units.Length] = None,
-    method: str = "fourier",
-    phase: Optional[str] = None,
-    lobes: str = "radiance",
-    basis: Optional[str] = None,
-    tolerance: float = 0,
-    line_pitch: Optional[units.Length] = None,
-    looks: int = 1,
-    seed: int = 1,
-) -> _core.HologramRequest:
-    """What `hogel hologram` asks for, by the names of its options: see LightField.hologram()."""
-    wanted = _core.HologramRequest()
-    if wavelength is not None:
-        wanted.channels = [(value, _channel(value)) for value in units.lengths(wavelength, "wavelength")]
-    wanted.pitch = units.optional_length(pitch, _core.defaults["pitch"], "pitch")
-    wanted.method = _method(method, phase, lobes, basis, tolerance, line_pitch)
-    wanted.looks, wanted.seed = looks, seed
-    return wanted
-
-
-class Field:
-    """A monochromatic complex field F[y][x], row 0 at the top: in memory, in a file, or computed when it is read. What is
-    read of it are arrays of complex64.
-
-    >>> import hogel, numpy as np
-    >>> wave = hogel.Field.from_array(np.ones((64, 64), np.complex64), pitch="2um", wavelength="633nm")
-    >>> wave
-    Field(64x64 samples 2 um apart, 0.128 mm x 0.128 mm, 633 nm, in memory)
-    >>> far = wave.propagate("1mm")
-    >>> round(float(abs(far[32, 32])), 3) < 2
-    True
-    """
-
-    def __init__(self, source: _core.FieldSource, where: str, look: int = 0) -> None:
-        self._source, self.where, self._look = source, where, look
-
-    @classmethod
-    def from_array(
-        cls,
-        samples: Any,
-        *,
-        wavelength: units.Length,
-        pitch: Optional[units.Length] = None,
-        grid: Optional[_core.Grid] = None,
-        metadata: Any = None,
-    ) -> "Field":
-        """The field of an array [y][x], around x = y = 0 or with `grid` anywhere. An array of complex64 is not copied,
-        whatever its strides; do not change it while the field is in use."""
-        values = array_of(samples, np.complex64)
-        if values.ndim != 2:
-            raise UsageError(f"samples: an array [y][x] was expected, not one of {values.ndim} axes")
-        if grid is None:
-            if pitch is None:
-                raise UsageError("pitch: a field needs the distance of its samples")
-            step = units.length(pitch, "pitch")
-            grid = _core.Grid(values.shape[1], values.shape[0], step, step)
-        sampling = _core.FieldGrid(grid, units.length(wavelength, "wavelength"))
-        return cls(_core.field_of_array(sampling, values, metadata), "in memory")
-
-    @property
-    def grid(self) -> _core.Grid:
-        """The positions of the samples."""
-        return self._source.grid.plane
-
-    @property
-    def wavelength(self) -> float:
-        """Metres."""
-        return self._source.grid.wavelength
-
-    @property
-    def looks(self) -> int:
-        """How many statistically independent fields of the same object there are."""
-        return self._source.looks
-
-    @property
-    def shape(self) -> tuple[int, int]:
-        """(rows, columns)."""
-        return self.grid.height, self.grid.width
-
-    @property
-    def ndim(self) -> int:
-        """2."""
-        return 2
-
-    @property
-    def dtype(self) -> "np.dtype[Any]":
-        """complex64."""
-        return np.dtype(np.complex64)
-
-    @property
-    def nbytes(self) -> int:
-        """Bytes of all samples."""
-        return 8 * self.grid.width * self.grid.height
-
-    @property
-    def metadata(self) -> dict[str, str]:
-        """What made the field."""
-        return dict(self._source.metadata)
-
-    def read(self, key: Any = (), progress: Progress = None) -> "np.ndarray[Any, Any]":
-        """The samples that slices and whole numbers take; no others are read or computed than those between them."""
-        axes = axes_of(key, self.shape)
-        memory = _core.samples_in_memory(self._source)
-        if memory is not None:
-            return memory[tuple(axis.key for axis in axes)]
-        y, x = axes
-        width = (x.count - 1) * x.step + 1 if x.count else 0
-        height = (y.count - 1) * y.step + 1 if y.count else 0
-        with reporting(progress, "reading") as report:
-            values = _core.read_region(self._source, x.begin, y.begin, width, height, self._look, report)
-        return arranged(values[:: y.step, :: x.step], axes)
-
-    def __getitem__(self, key: Any) -> "np.ndarray[Any, Any]":
-        return self.read(key)
-
-    def __len__(self) -> int:
-        return self.shape[0]
-
-    def __array__(self, dtype: Any = None) -> "np.ndarray[Any, Any]":
-        values = self.read()
-        return values if dtype is None else values.astype(dtype, copy=False)
-
-    def __dlpack__(self, stream: Any = None) -> Any:
-        return np.asarray(self).__dlpack__()
-
-    def __dlpack_device__(self) -> tuple[int, int]:
-        return 1, 0  # the processor's memory
-
-    def look(self, number: int) -> "Field":
-        """The field of one look, completely in memory."""
-        if not 0 <= number < self.looks:
-            raise IndexError(f"look {number}: there are {self.looks}")
-        return Field(_core.load_field(self._source, number, None), "in memory")
-
-    def load(self, *, progress: Progress = None) -> "Field":
-        """The same field in memory."""
-        with reporting(progress, "reading") as report:
-            return Field(_core.load_field(self._source, self._look, report), "in memory")
-
-    def propagate(
-        self,
-        distance: units.Length,
-        *,
-        output_pitch: Optional[units.Length] = None,
-        output_samples: Optional[units.Counts] = None,
-        offset_x: units.Length = 0,
-        offset_y: units.Length = 0,
-        max_error: float = 1e-3,
-        progress: Progress = None,
-    ) -> "Field":
-        """The field on a parallel plane, farther along +z, towards the viewer, or backwards if negative: its plane waves,
-        exactly, at the samples of the field or at others."""
-        output = self._output(output_pitch, output_samples, offset_x, offset_y)
-        far = units.length(distance, "distance")
-        with reporting(progress, "propagating") as report:
-            moved = _core.propagate(self._source, far, output, self._look, max_error, report)
-        return Field(moved, "in memory")
-
-    def _output(self, pitch: Any, samples: Any, offset_x: Any, offset_y: Any) -> _core.Grid:
-        field = self.grid
-        width, height = (field.width, field.height) if samples is None else units.counts(samples, "output_samples")
-        step = None if pitch is None else units.length(pitch, "output_pitch")
-        return _core.Grid(
-            width,
-            height,
-            field.pitch_x if step is None else step,
-            field.pitch_y if step is None else step,
-            field.center_x + units.length(offset_x, "offset_x"),
-            field.center_y + units.length(offset_y, "offset_y"),
-        )
-
-    def focus(
-        self,
-        *,
-        between: Optional[Sequence[units.Length]] = None,
-        planes: int = 0,
-        max_side: int = 1024,
-        progress: Progress = None,
-    ) -> _core.FocusSearch:
-        """Where an unknown field is in focus: `planes` of the result, the clearest first, each with its depth behind the
-        hologram, prominence, brightest and cell; and the contrasts at all depths. `between`: two depths to search between."""
-        first, last = (0.0, 0.0) if between is None else units.lengths(between, "between")
-        if between is not None and first == last:
-            raise UsageError("between: two different depths were expected")
-        with reporting(progress, "focus") as report:
-            return _core.find_focus(self._source, first, last, planes, max_side, report)
-
-    def fourier_image(self, focal_length: units.Length, *, progress: Progress = None) -> "Field":
-        """The field in the back focal plane of a lens in whose front focal plane this one lies."""
-        with reporting(progress, "propagating") as report:
-            return Field(_core.fourier_image(self._source, units.length(focal_length, "focal_length"), report), "in memory")
-
-    def fresnel_image(self, distance: units.Length, *, progress: Progress = None) -> "Field":
-        """The field at a distance by one Fourier transform, Fresnel's approximation."""
-        with reporting(progress, "propagating") as report:
-            return Field(_core.fresnel_image(self._source, units.length(distance, "distance"), report), "in memory")
-
-    def intensity(self) -> Picture:
-        """The picture of |F|²."""
-        values = np.asarray(self)
-        return Picture(values.real**2 + values.imag**2)
-
-    def _repr_png_(self) -> bytes:
-        return self.intensity().png()
-
-    def __repr__(self) -> str:
-        g = self.grid
-        apart = units.say_length(g.pitch_x) + ("" if g.pitch_x == g.pitch_y else f" x {units.say_length(g.pitch_y)}")
-        looks = "" if self.looks == 1 else f", {self.looks} looks"
-        return (
-            f"Field({g.width}x{g.height} samples {apart} apart, {units.say_length(g.size_x)} x {units.say_length(g.size_y)}, "
-            f"{units.say_length(self.wavelength)}{looks}, {self.where})"
-        )
 
 
 class Hologram:
@@ -281,11 +33,14 @@ class Hologram:
     ((256, 256), dtype('complex64'))
     """
 
-    def __init__(self, fields: Any, where: str = "in memory", known: Any = None) -> None:
+    def __init__(self, fields: Any, where: str = "in memory", known: Any = None, made: Optional[_record.Record] = None) -> None:
+        # `known`: the light field and the request of which it is computed; `made`: the options of the command line.
         if isinstance(fields, Field):
             fields = [fields]
         self._sources = [field._source if isinstance(field, Field) else field for field in fields]
-        self.where, self._known = where, known
+        self.where, self._known, self._made = where, known, made
+        self._identity: Optional[str] = None  # of its input, for work that can be resumed
+        self._history: list[tuple[str, str]] = []  # of a scene without a light field
         if not self._sources:
             raise UsageError("hologram: at least one field was expected")
 
@@ -312,8 +67,9 @@ class Hologram:
         if not described and not _core.is_external_field(name):
             if pitch is not None or wavelength is not None:
                 raise UsageError(f"pitch, wavelength: {name} has its own")
-            return cls(_core.open_hologram(name), name)
-        return cls(_external(name, pitch, wavelength, _description(values, phase_code, imaginary, phases, zero, variable, conjugate)), name)
+            return cls(_core.open_hologram(name), name, made={"input": name})
+        what = description(values, phase_code, imaginary, phases, zero, variable, conjugate)
+        return cls(external_fields(name, pitch, wavelength, what), name)
 
     def __len__(self) -> int:
         return len(self._sources)
@@ -339,21 +95,48 @@ class Hologram:
         """What made the hologram."""
         return self[0].metadata
 
-    def save(self, path: Path, *, half: bool = False, metadata: Any = None, progress: Progress = None) -> None:
+    def save(
+        self, path: Path, *, half: bool = False, resume: bool = False, metadata: Any = None, progress: Progress = None
+    ) -> None:
         """Writes .h5, with single floats or with half=True half floats, or fields for other programs: .npy, .npz, .mat,
-        .exr. The file appears under its name when it is complete."""
+        .exr. The file appears under its name when it is complete. With resume=True an interrupted call leaves what is
+        done, and the same call continues it."""
         name = os.fspath(path)
         _core.require_writable(name)
         if metadata is None:
-            metadata = [("software", f"hogel {_core.__version__}"), ("command", "hogel.Hologram.save")]
+            metadata = self._entries(half)
         with reporting(progress, "hologram") as report:
             if os.path.splitext(name)[1] in (".npy", ".npz", ".mat", ".exr"):
-                if half:
-                    raise UsageError(f"half: belongs to HDF5 files, not to {name}")
+                if half or resume:
+                    raise UsageError(f"{'half' if half else 'resume'}: belongs to HDF5 files, not to {name}")
                 _core.write_fields(name, self._sources, metadata, report)
                 return
             _core.require_hdf5(name)
-            _core.write_holograms(name, self._sources, half, metadata, report)
+            identity = None
+            if resume:
+                # What a file holds is told by its name and date, what a scene is by its checksum.
+                identity = self._identity or (_core.describe_input(self._made["input"]) if self._made else None)
+                if identity is None:
+                    raise UsageError("resume: what is made of arrays or functions cannot be resumed")
+            _core.write_holograms(name, self._sources, half, metadata, identity, report)
+
+    def _entries(self, half: bool) -> list[tuple[str, str]]:
+        """What its file says made it."""
+        if self._made is None:
+            return _record.by_function("Hologram.save")
+        if "distance" in self._made:
+            return _record.entries("propagate", self._made)
+        if "method" in self._made:
+            entries = _record.entries("hologram", {**self._made, "half": _record.words(half)})
+            return _core.with_history(entries, self._history) if self._history else entries
+        return _record.by_function("Hologram.save")
+
+    def plan(self, *, half: bool = False) -> _core.Plan:
+        """The memory (bytes), disk space and time (seconds) that save() takes, without the cost of the light field."""
+        if self._known is None:
+            raise UsageError("plan: of holograms that are computed when they are read")
+        light_field, wanted = self._known
+        return _core.plan_holograms(light_field, wanted, half)
 
     def load(self, *, progress: Progress = None) -> "Hologram":
         """The same hologram in memory, its first look."""
@@ -361,7 +144,19 @@ class Hologram:
 
     def propagate(self, distance: units.Length, **options: Any) -> "Hologram":
         """All fields on a parallel plane: Field.propagate()."""
-        return Hologram([field.propagate(distance, **options) for field in self])
+        made = Hologram([field.propagate(distance, **options) for field in self])
+        if self._made is not None and list(self._made) == ["input"]:
+            plane = made.grid
+            made._made = {
+                **self._made,
+                "distance": _record.length(distance),
+                "offset-x": _record.length(options.get("offset_x")),
+                "offset-y": _record.length(options.get("offset_y")),
+                "output-samples": f"{plane.width}x{plane.height}",
+            }
+            if plane.pitch_x == plane.pitch_y:
+                made._made["output-pitch"] = _record.length(plane.pitch_x)
+        return made
 
     def photograph(
         self,
@@ -393,7 +188,33 @@ class Hologram:
         pictures = [Picture(image) for image in images]
         if not any(np.asarray(picture).any() for picture in pictures):
             raise BadInputError("hologram: is empty; no light comes from it to the eye")
+        if self._made is not None and cameras is None:
+            acted = {**self._photo_record(views, camera, expected, diffuser, film_distance), **camera_record(**options)}
+            pictures[0]._made = ("photo", {name: text for name, text in {**self._made, **acted}.items() if text})
         return pictures[0] if cameras is None else pictures
+
+    def _photo_record(self, views: Any, camera: str, expected: bool, diffuser: str, film_distance: Any) -> _record.Record:
+        """The options of photograph() that act beside those of its camera."""
+        acted = {"display": "intensity", "camera": camera}
+        if camera == "full":
+            acted["film-distance"] = _record.length(film_distance)
+        if self._known is None:
+            if camera == "auto":
+                acted["camera"] = "narrow"
+            if camera != "full":
+                acted["diffuser"] = diffuser
+            return acted
+        light_field, wanted = self._known
+        acted["wave"] = "yes"
+        if camera != "full":
+            how = _wave_camera(camera, expected, diffuser, 0)
+            chosen, _ = _core.choose_light(light_field, wanted, views, how)
+            acted["camera"] = "eye" if chosen == _core.LightFrom.hogels else "narrow"
+        if "seed" in (self._made or {}):
+            acted["looks"] = "expected" if expected else str(wanted.looks)
+        if expected:
+            acted["seed"] = ""
+        return acted
 
     def slm(
         self,
@@ -420,7 +241,7 @@ class Hologram:
         ((64, 64, 1), dtype('uint8'))
         """
         modulator = modulator_of(device, pixels, pixel_pitch, levels)
-        return pattern_of(self, encoding, modulator, reference, clip, window, iterations, phase_code, progress)
+        return pattern_of(self, encoding, modulator, reference, clip, window, iterations, phase_code, device, pixels, pixel_pitch, progress)
 
     def compare(self, other: "Hologram", *, progress: Progress = None) -> dict[str, float]:
         """sqnr and psnr (decibels) and max_error of another hologram of this sampling."""
@@ -432,40 +253,6 @@ class Hologram:
         text = repr(self[0])
         waves = ", ".join(units.say_length(value) for value in self.wavelengths)
         return text.replace("Field(", "Hologram(", 1).replace(units.say_length(self.wavelengths[0]), waves, 1)
-
-
-def _description(
-    values: Optional[str], phase_code: Any, imaginary: Any, phases: Any, zero: Optional[float], variable: str, conjugate: bool
-) -> _core.ExternalField:
-    what = _core.ExternalField()
-    if phase_code is not None:
-        what.phase_code = _core.parse_phase_code(phase_code) if isinstance(phase_code, str) else phase_code
-        if phases is None:
-            what.values = _core.ExternalField.Values.phase
-    if values is not None:
-        what.values = _choice(_core.ExternalField.Values, values, "values")
-    if imaginary is not None:
-        what.imaginary = os.fspath(imaginary)
-    if phases is not None:
-        what.phases = os.fspath(phases)
-    what.zero, what.variable, what.conjugate = zero, variable, conjugate
-    return what
-
-
-def _external(name: str, pitch: Any, wavelength: Any, what: _core.ExternalField) -> list[_core.FieldSource]:
-    facts = _core.external_facts(name, what)
-    if pitch is not None:
-        what.pitch_x = what.pitch_y = units.length(pitch, "pitch")
-    waves = list(facts.wavelengths) if wavelength is None else units.lengths(wavelength, "wavelength")
-    if pitch is None and not facts.pitch_x > 0:
-        raise UsageError(f"pitch: {name} does not say the distance of its samples")
-    if len(waves) != facts.colours:
-        raise UsageError(f"wavelength: {name} has {facts.colours} field{'' if facts.colours == 1 else 's'}, and {len(waves)} were said")
-    fields = []
-    for colour, wave in enumerate(waves):
-        what.colour, what.wavelength = colour, wave
-        fields.append(_core.open_external_field(name, what))
-    return fields
 
 
 def _wave_camera(name: str, expected: bool, diffuser: str, film_distance: float) -> Any:

@@ -9,79 +9,20 @@ from typing import TYPE_CHECKING, Any, Optional, Union
 import numpy as np
 
 from . import _core, units
-from ._indices import Axis, arranged, axes_of
+from . import _record
 from ._progress import Progress, reporting
-from .camera import camera
+from ._samples import Path, Samples, array_of
+from ._saving import save_light_field
+from .camera import camera, camera_record
+from .compression import compress
 from .errors import UsageError
+from .face import Face
 from .picture import Picture
 
 if TYPE_CHECKING:
     from .hologram import Hologram
 
-Path = Union[str, "os.PathLike[str]"]
-
-
-def array_of(values: Any, kind: Any) -> "np.ndarray[Any, Any]":
-    """An array of NumPy of anything that lends its memory, by DLPack too (torch, cupy, jax); copied only to change the
-    type of its numbers."""
-    if not isinstance(values, np.ndarray) and hasattr(values, "__dlpack__"):
-        values = np.from_dlpack(values)
-    return np.require(values, dtype=kind, requirements="A")
-
-
-class Face:
-    """The samples of one face of a light field, or their depths: an array that is read when it is indexed."""
-
-    def __init__(self, light_field: _core.LightField, index: int, depth: bool) -> None:
-        self._light_field, self._index, self._of_depth = light_field, index, depth
-        self.grid: _core.LightFieldGrid = light_field.grids()[index]
-        self.shape: tuple[int, ...] = self.grid.shape[1:] if depth else self.grid.shape
-        self.dtype = np.dtype(np.float32)
-        self.ndim = len(self.shape)
-
-    @property
-    def name(self) -> str:
-        """front, left, right, top or bottom."""
-        return _core.face_name(self.grid.face)
-
-    @property
-    def depth(self) -> "Face":
-        """The depths [t][s][v][u], metres behind the hologram, of what the rays meet; infinite where they meet nothing."""
-        if not self._light_field.has_depth():
-            raise UsageError("depth: this light field has none")
-        return Face(self._light_field, self._index, True)
-
-    def _memory(self) -> Optional["np.ndarray[Any, Any]"]:
-        find = _core.depth_in_memory if self._of_depth else _core.memory_of
-        return find(self._light_field, self._index)
-
-    def read(self, key: Any = (), progress: Progress = None) -> "np.ndarray[Any, Any]":
-        """The elements that slices and whole numbers take. Of a file only the tiles that hold them are read."""
-        axes = axes_of(key, self.shape)
-        memory = self._memory()
-        if memory is not None:
-            return memory[tuple(axis.key for axis in axes)]
-        wanted = ([Axis(0, 1, 1, slice(None))] if self._of_depth else []) + axes
-        slices = [number for axis in wanted for number in (axis.begin, axis.count, axis.step)]
-        with reporting(progress, "reading") as report:
-            values = _core.read_slices(self._light_field, self._index, slices, self._of_depth, report)
-        return arranged(values[0] if self._of_depth else values, axes)
-
-    def __getitem__(self, key: Any) -> "np.ndarray[Any, Any]":
-        return self.read(key)
-
-    def __len__(self) -> int:
-        return self.shape[0]
-
-    def __array__(self, dtype: Any = None) -> "np.ndarray[Any, Any]":
-        values = self.read()
-        return values if dtype is None else values.astype(dtype, copy=False)
-
-    def __repr__(self) -> str:
-        return f"Face({self.name}{', depth' if self._of_depth else ''}, {self.shape})"
-
-
-class LightField:
+class LightField(Samples):
     """A light field L[c][t][s][v][u]: channels, rows and columns of hogels, rows and columns of directions; row 0 at the
     top, column 0 at the left (docs/files.md). Made by Scene.render(), open(), from_array() and from_function().
 
@@ -96,14 +37,27 @@ class LightField:
     (1, 2, 8)
     """
 
-    def __init__(self, light_field: _core.LightField, where: str) -> None:
-        self._light_field, self.where = light_field, where
+    #: The names of the axes.
+    dims = ("c", "t", "s", "v", "u")
+
+    def __init__(self, light_field: _core.LightField, where: str, made: Optional[_record.Record] = None) -> None:
+        # `made`: the options of the command line that made or opened it, where there are any.
+        self._light_field, self.where, self._made = light_field, where, made
+        self._rendering: Any = None  # request and triangles of one that is rendered when it is read
+        self._views: Any = None  # what is known of a set of views
+        self._identity: Optional[str] = None  # of its input, for work that can be resumed
+
+    compress = compress
 
     @classmethod
-    def open(cls, path: Path, *, progress: Progress = None) -> "LightField":
-        """Opens a light field (.h5, .hgl), or imports a set of views. Samples are read when they are needed."""
+    def open(cls, path: Path, *, layers: Optional[int] = None, progress: Progress = None) -> "LightField":
+        """Opens a light field (.h5, .hgl), or imports a set of views as it is (import_views() has options). Samples are
+        read when they are needed. `layers`: of a compressed one, the first layers alone, coarser."""
+        name = os.fspath(path)
+        if layers is not None:
+            return cls(_core.open_stream(name, layers=int(layers)), name, {"input": name, "layers": str(layers)})
         with reporting(progress, "opening") as report:
-            return cls(_core.open_light_field(os.fspath(path), report), os.fspath(path))
+            return cls(_core.open_light_field(name, report), name, {"input": name})
 
     @classmethod
     def from_array(
@@ -121,7 +75,7 @@ class LightField:
         """The light field of an array [c][t][s][v][u] of radiances, or [t][s][v][u] of one channel, and optionally of one
         [t][s][v][u] of depths. Arrays of single floats are not copied, whatever their strides; do not change them while the
         light field is in use. What `grid` does not say, size, fov, toward and focal_plane do as those of Scene.render()."""
-        from .scene import request
+        from .requests import request
 
         values = array_of(radiance, np.float32)
         if values.ndim == 4:
@@ -152,10 +106,18 @@ class LightField:
         >>> stripes[0, 0, 0, 0, :].tolist()
         [0.5, 0.5, 0.5, 1.0, 1.0, 0.5, 0.5, 0.5]
         """
-        from .scene import request
+        from .requests import request
 
         grid = request(**options).grid
         grid.channels = channels
+        return cls.of_grid(function, grid, depth=depth, metadata=metadata)
+
+    @classmethod
+    def of_grid(
+        cls, function: Callable[..., Any], grid: _core.LightFieldGrid, *, depth: bool = False, metadata: Any = None
+    ) -> "LightField":
+        """from_function() of a sampling that is known already."""
+        channels = grid.channels
         offset = grid.view.depth if isinstance(grid.view, _core.FocalPlane) else None
         u = np.array([grid.u(k) for k in range(grid.directions_u)])[None, None, None, :]
         v = np.array([grid.v(k) for k in range(grid.directions_v)])[None, None, :, None]
@@ -191,16 +153,6 @@ class LightField:
         return self.grid.shape
 
     @property
-    def ndim(self) -> int:
-        """5."""
-        return 5
-
-    @property
-    def dtype(self) -> "np.dtype[Any]":
-        """Single floats."""
-        return np.dtype(np.float32)
-
-    @property
     def nbytes(self) -> int:
         """Bytes of all samples as single floats."""
         return 4 * int(self._light_field.samples())
@@ -220,28 +172,35 @@ class LightField:
         """What made the light field."""
         return dict(self._light_field.metadata)
 
-    def __len__(self) -> int:
-        return self.shape[0]
-
     def __getitem__(self, key: Any) -> "np.ndarray[Any, Any]":
         if isinstance(key, tuple) and len(key) == 4 and not any(part is Ellipsis for part in key):
             key = (slice(None), *key)
-        return self.faces[0].read(key)
+        return self.read(key)
 
-    def __array__(self, dtype: Any = None) -> "np.ndarray[Any, Any]":
-        return self.faces[0].__array__(dtype)
+    def read(self, key: Any = (), progress: Progress = None) -> "np.ndarray[Any, Any]":
+        """The elements that slices and whole numbers take, by NumPy's rules. Of a file only the tiles that hold them are
+        read."""
+        return self.faces[0].read(key, progress)
 
-    def __dlpack__(self, stream: Any = None) -> Any:
-        return np.asarray(self).__dlpack__()
+    def part(self, **indices: Any) -> "np.ndarray[Any, Any]":
+        """The elements that slices and whole numbers take of the axes c, t, s, v and u by their names; all of the others:
+        lf.part(t=slice(10, 20), v=4, u=4).
 
-    def __dlpack_device__(self) -> tuple[int, int]:
-        return 1, 0  # the processor's memory
+        >>> import hogel, numpy as np
+        >>> lf = hogel.LightField.from_array(np.ones((3, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
+        >>> lf.part(t=slice(2, 4), v=1, u=1).shape
+        (3, 2, 8)
+        """
+        unknown = set(indices) - set(self.dims)
+        if unknown:
+            raise UsageError(f"part: {', '.join(sorted(unknown))}: the axes are c, t, s, v and u")
+        return self.read(tuple(indices.get(name, slice(None)) for name in self.dims))
 
     def load(self, *, depth: Optional[bool] = None, progress: Progress = None) -> "LightField":
         """The same light field in memory; with its depth where it has one, unless depth=False."""
         with reporting(progress, "reading") as report:
             with_depth = self.has_depth if depth is None else depth
-            return LightField(_core.load(self._light_field, with_depth, report), "in memory")
+            return LightField(_core.load(self._light_field, with_depth, report), "in memory", self._made)
 
     def stream(self, sink: Callable[..., Any], *, face: int = 0, depth: bool = False, progress: Progress = None) -> None:
         """Calls sink(s, t, radiance, depth) with every tile, one at a time in any order: the first column and row of its
@@ -251,7 +210,11 @@ class LightField:
 
     def with_common_directions(self) -> "LightField":
         """The same light field with the same directions at all hogels, which holograms need."""
-        return LightField(_core.with_common_directions(self._light_field), self.where)
+        return LightField(_core.with_common_directions(self._light_field), self.where, self._made)
+
+    def every_nth_hogel(self, n: int) -> "LightField":
+        """Every n-th hogel across and down, for a first look at a large light field: n is odd."""
+        return LightField(_core.every_nth_hogel(self._light_field, n), self.where)
 
     def compare(self, other: "LightField", *, progress: Progress = None) -> dict[str, float]:
         """sqnr and psnr (decibels) and max_error of another light field of this sampling."""
@@ -271,94 +234,24 @@ class LightField:
         path: Path,
         *,
         float: bool = False,
+        half: bool = False,
         depth: bool = False,
         sqnr: Optional[float] = None,
+        resume: bool = False,
         metadata: Any = None,
         progress: Progress = None,
     ) -> None:
         """Writes the light field: .h5, with half floats or with float=True single ones, or .hgl of this signal to
-        quantisation noise ratio (decibels). The file appears under its name when it is complete."""
-        name = os.fspath(path)
-        _core.require_writable(name)
-        if metadata is None:
-            metadata = [("software", f"hogel {_core.__version__}"), ("command", "hogel.LightField.save")]
-        if os.path.splitext(name)[1] == ".hgl":
-            if float:
-                raise UsageError(f"float: belongs to HDF5 files; {name} is a compressed one")
-            options = _core.CompressionOptions()
-            options.target = _core.Sqnr(_core.defaults["sqnr"] if sqnr is None else sqnr)
-            options.with_depth = depth
-            options.set_metadata(metadata)
-            prepared = self._prepared(2, depth, progress)
-            with reporting(progress, "compressing") as report:
-                _core.compress(prepared, name, options, report)
-            return
-        if sqnr is not None:
-            raise UsageError(f"sqnr: belongs to compressed files, whose names end in .hgl, not to {name}")
-        _core.require_hdf5(name)
-        with reporting(progress, "writing") as report:
-            _core.write_light_field(name, self._light_field, float, depth, metadata, report)
+        quantisation noise ratio (decibels). The file appears under its name when it is complete. With resume=True an
+        interrupted call leaves what is done, and the same call continues it."""
+        save_light_field(self, path, float, half, depth, sqnr, resume, metadata, progress)
 
-    def compress(
-        self,
-        path: Path,
-        *,
-        sqnr: Optional[float] = None,
-        ppb: Optional[float] = None,
-        rule: str = "search",
-        overhead: Optional[float] = None,
-        step: Optional[float] = None,
-        max_error: Optional[float] = None,
-        lossless: bool = False,
-        coder: str = "hogel",
-        transform: str = "",
-        table: str = "own",
-        symbols: str = "bits",
-        hemicube: str = "faces",
-        no_depth: bool = False,
-        depth_error: Optional[units.Length] = None,
-        tone: str = "none",
-        tone_decades: Optional[float] = None,
-        chrominance: float = 1,
-        tile: Optional[units.Counts] = None,
-        metadata: Any = None,
-        progress: Progress = None,
-    ) -> dict[str, Any]:
-        """Writes a compressed light field, .hgl, as `hogel compress` does. One of sqnr (decibels), ppb (rays a bit), step,
-        max_error (radiance) and lossless=True says how well; without one it is 40 dB. Returns bytes, sqnr, pixels_per_bit,
-        step, passes, depth_bytes and depth_error of the file."""
-        name = os.fspath(path)
-        _core.require_writable(name)
-        _core.require_name(name, "hgl")
-        options = _core.CompressionOptions()
-        options.target = _target(sqnr, ppb, rule, overhead, step, max_error, lossless)
-        method = _core.CodingMethod()
-        method.coder, method.transform = coder, transform
-        method.table = _choice(_core.QuantisationTable, table, "table")
-        method.symbols = _choice(_core.ZerotreeSymbols, symbols, "symbols")
-        options.method = method
-        if hemicube == "unfolded":
-            options.layout = _core.StreamLayout.unfolded
-        elif hemicube != "faces":
-            raise UsageError(f"hemicube: faces or unfolded were expected, not '{hemicube}'")
-        options.with_depth = self.has_depth and not no_depth
-        if depth_error is not None:
-            if not options.with_depth:
-                raise UsageError("depth_error: there is no depth to keep")
-            options.depth_error = units.length(depth_error, "depth_error")
-        if tone == "histogram":
-            options.tone_decades = _core.defaults["tone_decades"] if tone_decades is None else tone_decades
-        elif tone != "none" or tone_decades is not None:
-            raise UsageError("tone, tone_decades: none or histogram were expected, and decades with histogram alone")
-        options.chrominance = chrominance
-        if tile is not None:
-            options.set_tile(*units.counts(tile, "tile"))
-        if metadata is None:
-            metadata = [("software", f"hogel {_core.__version__}"), ("command", "hogel.LightField.compress")]
-        options.set_metadata(metadata)
-        prepared = self._prepared(2, options.with_depth, progress)
-        with reporting(progress, "compressing") as report:
-            return _core.compress(prepared, name, options, report)
+    def plan(self, *, depth: bool = False, float: bool = False) -> _core.Plan:
+        """The memory (bytes), disk space and time (seconds) that save() takes of a light field that is rendered."""
+        if self._rendering is None:
+            raise UsageError("plan: of light fields that are rendered; it is what rendering takes")
+        wanted, triangles = self._rendering
+        return _core.plan_light_field(self._light_field, wanted, triangles, float, depth)
 
     def hologram(
         self,
@@ -377,14 +270,28 @@ class LightField:
     ) -> "Hologram":
         """The hologram of the light field, computed when it is read: one field for each wavelength, without any three
         (red, green, blue). The options are those of `hogel hologram`."""
-        from .hologram import Hologram, hologram_request
+        from .hologram import Hologram
+        from .method import hologram_record, hologram_request
 
         wanted = hologram_request(wavelength, pitch, method, phase, lobes, basis, tolerance, line_pitch, looks, seed)
-        common = LightField(_core.with_common_directions(self._light_field), self.where)
-        _core.require_holograms(common._light_field, wanted)
-        prepared = common._prepared(len(wanted.channels), _core.needs_depth(wanted.method), progress)
+        common = self._for_holograms(wanted, basis is None)
+        _core.require_holograms(common, wanted)
+        again = LightField(common, self.where)
+        prepared = again._prepared(len(wanted.channels), _core.needs_depth(wanted.method), progress)
         fields = _core.make_holograms(prepared, wanted)
-        return Hologram(fields, "computed when read", known=(prepared, wanted))
+        record = None
+        if self._made is not None:
+            acted = hologram_record(wanted, self.grid, wavelength, pitch, method, phase, lobes, tolerance)
+            record = {**_record.renamed(self._made, "scene", "input"), **acted}
+        made = Hologram(fields, "computed when read", known=(prepared, wanted), made=record)
+        made._identity = self._identity
+        return made
+
+    def _for_holograms(self, wanted: _core.HologramRequest, any_transform: bool) -> _core.LightField:
+        """With the same directions at all hogels; of files with coefficients of basis fringes, those."""
+        if isinstance(wanted.method, _core.Basis) and self.where.endswith(".hgl"):
+            return _core.open_for_holograms(self.where, wanted, any_transform)
+        return _core.with_common_directions(self._light_field)
 
     def photograph(
         self, *, cameras: Optional[Sequence[_core.Camera]] = None, pupil_samples: Optional[int] = None,
@@ -396,11 +303,26 @@ class LightField:
         views = [camera(self.grid.width, self.grid.height, **options)] if cameras is None else list(cameras)
         with reporting(progress, "photograph") as report:
             pictures = [Picture(image) for image in _core.photograph_rays(self._light_field, views, points, report)]
+        if self._made is not None and cameras is None:
+            acted = {"geometric": "yes", "pupil-samples": str(points), "display": "intensity", **camera_record(**options)}
+            pictures[0]._made = ("photo", {**_record.renamed(self._made, "scene", "input"), **acted})
         return pictures[0] if cameras is None else pictures
+
+    def export(self, target: Path, **options: Any) -> _core.ExportedViews:
+        """Writes the light field as a set of views, or a film of its middle row: hogel.views.export_views()."""
+        from .views import export_views
+
+        return export_views(self, target, **options)
+
+    def print(self, folder: Path, **options: Any) -> list[str]:
+        """Writes the pictures that a hologram printer shows: hogel.views.write_printer_images()."""
+        from .views import write_printer_images
+
+        return write_printer_images(self, folder, **options)
 
     def views(self) -> Picture:
         """The picture of the middle direction, a pixel a hogel."""
-        middle = self[:, :, self.shape[3] // 2, self.shape[4] // 2]
+        middle = self.part(v=self.shape[3] // 2, u=self.shape[4] // 2)
         return Picture(np.moveaxis(middle, 0, -1))
 
     def _repr_png_(self) -> bytes:
@@ -430,35 +352,3 @@ def _say_view(grid: _core.LightFieldGrid) -> str:
     if isinstance(grid.view, _core.FocalPlane):
         text += f" through the plane {units.say_length(grid.view.depth)} behind"
     return text
-
-
-def _choice(kind: Any, name: str, what: str) -> Any:
-    members = kind.__members__
-    if name not in members:
-        raise UsageError(f"{what}: {' or '.join(members)} were expected, not '{name}'")
-    return members[name]
-
-
-def _target(
-    sqnr: Optional[float],
-    ppb: Optional[float],
-    rule: str,
-    overhead: Optional[float],
-    step: Optional[float],
-    max_error: Optional[float],
-    lossless: bool,
-) -> Any:
-    given = [value for value in (sqnr, ppb, step, max_error) if value is not None]
-    if len(given) + bool(lossless) > 1:
-        raise UsageError("sqnr, ppb, step, max_error, lossless: only one of them can be asked for")
-    if ppb is None and (rule != "search" or overhead is not None):
-        raise UsageError("rule, overhead: belong to ppb")
-    if ppb is not None:
-        return _core.PixelsPerBit(ppb, _choice(_core.RateRule, rule, "rule"), overhead)
-    if step is not None:
-        return _core.Step(step)
-    if max_error is not None:
-        return _core.MaxError(max_error)
-    if lossless:
-        return _core.Lossless()
-    return _core.Sqnr(_core.defaults["sqnr"] if sqnr is None else sqnr)

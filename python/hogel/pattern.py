@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
 
-from . import _core, units
+from . import _core, _record, units
 from ._progress import Progress, reporting
 from .errors import UsageError
 
@@ -21,6 +21,8 @@ class Pattern:
 
     def __init__(self, levels: "np.ndarray[Any, Any]", encoding: str, modulator: _core.Modulator, parts: list[_core.Pattern]) -> None:
         self.levels, self.encoding, self.modulator, self._parts = levels, encoding, modulator, parts
+        self._made: Optional[_record.Record] = None
+        self._fields: list[_core.FieldSource] = []
 
     def __array__(self, dtype: Any = None) -> "np.ndarray[Any, Any]":
         return self.levels if dtype is None else self.levels.astype(dtype, copy=False)
@@ -49,8 +51,23 @@ class Pattern:
         name = os.fspath(path)
         _core.require_writable(name)
         if metadata is None:
-            metadata = [("software", f"hogel {_core.__version__}"), ("command", "hogel.Hologram.slm")]
+            metadata = _record.by_function("Hologram.slm") if self._made is None else self._entries()
         _core.write_raw_pixels(name, self.levels, metadata)
+
+    def _entries(self) -> list[tuple[str, str]]:
+        """What its file says made it, the facts of each wavelength, and the history of the hologram."""
+        entries = _record.entries("slm", self._made or {})
+        phases = _core.is_phase_only(_core.encoding(self.encoding))
+        for part, field in zip(self._parts, self._fields):
+            name = units.say_length(field.grid.wavelength)
+            entries.append((f"efficiency at {name}", f"{part.efficiency:.6f}"))
+            if phases:
+                entries.append((f"correlation at {name}", f"{part.correlation:.6f}"))
+            if part.iterations > 0:
+                entries.append((f"iterations at {name}", str(part.iterations)))
+            if part.reference_angle != 0:
+                entries.append((f"reference angle at {name}", f"{part.reference_angle / units.deg:.6f}deg"))
+        return _core.with_history(entries, self._fields[0].provenance)
 
     def __repr__(self) -> str:
         m = self.modulator
@@ -86,6 +103,9 @@ def pattern_of(
     window: Optional[int],
     iterations: int,
     phase_code: Union[str, _core.PhaseCode],
+    device: Optional[str],
+    pixels: Optional[units.Counts],
+    pixel_pitch: Optional[units.Length],
     progress: Progress,
 ) -> Pattern:
     """See Hologram.slm()."""
@@ -106,4 +126,26 @@ def pattern_of(
     options.encoding = _core.encoding(encoding)
     with reporting(progress, "pattern") as report:
         parts = [_core.encode_pattern(field, options, report) for field in fields]
-    return Pattern(np.stack([part.levels for part in parts], axis=-1), encoding, modulator, parts)
+    pattern = Pattern(np.stack([part.levels for part in parts], axis=-1), encoding, modulator, parts)
+    made = hologram._made
+    if made is None or list(made) != ["input"]:
+        return pattern
+    acted = {**made, "encoding": encoding}
+    if _core.is_phase_only(options.encoding):
+        acted["phase-code"] = phase_code if isinstance(phase_code, str) else ""
+    if device is None:
+        acted.update(pixels=_record.words(pixels), **{"pixel-pitch": _record.length(pixel_pitch)})
+        if encoding != "binary":
+            acted["levels"] = str(modulator.levels)
+    else:
+        acted["device"] = device
+    if encoding in ("gerchberg-saxton", "gradient"):
+        acted["window"] = str(options.window)
+        if iterations:
+            acted["iterations"] = str(iterations)
+    if encoding not in ("phase", "binary"):
+        acted["clip"] = _record.number(options.clip)
+    if encoding in ("intensity", "bipolar", "binary"):
+        acted["reference"] = _record.angle(reference)
+    pattern._made, pattern._fields = acted, fields
+    return pattern

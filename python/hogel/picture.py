@@ -7,7 +7,7 @@ from typing import Any, Optional, Union
 
 import numpy as np
 
-from . import _core
+from . import _core, _record
 
 Exposure = Union[str, float]
 
@@ -24,6 +24,7 @@ class Picture:
     """
 
     def __init__(self, pixels: Any) -> None:
+        self._made: Optional[tuple[str, _record.Record]] = None  # the command that makes it, and its options
         if isinstance(pixels, _core.Image):
             self._image = pixels
         else:
@@ -78,7 +79,13 @@ class Picture:
         _core.require_picture_name(name)
         factor = self.exposure(exposure)
         if metadata is None:
-            metadata = [("software", f"hogel {_core.__version__}"), ("exposure", f"{factor:.9g}")]
+            metadata = [("software", f"hogel {_core.__version__}")]
+            if self._made is not None:
+                command, acted = self._made
+                if not name.endswith(".exr"):
+                    acted = {**acted, "exposure": _record.words(exposure)}
+                metadata = _record.entries(command, acted)
+            metadata.append(("exposure", f"{factor:.9g}"))
         _core.write_image(name, self._image, factor, metadata)
 
     def png(self, exposure: Exposure = "auto") -> bytes:

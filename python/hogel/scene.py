@@ -2,141 +2,36 @@
 """Scenes, and the light fields that are rendered of them."""
 from __future__ import annotations
 
-import math
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, Optional, Union
 
 import numpy as np
 
-from . import _core, units
+from . import _core, _record, units
+from . import pose as pose_of
 from ._progress import Progress, reporting
 from .errors import UsageError
 from .light_field import LightField
+from .requests import render_record, request
 
-Colour = Union[str, Sequence[float]]
-_NAMES = {
-    "black": "#000000",
-    "white": "#ffffff",
-    "grey": "#808080",
-    "red": "#ff0000",
-    "green": "#00ff00",
-    "blue": "#0000ff",
-    "yellow": "#ffff00",
-}
+#: Renderers of one's own, by name: see add_renderer().
+own_renderers: dict[str, Callable[..., Any]] = {}
 
 
-def _colour(value: Colour, what: str) -> tuple[float, float, float]:
-    """Linear R, G, B, of three linear numbers, a name or #rrggbb, which is sRGB."""
-    if isinstance(value, str):
-        code = _NAMES.get(value, value)
-        try:
-            if len(code) != 7 or code[0] != "#":
-                raise ValueError
-            parts = [int(code[i : i + 2], 16) for i in (1, 3, 5)]
-        except ValueError:
-            raise UsageError(f"{what}: '{value}' is not a colour; write #rrggbb, or {', '.join(_NAMES)}") from None
-        return tuple(_core.srgb_decode(part / 255) for part in parts)  # type: ignore[return-value]
-    red, green, blue = (float(part) for part in value)
-    return red, green, blue
+def add_renderer(name: str, renderer: Callable[..., Any]) -> None:
+    """A renderer of one's own for `algorithm`: renderer(scene, grid) gets the scene at the hologram, whose `meshes` have
+    positions [n][3] (metres) and triangles [m][3], and returns a function of rays, as LightField.from_function() takes it.
 
-
-def _up(value: Union[str, Sequence[float]]) -> tuple[float, float, float]:
-    if isinstance(value, str):
-        sign = -1.0 if value.startswith("-") else 1.0
-        axis = value.lstrip("-")
-        if axis not in ("x", "y", "z") or len(value) > 2:
-            raise UsageError(f"up: '{value}' is not an axis; write x, y, z, -x, -y or -z")
-        return tuple(sign * (axis == name) for name in "xyz")  # type: ignore[return-value]
-    x, y, z = (float(part) for part in value)
-    return x, y, z
-
-
-def light(direction: Sequence[float], colour: Colour = "white", strength: float = 2.2) -> _core.Light:
-    """A directional light that comes from `direction` (x, y, z), with its irradiance."""
-    size = math.hypot(*direction)
-    if not (size > 0 and math.isfinite(size)):
-        raise UsageError(f"light: {direction!r} is not a direction")
-    x, y, z = (-part / size for part in direction)
-    red, green, blue = (strength * part for part in _colour(colour, "light"))
-    return _core.Light(direction=(x, y, z), intensity=(red, green, blue))
-
-
-def request(
-    *,
-    hogels: Optional[units.Counts] = None,
-    directions: Optional[units.Counts] = None,
-    size: Optional[units.Length] = None,
-    fov: Union[units.Angle, Sequence[units.Angle], None] = None,
-    toward: Union[units.Angle, Sequence[units.Angle]] = 0,
-    algorithm: Optional[str] = None,
-    shading: Optional[str] = None,
-    shadow_map: Optional[int] = None,
-    cache_spacing: Optional[float] = None,
-    samples: units.Counts = 1,
-    hemicube: bool = False,
-    focal_plane: Optional[units.Length] = None,
-    frequencies: Optional[units.Length] = None,
-    interpolate: Optional[int] = None,
-    cull_back_faces: bool = False,
-    front: Optional[float] = None,
-    as_is: bool = False,
-) -> _core.LightFieldRequest:
-    """What `hogel render` asks for, by the names of its options: see Scene.render()."""
-    defaults = _core.defaults
-    columns, rows = units.counts(defaults["hogels"] if hogels is None else hogels, "hogels")
-    across, down = units.counts(defaults["directions"] if directions is None else directions, "directions")
-    width = units.optional_length(size, defaults["size"], "size")
-    if not (columns > 0 and rows > 0 and width > 0):
-        raise UsageError("hogels, size: positive numbers were expected")
-    made = _core.LightFieldRequest()
-    if algorithm is not None:
-        made.renderer = _known("renderer", algorithm, _core.renderers())
-    lighting = _core.ShadingOptions()
-    lighting.model = _core.defaults["shading"] if shading is None else _known("shading model", shading, _core.shading_models())
-    lighting.shadow_map = defaults["shadow_map"] if shadow_map is None else int(shadow_map)
-    made.shading = lighting
-    if cache_spacing is not None:
-        made.cache_spacing = float(cache_spacing)
-    wide, high = (defaults["field_of_view"],) * 2 if fov is None else units.angles(fov, "fov")
-    right, up = units.angles(toward, "toward")
-    if sum([hemicube, focal_plane is not None, frequencies is not None]) > 1:
-        raise UsageError("hemicube, focal_plane, frequencies: only one of them can be asked for")
-    pitch = width / columns
-    view: Union[_core.Perspective, _core.Frequencies, _core.FocalPlane]
-    if hemicube:
-        # The faces of a hemicube have ranges of their own, but for the height of a single row of directions.
-        view = _core.field_of_view(defaults["field_of_view"], defaults["field_of_view"], right, up)
-    else:
-        view = _core.field_of_view(wide, high, right, up)
-    if focal_plane is not None:
-        view = _core.FocalPlane(units.length(focal_plane, "focal_plane"), view.half_u, view.half_v, view.center_u, view.center_v)
-    if frequencies is not None:
-        # As many frequencies j/d as fit into the field of view.
-        step = units.length(frequencies, "frequencies") / pitch
-        across = 2 * math.floor(math.sin(wide / 2) / step + 1e-9) + 1
-        down = 2 * math.floor(math.sin(high / 2) / step + 1e-9) + 1
-        view = _core.Frequencies(0.5 * across * step, 0.5 * down * step)
-    made.grid = _core.LightFieldGrid(columns, rows, pitch, across, down, view)
-    _core.validate_light_field(made.grid)
-    made.hemicube = bool(hemicube)
-    if hemicube and fov is not None:
-        made.hemicube_across, made.hemicube_down = wide, high
-    made.samples = units.counts(samples, "samples")
-    _core.finer(made.grid, *made.samples)
-    made.cull_back_faces = bool(cull_back_faces)
-    made.interpolate = 0 if interpolate is None else int(interpolate)
-    made.fit = not as_is
-    if front is not None:
-        made.front = float(front)
-    made.grids()
-    return made
-
-
-def _known(kind: str, name: str, known: list[str]) -> str:
-    if name not in known:
-        _core.throw_unknown(kind, name, known)
-    return name
+    >>> import hogel
+    >>> hogel.add_renderer("flat", lambda scene, grid: lambda s, t, u, v: 0.25 + 0 * s)
+    >>> made = hogel.Scene.load("pumpkin").render(algorithm="flat", hogels=4, directions=4)
+    >>> float(made[0, 0, 0, 0][0])
+    0.25
+    """
+    if name in _core.renderers():
+        raise UsageError(f"add_renderer: {name} is the name of one of hogel's")
+    own_renderers[name] = renderer
 
 
 class Scene:
@@ -150,30 +45,35 @@ class Scene:
     Scene('mesh', 2 triangles)
     """
 
-    def __init__(self, name: str, scene: Optional[_core.Scene], pose: _core.ScenePose) -> None:
-        self.name, self._scene, self._pose = name, scene, pose
+    def __init__(
+        self, name: str, scene: Optional[_core.Scene], pose: _core.ScenePose, made: Optional[_record.Record] = None
+    ) -> None:
+        self.name, self._scene, self._pose, self._made = name, scene, pose, made
 
     @classmethod
     def load(
         cls,
         name: Union[str, os.PathLike[str]],
         *,
-        up: Union[str, Sequence[float]] = "y",
+        up: Union[str, Sequence[float], None] = None,
         rotate: Union[str, Sequence[units.Angle]] = (0, 0, 0),
         scale: float = 1,
         move: Union[str, Sequence[units.Length]] = (0, 0, 0),
-        colour: Optional[Colour] = None,
+        colour: Optional[pose_of.Colour] = None,
         texture: Any = None,
-        light: Sequence[_core.Light] = (),
-        background: Optional[Colour] = None,
-        ground: Optional[Colour] = None,
+        light: Sequence[Union[str, _core.Light]] = (),
+        background: Optional[pose_of.Colour] = None,
+        ground: Optional[pose_of.Colour] = None,
         point_size: float = 1,
+        scene_camera: str = "",
         progress: Progress = None,
     ) -> "Scene":
         """A built-in scene of that name (hogel.scenes()), or a mesh file, which is read at once. The rest turns, places,
         colours and lights it, as the options of these names do; angles are about x, y and z."""
         pose = _core.ScenePose()
-        pose.up = _up(up)
+        if up is not None:
+            pose.up = pose_of.up(up)
+        given = rotate
         if isinstance(rotate, str):
             if not rotate.endswith("deg"):
                 raise UsageError(f"rotate: '{rotate}' is not a rotation; write the angles about x, y and z, such as -90,0,0deg")
@@ -185,25 +85,46 @@ class Scene:
         pose.scale = float(scale)
         pose.shift = units.point(move, "move")
         if colour is not None:
-            pose.color = _colour(colour, "colour")
+            pose.color = pose_of.linear(colour, "colour")
         if texture is not None:
             from .picture import Picture
 
             pose.set_texture((texture if isinstance(texture, Picture) else Picture.open(texture))._image)
-        pose.lights = list(light)
+        pose.lights = [pose_of.light_of(part) if isinstance(part, str) else part for part in light]
         if background is not None:
-            pose.background = _colour(background, "background")
+            pose.background = pose_of.linear(background, "background")
         if ground is not None:
-            pose.ground = _colour(ground, "ground")
+            pose.ground = pose_of.linear(ground, "ground")
+        pose.camera = scene_camera
         text = os.fspath(name)
+        made = {"scene": text}
+        if up is not None:
+            made["up"] = up if isinstance(up, str) else ",".join(map(_record.number, up))
+        if scene_camera:
+            made["scene-camera"] = scene_camera
+        if any(rotations):
+            made["rotate"] = _record.angle(given) if isinstance(given, str) else pose_of.say_rotation(rotations)
+        if scale != 1:
+            made["scale"] = _record.number(scale)
+        if any(pose.shift):
+            made["move"] = _record.length(move)
+        for option, value in (("colour", colour), ("background", background), ("ground", ground)):
+            if value is not None:
+                made[option] = _record.colour(value)
+        if texture is not None and not hasattr(texture, "_image"):
+            made["texture"] = os.fspath(texture)
+        if light:
+            made["light"] = " ".join(part if isinstance(part, str) else pose_of.say_light(part) for part in light)
+        if point_size != 1:
+            made["point-size"] = _record.number(point_size)
         if text in (known for known, _ in _core.scenes()):
-            return cls(text, None, pose)
+            return cls(text, None, pose, made)
         if _core.input_kind(text) != _core.InputKind.scene:
             from .errors import BadInputError
 
             raise BadInputError(f"{text}: is not a scene")
         with reporting(progress, "scene") as report:
-            return cls(text, _core.import_scene(text, float(point_size), report), pose)
+            return cls(text, _core.import_scene(text, float(point_size), report), pose, made)
 
     @classmethod
     def mesh(
@@ -281,10 +202,95 @@ class Scene:
         >>> hogel.Scene.load("pumpkin").render(hogels=(8, 6), directions=16, size=2*mm, fov=16*deg)
         LightField(8x6 hogels of 16x16 directions, 3 channels, 2 mm x 1.5 mm, 16°, 147 kB, rendered when read)
         """
+        own = options.get("algorithm")
+        if own in own_renderers:
+            options.pop("algorithm")
+            wanted = request(**options)
+            placed = self.placed(wanted, progress)
+            return LightField.of_grid(own_renderers[own](placed, wanted.grid), wanted.grid)
         wanted = request(**options)
         placed = self.placed(wanted, progress)
         with reporting(progress, "lighting") as report:
-            return LightField(_core.render_light_field(placed, wanted, report), "rendered when read")
+            shaded = _core.light_scene(placed, wanted, report)
+        made = LightField(_core.render_light_field(shaded, wanted), "rendered when read")
+        made._rendering = wanted, _core.triangle_count(placed)
+        if self._made is not None:
+            made._made = {**self._acted(placed, options), **render_record(wanted, placed, shaded, **options)}
+            made._identity = _core.describe_input(self.name, placed)
+        return made
+
+    def _acted(self, placed: _core.Scene, options: dict[str, Any]) -> _record.Record:
+        """The options of load() that act on the scene at the hologram."""
+        made = dict(self._made or {})
+        if not placed.is_lit:
+            made.pop("light", None)
+        if not placed.has_points:
+            made.pop("point-size", None)
+        if self._scene is not None:
+            as_is = bool(options.get("as_is", False))
+            made["as-is"] = _record.words(as_is)
+            if not as_is:
+                made["front"] = _record.words(options.get("front"), _core.defaults["front"])
+        return made
+
+    def hologram(
+        self,
+        *,
+        method: str,
+        wavelength: Union[units.Length, Sequence[units.Length], None] = None,
+        pitch: Optional[units.Length] = None,
+        spacing: Optional[units.Length] = None,
+        planes: Optional[int] = None,
+        seed: int = 1,
+        progress: Progress = None,
+        **options: Any,
+    ) -> Any:
+        """The hologram of the scene without a light field, by a method of hogel.scene_hologram_methods(); the size is that
+        of the options of render(). It is computed at once, in memory.
+
+        >>> import hogel
+        >>> hogel.Scene.load("pumpkin").hologram(method="points", wavelength="633nm", size="0.2mm", hogels=4, spacing="20um")
+        Hologram(128x128 samples 1.5625 um apart, 0.2 mm x 0.2 mm, 633 nm, in memory)
+        """
+        from .scene_hologram import scene_hologram
+
+        return scene_hologram(self, method, wavelength, pitch, spacing, planes, seed, options, progress)
+
+    def bake(
+        self,
+        path: Union[str, "os.PathLike[str]"],
+        *,
+        rays: Optional[int] = None,
+        bounces: Optional[int] = None,
+        tessellate: int = 1,
+        size: Optional[units.Length] = None,
+        seed: int = 1,
+        metadata: Any = None,
+        progress: Progress = None,
+    ) -> int:
+        """Lights the scene for good, with what its surfaces reflect onto each other, and writes it as a mesh, .glb, as
+        `hogel bake` does. Returns the number of triangles."""
+        defaults, name = _core.defaults, os.fspath(path)
+        _core.require_baked_scene_name(name)
+        _core.require_writable(name)
+        wanted = request(size=size)
+        placed = self.placed(wanted, progress)
+        number = defaults["bake_rays"] if rays is None else int(rays)
+        reflections = defaults["bake_bounces"] if bounces is None else int(bounces)
+        with reporting(progress, "baking") as report:
+            baked = _core.bake_scene(placed, number, reflections, int(tessellate), int(seed), report)
+        if metadata is None:
+            acted = {
+                **self._acted(placed, {}),
+                "rays": str(number),
+                "bounces": str(reflections),
+                "tessellate": str(tessellate),
+                "size": _record.length(size, defaults["size"]),
+                "seed": str(seed),
+            }
+            metadata = _record.by_function("Scene.bake") if self._made is None else _record.entries("bake", acted)
+        _core.write_baked_scene(name, baked, metadata)
+        return int(_core.triangle_count(baked))
 
     def __repr__(self) -> str:
         what = "built in" if self._scene is None else f"{self.triangles} triangle{'' if self.triangles == 1 else 's'}"

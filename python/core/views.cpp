@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sets of views, pictures for printers, and films.
+#include "core.h"
+#include "hogel/exchange.h"
+#include "hogel/films.h"
+#include "hogel/pipeline.h"
+
+namespace hogel::python {
+namespace {
+
+using py::arg;
+
+void add_view_options(py::module_& module) {
+    py::enum_<Transfer>(module, "Transfer")
+        .value("srgb", Transfer::srgb)
+        .value("linear", Transfer::linear)
+        .value("rec709", Transfer::rec709)
+        .value("gamma22", Transfer::gamma22);
+    py::class_<ViewOptions>(module, "ViewOptions")
+        .def(py::init<>())
+        .def_readwrite("layout", &ViewOptions::layout)
+        .def_readwrite("size", &ViewOptions::size)
+        .def_readwrite("distance", &ViewOptions::distance)
+        .def_readwrite("spacing", &ViewOptions::spacing)
+        .def_readwrite("field_of_view", &ViewOptions::field_of_view)
+        .def_readwrite("transfer", &ViewOptions::transfer)
+        .def_readwrite("orthographic", &ViewOptions::orthographic)
+        .def_readwrite("column_first", &ViewOptions::column_first)
+        .def_readwrite("columns", &ViewOptions::columns)
+        .def_readwrite("rows", &ViewOptions::rows)
+        .def_readwrite("middle_columns", &ViewOptions::middle_columns)
+        .def_readwrite("middle_rows", &ViewOptions::middle_rows)
+        .def_readwrite("mirror_columns", &ViewOptions::mirror_columns)
+        .def_readwrite("mirror_rows", &ViewOptions::mirror_rows)
+        .def_readwrite("disparity", &ViewOptions::disparity)
+        .def_readwrite("densify", &ViewOptions::densify)
+        .def_readwrite("estimate_disparity", &ViewOptions::estimate_disparity)
+        .def_readwrite("with_depth", &ViewOptions::with_depth)
+        .def_readwrite("depth_scale", &ViewOptions::depth_scale)
+        .def_readwrite("memory", &ViewOptions::memory)
+        .def_readwrite("spool", &ViewOptions::spool);
+    py::class_<ImportedViews>(module, "ImportedViews")
+        .def_readonly("light_field", &ImportedViews::light_field)
+        .def_readonly("layout", &ImportedViews::layout)
+        .def_readonly("columns", &ImportedViews::columns)
+        .def_readonly("rows", &ImportedViews::rows)
+        .def_readonly("bits", &ImportedViews::bits)
+        .def_readonly("transfer", &ImportedViews::transfer)
+        .def_readonly("spacing", &ImportedViews::spacing)
+        .def_readonly("distance", &ImportedViews::distance)
+        .def_readonly("scale", &ImportedViews::scale)
+        .def_readonly("parallax", &ImportedViews::parallax)
+        .def_readonly("estimated", &ImportedViews::estimated)
+        .def_readonly("summary", &ImportedViews::summary)
+        .def_readonly("assumed", &ImportedViews::assumed)
+        .def_readonly("notes", &ImportedViews::notes);
+    py::class_<ViewExportOptions>(module, "ViewExportOptions")
+        .def(py::init<>())
+        .def_readwrite("layout", &ViewExportOptions::layout)
+        .def_readwrite("format", &ViewExportOptions::format)
+        .def_readwrite("bits", &ViewExportOptions::bits)
+        .def_readwrite("transfer", &ViewExportOptions::transfer)
+        .def_readwrite("exposure", &ViewExportOptions::exposure)
+        .def_readwrite("memory", &ViewExportOptions::memory)
+        .def("set_metadata", [](ViewExportOptions& o, const py::object& m) { o.metadata = metadata_of(m); });
+    py::class_<ExportedViews>(module, "ExportedViews")
+        .def_readonly("columns", &ExportedViews::columns)
+        .def_readonly("rows", &ExportedViews::rows)
+        .def_readonly("files", &ExportedViews::files)
+        .def_readonly("notes", &ExportedViews::notes);
+}
+
+void add_view_sets(py::module_& module) {
+    module.def("transfer_names", &transfer_names);
+    module.def("transfer_named", &transfer_named, arg("name"));
+    module.def("view_layouts", [] {
+        std::vector<std::tuple<std::string, std::string, bool, bool>> rows;
+        for (const ViewLayout& row : view_layouts().rows())
+            rows.emplace_back(row.name, row.text, row.is_folder, row.create != nullptr);
+        return rows;
+    });
+    module.def("is_view_set", &is_view_set, arg("source"), py::call_guard<py::gil_scoped_release>());
+    module.def(
+        "import_views",
+        [](const std::filesystem::path& source, const ViewOptions& options, const py::object& report) {
+            return run_for(report, [&](const Progress& p) { return import_views(source, options, p); });
+        },
+        arg("source"), arg("options"), arg("report"));
+    module.def(
+        "write_views",
+        [](const std::filesystem::path& path, const LightField& light_field, bool single, bool with_depth,
+           const py::object& metadata, const py::object& report) {
+            LightFieldFileOptions file;
+            file.type = single ? SampleType::single : SampleType::half;
+            file.with_depth = with_depth;
+            file.metadata = with_history(metadata_of(metadata), to_metadata(light_field.provenance()));
+            run(report, [&](const Progress& p) {
+                const auto sinks = create_light_field(path, light_field.grids(), file);
+                write_views(light_field, *sinks.front(), p);
+            });
+        },
+        arg("path"), arg("light_field"), arg("single"), arg("with_depth"), arg("metadata"), arg("report"));
+    module.def(
+        "export_views",
+        [](const LightField& light_field, const std::filesystem::path& target, const ViewExportOptions& options,
+           const py::object& report) {
+            return run_for(report, [&](const Progress& p) { return export_views(light_field, target, options, p); });
+        },
+        arg("light_field"), arg("target"), arg("options"), arg("report"));
+    module.def("write_cameras", &write_cameras, arg("grid"), arg("file"), py::call_guard<py::gil_scoped_release>());
+}
+
+}  // namespace
+
+void add_views(py::module_& module) {
+    add_view_options(module);
+    add_view_sets(module);
+    module.def(
+        "write_printer_images",
+        [](const std::filesystem::path& folder, const LightField& light_field, bool rows, bool serpentine,
+           double exposure, const py::object& metadata, const py::object& report) {
+            const PrinterImageOptions options{rows, serpentine, exposure, metadata_of(metadata)};
+            return run_for(report,
+                           [&](const Progress& p) { return write_printer_images(folder, light_field, options, p); });
+        },
+        arg("folder"), arg("light_field"), arg("rows"), arg("serpentine"), arg("exposure"), arg("metadata"),
+        arg("report"));
+    module.def("can_make_films", &can_make_films);
+    module.def(
+        "make_film",
+        [](const std::filesystem::path& film, const std::filesystem::path& folder, const std::string& frames,
+           double frames_a_second, const std::string& comment, const py::object& report) {
+            run(report, [&](const Progress& p) { make_film(film, folder, frames, frames_a_second, comment, p); });
+        },
+        arg("film"), arg("folder"), arg("frames"), arg("frames_a_second"), arg("comment"), arg("report"));
+}
+
+}  // namespace hogel::python

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The faces of light fields."""
+from __future__ import annotations
+
+from typing import Any, Optional
+
+import numpy as np
+
+from . import _core
+from ._indices import Axis, arranged, axes_of
+from ._progress import Progress, reporting
+from ._samples import Samples
+from .errors import UsageError
+
+
+class Face(Samples):
+    """The samples of one face of a light field, or their depths: an array that is read when it is indexed."""
+
+    def __init__(self, light_field: _core.LightField, index: int, depth: bool) -> None:
+        self._light_field, self._index, self._of_depth = light_field, index, depth
+        self.grid: _core.LightFieldGrid = light_field.grids()[index]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """(channels, rows of hogels, columns, rows of directions, columns), of depths without channels."""
+        return self.grid.shape[1:] if self._of_depth else self.grid.shape
+
+    @property
+    def name(self) -> str:
+        """front, left, right, top or bottom."""
+        return _core.face_name(self.grid.face)
+
+    @property
+    def depth(self) -> "Face":
+        """The depths [t][s][v][u], metres behind the hologram, of what the rays meet; infinite where they meet nothing."""
+        if not self._light_field.has_depth():
+            raise UsageError("depth: this light field has none")
+        return Face(self._light_field, self._index, True)
+
+    def _memory(self) -> Optional["np.ndarray[Any, Any]"]:
+        find = _core.depth_in_memory if self._of_depth else _core.memory_of
+        return find(self._light_field, self._index)
+
+    def read(self, key: Any = (), progress: Progress = None) -> "np.ndarray[Any, Any]":
+        """The elements that slices and whole numbers take. Of a file only the tiles that hold them are read."""
+        axes = axes_of(key, self.shape)
+        memory = self._memory()
+        if memory is not None:
+            return memory[tuple(axis.key for axis in axes)]
+        wanted = ([Axis(0, 1, 1, slice(None))] if self._of_depth else []) + axes
+        slices = [number for axis in wanted for number in (axis.begin, axis.count, axis.step)]
+        with reporting(progress, "reading") as report:
+            values = _core.read_slices(self._light_field, self._index, slices, self._of_depth, report)
+        return arranged(values[0] if self._of_depth else values, axes)
+
+    def __repr__(self) -> str:
+        return f"Face({self.name}{', depth' if self._of_depth else ''}, {self.shape})"

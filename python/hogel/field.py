@@ -1,0 +1,231 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Complex fields on a plane."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Optional
+
+import numpy as np
+
+from . import _core, units
+from ._indices import arranged, axes_of
+from ._progress import Progress, reporting
+from ._samples import Samples, array_of, choice
+from .errors import UsageError
+from .picture import Picture
+
+
+class Field(Samples):
+    """A monochromatic complex field F[y][x], row 0 at the top: in memory, in a file, or computed when it is read. What is
+    read of it are arrays of complex64.
+
+    >>> import hogel, numpy as np
+    >>> wave = hogel.Field.from_array(np.ones((64, 64), np.complex64), pitch="2um", wavelength="633nm")
+    >>> wave
+    Field(64x64 samples 2 um apart, 0.128 mm x 0.128 mm, 633 nm, in memory)
+    >>> far = wave.propagate("1mm")
+    >>> round(float(abs(far[32, 32])), 3) < 2
+    True
+    """
+
+    dtype = np.dtype(np.complex64)
+
+    def __init__(self, source: _core.FieldSource, where: str, look: int = 0) -> None:
+        self._source, self.where, self._look = source, where, look
+
+    @classmethod
+    def from_array(
+        cls,
+        samples: Any,
+        *,
+        wavelength: units.Length,
+        pitch: Optional[units.Length] = None,
+        grid: Optional[_core.Grid] = None,
+        metadata: Any = None,
+    ) -> "Field":
+        """The field of an array [y][x], around x = y = 0 or with `grid` anywhere. An array of complex64 is not copied,
+        whatever its strides; do not change it while the field is in use."""
+        values = array_of(samples, np.complex64)
+        if values.ndim != 2:
+            raise UsageError(f"samples: an array [y][x] was expected, not one of {values.ndim} axes")
+        if grid is None:
+            if pitch is None:
+                raise UsageError("pitch: a field needs the distance of its samples")
+            step = units.length(pitch, "pitch")
+            grid = _core.Grid(values.shape[1], values.shape[0], step, step)
+        sampling = _core.FieldGrid(grid, units.length(wavelength, "wavelength"))
+        return cls(_core.field_of_array(sampling, values, metadata), "in memory")
+
+    @property
+    def grid(self) -> _core.Grid:
+        """The positions of the samples."""
+        return self._source.grid.plane
+
+    @property
+    def wavelength(self) -> float:
+        """Metres."""
+        return self._source.grid.wavelength
+
+    @property
+    def looks(self) -> int:
+        """How many statistically independent fields of the same object there are."""
+        return self._source.looks
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """(rows, columns)."""
+        return self.grid.height, self.grid.width
+
+    @property
+    def metadata(self) -> dict[str, str]:
+        """What made the field."""
+        return dict(self._source.metadata)
+
+    def read(self, key: Any = (), progress: Progress = None) -> "np.ndarray[Any, Any]":
+        """The samples that slices and whole numbers take; no others are read or computed than those between them."""
+        axes = axes_of(key, self.shape)
+        memory = _core.samples_in_memory(self._source)
+        if memory is not None:
+            return memory[tuple(axis.key for axis in axes)]
+        y, x = axes
+        width = (x.count - 1) * x.step + 1 if x.count else 0
+        height = (y.count - 1) * y.step + 1 if y.count else 0
+        with reporting(progress, "reading") as report:
+            values = _core.read_region(self._source, x.begin, y.begin, width, height, self._look, report)
+        return arranged(values[:: y.step, :: x.step], axes)
+
+    def look(self, number: int) -> "Field":
+        """The field of one look, completely in memory."""
+        if not 0 <= number < self.looks:
+            raise IndexError(f"look {number}: there are {self.looks}")
+        return Field(_core.load_field(self._source, number, None), "in memory")
+
+    def load(self, *, progress: Progress = None) -> "Field":
+        """The same field in memory."""
+        with reporting(progress, "reading") as report:
+            return Field(_core.load_field(self._source, self._look, report), "in memory")
+
+    def propagate(
+        self,
+        distance: units.Length,
+        *,
+        output_pitch: Optional[units.Length] = None,
+        output_samples: Optional[units.Counts] = None,
+        offset_x: units.Length = 0,
+        offset_y: units.Length = 0,
+        max_error: float = 1e-3,
+        progress: Progress = None,
+    ) -> "Field":
+        """The field on a parallel plane, farther along +z, towards the viewer, or backwards if negative: its plane waves,
+        exactly, at the samples of the field or at others."""
+        output = self._output(output_pitch, output_samples, offset_x, offset_y)
+        far = units.length(distance, "distance")
+        with reporting(progress, "propagating") as report:
+            moved = _core.propagate(self._source, far, output, self._look, max_error, report)
+        return Field(moved, "in memory")
+
+    def propagate_adjoint(
+        self, distance: units.Length, *, grid: Optional[_core.Grid] = None, max_error: float = 1e-3, progress: Progress = None
+    ) -> "Field":
+        """The adjoint P* of P = propagate(distance), of fields sampled at `grid` (this one's samples without) to the samples
+        of this field: <P f, g> = <f, P* g>, sums over samples. What gradients need: light backwards, by the samples' areas.
+
+        >>> import hogel, numpy as np
+        >>> def noise(seed):
+        ...     parts = np.random.default_rng(seed).normal(size=(2, 32, 32))
+        ...     return hogel.Field.from_array((parts[0] + 1j * parts[1]).astype(np.complex64), pitch="2um", wavelength="633nm")
+        >>> f, g = noise(1), noise(2)
+        >>> there = np.vdot(g, f.propagate("0.1mm"))
+        >>> back = np.vdot(g.propagate_adjoint("0.1mm"), f)
+        >>> bool(abs(there - back) < 1e-3 * abs(there))
+        True
+        """
+        own = self.grid
+        to = own if grid is None else grid
+        area = to.pitch_x * to.pitch_y / (own.pitch_x * own.pitch_y)
+        with reporting(progress, "propagating") as report:
+            far = -units.length(distance, "distance")
+            moved = Field(_core.propagate(self._source, far, to, self._look, max_error, report), "in memory")
+        if area != 1:
+            np.multiply(np.asarray(moved), np.float32(area), out=np.asarray(moved))
+        return moved
+
+    def _output(self, pitch: Any, samples: Any, offset_x: Any, offset_y: Any) -> _core.Grid:
+        field = self.grid
+        width, height = (field.width, field.height) if samples is None else units.counts(samples, "output_samples")
+        step = None if pitch is None else units.length(pitch, "output_pitch")
+        return _core.Grid(
+            width,
+            height,
+            field.pitch_x if step is None else step,
+            field.pitch_y if step is None else step,
+            field.center_x + units.length(offset_x, "offset_x"),
+            field.center_y + units.length(offset_y, "offset_y"),
+        )
+
+    def focus(
+        self,
+        *,
+        between: Optional[Sequence[units.Length]] = None,
+        planes: int = 0,
+        max_side: int = 1024,
+        progress: Progress = None,
+    ) -> _core.FocusSearch:
+        """Where an unknown field is in focus: `planes` of the result, the clearest first, each with its depth behind the
+        hologram, prominence, brightest and cell; and the contrasts at all depths. `between`: two depths to search between."""
+        first, last = (0.0, 0.0) if between is None else units.lengths(between, "between")
+        if between is not None and first == last:
+            raise UsageError("between: two different depths were expected")
+        with reporting(progress, "focus") as report:
+            return _core.find_focus(self._source, first, last, planes, max_side, report)
+
+    def fourier_image(self, focal_length: units.Length, *, progress: Progress = None) -> "Field":
+        """The field in the back focal plane of a lens in whose front focal plane this one lies."""
+        with reporting(progress, "propagating") as report:
+            return Field(_core.fourier_image(self._source, units.length(focal_length, "focal_length"), report), "in memory")
+
+    def fresnel_image(self, distance: units.Length, *, progress: Progress = None) -> "Field":
+        """The field at a distance by one Fourier transform, Fresnel's approximation."""
+        with reporting(progress, "propagating") as report:
+            return Field(_core.fresnel_image(self._source, units.length(distance, "distance"), report), "in memory")
+
+    def select_order(
+        self,
+        order: str = "right",
+        *,
+        at: Optional[Sequence[float]] = None,
+        aperture: float = 0,
+        without_mean: bool = True,
+        reference_source: Any = None,
+        progress: Progress = None,
+    ) -> "Field":
+        """The order of a recorded or encoded hologram that is the object's, moved to frequency zero: "right" or "left", the
+        one with the most light at positive or negative frequencies, "center", or `at` a frequency x, y (cycles a sample).
+        `aperture`: the radius that is cut out, cycles a sample; without one half the way to frequency zero. The mean is
+        subtracted first, and the samples are multiplied by the wave of a reference source at a point x, y, z."""
+        how = _core.OrderSelection()
+        how.which = choice(_core.OrderSelection.Which, "at" if at is not None else order, "order")
+        if at is not None:
+            how.frequency_x, how.frequency_y = (float(part) for part in at)
+        how.radius, how.without_mean = aperture, without_mean
+        if reference_source is not None:
+            how.set_reference_source(*units.point(reference_source, "reference_source"))
+        with reporting(progress, "cutting the order out") as report:
+            return Field(_core.select_order(self._source, how, report)[0], "in memory")
+
+    def intensity(self) -> Picture:
+        """The picture of |F|²."""
+        values = np.asarray(self)
+        return Picture(values.real**2 + values.imag**2)
+
+    def _repr_png_(self) -> bytes:
+        return self.intensity().png()
+
+    def __repr__(self) -> str:
+        g = self.grid
+        apart = units.say_length(g.pitch_x) + ("" if g.pitch_x == g.pitch_y else f" x {units.say_length(g.pitch_y)}")
+        looks = "" if self.looks == 1 else f", {self.looks} looks"
+        return (
+            f"Field({g.width}x{g.height} samples {apart} apart, {units.say_length(g.size_x)} x {units.say_length(g.size_y)}, "
+            f"{units.say_length(self.wavelength)}{looks}, {self.where})"
+        )
