@@ -201,15 +201,18 @@ void add_render(CLI::App& app, Program& program) {
                           default_algorithm));
     add_render_light_field(command, *options);
     add_parsed(command, "--largest", options->max_side,
-               fmt::format("Largest side of a region, in hogels (128; with --dense {})", render_defaults.dense_side),
-               "N", "", parse_count);
-    add_number(command, "--seconds", options->seconds, CLI::Range(1e-3, 1e6),
-               fmt::format("Stop enlarging regions that would take longer ({:g}); with --peers, time of each peer in a "
-                           "round ({:g})",
-                           render_defaults.seconds, render_defaults.peer_seconds),
-               "S");
+               fmt::format("Largest side of a region, in hogels ({})", render_defaults.dense_side), "N", "",
+               parse_count);
+    add_number(
+        command, "--seconds", options->seconds, CLI::Range(1e-3, 1e6),
+        fmt::format("Stop enlarging regions that would take longer ({:g}); with --dense, measure a part of their "
+                    "directions instead ({:g}); with --peers, time of each peer in a round ({:g})",
+                    render_defaults.seconds, render_defaults.dense_seconds, render_defaults.peer_seconds),
+        "S");
     add_number(command, "--memory", options->gigabytes, CLI::Range(1e-3, 1e6),
-               "Stop enlarging regions that would take more, at 20 bytes a ray", "GB");
+               "Stop enlarging regions that would take more, at 20 bytes a ray; with --dense, render them in slabs of "
+               "directions",
+               "GB");
     add_render_measurements(command, *options);
     add_count(command, "--rounds", options->rounds, "Rounds of which --peers and --scaling take medians");
 }

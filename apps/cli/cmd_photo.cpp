@@ -85,6 +85,15 @@ std::vector<Image> photographs_of_hologram(const Options& options, RunRecord& re
         for (const Camera& camera : cameras)
             with_options({{"", "--eye"}},
                          [&] { require_light_towards(field->grid(), camera, options.has_diffuser()); });
+    const WaveCamera with = options.wave_camera();
+    if (const auto* const narrow = std::get_if<PhotographOptions>(&with)) {
+        std::vector<FieldGrid> grids;
+        for (const auto& field : fields) grids.push_back(field->grid());
+        with_options({{"pupil", "--pupil"}}, [&] {
+            state_plan(session, plan_photographs(grids, fields.front()->looks(), cameras, *narrow),
+                       "photographing the hologram");
+        });
+    }
     Stage stage(session, "wave photograph");
     std::vector<Image> pictures = develop(stage, fields, cameras, options);
     const auto black = [](const Image& picture) {

@@ -95,8 +95,8 @@ void measure_scene(const std::string& name, const RenderOptions& options, const 
     LightFieldOptions light_field = options.light_field(render_defaults.dense_across, render_defaults.many_directions);
     light_field.shading = options.shading_of(name);
     light_field.cache_spacing = options.cache_spacing.value_or(0);  // as in [K]
-    const RegionLimits limits{options.max_side.value_or(render_defaults.dense_side), options.seconds.value_or(1e6),
-                              1e9 * options.gigabytes};
+    const RegionLimits limits{options.max_side.value_or(render_defaults.dense_side),
+                              options.seconds.value_or(render_defaults.dense_seconds), 1e9 * options.gigabytes, true};
     const auto scene = bench_scene(session, name, light_field);
     // The middle of the hologram, large enough for the largest region.
     light_field.across = light_field.hogels.columns;
@@ -128,14 +128,16 @@ void measure_scene(const std::string& name, const RenderOptions& options, const 
         std::fflush(stdout);
         stop_if_interrupted();
         session.detail(fmt::format("{}: {}", name, algorithm));
-        all.push_back(time_regions(algorithm, scene, grid, limits));
-        const auto& points = all.back().curve.points;
         fmt::print("| `{}` |", algorithm);
+        all.push_back(time_regions(algorithm, scene, grid, limits, [](const RegionTimes& times) {
+            const bool estimated = times.part > 1 || times.directions.back() < 1;
+            fmt::print(" {}{:.3g} |", estimated ? "≈ " : "", times.curve.points.back().second);
+            std::fflush(stdout);
+        }));
+        const auto& points = all.back().curve.points;
         std::size_t i = 0;
         for (std::size_t side = 1; side <= limits.side; side *= 2, ++i)
-            fmt::print("{} |", i < points.size()
-                                   ? fmt::format(" {}{:.3g}", all.back().part > 1 ? "≈ " : "", points[i].second)
-                                   : std::string());
+            if (i >= points.size()) fmt::print(" |");
         const auto best = [](const RegionTimes& times) {
             return std::ranges::min(times.curve.points, {}, &std::pair<double, double>::second).second;
         };

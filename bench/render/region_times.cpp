@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "bench/measure.h"
+#include "bench/render/direction_slabs.h"
 #include "bench/session.h"
 #include "hogel/core/parallel.h"
 #include "hogel/render/layers.h"
@@ -81,58 +83,130 @@ std::size_t affordable_part(const std::string& algorithm, const ShadedScene& sce
     return part;
 }
 
+// A rendering algorithm and its scene.
+struct Rendering {
+    std::string algorithm;
+    std::shared_ptr<const ShadedScene> scene;
+    bool cached = false;                                      ///< whether the scene has a radiance cache
+    std::shared_ptr<const LightFieldSource> whole = nullptr;  ///< with all directions, once it is made
+};
+
+struct Reading {
+    double seconds = 0;  // for all directions
+    render::Visits visits;
+    double rays = 0;  // that were visited
+};
+
+std::size_t rows_of(const std::vector<DirectionSlab>& slabs) {
+    std::size_t rows = 0;
+    for (const DirectionSlab& slab : slabs) rows += slab.rows;
+    return rows;
+}
+
+// Renders slabs of directions of a square region.
+Reading read_slabs(Rendering& rendering, const LightFieldGrid& grid, const HogelRange& range,
+                   const std::vector<DirectionSlab>& slabs) {
+    Reading reading;
+    const bool by_region = rendering.algorithm == interpolated_simplex;
+    for (const DirectionSlab& slab : slabs) {
+        stop_if_interrupted();
+        std::shared_ptr<const LightFieldSource> source;
+        const bool all = slab.rows == grid.directions_v;
+        if (all && rendering.whole && !by_region)
+            source = rendering.whole;
+        else
+            source = make_source(rendering.algorithm, rendering.scene, all ? grid : slab.of(grid), range.ns);
+        if (all) rendering.whole = source;
+        LightFieldTile tile(source->grid(), range, false);
+        const render::Visits earlier = visits_of(*source);
+        reading.seconds += time_of_reading(*source, tile, rendering.cached);
+        const render::Visits now = visits_of(*source);
+        reading.visits.slices += now.slices - earlier.slices;
+        reading.visits.samples += now.samples - earlier.samples;
+        reading.rays += static_cast<double>(range.hogels() * source->grid().directions()) *
+                        (rendering.cached ? 2 : 1);  // read twice
+    }
+    reading.seconds *= static_cast<double>(grid.directions_v) / static_cast<double>(rows_of(slabs));
+    return reading;
+}
+
+// The slabs in which a region of so many hogels is rendered; none if it is beyond the limits.
+// @param expected  its time, seconds
+std::vector<DirectionSlab> affordable_slabs(const RegionLimits& limits, const LightFieldGrid& grid, std::size_t hogels,
+                                            double bytes_per_ray, double expected) {
+    const double bytes = static_cast<double>(hogels * grid.directions_u) * bytes_per_ray;  // of one V
+    const double max_rows = std::min(std::floor(limits.bytes / bytes), static_cast<double>(grid.directions_v));
+    if (!limits.slabs) {
+        if (max_rows < static_cast<double>(grid.directions_v) || expected > limits.seconds) return {};
+    } else if (max_rows < 1) {
+        return {};
+    }
+    return direction_slabs(grid.directions_v, static_cast<std::size_t>(max_rows),
+                           limits.slabs ? limits.seconds / expected : 1);
+}
+
+// The region of side × rows hogels in or near the middle; none where it leaves the grid.
+// @param aligned  begins at multiples of its side, as interpolation has it
+std::optional<HogelRange> middle(const LightFieldGrid& grid, std::size_t side, std::size_t rows, bool aligned) {
+    const auto first = [&](std::size_t hogels, std::size_t across) {
+        return aligned ? hogels / 2 / across * across : (hogels - across) / 2;
+    };
+    const HogelRange range{first(grid.hogels_s, side), first(grid.hogels_t, rows), side, rows};
+    if (range.s0 + side > grid.hogels_s || range.t0 + rows > grid.hogels_t) return {};
+    return range;
+}
+
 }  // namespace
 
 RegionTimes time_regions(const std::string& algorithm, const std::shared_ptr<const ShadedScene>& scene,
-                         const LightFieldGrid& grid, const RegionLimits& limits) {
+                         const LightFieldGrid& grid, const RegionLimits& limits,
+                         const std::function<void(const RegionTimes&)>& measured) {
     const double before = reset_max_memory_held();
     const bool cached = scene->radiance_cache != nullptr;
     const bool hogel_by_hogel = algorithm == "raytrace" || algorithm == "zbuffer";
     const bool row_by_row = algorithm == "simplex3d" || algorithm == "mvr";
     const std::size_t max_side = std::min({limits.side, grid.hogels_s, grid.hogels_t});
-    RegionTimes times{{algorithm, {}}};
+    RegionTimes times;
+    times.curve.name = algorithm;
+    const auto add = [&](std::size_t side, double milliseconds, double directions) {
+        times.curve.points.emplace_back(static_cast<double>(side), milliseconds);
+        times.directions.push_back(directions);
+        times.bytes = max_memory_held() - before;
+        measured(times);
+    };
     if (hogel_by_hogel) {
         const auto source = make_renderer(algorithm, scene, grid);
         const double milliseconds = 1e3 * time_of_hogels(*source, 0.2 * limits.seconds, cached);
-        for (std::size_t side = 1; side <= max_side; side *= 2)
-            times.curve.points.emplace_back(static_cast<double>(side), milliseconds);
-        times.bytes = max_memory_held() - before;
+        for (std::size_t side = 1; side <= max_side; side *= 2) add(side, milliseconds, 1);
         return times;
     }
     times.part = affordable_part(algorithm, *scene, grid, limits.seconds);
     times.curve.dashed = times.part > 1;
-    const auto measured = times.part > 1 ? thinned(*scene, times.part) : scene;
-    const bool by_region = algorithm == interpolated_simplex;
-    auto source = make_source(algorithm, measured, grid, 1);
-    const auto empty = make_source(algorithm, thinned(*scene, 0), grid, 1);
+    Rendering rendering{algorithm, times.part > 1 ? thinned(*scene, times.part) : scene, cached && times.part == 1};
+    Rendering empty{algorithm, thinned(*scene, 0)};
+    const bool aligned = algorithm == interpolated_simplex;
+    const double bytes_per_ray = aligned ? 28 : 20;  // colours in its buffer
     double last = 0;
     for (std::size_t side = 1; side <= max_side; side *= 2) {
-        if (by_region) source = make_source(algorithm, measured, grid, side);
         const std::size_t rows = row_by_row ? 1 : side, hogels = side * rows;
-        constexpr double bytes_per_ray = 20, min_growth = 1.5;
-        const double bytes = static_cast<double>(hogels * grid.directions()) * bytes_per_ray;
-        if (bytes > limits.bytes || last * min_growth > limits.seconds) break;
-        // Interpolation has regions that begin at multiples of their side.
-        const auto middle = [&](std::size_t hogels_there, std::size_t across) {
-            return by_region ? hogels_there / 2 / across * across : (hogels_there - across) / 2;
-        };
-        const HogelRange range{middle(grid.hogels_s, side), middle(grid.hogels_t, rows), side, rows};
-        if (range.s0 + side > grid.hogels_s || range.t0 + rows > grid.hogels_t) break;
-        LightFieldTile tile(grid, range, false);
-        const render::Visits earlier = visits_of(*source);
-        last = time_of_reading(*source, tile, cached && times.part == 1);
-        const render::Visits now = visits_of(*source);
-        const double rays =
-            static_cast<double>(hogels * grid.directions()) * (cached && times.part == 1 ? 2 : 1);  // read twice
-        times.slices_a_ray = static_cast<double>(now.slices - earlier.slices) / rays;
-        times.tests_a_ray = static_cast<double>(now.samples - earlier.samples) / rays;
+        const double min_growth = limits.slabs && !row_by_row ? 4 : 1.5;
+        const std::vector<DirectionSlab> slabs =
+            affordable_slabs(limits, grid, hogels, bytes_per_ray, last * min_growth);
+        const std::optional<HogelRange> range = middle(grid, side, rows, aligned);
+        if (slabs.empty() || !range) break;
+        const Reading reading = read_slabs(rendering, grid, *range, slabs);
+        last = reading.seconds;
+        times.slices_a_ray = static_cast<double>(reading.visits.slices) / reading.rays;
+        times.tests_a_ray = static_cast<double>(reading.visits.samples) / reading.rays;
         // Short times vary, and the first includes that of getting memory from the system.
-        if (last < 0.02 * limits.seconds) last = std::min(last, time_of_reading(*source, tile, false));
+        if (slabs.size() == 1 && last < 0.02 * limits.seconds)
+            last = std::min(last, read_slabs(rendering, grid, *range, slabs).seconds);
         const auto part = static_cast<double>(times.part);
-        const double whole = times.part > 1 ? part * last - (part - 1) * time_of_reading(*empty, tile, false) : last;
-        times.curve.points.emplace_back(static_cast<double>(side), 1e3 * whole / static_cast<double>(hogels));
+        const double whole =
+            times.part > 1 ? part * last - (part - 1) * read_slabs(empty, grid, *range, slabs).seconds : last;
+        add(side, 1e3 * whole / static_cast<double>(hogels),
+            static_cast<double>(rows_of(slabs)) / static_cast<double>(grid.directions_v));
     }
-    times.bytes = max_memory_held() - before;
     return times;
 }
 

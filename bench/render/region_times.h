@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bench/plot.h"
 #include "hogel/light_field.h"
@@ -15,13 +17,18 @@ struct RegionLimits {
     std::size_t side = 0;  ///< of the largest region, in hogels
     double seconds = 0;    ///< maximum expected time of a region
     double bytes = 0;      ///< maximum of a region, 20 per ray: three values and a depth buffer
+    /// Whether a region beyond these limits is rendered in slabs of its directions, one after the other, each with a
+    /// depth buffer of its own: all slabs where memory is short, as many as time allows, evenly spread over V, where
+    /// that is. A triangle is set up again for each slab that may show it, so the time is an upper bound.
+    bool slabs = false;
 };
 
 /// The times of a renderer, and how they were measured.
 struct RegionTimes {
-    Curve curve;           ///< side of the region, milliseconds for each hogel
-    double bytes = 0;      ///< maximum memory without the scene
-    std::size_t part = 1;  ///< one in this number of triangles was rendered
+    Curve curve;                     ///< side of the region, milliseconds for each hogel
+    double bytes = 0;                ///< maximum memory without the scene
+    std::size_t part = 1;            ///< one in this number of triangles was rendered
+    std::vector<double> directions;  ///< for each point, the part of the directions that was rendered
     /// Last slices, and tests of a ray against a triangle, for each ray of the largest region; 0 if not counted.
     double slices_a_ray = 0, tests_a_ray = 0;
 };
@@ -40,7 +47,9 @@ inline constexpr const char* interpolated_simplex = "simplex, interpolated";
 /// If a single hogel would exceed the limit, one in n triangles is rendered, without a cache, and the time in excess of
 /// that of an empty scene is multiplied by n. This is right for renderers whose work is a sum over triangles, which
 /// includes all slow ones. The curve is then dashed.
-RegionTimes time_regions(const std::string& algorithm, const std::shared_ptr<const ShadedScene>& scene,
-                         const LightFieldGrid& grid, const RegionLimits& limits);
+/// @param measured  called for each point of the curve, the last in the curve, as soon as it is measured
+RegionTimes time_regions(
+    const std::string& algorithm, const std::shared_ptr<const ShadedScene>& scene, const LightFieldGrid& grid,
+    const RegionLimits& limits, const std::function<void(const RegionTimes&)>& measured = [](const RegionTimes&) {});
 
 }  // namespace hogel::bench

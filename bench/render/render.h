@@ -19,7 +19,8 @@ struct RenderDefaults {
     std::size_t many_directions = 256;  ///< --peers, --stream
     double seconds = 8;                 ///< limit for a region
     std::size_t dense_across = 1440;    ///< --dense: hogels that would fill the width
-    std::size_t dense_side = 64;        ///< --dense: the largest region
+    std::size_t dense_side = 128;       ///< --dense: the largest region
+    double dense_seconds = 30;          ///< --dense: limit for a region
     double peer_seconds = 1;            ///< limit for a peer in a round
 };
 inline constexpr RenderDefaults render_defaults;
@@ -34,7 +35,7 @@ struct RenderOptions {
     std::optional<double> seconds, cache_spacing;
     double size = 20_mm;
     Angles field_of_view{40_deg, 40_deg};
-    std::optional<std::size_t> max_side;  ///< of a region, in hogels; 128 where none is given, with --dense 64
+    std::optional<std::size_t> max_side;  ///< of a region, in hogels; 128 where none is given
     double gigabytes = 6;                 ///< limit for a region, see RegionLimits
     std::size_t rounds = 5;
 

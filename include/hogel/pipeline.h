@@ -269,6 +269,12 @@ HOGEL_API LightChoice choose_light(std::span<const LightFieldGrid> faces, const 
 HOGEL_API Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                                 std::span<const Camera> cameras, const PhotographOptions& options = {});
 
+/// Resources to photograph holograms that exist already, without the cost of reading them; behind a vertical diffuser
+/// too (PhotographOptions), where the time grows with the number of lines within 32 resolution cells and the blur.
+/// Throws Error(usage) as require_photographs() does.
+HOGEL_API Plan plan_photographs(std::span<const FieldGrid> holograms, std::size_t looks,
+                                std::span<const Camera> cameras, const PhotographOptions& options = {});
+
 /// Resources to photograph a light field by rays, without the cost of reading it.
 HOGEL_API Plan plan_ray_photographs(std::span<const LightFieldGrid> faces, std::span<const Camera> cameras,
                                     const RayPhotographOptions& options = {});

@@ -19,7 +19,8 @@ std::size_t rows_in_line(const FieldGrid& hologram, std::span<const Camera> came
     constexpr double rows_in_cell = 12;  // the narrow band is decimated to 4
     double cell = hologram.plane.pitch_y;
     for (const Camera& camera : cameras) cell = std::min(cell, resolution_cell(camera, hologram.wavelength));
-    return 2 * static_cast<std::size_t>(std::ceil(0.5 * rows_in_cell * hologram.plane.pitch_y / cell)) + 1;
+    const double rows = rows_in_cell * hologram.plane.pitch_y / cell;
+    return 2 * static_cast<std::size_t>(std::ceil(std::max(0.0, 0.5 * (rows - 1)))) + 1;
 }
 
 // With a dark line above and below the hologram, so that what diffraction spreads beyond it is seen there.
@@ -30,22 +31,25 @@ FieldGrid thin_rows(const FieldGrid& hologram, std::size_t rows) {
     return thin;
 }
 
-// The lines `first`, `first` + `every`, … of a hologram, each as one thin row in its middle; other rows are dark.
+// A hologram's lines, each as one thin row in its middle; other rows are dark. Each look shows the lines `first`,
+// `first` + `every`, … of a look of the hologram, so that a photograph of all looks is the mean over `every` sets of
+// lines: what the sets share, the lens and the development of the film, is done once.
 class ThinLines final : public FieldSource {
   public:
-    ThinLines(const FieldSource& hologram, std::size_t rows, std::size_t first, std::size_t every)
-        : hologram_(hologram), rows_(rows), first_(first), every_(every), grid_(thin_rows(hologram.grid(), rows)) {}
+    ThinLines(const FieldSource& hologram, std::size_t rows, std::size_t every)
+        : hologram_(hologram), rows_(rows), every_(every), grid_(thin_rows(hologram.grid(), rows)) {}
 
     const FieldGrid& grid() const override { return grid_; }
-    std::size_t looks() const override { return hologram_.looks(); }
+    std::size_t looks() const override { return hologram_.looks() * every_; }
     const Provenance& provenance() const override { return hologram_.provenance(); }
 
     void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override {
         validate(region, grid_, out.shape());
         for (std::size_t y = 0; y < region.height; ++y) {
-            if (const std::size_t line = (region.y0 + y) / rows_; shines(line, (region.y0 + y) % rows_)) {
+            if (const std::size_t line = (region.y0 + y) / rows_;
+                shines(line, (region.y0 + y) % rows_, look % every_)) {
                 Array<std::complex<float>, 2> samples({1, region.width});
-                hologram_.read({region.x0, line - 1, region.width, 1}, look, samples);
+                hologram_.read({region.x0, line - 1, region.width, 1}, look / every_, samples);
                 std::ranges::copy(samples.elements(), &out(y, 0));
             } else {
                 std::fill_n(&out(y, 0), region.width, std::complex<float>());
@@ -55,13 +59,13 @@ class ThinLines final : public FieldSource {
 
   private:
     // Lines are counted from the dark one above the hologram.
-    bool shines(std::size_t line, std::size_t row) const {
-        return row == rows_ / 2 && line >= 1 && line <= hologram_.grid().plane.height && line - 1 >= first_ &&
-               (line - 1 - first_) % every_ == 0;
+    bool shines(std::size_t line, std::size_t row, std::size_t first) const {
+        return row == rows_ / 2 && line >= 1 && line <= hologram_.grid().plane.height && line - 1 >= first &&
+               (line - 1 - first) % every_ == 0;
     }
 
     const FieldSource& hologram_;
-    std::size_t rows_, first_, every_;
+    std::size_t rows_, every_;
     FieldGrid grid_;
 };
 
@@ -168,14 +172,24 @@ void photograph_lines(const FieldSource& hologram, std::span<const Camera> camer
         fine_cameras.push_back(fine.back().camera);
     }
     std::vector<Image> fine_pictures(cameras.size());
-    // A thin row stands for the whole line, whose amplitudes add up to as many times its own.
-    const double factor = static_cast<double>(rows) * static_cast<double>(rows);
-    for (std::size_t first = 0; first < every; ++first) {
-        photograph_into(ThinLines(hologram, rows, first, every), fine_cameras, without_diffuser(options), fine_pictures,
-                        progress.part(first, every));
-        for (std::size_t i = 0; i < cameras.size(); ++i)
-            fine[i].spread(fine_pictures[i], line_height, factor, pictures[i]);
+    photograph_into(ThinLines(hologram, rows, every), fine_cameras, without_diffuser(options), fine_pictures, progress);
+    // A thin row stands for the whole line, whose amplitudes add up to as many times its own; and the picture is a mean
+    // over the sets of lines, not their sum.
+    const double factor = static_cast<double>(rows) * static_cast<double>(rows) * static_cast<double>(every);
+    for (std::size_t i = 0; i < cameras.size(); ++i) fine[i].spread(fine_pictures[i], line_height, factor, pictures[i]);
+}
+
+LinesWork work_of_lines(const FieldGrid& hologram, std::span<const Camera> cameras, const PhotographOptions& options) {
+    require_photographs_of_lines(hologram, cameras, options);
+    LinesWork work;
+    if (cameras.empty()) return work;
+    work.sets = lines_between(hologram, cameras, lines_apart);
+    work.rows = thin_rows(hologram, rows_in_line(hologram, cameras));
+    for (const Camera& camera : cameras) {
+        work.cameras.push_back(FineRows(camera, hologram.plane.pitch_y).camera);
+        work.picture_bytes += static_cast<double>(work.cameras.back().picture.samples()) * sizeof(float);
     }
+    return work;
 }
 
 }  // namespace hogel::optics

@@ -2,18 +2,31 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "hogel/photograph.h"
 
 namespace hogel::optics {
 
+/// The distance of lines, in resolution cells beside the blur, at which their light counts as not overlapping.
+inline constexpr double lines_apart = 32;
+
 /// photograph_into() of a hologram's lines behind a vertical diffuser (docs/notation.md, section 4): the sum of the
 /// intensities of its lines, each of which sends its light to all heights.
-/// @param apart  distance of lines, in resolution cells beside the blur, at which their light counts as not
-/// overlapping,
-///               so that they share a photograph; infinity: a photograph for each line
+/// @param apart  see lines_apart: lines so far apart share a photograph; infinity: a photograph for each line
 void photograph_lines(const FieldSource& hologram, std::span<const Camera> cameras, const PhotographOptions& options,
-                      std::span<Image> pictures, const Progress& progress, double apart = 32);
+                      std::span<Image> pictures, const Progress& progress, double apart = lines_apart);
+
+/// What photograph_lines() photographs: one look of `rows` for each of `sets` sets of lines, by `cameras`.
+struct LinesWork {
+    FieldGrid rows;
+    std::size_t sets = 1;
+    std::vector<Camera> cameras;  ///< with rows of pixels so fine that they can be spread to the height of lines
+    double picture_bytes = 0;     ///< of their pictures
+};
+
+/// Throws what require_photographs_of_lines() throws.
+LinesWork work_of_lines(const FieldGrid& hologram, std::span<const Camera> cameras, const PhotographOptions& options);
 
 /// Throws what photograph_lines() throws before it begins.
 void require_photographs_of_lines(const FieldGrid& hologram, std::span<const Camera> cameras,

@@ -241,6 +241,21 @@ TEST(Plan, of_oblique_projections_does_not_shrink_with_the_hogels) {
     const LightField rendered = render_light_field(scene, request);
     EXPECT_GT(plan_light_field(rendered, request, 10'000'000).seconds,
               100 * plan_light_field(rendered, request, 10'000).seconds);
+    // Its copies of all triangles and of those that a region sees.
+    request.renderer = "simploid";
+    EXPECT_GE(plan_light_field(rendered, request, 10'000'000).memory,
+              plan_light_field(rendered, request, 10'000).memory + 156.0 * 9'990'000);
+}
+
+TEST(Plan, of_lines_behind_a_diffuser_grows_with_the_lines_that_overlap) {
+    const Camera camera = camera_for(1e-3, 1e-3, 32);
+    const auto plan = [&](std::size_t lines, bool diffuser) {
+        const FieldGrid grid{{640, lines, 1.5625e-6, 1e-3 / static_cast<double>(lines), 0, 0}, 633e-9};
+        return plan_photographs(std::span(&grid, 1), 1, {&camera, 1}, {.vertical_diffuser = diffuser});
+    };
+    EXPECT_GT(plan(640, true).seconds, 5 * plan(64, true).seconds);
+    EXPECT_GT(plan(640, true).seconds, 20 * plan(640, false).seconds);
+    EXPECT_GT(plan(640, true).memory, 0);
 }
 
 TEST(Plan, of_photographs_counts_what_they_are_computed_from) {

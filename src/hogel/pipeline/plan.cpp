@@ -35,6 +35,10 @@ constexpr double seconds_a_seen_hogel = 45e-9, seconds_a_seen_pixel = 23e-9, byt
 // region however few hogels it has.
 constexpr double seconds_a_projected_triangle = 40e-9;
 
+// Bytes per triangle of the renderer simploid: its copy of corners and radiance, and, for each region in work, the rows
+// of those that the region may see (TriangleBlock).
+constexpr double bytes_a_slab_triangle = 128, bytes_a_block_triangle = 28;
+
 // Seconds per ray that gathers reflected light (440e-9 for the pumpkin, 490e-9 for the church), and bytes per triangle
 // of the result, while it is computed and in a file.
 constexpr double seconds_a_gathered_ray = 450e-9, bytes_a_baked_triangle = 310, file_bytes_a_baked_triangle = 31;
@@ -83,6 +87,12 @@ Plan plan_light_field(const LightField& rendered, const LightFieldRequest& reque
             ((grid.hogels_s + region.ns - 1) / region.ns) * ((grid.hogels_t + region.nt - 1) / region.nt);
         const auto at_once = static_cast<double>(std::min(thread_count(), regions));
         plan.memory = std::max(plan.memory, at_once * region_bytes(*face, request, values));
+        if (request.renderer == "simploid") {
+            const auto count = static_cast<double>(triangles);
+            plan.memory = std::max(plan.memory,
+                                   at_once * (region_bytes(*face, request, values) + count * bytes_a_block_triangle) +
+                                       count * bytes_a_slab_triangle);
+        }
         const double rays = static_cast<double>(grid.directions()) * static_cast<double>(grid.hogels());
         const std::size_t sample = file.type == SampleType::half ? 2 : 4;
         plan.disk += rays * static_cast<double>(grid.channels * sample + (file.with_depth ? sizeof(float) : 0));

@@ -10,6 +10,8 @@
 #include "hogel/hologram/eye/stereogram_eyes.h"
 #include "hogel/optics/expected/expected.h"
 #include "hogel/optics/film/film.h"
+#include "hogel/optics/line_diffuser.h"
+#include "hogel/optics/narrow_band/narrow_band.h"
 #include "hogel/optics/photograph_plan.h"
 #include "hogel/pipeline.h"
 #include "hogel/pipeline/plan_rates.h"
@@ -27,6 +29,10 @@ constexpr double seconds_an_amplitude = 0.4e-9, seconds_a_wave = 0.3e-9, seconds
 // Per sample of a band, for each look; per sample of a film, for each look and photograph; and for each product of a
 // number of a hogel with a spot.
 constexpr double seconds_a_band_sample = 25e-9, seconds_a_film_sample = 10e-9, seconds_a_product = 0.11e-9;
+
+// Per sample of the sines and of the film of a set of lines behind a vertical diffuser, most of which are dark
+// (decision 0088).
+constexpr double seconds_a_sine_of_lines = 1.3e-9, seconds_a_film_sample_of_lines = 0.9e-9;
 
 std::vector<optics::SharedEye> eyes_of(std::span<const Camera> cameras) {
     std::vector<std::size_t> all(cameras.size());
@@ -64,6 +70,28 @@ double seconds_of_expected(const FieldGrid& hologram, std::span<const Camera> ca
     return static_cast<double>(hologram.plane.samples()) *
                (seconds_an_amplitude + static_cast<double>(eyes_of(cameras).size()) * seconds_a_power_and_eye) +
            work.products * seconds_a_product;
+}
+
+// Bytes of the camera, which computes as many looks together as there is memory for.
+double camera_bytes_of(const FieldGrid& hologram, std::span<const Camera> cameras, const PhotographOptions& options,
+                       std::size_t looks) {
+    const auto memory = static_cast<double>(options.memory);
+    const optics::PhotographPlan camera = optics::plan_photographs(hologram, cameras, memory);
+    const auto more = static_cast<double>(camera.looks_at_once(memory, looks) - 1);
+    return camera.bytes + std::min(more * camera.bytes_a_look, memory);
+}
+
+// Seconds of the films of one set of lines behind a vertical diffuser.
+double seconds_of_films(const FieldGrid& hologram, std::span<const Camera> cameras) {
+    double seconds = 0;
+    for (const optics::SharedEye& eye : eyes_of(cameras)) {
+        const optics::narrow_band::NarrowBand band(hologram, cameras[eye.members.front()].eye, eye.pupil);
+        const optics::film::FilmSize film(band, hologram, eye.pupil, eye.blur);
+        seconds +=
+            static_cast<double>(film.sines.size_x) * static_cast<double>(film.sines.size_y) * seconds_a_sine_of_lines +
+            static_cast<double>(eye.members.size() * film.x.size * film.y.size) * seconds_a_film_sample_of_lines;
+    }
+    return seconds;
 }
 
 }  // namespace
@@ -108,14 +136,36 @@ Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramReque
         seconds += from_hogels ? seconds_from_hogels(faces.front(), hologram, cameras, request.looks)
                                : static_cast<double>(hologram.plane.samples()) * static_cast<double>(request.looks) *
                                      (seconds_a_sample + eyes * seconds_a_sample_and_eye);
-        const auto memory = static_cast<double>(options.memory);
-        const optics::PhotographPlan camera = optics::plan_photographs(hologram, cameras, memory);
-        // Looks are computed together, as many as there is memory for.
-        const auto more = static_cast<double>(camera.looks_at_once(memory, request.looks) - 1);
-        camera_bytes = std::max(camera_bytes, camera.bytes + std::min(more * camera.bytes_a_look, memory));
+        camera_bytes = std::max(camera_bytes, camera_bytes_of(hologram, cameras, options, request.looks));
     }
     plan.seconds = on_all_threads(seconds);
     plan.memory += camera_bytes;
+    return plan;
+}
+
+Plan plan_photographs(std::span<const FieldGrid> holograms, std::size_t looks, std::span<const Camera> cameras,
+                      const PhotographOptions& options) {
+    Plan plan;
+    double seconds = 0;
+    for (const FieldGrid& hologram : holograms) {
+        const auto eyes = static_cast<double>(eyes_of(cameras).size());
+        const auto seconds_of = [&](const FieldGrid& field, std::size_t count) {
+            return static_cast<double>(field.plane.samples()) * static_cast<double>(count) * eyes *
+                   seconds_a_sample_and_eye;
+        };
+        if (!options.vertical_diffuser) {
+            seconds += seconds_of(hologram, looks);
+            plan.memory = std::max(plan.memory, camera_bytes_of(hologram, cameras, options, looks));
+            continue;
+        }
+        const optics::LinesWork lines = optics::work_of_lines(hologram, cameras, options);
+        const std::size_t photographs = looks * lines.sets;
+        seconds += seconds_of(lines.rows, photographs) +
+                   static_cast<double>(photographs) * seconds_of_films(lines.rows, lines.cameras);
+        plan.memory = std::max(plan.memory,
+                               camera_bytes_of(lines.rows, lines.cameras, options, photographs) + lines.picture_bytes);
+    }
+    plan.seconds = on_all_threads(seconds);
     return plan;
 }
 

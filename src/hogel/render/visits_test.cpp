@@ -71,6 +71,19 @@ TEST_P(VisitingRenderer, looks_at_no_sample_of_what_is_out_of_view) {
     EXPECT_EQ(visits.samples, 0u);
 }
 
+// What no hogel of a tile sees in any direction is not made into a volume, on whichever side of the view it is.
+TEST(Simplices, are_not_made_of_what_is_out_of_view) {
+    for (const char* name : {"simplex", "simplex-strips", "simplex3d"})
+        for (const Vec3 away : {Vec3{12e-3, 0, 0}, Vec3{-12e-3, 0, 0}, Vec3{0, 12e-3, 0}, Vec3{0, -12e-3, 0}, Vec3{}}) {
+            ShadedScene scene;
+            add_triangle(scene, Vec3{0, 0, -4e-3} + away, Vec3{1e-3, 0, -4e-3} + away, Vec3{0, 1e-3, -5e-3} + away,
+                         white);
+            const Visits visits = visits_of(name, scene);
+            EXPECT_EQ(visits.pieces == 0, away != Vec3{}) << name;
+            EXPECT_GE(visits.samples, hits_of(scene)) << name;
+        }
+}
+
 // A triangle just behind the hologram moves by thousands of directions from one hogel to the next. The thesis' worst
 // case of simplices (7.2.2) came from there.
 TEST_P(VisitingRenderer, looks_at_no_more_than_the_field_of_view_of_what_touches_the_hologram) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "hogel/core/parallel.h"
 #include "hogel/optics/film/interpolation.h"
@@ -35,6 +36,24 @@ FilmAxis film_axis(double first, double period, const SineGrid::Range& seen, std
     axis.count = static_cast<std::size_t>(end) - axis.first;
     axis.low = first + begin * axis.step;
     return axis;
+}
+
+// The rows of a band that are not dark, [begin, end), widened by what the kernel of the resampling reaches.
+struct LitRows {
+    double begin, end;
+};
+std::vector<LitRows> lit_rows_of(const std::vector<char>& is_lit) {
+    std::vector<LitRows> all;
+    for (std::size_t row = 0; row < is_lit.size(); ++row) {
+        if (!is_lit[row]) continue;
+        constexpr double reach = InterpolationTable::taps;
+        const double begin = static_cast<double>(row) - reach, end = static_cast<double>(row) + reach;
+        if (!all.empty() && begin <= all.back().end)
+            all.back().end = end;
+        else
+            all.push_back({begin, end});
+    }
+    return all;
 }
 
 }  // namespace
@@ -95,11 +114,19 @@ Array<Complex, 2> Film::pupil_wave(View<const Complex, 2> band) const {
     // constant, to uniform n_y. The intermediate result is transposed, so that both passes run along memory.
     const std::size_t lit_columns = size_.lit_right - size_.lit_left, lit_rows = size_.lit_high - size_.lit_low;
     Array<Complex, 2> columns({lit_columns, plane.height});
+    std::vector<char> is_lit(plane.height);
     const Vec3 eye = band_.geometry.eye();
     const double left = sines.first_x + static_cast<double>(size_.lit_left) * sines.step,
                  low = sines.first_y + static_cast<double>(size_.lit_low) * sines.step;
     core::parallel_for(blocks_of(plane.height), [&](std::size_t block) {
         const std::size_t first = block * lines_together, count = std::min(lines_together, plane.height - first);
+        // Most rows are dark where the lines of a hologram are photographed apart.
+        bool all_dark = true;
+        for (std::size_t r = first; r < first + count; ++r) {
+            is_lit[r] = !std::ranges::all_of(band[r].elements(), [](Complex value) { return value == Complex(0); });
+            all_dark = all_dark && !is_lit[r];
+        }
+        if (all_dark) return;
         Array<Complex, 2> lines({count, stride_of(lit_columns)});
         for (std::size_t r = 0; r < count; ++r) {
             // On a row the point of sine n_x lies at x = c_x + n_x/√(1 − n_x²) · √((y − c_y)² + c_z²).
@@ -111,6 +138,7 @@ Array<Complex, 2> Film::pupil_wave(View<const Complex, 2> band) const {
         for (std::size_t i = 0; i < lit_columns; ++i)
             for (std::size_t r = 0; r < count; ++r) columns(i, first + r) = lines(r, i);
     });
+    const std::vector<LitRows> lit = lit_rows_of(is_lit);
     // Transforms each column and keeps only the frequencies within the pupil.
     Array<Complex, 2> half({across(size_.reach_y), sines.size_x});
     core::parallel_for(blocks_of(lit_columns), [&](std::size_t block) {
@@ -118,9 +146,22 @@ Array<Complex, 2> Film::pupil_wave(View<const Complex, 2> band) const {
         Array<Complex, 2> lines({count, stride_of(sines.size_y)});
         for (std::size_t c = 0; c < count; ++c) {
             const double nx = left + static_cast<double>(first + c) * sines.step;
-            resample_tangents({&columns(first + c, 0), plane.height},
-                              {low, sines.step, 1 - nx * nx, -eye.z / plane.pitch_y, plane.row(eye.y)}, table,
-                              {&lines(c, size_.lit_low), lit_rows});
+            const double row_of_eye = plane.row(eye.y), rows_per_tangent = -eye.z / plane.pitch_y;
+            for (const LitRows& rows : lit) {
+                // The sine of the row at the tangent v is v √(1 − n_x²)/√(1 + v²).
+                const auto place = [&](double row) {
+                    const double tangent = (row - row_of_eye) / rows_per_tangent;
+                    const double sine = tangent * std::sqrt(1 - nx * nx) / std::hypot(1.0, tangent);
+                    return std::clamp((sine - low) / sines.step, 0.0, static_cast<double>(lit_rows));
+                };
+                const bool all = rows.begin < 0 && rows.end > static_cast<double>(plane.height);
+                const std::size_t from = all ? 0 : static_cast<std::size_t>(place(rows.end)),
+                                  to = all ? lit_rows : static_cast<std::size_t>(std::ceil(place(rows.begin)));
+                resample_tangents({&columns(first + c, 0), plane.height},
+                                  {low + static_cast<double>(from) * sines.step, sines.step, 1 - nx * nx,
+                                   rows_per_tangent, row_of_eye},
+                                  table, {&lines(c, size_.lit_low + from), to - from});
+            }
             down_.forward(&lines(c, 0));
         }
         for (std::ptrdiff_t k = -size_.reach_y; k <= size_.reach_y; ++k)

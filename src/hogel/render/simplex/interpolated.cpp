@@ -10,6 +10,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/render/oblique_triangle.h"
+#include "hogel/render/simplex/rays_in_blocks.h"
 #include "hogel/render/simplex/scan.h"
 #include "hogel/render/simplex/slice.h"
 #include "hogel/render/simplex/volume.h"
@@ -94,20 +95,16 @@ class InterpolatingRenderer final : public Renderer, public CountsVisits {
         for (const std::uint32_t index : triangles_) {
             core::throw_if_stopped();
             const DeepTriangle triangle = deep_triangle(*scene_, index);
+            if (!may_be_seen(triangle, grid_, region)) continue;
             const RegionSides sides = split_at_back_face(triangle, grid_, region);
             draw(index, triangle, sides.front, region, part, buffer, visits);
             if (!scene_->fronts_only) draw(index, triangle, sides.back, region, part, buffer, visits);
         }
         add_visits(visits);
-        for (std::size_t t = part.rows.first; t < part.rows.end; ++t)
-            for (std::size_t s = part.columns.first; s < part.columns.end; ++s) {
-                core::throw_if_stopped();
-                for (std::size_t v = 0; v < grid_.directions_v; ++v)
-                    for (std::size_t u = 0; u < grid_.directions_u; ++u) {
-                        const BufferedSample& sample = buffer(v, u, t - part.rows.first, s - part.columns.first);
-                        store(tile, sample.radiance, sample.depth, region.t0 + t - r.t0, region.s0 + s - r.s0, v, u);
-                    }
-            }
+        for_each_ray(grid_, part.rows, part.columns, [&](std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
+            const BufferedSample& sample = buffer(v, u, t - part.rows.first, s - part.columns.first);
+            store(tile, sample.radiance, sample.depth, region.t0 + t - r.t0, region.s0 + s - r.s0, v, u);
+        });
     }
 
     // The corners of a triangle seen from a point of the camera plane, with the radiance that they send there.

@@ -4,6 +4,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/render/oblique_triangle.h"
 #include "hogel/render/region_memory.h"
+#include "hogel/render/simplex/rays_in_blocks.h"
 #include "hogel/render/simplex/scan.h"
 #include "hogel/render/simplex/slice.h"
 #include "hogel/render/simplex/strip.h"
@@ -42,6 +43,7 @@ class SimplexRenderer final : public Renderer, public CountsVisits {
             // Clips at half the depth of the near plane, so that the visibility of every ray is decided by see(), not
             // by the clip.
             for (const DeepTriangle& part : clip_to_near_plane(deep_triangle(*scene_, index), 0.5 * near_)) {
+                if (!may_be_seen(part, grid_, tile.range)) continue;
                 const RegionSides sides = split_at_back_face(part, grid_, tile.range);
                 // From either side the volume is convex.
                 for (const auto* side : {&sides.front, &sides.back}) {
@@ -58,13 +60,10 @@ class SimplexRenderer final : public Renderer, public CountsVisits {
             }
         }
         add_visits(visits);
-        for (std::size_t t = 0; t < tile.range.nt; ++t)
-            for (std::size_t s = 0; s < tile.range.ns; ++s) {
-                core::throw_if_stopped();
-                for (std::size_t v = 0; v < grid_.directions_v; ++v)
-                    for (std::size_t u = 0; u < grid_.directions_u; ++u)
-                        store(tile, *scene_, grid_, buffer(v, u, t, s), t, s, v, u);
-            }
+        for_each_ray(grid_, {0, tile.range.nt}, {0, tile.range.ns},
+                     [&](std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
+                         store(tile, *scene_, grid_, buffer(v, u, t, s), t, s, v, u);
+                     });
     }
 
   private:

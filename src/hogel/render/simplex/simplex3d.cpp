@@ -7,6 +7,7 @@
 #include "hogel/render/oblique_triangle.h"
 #include "hogel/render/region_memory.h"
 #include "hogel/render/row_tile.h"
+#include "hogel/render/simplex/rays_in_blocks.h"
 #include "hogel/render/simplex/slice.h"
 #include "hogel/render/simplex/volume.h"
 #include "hogel/render/span.h"
@@ -39,9 +40,11 @@ class Simplex3dRenderer final : public Renderer, public CountsVisits {
         Visits visits;
         for (std::size_t t = 0; t < tile.range.nt; ++t) {
             std::ranges::fill(buffer.elements(), NearestTriangle{});
+            const HogelRange row{tile.range.s0, tile.range.t0 + t, tile.range.ns, 1};
             for (std::uint32_t index : triangles_) {
                 core::throw_if_stopped();
                 for (const DeepTriangle& part : clip_to_near_plane(deep_triangle(*scene_, index), 0.5 * near_)) {
+                    if (!may_be_seen(part, grid_, row)) continue;
                     simplices.clear();
                     for (const CameraLine& line : split_row_at_back_face(part, t, grid_, tile.range))
                         if (line.front_visible || !scene_->fronts_only)
@@ -50,10 +53,10 @@ class Simplex3dRenderer final : public Renderer, public CountsVisits {
                         scan_convert(index, simplex, t, tile.range, buffer, visits);
                 }
             }
-            for (std::size_t s = 0; s < tile.range.ns; ++s)
-                for (std::size_t v = 0; v < grid_.directions_v; ++v)
-                    for (std::size_t u = 0; u < grid_.directions_u; ++u)
-                        store(tile, *scene_, grid_, buffer(v, u, s), t, s, v, u);
+            for_each_ray(grid_, {t, t + 1}, {0, tile.range.ns},
+                         [&](std::size_t, std::size_t s, std::size_t v, std::size_t u) {
+                             store(tile, *scene_, grid_, buffer(v, u, s), t, s, v, u);
+                         });
         }
         add_visits(visits);
     }
