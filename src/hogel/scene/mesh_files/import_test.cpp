@@ -75,6 +75,11 @@ TEST_F(Import, bodies_that_are_inside_out_are_turned) {
                              "f 1//1 2//1 3//1 4//1\nf 8//2 7//2 6//2 5//2\nf 5//3 6//3 2//3 1//3\n"
                              "f 6//4 7//4 3//4 2//4\nf 7//5 8//5 4//5 3//5\nf 8//6 5//6 1//6 4//6\n"),
               (std::pair{true, std::size_t{1}}));
+    // Normals that the file has point inwards too.
+    EXPECT_EQ(faces_outwards(corners + normals +
+                             "f 1//2 2//2 3//2 4//2\nf 8//1 7//1 6//1 5//1\nf 5//5 6//5 2//5 1//5\n"
+                             "f 6//6 7//6 3//6 2//6\nf 7//3 8//3 4//3 3//3\nf 8//4 5//4 1//4 4//4\n"),
+              (std::pair{true, std::size_t{1}}));
 }
 
 TEST_F(Import, gltf_colours_are_linear) {
