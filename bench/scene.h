@@ -16,8 +16,8 @@ namespace hogel::bench {
 
 using namespace hogel::literals;
 
-// The defaults are those of `hogel render`.
-inline const std::string default_algorithm{defaults.renderer}, default_shading{defaults.shading};
+// The defaults are those of `hogel render`, and the shading what that takes for built-in scenes.
+inline const std::string default_algorithm{defaults.renderer}, default_shading = "vertex";
 inline constexpr double default_cache_spacing = defaults.cache_spacing;
 
 /// The options of rendering a scene. The defaults are those of `hogel render`.

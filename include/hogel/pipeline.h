@@ -38,7 +38,7 @@ namespace hogel {
 struct Defaults {
     // light field
     std::string_view renderer = "epi";
-    std::string_view shading = "vertex";
+    std::string_view shading = "auto";
     std::size_t shadow_map = 512;  ///< texels along a side of each of the six faces around a point light
     double cache_spacing = 0.25;   ///< distance of the radiance cache's points, in widths of a ray on the surface
     double size = 20e-3;           ///< side of the hologram

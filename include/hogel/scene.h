@@ -61,6 +61,8 @@ struct Material {
     AlphaMode alpha_mode = AlphaMode::opaque;  ///< what alpha means
     float alpha = 1;                           ///< multiplied by that of vertices and of the base-colour texture
     float alpha_cutoff = 0.5f;                 ///< of AlphaMode::mask
+    /// Whether the back of a surface shows the light that falls on the back; otherwise it shows that on the front.
+    bool double_sided = false;
 
     /// Whether there is a lobe.
     bool is_glossy() const { return reflectance > 0 || metallic > 0; }
@@ -128,7 +130,10 @@ struct Scene {
     Rgb background{0, 0, 0};           ///< radiance of rays that meet nothing
     std::vector<SceneCamera> cameras;  ///< of its file; see frame_scene()
     Vec3 up{0, 1, 0};                  ///< the axis that points upwards in its file, by which turn_scene() turns it
-    Metadata provenance;               ///< what made it, if its file says so: write_baked_scene()
+    /// Whether most of its surface are triangles so large that shadows lie between their corners; prepare_scene() finds
+    /// it out. The shading model `auto` is then `direct`.
+    bool has_large_triangles = false;
+    Metadata provenance;  ///< what made it, if its file says so: write_baked_scene()
     /// What the file of a scene holds that is not shown, or is shown otherwise: a line each, for people.
     std::vector<std::string> notes;
 };

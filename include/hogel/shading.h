@@ -41,6 +41,7 @@ struct ShadingInfo {
 };
 
 /// The shading models by name:
+///   auto      direct for a scene with large triangles (Scene::has_large_triangles), vertex for all others
 ///   vertex    at the vertices, with shadow rays, and interpolated; matt. Radiance = emission + colour · (ambient + Σ E
 ///             · max(0, n·l)/π) over the lights that the vertex sees, E = intensity for a directional light and
 ///             intensity/r² for a point light. Cost: vertices × lights rays
@@ -51,11 +52,15 @@ HOGEL_API Table<ShadingInfo>& shading_models();
 
 /// How shade_scene() evaluates light.
 struct ShadingOptions {
-    std::string model = "vertex";   ///< a name of shading_models()
+    std::string model = "auto";     ///< a name of shading_models()
     std::size_t shadow_map = 512;   ///< texels along a side of a shadow map (twice that across a directional light)
     double max_shadow_bytes = 8e9;  ///< of all shadow maps together
     bool filter_textures = true;    ///< whether textures are averaged over the area that a sample covers
 };
+
+/// The name of the model that lights a scene: options.model or, where that is `auto`, the one that it stands for. That
+/// is `vertex` too where the shadow maps of `direct` would be larger than allowed.
+HOGEL_API std::string shading_model(const Scene& scene, const ShadingOptions& options = {});
 
 /// Bytes that the shadow maps of a scene take: 0 where the model has none. Throws Error(usage) for an unknown model.
 HOGEL_API double shadow_map_bytes(const Scene& scene, const ShadingOptions& options);
@@ -162,6 +167,7 @@ struct ShadedScene {
     std::vector<TextureCoordinate> texture_coordinates;  ///< as long as `positions`
     /// Triangles of all meshes, in the scene's order. Among those with the same corners shade_scene_into() keeps one,
     /// the first whose front faces the middle of the hologram or else the first; one of each winding if `fronts_only`.
+    /// Otherwise it turns those of double-sided materials whose back is seen from there.
     std::vector<Triangle> triangles;
     std::vector<Texture> textures;  ///< each picture of the scene once
     /// The triangles that are not everywhere opaque, with all of the scene's vertices, textures and lighting; null if

@@ -96,7 +96,8 @@ void add_materials(py::module_& module) {
         .def_readwrite("metallic", &Material::metallic)
         .def_readwrite("roughness", &Material::roughness)
         .def_readwrite("alpha", &Material::alpha)
-        .def_readwrite("alpha_cutoff", &Material::alpha_cutoff);
+        .def_readwrite("alpha_cutoff", &Material::alpha_cutoff)
+        .def_readwrite("double_sided", &Material::double_sided);
     add_colour(material, "base_color", &Material::base_color);
     add_colour(material, "emission", &Material::emission);
     material.def("set_texture", [](Material& m, const Image& picture) {
@@ -143,6 +144,7 @@ void add_scene_class(py::module_& module) {
         .def_readwrite("name", &Scene::name)
         .def_readwrite("meshes", &Scene::meshes)
         .def_readwrite("lights", &Scene::lights)
+        .def_readwrite("has_large_triangles", &Scene::has_large_triangles)
         .def_readonly("notes", &Scene::notes)
         .def_property_readonly("is_lit",
                                [](const Scene& s) {
@@ -302,6 +304,7 @@ void add_scenes(py::module_& module) {
     add_shading(module);
     module.def("renderers", [] { return renderers().names(); });
     module.def("shading_models", [] { return shading_models().names(); });
+    module.def("shading_model", &shading_model, arg("scene"), arg("options") = ShadingOptions());
 }
 
 }  // namespace hogel::python

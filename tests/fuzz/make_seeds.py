@@ -4,6 +4,8 @@
 
 usage: make_seeds.py HOGEL FOLDER      HOGEL: the program; seeds go to FOLDER/<target>/
 """
+import base64
+import json
 import pathlib
 import struct
 import subprocess
@@ -43,6 +45,60 @@ MORE_MESHES = {
                   b'"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.7]}}]').replace(
                   b'{"attributes":{"POSITION":0}}', b'{"attributes":{"POSITION":0},"material":0}'),
 }
+
+
+def pack_attributes(elements, stride):
+    """Whole bytes as a stream of EXT_meshopt_compression, mode ATTRIBUTES: deltas of each byte, none of them shortened."""
+    count = len(elements) // stride
+    assert count <= 256 and stride % 4 == 0
+    groups = (count + 15) // 16
+    stream = bytes([0xa0])
+    for k in range(stride):
+        column = elements[k::stride]
+        deltas = [(b - a) & 255 for a, b in zip(column[:1] + column, column)]
+        coded = bytes(((d << 1) & 255) ^ (255 if d >= 128 else 0) for d in deltas)
+        stream += bytes([255]) * ((groups + 3) // 4) + coded.ljust(16 * groups, b"\0")
+    return stream + elements[:stride].rjust(max(stride, 32), b"\0")
+
+
+def pack_indices(indices):
+    """The same of mode INDICES: zigzag deltas, seven bits a byte."""
+    stream, last = bytes([0xd1]), 0
+    for index in indices:
+        delta = index - last
+        value, last = (2 * delta if delta >= 0 else -2 * delta - 1) << 1, index
+        while value > 127:
+            stream, value = stream + bytes([value & 127 | 128]), value >> 7
+        stream += bytes([value])
+    return stream + bytes(4)
+
+
+def packed_gltf():
+    positions, normals = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0), struct.pack("12b", *[0, 0, 127, 0] * 3)
+    views = [(positions, 12, 3, "ATTRIBUTES", "NONE", pack_attributes(positions, 12)),
+             (normals, 4, 3, "ATTRIBUTES", "OCTAHEDRAL", pack_attributes(normals, 4)),
+             (bytes(6), 2, 3, "INDICES", "NONE", pack_indices([0, 1, 2]))]
+    data, placed = b"", []
+    for whole, stride, count, mode, filtered, stream in views:
+        placed.append({"buffer": 1, "byteLength": len(whole), "extensions": {"EXT_meshopt_compression": {
+            "buffer": 0, "byteOffset": len(data), "byteLength": len(stream), "byteStride": stride, "count": count, "mode": mode,
+            "filter": filtered}}})
+        if mode == "ATTRIBUTES":
+            placed[-1]["byteStride"] = stride
+        data += stream
+    names = ["EXT_meshopt_compression", "KHR_mesh_quantization"]
+    return json.dumps({
+        "asset": {"version": "2.0"}, "extensionsUsed": names, "extensionsRequired": names, "scene": 0, "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1}, "indices": 2}]}], "bufferViews": placed,
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+                      {"bufferView": 1, "componentType": 5120, "normalized": True, "count": 3, "type": "VEC3"},
+                      {"bufferView": 2, "componentType": 5123, "count": 3, "type": "SCALAR"}],
+        "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()},
+                    {"byteLength": 66, "extensions": {"EXT_meshopt_compression": {"fallback": True}}}]}).encode()
+
+
+MORE_MESHES["packed.gltf"] = packed_gltf()
 
 PLAIN_PICTURES = {
     "8.ppm": b"P6\n# colours\n2 2\n255\n" + bytes(range(12)),

@@ -91,20 +91,20 @@ namespace {
 
 /// Whether more than half of a surface of some detail are triangles so large that shadows between their corners are
 /// missed or smeared.
-bool is_coarse(const Scene& scene, double hologram_width) {
-    constexpr std::size_t some_detail = 100;  // triangles
+bool has_large_triangles(const Scene& scene, double hologram_width) {
+    constexpr std::size_t some_detail = 13;  // triangles: a box throws no shadow on itself
     if (triangle_count(scene) < some_detail) return false;
-    double all = 0, coarse = 0;
+    double all = 0, large = 0;
     for (const Mesh& mesh : scene.meshes) {
-        if (!mesh.radiance.empty()) continue;
+        if (!mesh.radiance.empty() || mesh.name == points_name) continue;
         for (const auto& [a, b, c] : mesh.triangles) {
             const Vec3 ab = mesh.positions[b] - mesh.positions[a], bc = mesh.positions[c] - mesh.positions[b];
             const double area = length(cross(ab, bc)), side = std::max({length(ab), length(bc), length(ab + bc)});
             all += area;
-            if (side > hologram_width / 8) coarse += area;
+            if (side > hologram_width / 8) large += area;
         }
     }
-    return coarse > 0.5 * all;
+    return large > 0.5 * all;
 }
 
 /// Turns and fits the scene of a file, or takes the view of its camera, and notes what was decided.
@@ -156,10 +156,7 @@ Scene load_scene(const std::string& name, const LightFieldRequest& request, cons
 Scene prepare_scene(Scene scene, const LightFieldRequest& request) {
     const double width = request.grid.width();
     place_own(scene, request);
-    if (request.shading.model == "vertex" && is_coarse(scene, width))
-        scene.notes.push_back(
-            "its triangles are large, and light is computed at their corners: --shading direct computes it at each "
-            "point");
+    scene.has_large_triangles = has_large_triangles(scene, width);
     if (scene.lights.empty()) add_default_lights(scene);
     place_scene(scene, request.pose, width);
     return scene;

@@ -68,6 +68,47 @@ TEST_F(Pipeline, provenance_travels_through_all_files) {
     }
 }
 
+/// A sheet as wide as high, in strips of that height and of columns of squares.
+Scene sheet(std::size_t columns, std::size_t rows) {
+    Scene scene;
+    Mesh& mesh = scene.meshes.emplace_back();
+    const auto vertex = [&](std::size_t i, std::size_t j) { return static_cast<std::uint32_t>(i * (rows + 1) + j); };
+    for (std::size_t i = 0; i <= columns; ++i)
+        for (std::size_t j = 0; j <= rows; ++j) {
+            const double x = static_cast<double>(i) / static_cast<double>(columns);
+            mesh.positions.push_back({x, static_cast<double>(j) / static_cast<double>(rows), 0.1 * x});
+            mesh.normals.push_back({0, 0, 1});
+        }
+    for (std::size_t i = 0; i < columns; ++i)
+        for (std::size_t j = 0; j < rows; ++j) {
+            mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
+            mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+        }
+    return scene;
+}
+
+TEST_F(Pipeline, large_triangles_of_a_file_are_lit_at_each_point) {
+    const auto model = [&](const Scene& scene, const std::string& asked) {
+        LightFieldRequest request = request_;
+        request.shading.model = asked;
+        return entry({light_scene(scene, request)->provenance, {}}, "shading");
+    };
+    const Scene strips = prepare_scene(sheet(60, 1), request_), squares = prepare_scene(sheet(20, 20), request_),
+                few = prepare_scene(sheet(6, 1), request_);
+    EXPECT_EQ(request_.shading.model, defaults.shading);
+    EXPECT_EQ(model(strips, "auto"), "direct");
+    EXPECT_EQ(model(strips, "vertex"), "vertex");
+    EXPECT_EQ(model(squares, "auto"), "vertex");
+    EXPECT_EQ(model(squares, "direct"), "direct");
+    EXPECT_EQ(model(few, "auto"), "vertex");
+    EXPECT_EQ(model(load_scene("pumpkin", request_), "auto"), "vertex");
+    // Shadow maps larger than allowed are not taken unless they are asked for.
+    EXPECT_EQ(shading_model(strips, {.model = "auto", .max_shadow_bytes = 1000}), "vertex");
+    EXPECT_EQ(shading_model(strips, {.model = "direct", .max_shadow_bytes = 1000}), "direct");
+    EXPECT_GT(shadow_map_bytes(strips, {.model = "auto"}), 0);
+    EXPECT_EQ(shadow_map_bytes(squares, {.model = "auto"}), 0);
+}
+
 TEST_F(Pipeline, a_light_field_keeps_its_camera) {
     const Camera camera = camera_for(2_mm, 2_mm, 40);
     const auto radiance = folder_ / "a.h5", stream = folder_ / "a.hgl";

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "hogel/scene.h"
+#include "hogel/scene/vertices.h"
 
 namespace hogel {
 namespace {
@@ -72,11 +73,6 @@ std::vector<Vec3> area_normals(const Mesh& mesh) {
     return normals;
 }
 
-template <class T>
-void append_copy(std::vector<T>& values, Index i) {
-    if (!values.empty()) values.push_back(T(values[i]));
-}
-
 /// Joins the corners of neighbouring triangles that meet at an angle of at most `crease` radians.
 Groups smoothing_groups(const Mesh& mesh, const std::vector<Vec3>& faces, double crease) {
     const std::vector<Edge> edges = sorted_edges(mesh, weld(mesh.positions));
@@ -119,16 +115,8 @@ void add_normals(Mesh& mesh, double crease) {
             uses[i].group = group;
             mesh.normals[i] = normal;
         } else if (uses[i].group != group) {
-            const auto copy = static_cast<Index>(mesh.positions.size());
-            append_copy(mesh.positions, vertex);
-            append_copy(mesh.colors, vertex);
-            append_copy(mesh.radiance, vertex);
-            append_copy(mesh.alphas, vertex);
-            for (auto* coordinates :
-                 {&mesh.texture_coordinates, &mesh.emission_coordinates, &mesh.metallic_roughness_coordinates,
-                  &mesh.normal_coordinates, &mesh.occlusion_coordinates})
-                append_copy(*coordinates, vertex);
-            mesh.normals.push_back(normal);
+            const Index copy = scene::add_copy_of_vertex(mesh, vertex);
+            mesh.normals[copy] = normal;
             uses[i].next_copy = copy;
             uses.push_back({group, none});
             i = copy;

@@ -55,6 +55,7 @@ void add_looks(Checksums& sums, const Mesh& mesh) {
         sums.add({static_cast<double>(m.alpha_mode), m.alpha, m.alpha_cutoff});
         sums.add(std::span(mesh.alphas));
     }
+    if (m.double_sided) sums.add({1.0});
     if (m.emission_texture) {
         sums.add(m.emission_texture);
         add(m.emission_sampling);

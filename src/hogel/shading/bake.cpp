@@ -75,7 +75,7 @@ ShadedScene unlit(const Scene& scene) {
     dark.lights.clear();
     ShadedScene shaded;
     shaded.fronts_only = true;  // light falls on both faces of a sheet, so both stay
-    shade_scene_into(dark, {}, shaded);
+    shade_scene_into(dark, {.model = "vertex"}, shaded);
     return shaded;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hogel/core/parallel.h"
+#include "hogel/shading/sides.h"
 
 namespace hogel::shading {
 namespace {
@@ -69,10 +70,7 @@ class DoubledFaces {
     // Whether the ray through the middle of the hologram and of the triangle meets its front.
     bool faces_the_middle(std::size_t i) const {
         const auto [a, b, c] = corners(i);
-        const Vec3 middle = (1.0 / 3) * (a + b + c);
-        // Rays are followed away from the viewer, towards smaller z.
-        const Vec3 along = middle.z == 0 ? Vec3{0, 0, -1} : (middle.z < 0 ? 1.0 : -1.0) * middle;
-        return dot(cross(b - a, c - a), along) < 0;
+        return dot(cross(b - a, c - a), ray_through_middle((1.0 / 3) * (a + b + c))) < 0;
     }
 
     // Triangles with the same corners are next to each other in the table but for strangers.

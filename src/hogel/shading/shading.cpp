@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
@@ -12,6 +13,7 @@
 #include "hogel/shading/layers.h"
 #include "hogel/shading/lighting.h"
 #include "hogel/shading/maps.h"
+#include "hogel/shading/sides.h"
 
 namespace hogel {
 
@@ -20,6 +22,17 @@ using namespace shading;
 namespace {
 
 constexpr std::size_t max_texels = 32768;  // along a side of a shadow map
+constexpr const char* automatic = "auto";
+
+/// A name for one of the others, which shading_model() finds.
+ShadingInfo automatic_shading() {
+    return {
+        .name = automatic,
+        .text = "direct for a file with large triangles, vertex for all others",
+        .make = [](const Scene& scene, const ShadingOptions& options, ShadedScene& shaded, const Progress& progress) {
+            return shading_models().find(shading_model(scene, options)).make(scene, options, shaded, progress);
+        }};
+}
 
 void require_normals(const Scene& scene) {
     if (scene.lights.empty()) return;
@@ -100,20 +113,28 @@ void set_geometry(const Scene& scene, bool filter_textures, ShadedScene& shaded)
 }  // namespace
 
 Table<ShadingInfo>& shading_models() {
-    static Table<ShadingInfo> table("shading model",
-                                    {vertex_shading(), direct_shading(), shadowed_shading(), given_shading()});
+    static Table<ShadingInfo> table("shading model", {automatic_shading(), vertex_shading(), direct_shading(),
+                                                      shadowed_shading(), given_shading()});
     return table;
 }
 
+std::string shading_model(const Scene& scene, const ShadingOptions& options) {
+    if (options.model != automatic) return shading_models().find(options.model).name;
+    ShadingOptions direct = options;
+    direct.model = "direct";
+    const bool is_direct = scene.has_large_triangles && shadow_map_bytes(scene, direct) <= options.max_shadow_bytes;
+    return is_direct ? direct.model : "vertex";
+}
+
 double shadow_map_bytes(const Scene& scene, const ShadingOptions& options) {
-    const ShadingInfo& model = shading_models().find(options.model);
+    const ShadingInfo& model = shading_models().find(shading_model(scene, options));
     return model.shadow_map_bytes ? model.shadow_map_bytes(scene, options) : 0;
 }
 
 void shade_scene_into(const Scene& scene, const ShadingOptions& options, ShadedScene& shaded,
                       const Progress& progress) {
     const core::StopScope scope(progress);
-    const ShadingInfo& model = shading_models().find(options.model);
+    const ShadingInfo& model = shading_models().find(shading_model(scene, options));
     validate(scene);
     require_normals(scene);
     if (model.shadow_map_bytes) require_memory(scene, options, model.shadow_map_bytes(scene, options));
@@ -122,11 +143,17 @@ void shade_scene_into(const Scene& scene, const ShadingOptions& options, ShadedS
     set_geometry(scene, options.filter_textures, shaded);
     set_alphas(scene, shaded);
     keep_one_of_doubled_faces(shaded);
-    shaded.lighting = with_maps(scene, options, model.make(scene, options, shaded, progress));
+    const std::optional<Scene> turned = shaded.fronts_only ? std::nullopt : with_seen_sides(scene, shaded);
+    if (turned) {
+        set_geometry(*turned, options.filter_textures, shaded);
+        set_alphas(*turned, shaded);
+    }
+    const Scene& seen = turned ? *turned : scene;
+    shaded.lighting = with_maps(seen, options, model.make(seen, options, shaded, progress));
     separate_layers(shaded);
     shaded.provenance = {{"scene", scene.name}};
     if (!std::ranges::all_of(scene.meshes, [](const Mesh& mesh) { return !mesh.radiance.empty(); }))
-        shaded.provenance.emplace_back("shading", options.model);
+        shaded.provenance.emplace_back("shading", model.name);
     if (scene.background != Rgb{0, 0, 0}) shaded.provenance.push_back(background_entry(scene.background));
     shaded.provenance = with_history(std::move(shaded.provenance), scene.provenance);
 }

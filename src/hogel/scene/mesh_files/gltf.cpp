@@ -10,15 +10,17 @@
 
 #include "hogel/scene/mesh_files/checks.h"
 #include "hogel/scene/mesh_files/gltf_looks.h"
+#include "hogel/scene/mesh_files/meshopt.h"
 
 namespace hogel::scene::mesh_files {
 namespace {
 
 constexpr int max_json_depth = 100;
 
-// Extensions that a file may require: those that hogel shows, and those of looks that a note names. What packs geometry
-// or pictures is not among them.
+// Extensions that a file may require: those that hogel shows, and those of looks that a note names. Other packed
+// geometry and packed pictures are not among them.
 constexpr std::array supported_extensions{"EXT_mesh_gpu_instancing",
+                                          "EXT_meshopt_compression",
                                           "EXT_texture_webp",
                                           "KHR_lights_punctual",
                                           "KHR_materials_anisotropy",
@@ -192,7 +194,7 @@ std::optional<std::size_t> material_number(std::string_view name) {
 
 bool is_known_extension(const std::string& name) {
     // Those of which the document itself holds what to show without them.
-    constexpr std::array replaceable{"EXT_meshopt_compression", "KHR_draco_mesh_compression", "KHR_texture_basisu"};
+    constexpr std::array replaceable{"KHR_draco_mesh_compression", "KHR_texture_basisu"};
     return std::ranges::count(supported_extensions, name) > 0 || std::ranges::count(replaceable, name) > 0;
 }
 
@@ -254,6 +256,7 @@ Gltf parse_gltf(const std::string& file, const std::filesystem::path& folder, st
 CheckedGltf check_gltf(const std::string& file, const std::filesystem::path& folder, std::string_view bytes) {
     Gltf gltf = parse_gltf(file, folder, bytes);
     if (!gltf.is_version_2) return {};
+    unpack_views(gltf);
     CheckedGltf checked;
     checked.provenance = stored_provenance(gltf.json);
     {

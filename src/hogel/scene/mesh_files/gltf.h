@@ -87,6 +87,9 @@ void check_primitives(const Gltf& gltf, const std::vector<GltfAccessor>& accesso
 /// The bytes of a "data:" URI. Throws for one without data or in wrong base64.
 std::string decode_data_uri(const Gltf& gltf, const std::string& uri, const std::string& where);
 
+/// A "data:" URI of bytes.
+std::string data_uri(std::string_view bytes);
+
 /// Whether hogel shows what an extension adds, or says that it does not.
 bool is_known_extension(const std::string& name);
 

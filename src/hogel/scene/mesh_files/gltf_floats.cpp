@@ -35,8 +35,7 @@ std::size_t add_floats(Gltf& gltf, const GltfAccessor& accessor, std::size_t num
                {"type", accessor.type},
                {"bufferView", json["bufferViews"].size()}};
     json["bufferViews"].push_back({{"buffer", json["buffers"].size()}, {"byteLength", bytes.size()}});
-    json["buffers"].push_back(
-        {{"byteLength", bytes.size()}, {"uri", "data:application/octet-stream;base64," + encode_base64(bytes)}});
+    json["buffers"].push_back({{"byteLength", bytes.size()}, {"uri", data_uri(bytes)}});
     if (accessor.type == "VEC3") {  // positions must have bounds, which nobody looks at
         added["min"] = {0, 0, 0};
         added["max"] = {0, 0, 0};
@@ -46,6 +45,8 @@ std::size_t add_floats(Gltf& gltf, const GltfAccessor& accessor, std::size_t num
 }
 
 }  // namespace
+
+std::string data_uri(std::string_view bytes) { return "data:application/octet-stream;base64," + encode_base64(bytes); }
 
 void make_floats(Gltf& gltf, const std::vector<GltfAccessor>& accessors) {
     std::map<std::size_t, std::size_t> made;

@@ -91,6 +91,7 @@ class Looks {
             material.occlusion_strength =
                 unit(number_or(gltf_, *occlusion, where + ".occlusionTexture", "strength", 1));
         read_alpha(json, where, material);
+        read_sides(json, where, material);
         read_reflectance(json, where, material);
         read.is_unlit = find_object(gltf_, json, where, {"extensions", "KHR_materials_unlit"}) != nullptr;
         return read;
@@ -135,6 +136,13 @@ class Looks {
                 gltf_.reject(where + ".alphaMode", "is unknown", "OPAQUE, MASK or BLEND");
         }
         material.alpha_cutoff = static_cast<float>(std::max(0.0, number_or(gltf_, json, where, "alphaCutoff", 0.5)));
+    }
+
+    void read_sides(const Json& json, const std::string& where, Material& material) const {
+        const auto both = json.find("doubleSided");
+        if (both == json.end()) return;
+        if (!both->is_boolean()) gltf_.reject(where + ".doubleSided", "is neither true nor false", "one of them");
+        material.double_sided = *both;
     }
 
     void read_reflectance(const Json& json, const std::string& where, Material& material) const {

@@ -13,6 +13,7 @@
 #include "hogel/scene/mesh_files/assimp_import.h"
 #include "hogel/scene/mesh_files/checks.h"
 #include "hogel/scene/mesh_files/gltf_looks.h"
+#include "hogel/scene/mesh_files/inside_out.h"
 #include "hogel/scene/mesh_files/limits.h"
 #include "hogel/scene/mesh_files/materials.h"
 #include "hogel/scene/mesh_files/mtl.h"
@@ -119,6 +120,7 @@ Scene convert(Read read, const std::filesystem::path& path, const std::string& f
     scene.cameras = std::move(read.looks.cameras);
     scene.notes = std::move(read.looks.notes);
     scene.notes.insert(scene.notes.end(), imported.notes.begin(), imported.notes.end());
+    std::size_t turned = 0;
     for (ImportedMesh& part : imported.meshes) {
         Mesh& mesh = part.mesh;
         if (read.has_looks) {
@@ -127,10 +129,13 @@ Scene convert(Read read, const std::filesystem::path& path, const std::string& f
             mesh.material.base_color_texture = textures.get(part.texture);
             if (mesh.texture_coordinates.empty()) mesh.material.base_color_texture = nullptr;
             apply_obj_looks(part, textures);
+            // Only glTF says which side is the front.
+            if (mesh.name != points_name && turn_inside_out(mesh)) ++turned;
         }
         show_unlit(part);
         if (!mesh.triangles.empty()) scene.meshes.push_back(std::move(mesh));
     }
+    if (turned > 0) scene.notes.push_back("its surfaces face inwards: they are turned inside out");
     if (scene.meshes.empty()) reject_file(file, "no triangles that have an area", "at least one");
     try {
         validate(scene);

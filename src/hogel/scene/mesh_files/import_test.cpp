@@ -48,6 +48,40 @@ TEST_F(Import, gltf_materials_are_glossy_and_others_matt) {
     EXPECT_EQ(matt.meshes[0].material.metallic, 0.0f);
 }
 
+// Bodies of which a program has turned the triangles; and open sheets and rooms, which nobody has.
+TEST_F(Import, bodies_that_are_inside_out_are_turned) {
+    const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 2 0\nv 0 2 0\nv 0 0 3\nv 1 0 3\nv 1 2 3\nv 0 2 3\n";
+    const std::string outside = "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\n", last = "f 4 1 5 8\n",
+                      inside = "f 1 2 3 4\nf 8 7 6 5\nf 5 6 2 1\nf 6 7 3 2\nf 7 8 4 3\n", inner_last = "f 8 5 1 4\n";
+    const auto faces_outwards = [&](const std::string& text) {
+        const Scene scene = import_scene(write("box.obj", text));
+        const Mesh& mesh = scene.meshes.at(0);
+        std::size_t outwards = 0;
+        for (const auto& [a, b, c] : mesh.triangles) {
+            const Vec3 p = mesh.positions[a], front = cross(mesh.positions[b] - p, mesh.positions[c] - p);
+            outwards += dot(front, p - Vec3{0.5, 1, 1.5}) > 0 ? 1 : 0;
+            EXPECT_GT(dot(front, mesh.normals[a]), 0);
+        }
+        EXPECT_TRUE(outwards == 0 || outwards == mesh.triangles.size()) << outwards;
+        return std::pair{outwards > 0, scene.notes.size()};
+    };
+    EXPECT_EQ(faces_outwards(corners + outside + last), (std::pair{true, std::size_t{0}}));
+    EXPECT_EQ(faces_outwards(corners + inside + inner_last), (std::pair{true, std::size_t{1}}));
+    EXPECT_EQ(faces_outwards(corners + outside), (std::pair{true, std::size_t{0}}));
+    EXPECT_EQ(faces_outwards(corners + inside), (std::pair{false, std::size_t{0}}));
+    // Normals that the file has point outwards already.
+    const std::string normals = "vn 0 0 -1\nvn 0 0 1\nvn 0 -1 0\nvn 1 0 0\nvn 0 1 0\nvn -1 0 0\n";
+    EXPECT_EQ(faces_outwards(corners + normals +
+                             "f 1//1 2//1 3//1 4//1\nf 8//2 7//2 6//2 5//2\nf 5//3 6//3 2//3 1//3\n"
+                             "f 6//4 7//4 3//4 2//4\nf 7//5 8//5 4//5 3//5\nf 8//6 5//6 1//6 4//6\n"),
+              (std::pair{true, std::size_t{1}}));
+    // Normals that the file has point inwards too.
+    EXPECT_EQ(faces_outwards(corners + normals +
+                             "f 1//2 2//2 3//2 4//2\nf 8//1 7//1 6//1 5//1\nf 5//5 6//5 2//5 1//5\n"
+                             "f 6//6 7//6 3//6 2//6\nf 7//3 8//3 4//3 3//3\nf 8//4 5//4 1//4 4//4\n"),
+              (std::pair{true, std::size_t{1}}));
+}
+
 TEST_F(Import, gltf_colours_are_linear) {
     const Scene scene = import_scene(write(
         "c.gltf", gltf(R"([{"mesh":0}])", "[0]",

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/shading/sides.h"
+
+#include <algorithm>
+#include <limits>
+#include <unordered_map>
+#include <vector>
+
+#include "hogel/core/parallel.h"
+#include "hogel/core/part.h"
+#include "hogel/scene/vertices.h"
+#include "hogel/shading/lighting.h"
+#include "hogel/shading/triangles.h"
+
+namespace hogel::shading {
+namespace {
+
+constexpr std::size_t triangles_per_task = 1024;
+
+bool has_sides(const Mesh& mesh) { return mesh.material.double_sided && mesh.radiance.empty(); }
+
+class BackFinder {
+  public:
+    BackFinder(const Scene& scene, const ShadedScene& shaded)
+        : shaded_(shaded), caster_(all_triangles(shaded)), offset_(ray_offset(scene)) {}
+
+    /// Whether the back of a triangle is seen at its middle or near a corner.
+    bool is_seen_from_behind(const ShadedScene::Triangle& triangle) const {
+        const Vec3 a = at(triangle, 0), b = at(triangle, 1), c = at(triangle, 2);
+        const Vec3 front = cross(b - a, c - a);
+        if (!(length(front) > 0) || dot(front, ray_through_middle((a + b + c) / 3)) <= 0) return false;
+        const Vec3 behind = -offset_ / length(front) * front;
+        return std::ranges::any_of(std::array{(a + b + c) / 3, near(a, b, c), near(b, c, a), near(c, a, b)},
+                                   [&](Vec3 point) { return is_open(point + behind); });
+    }
+
+  private:
+    Vec3 at(const ShadedScene::Triangle& triangle, std::size_t corner) const {
+        return shaded_.positions[triangle.vertices[corner]];
+    }
+    static Vec3 near(Vec3 corner, Vec3 b, Vec3 c) { return 0.8 * corner + 0.1 * (b + c); }
+    bool is_open(Vec3 point) const {
+        return !caster_.occluded(point, -normalize(ray_through_middle(point)), 0,
+                                 std::numeric_limits<double>::infinity());
+    }
+
+    const ShadedScene& shaded_;
+    trace::RayCaster caster_;
+    double offset_;
+};
+
+/// Which triangles of a shaded scene are to be turned.
+std::vector<char> find_seen_backs(const Scene& scene, const ShadedScene& shaded) {
+    const BackFinder finder(scene, shaded);
+    const std::size_t count = shaded.triangles.size();
+    std::vector<char> seen(count);
+    core::parallel_for((count + triangles_per_task - 1) / triangles_per_task, [&](std::size_t task) {
+        const std::size_t first = task * triangles_per_task;
+        for (std::size_t i = first; i < std::min(count, first + triangles_per_task); ++i)
+            seen[i] =
+                has_sides(scene.meshes[shaded.triangles[i].mesh]) && finder.is_seen_from_behind(shaded.triangles[i]);
+    });
+    return seen;
+}
+
+/// Adds triangles to a mesh with the other side up, by vertices of their own whose normals are turned.
+class Turner {
+  public:
+    explicit Turner(Mesh& mesh) : mesh_(mesh) {}
+    void add(const std::array<std::uint32_t, 3>& corners) {
+        mesh_.triangles.push_back({turned(corners[0]), turned(corners[2]), turned(corners[1])});
+    }
+
+  private:
+    std::uint32_t turned(std::uint32_t vertex) {
+        const auto [known, is_new] = turned_.try_emplace(vertex, 0);
+        if (is_new) {
+            known->second = scene::add_copy_of_vertex(mesh_, vertex);
+            if (!mesh_.normals.empty()) mesh_.normals.back() = -mesh_.normals.back();
+        }
+        return known->second;
+    }
+
+    Mesh& mesh_;
+    std::unordered_map<std::uint32_t, std::uint32_t> turned_;
+};
+
+}  // namespace
+
+std::optional<Scene> with_seen_sides(const Scene& scene, const ShadedScene& shaded) {
+    if (scene.lights.empty() || std::ranges::none_of(scene.meshes, has_sides)) return std::nullopt;
+    core::require_part("Embree", "the light on both sides of surfaces");
+    const std::vector<char> seen = find_seen_backs(scene, shaded);
+    if (std::ranges::count(seen, char{1}) == 0) return std::nullopt;
+    Scene turned = scene;
+    std::vector<Turner> turners;
+    std::vector<std::uint32_t> bases;
+    std::uint32_t base = 0;
+    for (Mesh& mesh : turned.meshes) {
+        bases.push_back(base);
+        base += static_cast<std::uint32_t>(mesh.positions.size());
+        turners.emplace_back(mesh);
+        mesh.triangles.clear();
+    }
+    for (std::size_t i = 0; i < shaded.triangles.size(); ++i) {
+        const auto& [vertices, texture, m] = shaded.triangles[i];
+        const std::array<std::uint32_t, 3> corners{vertices[0] - bases[m], vertices[1] - bases[m],
+                                                   vertices[2] - bases[m]};
+        if (seen[i])
+            turners[m].add(corners);
+        else
+            turned.meshes[m].triangles.push_back(corners);
+    }
+    return turned;
+}
+
+}  // namespace hogel::shading
