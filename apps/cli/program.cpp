@@ -42,8 +42,7 @@ Outcome outcome_of(std::span<const CommandInfo> commands, int argc, char** argv,
     Outcome outcome;
     try {
         outcome.status = run(commands, argc, argv, session, processes);
-        if (std::fflush(stdout) != 0)
-            outcome = failure(ErrorCode::cannot_write, "cannot write to the standard output");
+        if (std::fflush(stdout) != 0) outcome = failure(ErrorCode::cannot_write, "cannot write to the standard output");
     } catch (const Error& error) {
         outcome = failure(error.code(), error.what());
         if (interrupts.signal() != 0) outcome = {128 + interrupts.signal(), ErrorCode::cancelled, "stopped"};

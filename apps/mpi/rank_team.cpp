@@ -19,9 +19,7 @@ constexpr std::uint64_t of_fair_share = 4, max_tiles_at_once = 16;
 template <class... Numbers>
 std::string pack(Numbers... numbers) {
     std::string bytes;
-    const auto add = [&](std::uint64_t number) {
-        bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
-    };
+    const auto add = [&](std::uint64_t number) { bytes.append(reinterpret_cast<const char*>(&number), sizeof number); };
     (add(static_cast<std::uint64_t>(numbers)), ...);
     return bytes;
 }

@@ -10,10 +10,10 @@
 
 namespace hogel {
 
-/// Several processes that do one work together, as the ranks of an MPI program do. Each of them calls the same functions
-/// with the same arguments; the light fields and holograms that they write to HDF5 files are then one file, whose tiles
-/// are handed out to whoever is free, and everything else is computed by each of them. The file has the same bytes as
-/// that of a single process. All processes must see the folder of the file.
+/// Several processes that do one work together, as the ranks of an MPI program do. Each of them calls the same
+/// functions with the same arguments; the light fields and holograms that they write to HDF5 files are then one file,
+/// whose tiles are handed out to whoever is free, and everything else is computed by each of them. The file has the
+/// same bytes as that of a single process. All processes must see the folder of the file.
 ///
 /// A program derives the messages of its processes from this class, and a TeamScope makes the library use them.
 class HOGEL_API Team {
@@ -28,8 +28,8 @@ class HOGEL_API Team {
     struct Tiles {
         std::uint64_t first = 0, count = 0;
     };
-    /// The next of the `tiles` tiles of a queue, which no process has been given yet; none at its end. Queues begin with
-    /// the first call for their number. Called from any thread. Throws Error(cancelled) if a process has failed.
+    /// The next of the `tiles` tiles of a queue, which no process has been given yet; none at its end. Queues begin
+    /// with the first call for their number. Called from any thread. Throws Error(cancelled) if a process has failed.
     virtual Tiles next_tiles(std::uint64_t queue, std::uint64_t tiles) = 0;
 
     /// The sum of the numbers of all processes, which call it in the same order and wait for each other. If one of them

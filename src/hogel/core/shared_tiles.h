@@ -41,8 +41,8 @@ class SharedSink {
     virtual std::unique_ptr<TileQueue> share_tiles(std::size_t tiles) = 0;
 };
 
-/// Calls body(tile) on all threads for every tile in [0, tiles) or, where a sink is shared, for those that are handed to
-/// this process, and reports progress after each.
+/// Calls body(tile) on all threads for every tile in [0, tiles) or, where a sink is shared, for those that are handed
+/// to this process, and reports progress after each.
 /// @param shared  null if all tiles are this process's
 void for_each_tile(std::size_t tiles, SharedSink* shared, const Progress& progress,
                    const std::function<void(std::size_t tile)>& body);

@@ -89,14 +89,15 @@ void write_light_field_part(const std::filesystem::path& path, const LightField&
         copy(HogelRows(light_field.faces()[i], rows), *sinks[i], progress.part(i, sinks.size()));
 }
 
-void write_holograms_part(const std::filesystem::path& path, const Fields& holograms, const HologramFileOptions& options,
-                          const FilePart& part, const Progress& progress) {
+void write_holograms_part(const std::filesystem::path& path, const Fields& holograms,
+                          const HologramFileOptions& options, const FilePart& part, const Progress& progress) {
     const core::StopScope scope(progress);
     std::vector<FieldGrid> grids;
     std::vector<io::Rows> rows;
     for (const auto& hologram : holograms) {
         grids.push_back(hologram->grid());
-        const std::size_t height = hologram->grid().plane.height, step = std::max<std::size_t>(hologram->alignment(), 1);
+        const std::size_t height = hologram->grid().plane.height,
+                          step = std::max<std::size_t>(hologram->alignment(), 1);
         const io::Rows units = rows_of(part, (height + step - 1) / step, "hogels");
         const std::size_t first = units.first * step, end = std::min((units.first + units.count) * step, height);
         rows.push_back({first, end - first});

@@ -92,11 +92,11 @@ class DatasetFile {
 
     std::filesystem::path path_;
     Team* team_;
-    std::uint64_t number_ = 0;                 // of the file, among those of the team
-    std::atomic<std::size_t> closed_ = 0;      // other processes that have sent all they had
+    std::uint64_t number_ = 0;             // of the file, among those of the team
+    std::atomic<std::size_t> closed_ = 0;  // other processes that have sent all they had
     bool finished_ = false;
-    std::optional<core::OutputFile> output_;   // of the first process
-    std::vector<NewDataset> datasets_;         // with the shapes that are written here
+    std::optional<core::OutputFile> output_;  // of the first process
+    std::vector<NewDataset> datasets_;        // with the shapes that are written here
     std::vector<std::uint64_t> offsets_;
     std::optional<core::RawFile> raw_;
     std::mutex writing_;

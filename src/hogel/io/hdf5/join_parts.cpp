@@ -112,8 +112,8 @@ class Joiner {
                 if (axis != s.band.axis) (axis > s.band.axis ? row : outer) *= s.shape[axis];
             const std::uint64_t run = row * s.band.count;
             for (std::uint64_t i = 0; i < outer; ++i)
-                copy(in, part.header.offsets[d] + i * run,
-                     s.offset + row * (i * s.shape[s.band.axis] + s.band.first), run);
+                copy(in, part.header.offsets[d] + i * run, s.offset + row * (i * s.shape[s.band.axis] + s.band.first),
+                     run);
         }
     }
 

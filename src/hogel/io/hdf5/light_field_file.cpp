@@ -94,10 +94,10 @@ class LightFieldWriter final : public LightFieldSink, public core::SharedSink {
     void finish() override {
         const std::uint64_t written = shared_->file.total(hogels_);
         if (written != grid_.hogels())
-            throw Error(ErrorCode::internal, fmt::format("cannot finish the {} face of '{}': {} of {} hogels were "
-                                                         "written",
-                                                         face_name(grid_.face()), shared_->file.path().string(),
-                                                         written, grid_.hogels()));
+            throw Error(ErrorCode::internal,
+                        fmt::format("cannot finish the {} face of '{}': {} of {} hogels were "
+                                    "written",
+                                    face_name(grid_.face()), shared_->file.path().string(), written, grid_.hogels()));
         if (--shared_->unfinished == 0) shared_->file.finish();
     }
 

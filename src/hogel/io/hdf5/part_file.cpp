@@ -180,12 +180,12 @@ PartHeader read_part_header(const std::filesystem::path& path) {
     const core::RawFile file(path, core::RawFile::Mode::read, path);
     std::string first_line(first_line_bytes, ' ');
     if (file.size() < first_line.size())
-        throw Error(ErrorCode::bad_input, fmt::format("cannot read '{}': it is no part of a file of hogel's",
-                                                      path.string()));
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("cannot read '{}': it is no part of a file of hogel's", path.string()));
     file.read(0, first_line.data(), first_line.size());
     if (!first_line.starts_with(first_words))
-        throw Error(ErrorCode::bad_input, fmt::format("cannot read '{}': it is no part of a file of hogel's",
-                                                      path.string()));
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("cannot read '{}': it is no part of a file of hogel's", path.string()));
     std::istringstream words(first_line.substr(first_words.size()));
     std::uint64_t text_bytes = 0, image_bytes = 0;
     std::uint32_t sum = 0;

@@ -36,8 +36,7 @@ class PartFileTest : public testing::Test {
             LightFieldTile tile(here, {0, t, here.hogels_s, 1}, true);
             std::iota(tile.radiance.elements().begin(), tile.radiance.elements().end(),
                       static_cast<float>(100 * (rows.first + t)));
-            std::iota(tile.depth.elements().begin(), tile.depth.elements().end(),
-                      static_cast<float>(rows.first + t));
+            std::iota(tile.depth.elements().begin(), tile.depth.elements().end(), static_cast<float>(rows.first + t));
             sinks.front()->write(tile);
         }
         sinks.front()->finish();
