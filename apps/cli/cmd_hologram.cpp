@@ -20,6 +20,7 @@ struct Options {
     RenderOptions render;
     HologramChoices hologram;
     bool half = false, resume = false;
+    PartOption part;
 
     SampleType type() const { return half ? SampleType::half : SampleType::single; }
 };
@@ -35,6 +36,7 @@ void report_hologram(const Options& options, const std::vector<FieldGrid>& grids
 // Computes the field of a scene by a method without a light field.
 int straight_from_scene(const Options& options, const SceneHologramMethod& method, const Session& session) {
     if (options.resume) throw Error(ErrorCode::usage, fmt::format("--resume: method {} cannot", method.name));
+    if (options.part.part) throw Error(ErrorCode::usage, fmt::format("--part: method {} cannot", method.name));
     if (options.render.fronts_only)
         throw Error(ErrorCode::usage, fmt::format("--cull-back-faces: method {} cannot", method.name));
     require_writable(options.output, {&options.input, 1});
@@ -101,16 +103,20 @@ int hologram(Options options, const Session& session) {
         check_holograms(faces, request, kind == InputKind::scene);
         state_plan(session, plan_holograms(faces, request, file), "synthesising the hologram", options.output);
     };
+    std::string part_input;
     const LightField light_field = [&] {
         if (kind == InputKind::light_field) {
             if (options.resume) file.resume = describe_input(options.input);
+            // Its date may be another on each machine.
+            part_input = fmt::format("{}, {} bytes", options.input, std::filesystem::file_size(options.input));
             LightField opened = open_for_holograms(options.input, request, options.hologram.basis.empty());
             check(opened.grids());
             return opened;
         }
         check(options.render.request().grids());
         const Scene scene = load_scene(session, options.input, options.render, record);
-        if (options.resume) file.resume = describe_input(options.input, scene);
+        if (options.resume || options.part.part) part_input = describe_input(options.input, scene);
+        if (options.resume) file.resume = part_input;
         const LightField rendered = render_light_field(session, scene, options.render, record);
         require_memory(session, rendered, options.render, scene);
         return prepare_for_reading(session, rendered, request.channels.size(), needs_depth(request.method));
@@ -119,6 +125,17 @@ int hologram(Options options, const Session& session) {
     options.hologram.record(record, request, light_field.grid());
     file.metadata = record.metadata();
     const auto holograms = make_holograms(light_field, request);
+    if (options.part.part) {
+        const std::string name = options.part.file_for(options.output);
+        {
+            Stage stage(session, "hologram");
+            with_options({{"parts of", "--part"}}, [&] {
+                write_holograms_part(name, holograms, file, options.part.of(part_input), stage.progress());
+            });
+        }
+        report_part(session, name, *options.part.part);
+        return 0;
+    }
     {
         Stage stage(session, "hologram");
         write_holograms(options.output, holograms, file, stage.progress());
@@ -140,6 +157,7 @@ void add_hologram(Command& command, Session& session) {
     command.text("-o,--output", options->output, "FILE", "Hologram to write, HDF5").required();
     command.flag("--half", options->half, "Store 16-bit floats rather than 32-bit ones");
     add_resume_flag(command, options->resume);
+    add_part_option(command, options->part);
     add_scene_hologram_options(command, options->hologram);
     add_render_options(command, options->render);
     add_hemicube_option(command, options->render);

@@ -19,6 +19,7 @@ struct Options {
     LightFieldOutput output;
     RenderOptions render;
     bool resume = false;
+    PartOption part;
     Counts region;  // empty: the size that the renderer prefers
 
     LightFieldFileOptions file() const {
@@ -63,13 +64,23 @@ void state_plan(const Options& options, const LightField& rendered, std::size_t 
     });
 }
 
-int write_hdf5(const Options& options, const LightField& light_field, const std::optional<std::string>& resume,
-               RunRecord& record, const Session& session) {
+// Writes the light field or a part of it.
+// @param input  what a part or an unfinished file remembers of the scene
+int write_hdf5(const Options& options, const LightField& light_field, const std::string& input, RunRecord& record,
+               const Session& session) {
     LightFieldFileOptions file = options.file();
     record.acted({"float"});
     file.metadata = record.metadata();
-    file.resume = resume;
+    if (options.resume) file.resume = input;
     Stage stage(session, "rendering");
+    if (options.part.part) {
+        const std::string name = options.part.file_for(options.output.file);
+        with_options({{"parts of", "--part"}}, [&] {
+            write_light_field_part(name, light_field, file, options.part.of(input), stage.progress());
+        });
+        report_part(session, name, *options.part.part);
+        return 0;
+    }
     write_light_field(options.output.file, light_field, file, stage.progress());
     const LightFieldGrid& front = light_field.grid();
     const std::size_t faces = light_field.faces().size();
@@ -87,18 +98,20 @@ int render(const Options& options, const Session& session) {
     if (input_kind(options.scene) != InputKind::scene)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
     options.output.require(options.scene, options.resume);
+    if (options.part.part && options.output.compressed())
+        throw Error(ErrorCode::usage,
+                    fmt::format("--part: belongs to HDF5 files; {} is a compressed one", options.output.file));
     static_cast<void>(options.render.request());  // throws before a scene is made
     RunRecord record(session);
     record.acted({"scene", "depth"});
     const Scene scene = load_scene(session, options.scene, options.render, record);
-    std::optional<std::string> resume;
-    if (options.resume) resume = describe_input(options.scene, scene);
+    const std::string input = options.resume || options.part.part ? describe_input(options.scene, scene) : "";
     LightField rendered = render_light_field(session, scene, options.render, record);
     if (options.region.columns > 0)
         rendered = rendered.wrapped(
             [&](const LightField::Source& face) { return std::make_shared<const InRegions>(face, options.region); });
     state_plan(options, rendered, triangle_count(scene), session);
-    if (!options.output.compressed()) return write_hdf5(options, rendered, resume, record, session);
+    if (!options.output.compressed()) return write_hdf5(options, rendered, input, record, session);
     write_compressed(options.output, rendered, record, session);
     return 0;
 }
@@ -116,6 +129,7 @@ void add_render(Command& command, Session& session) {
     add_light_field_output(command, options->output, "Store the depth of every ray too",
                            "Store 32-bit floats rather than 16-bit ones");
     add_resume_flag(command, options->resume);
+    add_part_option(command, options->part);
     add_render_options(command, options->render);
     command.counts("--region", options->region, "Hogels that a renderer is given at once (default: what it prefers)")
         .no_default();

@@ -85,6 +85,11 @@ Option Command::positional(const std::string& name, std::string& value, const st
     return add(app_.add_option(name, value, help)->type_name(type)->required());
 }
 
+Option Command::positionals(const std::string& name, std::vector<std::string>& values, const std::string& type,
+                            const std::string& help) {
+    return add(app_.add_option(name, values, help)->type_name(type)->required());
+}
+
 Option Command::text(const std::string& name, std::string& value, const std::string& type, const std::string& help) {
     return add(app_.add_option(name, value, help)->type_name(type)->capture_default_str());
 }

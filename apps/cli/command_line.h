@@ -72,6 +72,9 @@ class Command {
 
     /// A required argument without a name.
     Option positional(const std::string& name, std::string& value, const std::string& type, const std::string& help);
+    /// One or more of them.
+    Option positionals(const std::string& name, std::vector<std::string>& values, const std::string& type,
+                       const std::string& help);
     Option text(const std::string& name, std::string& value, const std::string& type, const std::string& help);
     /// An option that may be given several times.
     Option texts(const std::string& name, std::vector<std::string>& values, const std::string& type,

@@ -21,6 +21,7 @@ std::span<const CommandInfo> commands() {
         {"focus", "Find the depths at which a hologram is in focus", add_focus},
         {"compress", "Compress a light field", add_compress},
         {"decompress", "Decompress a light field", add_decompress},
+        {"join", "Join the parts of a light field or a hologram", add_join},
         {"compare", "Say how alike two files are", add_compare},
         {"info", "Say what a file is and what made it, in SI units", add_info},
         {"bake", "Light a scene for good, reflected light included", add_bake},

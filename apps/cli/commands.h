@@ -27,6 +27,7 @@ void add_focus(Command& command, Session& session);
 void add_compress(Command& command, Session& session);
 void add_decompress(Command& command, Session& session);
 void add_compare(Command& command, Session& session);
+void add_join(Command& command, Session& session);
 void add_info(Command& command, Session& session);
 void add_scenes(Command& command, Session& session);
 void add_view(Command& command, Session& session);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 
 #include "concerns.h"
@@ -68,6 +69,38 @@ void add_force_flag(Command& command, bool& force) {
 void add_resume_flag(Command& command, bool& resume) {
     command.flag("--resume", resume,
                  "Keep what is done when interrupted, as FILE.part, and go on from there the next time");
+}
+
+std::string PartOption::file_for(const std::string& output) const {
+    if (!part) return output;
+    return fs::path(output).replace_extension(fmt::format(".part-{}-of-{}", part->number, part->count)).string();
+}
+
+FilePart PartOption::of(const std::string& input) const { return {part->number, part->count, input}; }
+
+void add_part_option(Command& command, PartOption& part) {
+    command.parsed("--part", "K/N", "Write part K, from 1, of N, as FILE.part-K-of-N; hogel join makes a file of them",
+                   [&part](const std::string& text) {
+                       FilePart read;
+                       const std::size_t slash = text.find('/');
+                       const auto number = [&](const std::string& digits, std::size_t& to) {
+                           const char* end = digits.data() + digits.size();
+                           const auto [stop, error] = std::from_chars(digits.data(), end, to);
+                           return error == std::errc() && stop == end;
+                       };
+                       if (slash == std::string::npos || !number(text.substr(0, slash), read.number) ||
+                           !number(text.substr(slash + 1), read.count) || read.number == 0 || read.number > read.count)
+                           throw Error(
+                               ErrorCode::usage,
+                               fmt::format("--part: '{}' is not a part K/N with K from 1 to N, such as 2/5", text));
+                       part.part = read;
+                   });
+}
+
+void report_part(const Session& session, const std::string& file, const FilePart& part) {
+    session.say(fmt::format("{}: part {} of {}, {}", file, part.number, part.count,
+                            format_bytes(static_cast<double>(fs::file_size(file)))));
+    report_file(session, file, {{"part", part.number}, {"parts", part.count}});
 }
 
 void LightFieldOutput::require(const std::string& input, bool resumes) const {

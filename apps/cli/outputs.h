@@ -7,6 +7,7 @@
 #include <string>
 
 #include "command_line.h"
+#include "hogel/file_part.h"
 #include "hogel/pipeline.h"
 #include "run_record.h"
 #include "session.h"
@@ -23,6 +24,21 @@ void add_force_flag(Command& command, bool& force);
 
 /// --resume, for outputs that take long.
 void add_resume_flag(Command& command, bool& resume);
+
+/// A part of an output, or the whole if none is given.
+struct PartOption {
+    std::optional<FilePart> part;
+
+    /// The file that is written for an output: "X.part-2-of-5" for X.h5.
+    std::string file_for(const std::string& output) const;
+    /// The part, with what all parts must have in common.
+    FilePart of(const std::string& input) const;
+};
+/// --part
+void add_part_option(Command& command, PartOption& part);
+/// Prints that a part was written; with --json the result.
+void report_part(const Session& session, const std::string& file, const FilePart& part);
+
 /// A light field that a command writes: an HDF5 file, or a compressed one if its name ends in .hgl.
 struct LightFieldOutput {
     std::string file;

@@ -17,13 +17,6 @@
 namespace hogel::cli {
 namespace {
 
-// Every failure is one line on stderr.
-int fail(ErrorCode code, std::string message) {
-    std::replace(message.begin(), message.end(), '\n', ' ');
-    write_error_stream(fmt::format("hogel: {}\n", message));
-    return static_cast<int>(code);
-}
-
 // Reopens closed standard streams as ones that fail, so that no output file gets the number of such a stream and with
 // it the stream's output.
 void open_closed_streams() {
@@ -31,37 +24,48 @@ void open_closed_streams() {
         if (fcntl(stream, F_GETFD) == -1 && errno == EBADF) open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
 }
 
-int run(std::span<const CommandInfo> commands, int argc, char** argv, Session& session) {
+int run(std::span<const CommandInfo> commands, int argc, char** argv, Session& session, Processes* processes) {
     CommandLine line(commands, session);
     session.arguments = argv;
     session.command = line.parse(argc, argv);
     if (session.command == nullptr) return 0;
+    if (processes != nullptr) processes->begin(session);
     const ThreadLimit limit(session.threads);
     return session.command->run();
 }
 
-}  // namespace
+Outcome failure(ErrorCode code, const std::string& message) { return {static_cast<int>(code), code, message}; }
 
-int run_program(std::span<const CommandInfo> commands, int argc, char** argv) {
-    open_closed_streams();
+Outcome outcome_of(std::span<const CommandInfo> commands, int argc, char** argv, Processes* processes) {
     Session session;
     const Interrupts interrupts(session.stop);
-    int status = 0;
+    Outcome outcome;
     try {
-        status = run(commands, argc, argv, session);
+        outcome.status = run(commands, argc, argv, session, processes);
+        if (std::fflush(stdout) != 0) outcome = failure(ErrorCode::cannot_write, "cannot write to the standard output");
     } catch (const Error& error) {
-        if (interrupts.signal() != 0) {
-            fail(ErrorCode::cancelled, "stopped");
-            return 128 + interrupts.signal();
-        }
-        return fail(error.code(), error.what());
+        outcome = failure(error.code(), error.what());
+        if (interrupts.signal() != 0) outcome = {128 + interrupts.signal(), ErrorCode::cancelled, "stopped"};
     } catch (const std::bad_alloc&) {
-        return fail(ErrorCode::internal, "out of memory");
+        outcome = failure(ErrorCode::internal, "out of memory");
     } catch (const std::exception& error) {
-        return fail(ErrorCode::internal, fmt::format("internal error: {}", error.what()));
+        outcome = failure(ErrorCode::internal, fmt::format("internal error: {}", error.what()));
     }
-    if (std::fflush(stdout) != 0) return fail(ErrorCode::cannot_write, "cannot write to the standard output");
-    return status;
+    return processes != nullptr ? processes->end(outcome) : outcome;
+}
+
+}  // namespace
+
+void print_failure(std::string message) {
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    write_error_stream(fmt::format("hogel: {}\n", message));
+}
+
+int run_program(std::span<const CommandInfo> commands, int argc, char** argv, Processes* processes) {
+    open_closed_streams();
+    const Outcome outcome = outcome_of(commands, argc, argv, processes);
+    if (!outcome.message.empty()) print_failure(outcome.message);
+    return outcome.status;
 }
 
 }  // namespace hogel::cli

@@ -51,6 +51,8 @@ EYE = "--eye 0,0,40mm --pupil 4mm --resolution 8"
 TABLE = [
     (f"render sphere -o x.h5 {SMALL} --depth", LIGHT_FIELD),
     (f"render sphere -o x.hgl {SMALL}", STREAM),
+    (f"render sphere -o y.h5 {SMALL} --depth --part 1/1", FILE | {"part": COUNT, "parts": COUNT}),
+    ("join y.part-1-of-1 -o y.h5", LIGHT_FIELD),
     ("compress x.h5 -o deep.hgl --sqnr 30", STREAM | DEPTH),
     ("decompress deep.hgl -o back.h5", LIGHT_FIELD),
     ("compare x.h5 back.h5", {"sqnr": DECIBELS, "psnr": DECIBELS, "max_error": REAL}),

@@ -19,7 +19,7 @@ import subprocess
 import sys
 
 # Options that decide how the work is done or where its result goes.
-SILENT = "help quiet verbose threads output resume region json force store-hologram".split()
+SILENT = "help quiet verbose threads output resume part region json force store-hologram".split()
 
 # An option that acts, although no other value shows it: another is refused, or the scene of the case looks the same.
 ACTS = object()

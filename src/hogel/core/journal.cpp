@@ -64,9 +64,16 @@ Journal::Journal(const std::filesystem::path& path, std::vector<std::string> wor
     }
 }
 
+Journal::Journal(std::set<Part> before, std::function<void()> flush, std::function<void(const std::string&)> send)
+    : flush_(std::move(flush)),
+      send_(std::move(send)),
+      begun_(true),
+      before_(std::move(before)),
+      written_(std::chrono::steady_clock::now()) {}
+
 Journal::~Journal() {
     try {
-        if (file_ >= 0) write_pending();
+        write();
     } catch (const Error&) {
         // Ignored: parts that are not recorded will only be done again.
     }
@@ -135,7 +142,11 @@ void Journal::append(const std::string& text) {
 void Journal::write_pending() {
     if (pending_.empty()) return;
     flush_();
-    append(std::exchange(pending_, {}));
+    const std::string lines = std::exchange(pending_, {});
+    if (send_)
+        send_(lines);
+    else
+        append(lines);
     written_ = std::chrono::steady_clock::now();
 }
 
@@ -145,7 +156,20 @@ void Journal::note(const Part& part) {
     if (std::chrono::steady_clock::now() - written_ >= between_writes) write_pending();
 }
 
+void Journal::write() {
+    const std::lock_guard lock(mutex_);
+    if (file_ >= 0 || send_) write_pending();
+}
+
+void Journal::take(const std::string& lines) {
+    const std::lock_guard lock(mutex_);
+    if (file_ >= 0) append(lines);
+}
+
 void Journal::remove() {
+    const std::lock_guard lock(mutex_);
+    send_ = nullptr;
+    if (file_ < 0) return;
     std::error_code ignored;
     std::filesystem::remove(path_, ignored);
     ::close(std::exchange(file_, -1));

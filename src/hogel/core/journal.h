@@ -27,6 +27,9 @@ class Journal {
     ///               Error(bad_input) if it is not a journal; Error(cannot_write) if it cannot be opened or another
     ///               process is writing to it.
     Journal(const std::filesystem::path& path, std::vector<std::string> work, std::function<void()> flush);
+    /// The records of another process, which has the journal and knows that the parts `before` were done.
+    /// @param send  sends it lines to append(), after `flush`
+    Journal(std::set<Part> before, std::function<void()> flush, std::function<void(const std::string&)> send);
     /// Writes pending records to the disk.
     ~Journal();
     Journal(const Journal&) = delete;
@@ -38,8 +41,14 @@ class Journal {
     void begin();
     /// Whether the part was done when this journal was opened.
     bool was_done(const Part& part) const { return before_.contains(part); }
+    /// The parts that were done when this journal was opened.
+    const std::set<Part>& before() const { return before_; }
     /// Records that a part is done, from any thread. The record reaches the disk within 20 seconds.
     void note(const Part& part);
+    /// Writes pending records to the disk now.
+    void write();
+    /// Appends the lines of another process.
+    void take(const std::string& lines);
     /// Removes the file, when the work is complete.
     void remove();
 
@@ -52,6 +61,7 @@ class Journal {
     std::filesystem::path path_;
     std::vector<std::string> work_;
     std::function<void()> flush_;
+    std::function<void(const std::string&)> send_;  // of records that another process keeps
     int file_ = -1;
     bool begun_ = false;
     std::set<Part> before_;

@@ -110,5 +110,32 @@ TEST_F(JournalTest, damage_never_makes_a_part_count_as_done) {
         }
 }
 
+// The records of a process that does not have the journal reach it, after that process's own results.
+TEST_F(JournalTest, keeps_the_records_of_another_process) {
+    {
+        Journal kept = open({"work"});
+        kept.begin();
+        kept.note({1, 2});
+        bool flushed = false;
+        Journal other(
+            kept.before(), [&] { flushed = true; },
+            [&](const std::string& lines) {
+                EXPECT_TRUE(flushed);
+                kept.take(lines);
+            });
+        EXPECT_TRUE(other.begun());
+        other.note({3, 4});
+        other.write();
+        EXPECT_TRUE(flushed);
+    }
+    const Journal again = open({"work"});
+    EXPECT_TRUE(again.was_done({1, 2}));
+    EXPECT_TRUE(again.was_done({3, 4}));
+    EXPECT_FALSE(again.was_done({3, 5}));
+    const Journal of_other(
+        again.before(), [] {}, [](const std::string&) { FAIL() << "nothing was done"; });
+    EXPECT_TRUE(of_other.was_done({3, 4}));
+}
+
 }  // namespace
 }  // namespace hogel::core

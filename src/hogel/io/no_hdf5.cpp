@@ -5,6 +5,7 @@
 #include "hogel/core/part.h"
 #include "hogel/files.h"
 #include "hogel/io/hdf5/files.h"
+#include "hogel/io/part_sinks.h"
 
 namespace hogel {
 namespace {
@@ -40,6 +41,23 @@ Fields open_hologram(const std::filesystem::path& path) {
 
 std::vector<std::unique_ptr<FieldSink>> create_hologram(const std::filesystem::path& path, std::span<const FieldGrid>,
                                                         const HologramFileOptions&) {
+    refuse(path);
+}
+
+std::vector<std::unique_ptr<LightFieldSink>> io::create_light_field_part(const std::filesystem::path& path,
+                                                                         std::span<const LightFieldGrid>,
+                                                                         const LightFieldFileOptions&,
+                                                                         const PartNumber&, const Rows&) {
+    refuse(path);
+}
+
+std::vector<std::unique_ptr<FieldSink>> io::create_hologram_part(const std::filesystem::path& path,
+                                                                 std::span<const FieldGrid>, const HologramFileOptions&,
+                                                                 const PartNumber&, std::span<const Rows>) {
+    refuse(path);
+}
+
+void io::join_parts(const std::filesystem::path& path, std::span<const std::filesystem::path>, const Progress&) {
     refuse(path);
 }
 

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <numbers>
 #include <set>
 
 #include "hogel/core/parallel.h"
+#include "hogel/core/shared_tiles.h"
 #include "hogel/units.h"
 
 namespace hogel {
@@ -295,10 +295,8 @@ void copy(const LightFieldSource& source, LightFieldSink& sink, const Progress& 
     const HogelRange size = source.preferred_tile();
     const std::size_t across = (grid.hogels_s + size.ns - 1) / size.ns;
     const std::size_t down = (grid.hogels_t + size.nt - 1) / size.nt;
-    std::mutex reporting;
-    std::size_t done = 0;
-    progress.report(0);
-    core::parallel_for(across * down, [&](std::size_t i) {
+    const auto shared = dynamic_cast<core::SharedSink*>(&sink);
+    core::for_each_tile(across * down, shared, progress, [&](std::size_t i) {
         HogelRange range{(i % across) * size.ns, (i / across) * size.nt, size.ns, size.nt};
         range.ns = std::min(range.ns, grid.hogels_s - range.s0);
         range.nt = std::min(range.nt, grid.hogels_t - range.t0);
@@ -307,8 +305,6 @@ void copy(const LightFieldSource& source, LightFieldSink& sink, const Progress& 
             source.read(tile);
             sink.write(tile);
         }
-        const std::lock_guard lock(reporting);
-        progress.report(static_cast<double>(++done) / static_cast<double>(across * down));
     });
     sink.finish();
 }

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mutex>
 
 #include "hogel/core/object_pool.h"
 #include "hogel/core/parallel.h"
+#include "hogel/core/shared_tiles.h"
 
 namespace hogel {
 namespace {
@@ -98,10 +98,8 @@ void copy(const FieldSource& source, FieldSink& sink, std::size_t look, const Pr
                       height = in_place ? aligned_rows(source.alignment(), plane.width) : side;
     const std::size_t across = (plane.width + width - 1) / width, down = (plane.height + height - 1) / height;
     core::ObjectPool<Array<std::complex<float>, 1>> scratch_pool;
-    std::mutex reporting;
-    std::size_t done = 0;
-    progress.report(0);
-    core::parallel_for(across * down, [&](std::size_t i) {
+    const auto shared = dynamic_cast<core::SharedSink*>(&sink);
+    core::for_each_tile(across * down, shared, progress, [&](std::size_t i) {
         Region region{(i % across) * width, (i / across) * height, width, height};
         region.width = std::min(region.width, plane.width - region.x0);
         region.height = std::min(region.height, plane.height - region.y0);
@@ -114,8 +112,6 @@ void copy(const FieldSource& source, FieldSink& sink, std::size_t look, const Pr
             source.read(region, look, values);
             sink.write(region, values);
         }
-        const std::lock_guard lock(reporting);
-        progress.report(static_cast<double>(++done) / static_cast<double>(across * down));
     });
     sink.finish();
 }

@@ -12,7 +12,9 @@
 #include "hogel/core/object_pool.h"
 #include "hogel/core/output_file.h"
 #include "hogel/core/raw_file.h"
+#include "hogel/core/shared_tiles.h"
 #include "hogel/io/hdf5/hdf5.h"
+#include "hogel/io/hdf5/part_file.h"
 #include "hogel/io/hdf5/sample_server.h"
 
 namespace hogel::io::hdf5 {
@@ -47,13 +49,25 @@ class DatasetReader {
 /// The shape of a dataset. Throws Error(bad_input) if there is none of that name. Needs a Session.
 std::vector<std::size_t> dataset_shape(hid_t file, const char* name, const std::filesystem::path& path);
 
-/// Writes a file of datasets: HDF5 lays it out, any number of threads fill it, and finish() gives it its name.
+/// What a file of datasets holds: everything but samples. With `part` only the bands that it names are written, to a
+/// part file.
+struct Contents {
+    Attributes attributes;
+    std::vector<NewDataset> datasets;
+    std::optional<PartOf> part = {};
+};
+
+/// Writes a file of datasets: HDF5 lays it out, any number of threads fill it, and finish() gives it its name. The
+/// processes of a team write one file together: the first one lays it out, renames it and keeps its journal.
 class DatasetFile {
   public:
     /// @param resume  as in LightFieldFileOptions
-    DatasetFile(const std::filesystem::path& path, const hdf5::Attributes& attributes,
-                std::vector<hdf5::NewDataset> datasets, const std::optional<std::string>& resume);
+    DatasetFile(const std::filesystem::path& path, Contents contents, const std::optional<std::string>& resume);
+    ~DatasetFile();
+    DatasetFile(const DatasetFile&) = delete;
+    DatasetFile& operator=(const DatasetFile&) = delete;
 
+    /// Boxes of a part file begin at its bands.
     void write(std::size_t dataset, const Box& box, const float* from);
     void write(std::size_t dataset, const Box& box, const std::complex<float>* from);
     /// For work that can be resumed: was_done() tells whether a part was done in an earlier run, note() records one
@@ -62,15 +76,27 @@ class DatasetFile {
     void note(const core::Journal::Part& part) {
         if (journal_) journal_->note(part);
     }
+    /// For SharedSink: the queue of the tiles of a dataset.
+    std::unique_ptr<core::TileQueue> share_tiles(std::size_t dataset, std::size_t tiles);
+    /// The sum over all processes.
+    std::uint64_t total(std::uint64_t here);
     /// Closes the file and renames it to its final name.
     void finish();
-    const std::filesystem::path& path() const { return output_.target(); }
+    const std::filesystem::path& path() const { return path_; }
 
   private:
+    void lay_out(const Contents& contents, const std::optional<std::string>& resume);
+    void lay_out_together(const Contents& contents, const std::optional<std::string>& resume);
+    void take(const std::string& lines);
     void write_bytes(std::size_t dataset, const Box& box, const void* from);
 
-    core::OutputFile output_;
-    std::vector<hdf5::NewDataset> datasets_;
+    std::filesystem::path path_;
+    Team* team_;
+    std::uint64_t number_ = 0;             // of the file, among those of the team
+    std::atomic<std::size_t> closed_ = 0;  // other processes that have sent all they had
+    bool finished_ = false;
+    std::optional<core::OutputFile> output_;  // of the first process
+    std::vector<NewDataset> datasets_;        // with the shapes that are written here
     std::vector<std::uint64_t> offsets_;
     std::optional<core::RawFile> raw_;
     std::mutex writing_;

@@ -9,6 +9,7 @@
 #include "hogel/files.h"
 #include "hogel/io/hdf5/grids.h"
 #include "hogel/io/hdf5/rehearsal.h"
+#include "hogel/io/part_sinks.h"
 
 namespace hogel::io::hdf5 {
 namespace {
@@ -66,7 +67,7 @@ struct SharedFile {
     std::atomic<std::size_t> unfinished;
 };
 
-class FieldWriter final : public FieldSink {
+class FieldWriter final : public FieldSink, public core::SharedSink {
   public:
     FieldWriter(const FieldGrid& grid, Parts parts, std::size_t index, std::shared_ptr<SharedFile> shared)
         : grid_(grid), parts_(parts), index_(index), shared_(std::move(shared)) {}
@@ -90,11 +91,16 @@ class FieldWriter final : public FieldSink {
         return true;
     }
 
+    std::unique_ptr<core::TileQueue> share_tiles(std::size_t tiles) override {
+        return shared_->file.share_tiles(index_, tiles);
+    }
+
     void finish() override {
-        if (written_ != grid_.plane.samples())
+        const std::uint64_t written = shared_->file.total(written_);
+        if (written != grid_.plane.samples())
             throw Error(ErrorCode::internal,
                         fmt::format("cannot finish field {} of '{}': {} of {} samples were written", index_,
-                                    shared_->file.path().string(), written_.load(), grid_.plane.samples()));
+                                    shared_->file.path().string(), written, grid_.plane.samples()));
         if (--shared_->unfinished == 0) shared_->file.finish();
     }
 
@@ -183,28 +189,53 @@ Fields open_hologram(const std::filesystem::path& path) {
     });
 }
 
-std::vector<std::unique_ptr<FieldSink>> create_hologram(const std::filesystem::path& path,
-                                                        std::span<const FieldGrid> grids,
-                                                        const HologramFileOptions& options) {
-    require_name(path, "hdf5");
+namespace {
+
+// Sinks of a file or, where `part` is given, of the rows of a part file; one entry of `rows` a field.
+std::vector<std::unique_ptr<FieldSink>> create(const std::filesystem::path& path, std::span<const FieldGrid> grids,
+                                               const HologramFileOptions& options, const PartNumber* part,
+                                               std::span<const Rows> rows) {
     if (grids.empty() || grids.size() > max_fields)
         throw Error(ErrorCode::usage, fmt::format("hologram '{}': {} fields, but 1 to {} can be written", path.string(),
                                                   grids.size(), max_fields));
     const bool halves = options.type == SampleType::half;
     const Parts parts = halves ? Parts::axis : Parts::members;
-    std::vector<hdf5::NewDataset> datasets;
+    Contents contents{hdf5::root_attributes(hdf5::hologram_format, options.metadata), {}};
+    std::vector<Band> bands;
     for (const FieldGrid& grid : grids) {
         validate(grid, ErrorCode::usage, "hologram");
-        datasets.push_back({samples_name(datasets.size()), halves ? hdf5::Element::half : hdf5::Element::complex_single,
-                            shape_of(grid, parts), field_attributes(grid, parts)});
+        const Rows& own = rows[bands.size()];
+        bands.push_back({0, own.first, own.count});
+        contents.datasets.push_back({samples_name(contents.datasets.size()),
+                                     halves ? hdf5::Element::half : hdf5::Element::complex_single,
+                                     shape_of(grid, parts), field_attributes(grid, parts)});
     }
-    std::shared_ptr<SharedFile> shared(new SharedFile{
-        {path, hdf5::root_attributes(hdf5::hologram_format, options.metadata), std::move(datasets), options.resume},
-        grids.size()});
+    if (part != nullptr) contents.part = PartOf{part->number, part->count, std::move(bands), part->input};
+    std::shared_ptr<SharedFile> shared(new SharedFile{{path, std::move(contents), options.resume}, grids.size()});
     std::vector<std::unique_ptr<FieldSink>> sinks;
-    for (const FieldGrid& grid : grids)
+    for (FieldGrid grid : grids) {
+        grid.plane.height = rows[sinks.size()].count;
         sinks.push_back(std::make_unique<FieldWriter>(grid, parts, sinks.size(), shared));
+    }
     return sinks;
+}
+
+}  // namespace
+
+std::vector<std::unique_ptr<FieldSink>> create_hologram(const std::filesystem::path& path,
+                                                        std::span<const FieldGrid> grids,
+                                                        const HologramFileOptions& options) {
+    require_name(path, "hdf5");
+    std::vector<Rows> all;
+    for (const FieldGrid& grid : grids) all.push_back({0, grid.plane.height});
+    return create(path, grids, options, nullptr, all);
+}
+
+std::vector<std::unique_ptr<FieldSink>> io::create_hologram_part(const std::filesystem::path& path,
+                                                                 std::span<const FieldGrid> grids,
+                                                                 const HologramFileOptions& options,
+                                                                 const PartNumber& part, std::span<const Rows> rows) {
+    return create(path, grids, options, &part, rows);
 }
 
 }  // namespace hogel

@@ -10,6 +10,7 @@
 #include "hogel/io/hdf5/files.h"
 #include "hogel/io/hdf5/grids.h"
 #include "hogel/io/hdf5/rehearsal.h"
+#include "hogel/io/part_sinks.h"
 
 namespace hogel::io::hdf5 {
 namespace {
@@ -60,7 +61,7 @@ struct SharedFile {
     std::atomic<std::size_t> unfinished;
 };
 
-class LightFieldWriter final : public LightFieldSink {
+class LightFieldWriter final : public LightFieldSink, public core::SharedSink {
   public:
     LightFieldWriter(const LightFieldGrid& grid, std::size_t first_dataset, bool with_depth,
                      std::shared_ptr<SharedFile> shared)
@@ -86,12 +87,17 @@ class LightFieldWriter final : public LightFieldSink {
         return true;
     }
 
+    std::unique_ptr<core::TileQueue> share_tiles(std::size_t tiles) override {
+        return shared_->file.share_tiles(first_dataset_, tiles);
+    }
+
     void finish() override {
-        if (hogels_ != grid_.hogels())
-            throw Error(ErrorCode::internal, fmt::format("cannot finish the {} face of '{}': {} of {} hogels were "
-                                                         "written",
-                                                         face_name(grid_.face()), shared_->file.path().string(),
-                                                         hogels_.load(), grid_.hogels()));
+        const std::uint64_t written = shared_->file.total(hogels_);
+        if (written != grid_.hogels())
+            throw Error(ErrorCode::internal,
+                        fmt::format("cannot finish the {} face of '{}': {} of {} hogels were "
+                                    "written",
+                                    face_name(grid_.face()), shared_->file.path().string(), written, grid_.hogels()));
         if (--shared_->unfinished == 0) shared_->file.finish();
     }
 
@@ -206,6 +212,43 @@ LightField open_light_field(const std::filesystem::path& path) {
     });
 }
 
+namespace {
+
+// Sinks of a file or, where `part` is given, of the rows of a part file.
+std::vector<std::unique_ptr<LightFieldSink>> create(const std::filesystem::path& path,
+                                                    std::span<const LightFieldGrid> grids,
+                                                    const LightFieldFileOptions& options, const PartNumber* part,
+                                                    const Rows& rows) {
+    for (const LightFieldGrid& grid : grids) validate(grid, ErrorCode::usage, "light field");
+    require_faces(grids);
+    Contents contents{hdf5::root_attributes(hdf5::light_field_format, options.metadata), {}};
+    std::vector<Band> bands;
+    for (const LightFieldGrid& grid : grids) {
+        const HogelRange all{0, 0, grid.hogels_s, grid.hogels_t};
+        contents.datasets.push_back({dataset_name(grid.face(), "radiance"),
+                                     options.type == SampleType::half ? Element::half : Element::single,
+                                     radiance_box(grid, all).extent, light_field_attributes(grid)});
+        bands.push_back({1, rows.first, rows.count});
+        if (!options.with_depth) continue;
+        contents.datasets.push_back({dataset_name(grid.face(), "depth"),
+                                     Element::single,
+                                     depth_box(grid, all).extent,
+                                     {{"axis_order", "t,s,v,u"}, {"unit", "m"}}});
+        bands.push_back({0, rows.first, rows.count});
+    }
+    if (part != nullptr) contents.part = PartOf{part->number, part->count, std::move(bands), part->input};
+    std::shared_ptr<SharedFile> shared(new SharedFile{{path, std::move(contents), options.resume}, grids.size()});
+    std::vector<std::unique_ptr<LightFieldSink>> sinks;
+    const std::size_t datasets_per_face = options.with_depth ? 2 : 1;
+    for (LightFieldGrid grid : grids) {
+        grid.hogels_t = rows.count;
+        sinks.push_back(
+            std::make_unique<LightFieldWriter>(grid, datasets_per_face * sinks.size(), options.with_depth, shared));
+    }
+    return sinks;
+}
+
+}  // namespace
 }  // namespace hogel::io::hdf5
 
 namespace hogel {
@@ -217,29 +260,14 @@ std::vector<std::unique_ptr<LightFieldSink>> create_light_field(const std::files
                                                                 std::span<const LightFieldGrid> grids,
                                                                 const LightFieldFileOptions& options) {
     require_name(path, "hdf5");
-    for (const LightFieldGrid& grid : grids) validate(grid, ErrorCode::usage, "light field");
-    require_faces(grids);
-    std::vector<hdf5::NewDataset> datasets;
-    for (const LightFieldGrid& grid : grids) {
-        const HogelRange all{0, 0, grid.hogels_s, grid.hogels_t};
-        datasets.push_back({dataset_name(grid.face(), "radiance"),
-                            options.type == SampleType::half ? Element::half : Element::single,
-                            radiance_box(grid, all).extent, light_field_attributes(grid)});
-        if (options.with_depth)
-            datasets.push_back({dataset_name(grid.face(), "depth"),
-                                Element::single,
-                                depth_box(grid, all).extent,
-                                {{"axis_order", "t,s,v,u"}, {"unit", "m"}}});
-    }
-    std::shared_ptr<SharedFile> shared(new SharedFile{
-        {path, hdf5::root_attributes(hdf5::light_field_format, options.metadata), std::move(datasets), options.resume},
-        grids.size()});
-    std::vector<std::unique_ptr<LightFieldSink>> sinks;
-    const std::size_t datasets_per_face = options.with_depth ? 2 : 1;
-    for (const LightFieldGrid& grid : grids)
-        sinks.push_back(
-            std::make_unique<LightFieldWriter>(grid, datasets_per_face * sinks.size(), options.with_depth, shared));
-    return sinks;
+    return hdf5::create(path, grids, options, nullptr, {0, grids.empty() ? 0 : grids.front().hogels_t});
+}
+
+std::vector<std::unique_ptr<LightFieldSink>> io::create_light_field_part(const std::filesystem::path& path,
+                                                                         std::span<const LightFieldGrid> grids,
+                                                                         const LightFieldFileOptions& options,
+                                                                         const PartNumber& part, const Rows& rows) {
+    return hdf5::create(path, grids, options, &part, rows);
 }
 
 }  // namespace hogel

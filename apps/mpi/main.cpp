@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// hogel-mpi: commands of hogel whose work the ranks of an MPI program share.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <string_view>
+
+#include "cli/commands.h"
+#include "cli/program.h"
+#include "hogel/error.h"
+#include "hogel/scene_hologram.h"
+#include "mpi/mpi_link.h"
+#include "mpi/rank_team.h"
+
+namespace hogel::mpi {
+namespace {
+
+// A rank that has failed waits so long for the others, which end within a second of a stop.
+constexpr std::chrono::seconds patience{15};
+
+// Those whose long work is tiles of light fields or holograms that are written to HDF5 files.
+constexpr std::array<std::string_view, 3> shared_commands{"render", "hologram", "decompress"};
+
+// Signals are for the thread that waits for them, not for those that MPI starts.
+void block_signals() {
+    sigset_t signals;
+    sigemptyset(&signals);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+}
+
+// Only the first rank prints.
+void silence_output() {
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere < 0) return;
+    dup2(nowhere, STDOUT_FILENO);
+    close(nowhere);
+}
+
+class Ranks final : public cli::Processes {
+  public:
+    explicit Ranks(MpiLink& link) : link_(link), team_(link), scope_(team_) {
+        if (!team_.is_first()) silence_output();
+    }
+
+    void begin(cli::Session& session) override {
+        team_.stop_with(session.stop);
+        if (session.threads == 0) session.threads = link_.threads();
+        if (!team_.is_first()) session.quiet = true;
+        const std::string command = session.command->name();
+        const Metadata values = session.command->values();
+        const auto value = [&](std::string_view name) {
+            const auto found = std::ranges::find(values, name, [](const auto& entry) { return entry.first; });
+            return found != values.end() ? found->second : std::string();
+        };
+        if (std::ranges::find(shared_commands, command) == shared_commands.end())
+            throw Error(ErrorCode::not_built_in,
+                        fmt::format("{}: the ranks of hogel-mpi cannot share its work yet; expected {}, or the program "
+                                    "hogel",
+                                    command, fmt::join(shared_commands, ", ")));
+        if (value("output").ends_with(".hgl"))
+            throw Error(ErrorCode::not_built_in,
+                        fmt::format("{}: the ranks of hogel-mpi cannot share the work of compressing yet; expected a "
+                                    "name that ends in .h5",
+                                    value("output")));
+        if (command == "hologram" && scene_hologram_methods().look_up(value("method")) != nullptr)
+            throw Error(ErrorCode::not_built_in,
+                        fmt::format("--method: the ranks of hogel-mpi cannot share the work of method {} yet; expected "
+                                    "one that makes holograms of light fields",
+                                    value("method")));
+    }
+
+    cli::Outcome end(const cli::Outcome& own) override {
+        Report report;
+        report.failed = own.status != 0;
+        report.status = own.status;
+        report.code = own.code;
+        report.text = own.message;
+        const std::optional<Report> verdict = team_.settle(report, patience);
+        if (!verdict) {
+            cli::print_failure(own.message);
+            link_.abort(own.status);
+        }
+        return {verdict->failed ? verdict->status : 0, verdict->code, team_.is_first() ? verdict->text : ""};
+    }
+
+  private:
+    MpiLink& link_;
+    RankTeam team_;
+    TeamScope scope_;
+};
+
+int run(int argc, char** argv) {
+    block_signals();
+    MpiLink link(argc, argv);
+    Ranks ranks(link);
+    return cli::run_program(cli::commands(), argc, argv, &ranks);
+}
+
+}  // namespace
+}  // namespace hogel::mpi
+
+int main(int argc, char** argv) { return hogel::mpi::run(argc, argv); }

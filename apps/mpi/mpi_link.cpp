@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mpi/mpi_link.h"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "hogel/error.h"
+
+namespace hogel::mpi {
+namespace {
+
+// How long messages may take to leave at the end.
+constexpr std::chrono::seconds patience{5};
+
+// The processors that this process may run on, divided by the number of processes on this machine that may run on
+// exactly those: all of them, or those that mpirun bound each process to.
+std::size_t fair_threads() {
+    cpu_set_t mine;
+    CPU_ZERO(&mine);
+    if (sched_getaffinity(0, sizeof mine, &mine) != 0) return 1;
+    MPI_Comm machine = MPI_COMM_NULL;
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+    int size = 1;
+    MPI_Comm_size(machine, &size);
+    std::vector<cpu_set_t> sets(static_cast<std::size_t>(size));
+    MPI_Allgather(&mine, sizeof mine, MPI_BYTE, sets.data(), sizeof mine, MPI_BYTE, machine);
+    MPI_Comm_free(&machine);
+    const auto same = std::ranges::count_if(sets, [&](const cpu_set_t& set) { return CPU_EQUAL(&set, &mine) != 0; });
+    return static_cast<std::size_t>(std::max<long>(1, CPU_COUNT(&mine) / std::max<long>(1, same)));
+}
+
+}  // namespace
+
+MpiLink::MpiLink(int& argc, char**& argv) {
+    int provided = MPI_THREAD_SINGLE, rank = 0, size = 1;
+    MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &provided);
+    MPI_Comm_dup(MPI_COMM_WORLD, &all_);
+    MPI_Comm_rank(all_, &rank);
+    MPI_Comm_size(all_, &size);
+    rank_ = static_cast<std::size_t>(rank);
+    size_ = static_cast<std::size_t>(size);
+    threads_ = fair_threads();
+    if (provided < MPI_THREAD_SERIALIZED)
+        throw Error(ErrorCode::not_built_in, "this MPI cannot be called by several threads (MPI_THREAD_SERIALIZED)");
+}
+
+MpiLink::~MpiLink() {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    for (;;) {
+        {
+            const std::lock_guard lock(mutex_);
+            forget_what_has_left();
+            if (sent_.empty() || std::chrono::steady_clock::now() > end) break;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    MPI_Comm_free(&all_);
+    MPI_Finalize();
+}
+
+void MpiLink::abort(int status) {
+    MPI_Abort(MPI_COMM_WORLD, status);
+    std::_Exit(status);
+}
+
+void MpiLink::forget_what_has_left() {
+    for (auto each = sent_.begin(); each != sent_.end();) {
+        int left = 0;
+        MPI_Test(&each->request, &left, MPI_STATUS_IGNORE);
+        each = left != 0 ? sent_.erase(each) : std::next(each);
+    }
+}
+
+void MpiLink::send(std::size_t to, Kind kind, std::string bytes) {
+    const std::lock_guard lock(mutex_);
+    forget_what_has_left();
+    Sent& sent = sent_.emplace_back();
+    sent.bytes = std::move(bytes);
+    MPI_Isend(sent.bytes.data(), static_cast<int>(sent.bytes.size()), MPI_BYTE, static_cast<int>(to),
+              static_cast<int>(kind), all_, &sent.request);
+}
+
+std::optional<Message> MpiLink::receive(Kind kind) {
+    const std::lock_guard lock(mutex_);
+    forget_what_has_left();
+    int there = 0, bytes = 0;
+    MPI_Status status;
+    MPI_Message message = MPI_MESSAGE_NULL;
+    MPI_Improbe(MPI_ANY_SOURCE, static_cast<int>(kind), all_, &there, &message, &status);
+    if (there == 0) return std::nullopt;
+    MPI_Get_count(&status, MPI_BYTE, &bytes);
+    Message received{static_cast<std::size_t>(status.MPI_SOURCE), std::string(static_cast<std::size_t>(bytes), '\0')};
+    MPI_Mrecv(received.bytes.data(), bytes, MPI_BYTE, &message, MPI_STATUS_IGNORE);
+    return received;
+}
+
+}  // namespace hogel::mpi

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mpi/rank_team.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace hogel::mpi {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// How often messages are looked for: by the first process, for which others wait, and by those that wait for a stop.
+constexpr std::chrono::microseconds between_requests{200}, between_stops{5000}, between_answers{100};
+// A process is given this fraction of its fair share of what is left, and at most so many tiles: neighbours, which may
+// have much in common. Work whose tiles differ in cost by a hundred times stays even (docs/decisions/0115).
+constexpr std::uint64_t of_fair_share = 4, max_tiles_at_once = 16;
+
+template <class... Numbers>
+std::string pack(Numbers... numbers) {
+    std::string bytes;
+    const auto add = [&](std::uint64_t number) { bytes.append(reinterpret_cast<const char*>(&number), sizeof number); };
+    (add(static_cast<std::uint64_t>(numbers)), ...);
+    return bytes;
+}
+
+std::uint64_t number_at(const std::string& bytes, std::size_t index) {
+    std::uint64_t number = 0;
+    if (bytes.size() >= (index + 1) * sizeof number)
+        std::memcpy(&number, bytes.data() + index * sizeof number, sizeof number);
+    return number;
+}
+
+std::string tail_of(const std::string& bytes, std::size_t numbers) {
+    return bytes.substr(std::min(bytes.size(), numbers * sizeof(std::uint64_t)));
+}
+
+std::string to_bytes(const Report& report) {
+    return pack(report.failed ? 1 : 0, report.status, static_cast<int>(report.code), report.number) + report.text;
+}
+
+Report from_bytes(const std::string& bytes) {
+    return {number_at(bytes, 0) != 0, static_cast<int>(number_at(bytes, 1)),
+            static_cast<ErrorCode>(static_cast<int>(number_at(bytes, 2))), number_at(bytes, 3), tail_of(bytes, 4)};
+}
+
+// The failure that all report: one that is no consequence of a stop, otherwise that of a signal, otherwise any.
+const Report* failure_among(const std::vector<std::optional<Report>>& reports) {
+    const auto find = [&](const auto& is) -> const Report* {
+        for (const std::optional<Report>& report : reports)
+            if (report->failed && is(*report)) return &*report;
+        return nullptr;
+    };
+    if (const Report* error = find([](const Report& r) { return r.code != ErrorCode::cancelled; })) return error;
+    if (const Report* signal = find([](const Report& r) { return r.status > 128; })) return signal;
+    return find([](const Report&) { return true; });
+}
+
+}  // namespace
+
+RankTeam::RankTeam(Link& link) : link_(link), reports_(link.size()) {
+    server_ = std::jthread([this](const std::stop_token& ended) {
+        while (!ended.stop_requested()) {
+            serve();
+            std::this_thread::sleep_for(link_.rank() == 0 ? between_requests : between_stops);
+        }
+    });
+}
+
+RankTeam::~RankTeam() {
+    server_.request_stop();
+    server_.join();
+}
+
+void RankTeam::stop_with(std::stop_source stop) {
+    const std::lock_guard lock(mutex_);
+    stop_ = std::move(stop);
+    if (stopping_) stop_.request_stop();
+}
+
+void RankTeam::serve() {
+    if (link_.rank() == 0) {
+        while (serve_first()) {
+        }
+    } else if (link_.receive(Kind::stop)) {
+        stop_here();
+    }
+    const std::lock_guard lock(mutex_);
+    if (!stop_.stop_requested() || std::exchange(stop_sent_, true)) return;
+    if (link_.rank() == 0)
+        stop_all();
+    else
+        link_.send(0, Kind::please_stop, "");
+}
+
+// Called with the lock.
+void RankTeam::stop_all() {
+    stop_sent_ = true;
+    if (stopping_.exchange(true)) return;
+    for (std::size_t other = 1; other < link_.size(); ++other) link_.send(other, Kind::stop, "");
+    stop_.request_stop();
+}
+
+void RankTeam::stop_here() {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+    stop_sent_ = true;
+    stop_.request_stop();
+}
+
+// Handles one message of each kind. Returns whether there was any.
+bool RankTeam::serve_first() {
+    bool any = false;
+    if (const auto message = link_.receive(Kind::ask)) {
+        any = true;
+        const std::lock_guard lock(mutex_);
+        const Tiles tiles = take_tiles(number_at(message->bytes, 0), number_at(message->bytes, 1));
+        link_.send(message->from, Kind::answer, pack(tiles.first, tiles.count));
+    }
+    if (const auto message = link_.receive(Kind::post)) {
+        any = true;
+        const std::lock_guard lock(listening_);
+        const auto listener = listeners_.find(number_at(message->bytes, 0));
+        if (listener != listeners_.end()) listener->second(tail_of(message->bytes, 1));
+    }
+    if (const auto message = link_.receive(Kind::report)) {
+        any = true;
+        const std::lock_guard lock(mutex_);
+        take_report(message->from, from_bytes(message->bytes));
+    }
+    if (link_.receive(Kind::please_stop)) {
+        any = true;
+        const std::lock_guard lock(mutex_);
+        stop_all();
+    }
+    return any;
+}
+
+// Called with the lock.
+void RankTeam::take_report(std::size_t from, Report report) {
+    if (report.failed) stop_all();
+    reports_[from] = std::move(report);
+    if (!std::ranges::all_of(reports_, [](const auto& each) { return each.has_value(); })) return;
+    Report verdict;
+    if (const Report* failure = failure_among(reports_)) {
+        verdict = *failure;
+    } else {
+        verdict.text = reports_.front()->text;
+        for (const std::optional<Report>& each : reports_) verdict.number += each->number;
+    }
+    for (std::size_t other = 1; other < link_.size(); ++other) link_.send(other, Kind::verdict, to_bytes(verdict));
+    for (std::optional<Report>& each : reports_) each.reset();
+    verdict_ = std::move(verdict);
+    concluded_.notify_all();
+}
+
+std::optional<Report> RankTeam::exchange(Report own, std::optional<std::chrono::seconds> patience) {
+    const auto end = Clock::now() + patience.value_or(std::chrono::seconds(0));
+    if (link_.rank() == 0) {
+        std::unique_lock lock(mutex_);
+        take_report(0, std::move(own));
+        const auto concluded = [&] { return verdict_.has_value(); };
+        if (!patience)
+            concluded_.wait(lock, concluded);
+        else if (!concluded_.wait_until(lock, end, concluded))
+            return std::nullopt;
+        return std::exchange(verdict_, std::nullopt);
+    }
+    link_.send(0, Kind::report, to_bytes(own));
+    for (auto pause = between_answers;; pause = std::min<std::chrono::microseconds>(2 * pause, between_stops)) {
+        if (const auto message = link_.receive(Kind::verdict)) return from_bytes(message->bytes);
+        if (patience && Clock::now() > end) return std::nullopt;
+        std::this_thread::sleep_for(pause);
+    }
+}
+
+Report RankTeam::agree(Report own) {
+    Report verdict = *exchange(std::move(own), std::nullopt);
+    if (!verdict.failed) return verdict;
+    failure_ = verdict;
+    throw Error(verdict.code, verdict.text);
+}
+
+std::optional<Report> RankTeam::settle(Report own, std::chrono::seconds patience) {
+    if (failure_) return failure_;
+    const bool failed = own.failed;
+    return exchange(std::move(own), failed ? std::optional(patience) : std::nullopt);
+}
+
+std::uint64_t RankTeam::sum(std::uint64_t number) {
+    Report own;
+    own.number = number;
+    return agree(std::move(own)).number;
+}
+
+std::string RankTeam::share(const std::string& of_first) {
+    Report own;
+    own.text = of_first;
+    return agree(std::move(own)).text;
+}
+
+// Called with the lock. No tiles are handed out any more when work is to stop.
+Team::Tiles RankTeam::take_tiles(std::uint64_t queue, std::uint64_t tiles) {
+    Queue& of = queues_.try_emplace(queue, Queue{0, tiles}).first->second;
+    if (stopping_ || of.tiles != tiles) return {of.tiles, 0};
+    const std::uint64_t left = of.tiles - of.next;
+    const std::uint64_t fair = left / (of_fair_share * link_.size());
+    const Tiles given{of.next, std::min(left, std::clamp<std::uint64_t>(fair, 1, max_tiles_at_once))};
+    of.next += given.count;
+    return given;
+}
+
+Team::Tiles RankTeam::next_tiles(std::uint64_t queue, std::uint64_t tiles) {
+    Tiles given;
+    if (link_.rank() == 0) {
+        const std::lock_guard lock(mutex_);
+        given = take_tiles(queue, tiles);
+    } else {
+        const std::lock_guard asking(asking_);
+        link_.send(0, Kind::ask, pack(queue, tiles));
+        for (;;) {
+            if (const auto message = link_.receive(Kind::answer)) {
+                given = {number_at(message->bytes, 0), number_at(message->bytes, 1)};
+                break;
+            }
+            std::this_thread::sleep_for(between_answers);
+        }
+    }
+    if (stopping_) throw Error(ErrorCode::cancelled, "stopped on request");
+    return given;
+}
+
+void RankTeam::send(std::uint64_t channel, const std::string& bytes) {
+    link_.send(0, Kind::post, pack(channel) + bytes);
+}
+
+void RankTeam::listen(std::uint64_t channel, std::function<void(const std::string& bytes)> take) {
+    const std::lock_guard lock(listening_);
+    if (take)
+        listeners_[channel] = std::move(take);
+    else
+        listeners_.erase(channel);
+}
+
+}  // namespace hogel::mpi

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "hogel/error.h"
+#include "hogel/team.h"
+#include "mpi/link.h"
+
+namespace hogel::mpi {
+
+/// What a process says when all of them meet, and what the first one answers when all have spoken.
+struct Report {
+    bool failed = false;
+    int status = 0;  ///< exit status
+    ErrorCode code = ErrorCode::cancelled;
+    std::uint64_t number = 0;  ///< their sum in the answer
+    std::string text;          ///< of a failure: what is printed; otherwise what is shared
+};
+
+/// A team over a link. A thread of the first process has the queues and answers; a thread of each other one hears when
+/// work is to stop.
+class RankTeam final : public Team {
+  public:
+    /// @param threads  of this process, by which work is divided at first
+    explicit RankTeam(Link& link);
+    ~RankTeam() override;
+    RankTeam(const RankTeam&) = delete;
+    RankTeam& operator=(const RankTeam&) = delete;
+
+    std::size_t rank() const override { return link_.rank(); }
+    std::size_t size() const override { return link_.size(); }
+    Tiles next_tiles(std::uint64_t queue, std::uint64_t tiles) override;
+    std::uint64_t sum(std::uint64_t number) override;
+    std::string share(const std::string& of_first) override;
+    void send(std::uint64_t channel, const std::string& bytes) override;
+    void listen(std::uint64_t channel, std::function<void(const std::string& bytes)> take) override;
+
+    /// A stop of any process is requested from the sources of all.
+    void stop_with(std::stop_source stop);
+    /// At the end of the work, well or not: what all processes together come to, the failure of the first that has
+    /// failed. Nothing if others do not come within `patience` after this one has failed.
+    std::optional<Report> settle(Report own, std::chrono::seconds patience);
+
+  private:
+    struct Queue {
+        std::uint64_t next = 0, tiles = 0;
+    };
+    Report agree(Report own);
+    std::optional<Report> exchange(Report own, std::optional<std::chrono::seconds> patience);
+    void serve();
+    bool serve_first();
+    void take_report(std::size_t from, Report report);
+    void stop_all();
+    void stop_here();
+    Tiles take_tiles(std::uint64_t queue, std::uint64_t tiles);
+
+    Link& link_;
+    std::mutex mutex_;  // of the members up to the listeners
+    std::condition_variable concluded_;
+    std::map<std::uint64_t, Queue> queues_;
+    std::vector<std::optional<Report>> reports_;
+    std::optional<Report> verdict_;
+    std::stop_source stop_;
+    bool stop_sent_ = false;
+    std::atomic<bool> stopping_ = false;
+    std::optional<Report> failure_;  // once known
+    std::mutex asking_;
+    std::mutex listening_;
+    std::map<std::uint64_t, std::function<void(const std::string&)>> listeners_;
+    std::jthread server_;
+};
+
+}  // namespace hogel::mpi

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "hogel/export.h"
+
+namespace hogel {
+
+/// Several processes that do one work together, as the ranks of an MPI program do. Each of them calls the same
+/// functions with the same arguments; the light fields and holograms that they write to HDF5 files are then one file,
+/// whose tiles are handed out to whoever is free, and everything else is computed by each of them. The file has the
+/// same bytes as that of a single process. All processes must see the folder of the file.
+///
+/// A program derives the messages of its processes from this class, and a TeamScope makes the library use them.
+class HOGEL_API Team {
+  public:
+    virtual ~Team() = default;
+    /// The number of this process, from 0. The first one lays files out and gives them their names.
+    virtual std::size_t rank() const = 0;
+    virtual std::size_t size() const = 0;
+    bool is_first() const { return rank() == 0; }
+
+    /// Consecutive tiles; none if `count` is 0.
+    struct Tiles {
+        std::uint64_t first = 0, count = 0;
+    };
+    /// The next of the `tiles` tiles of a queue, which no process has been given yet; none at its end. Queues begin
+    /// with the first call for their number. Called from any thread. Throws Error(cancelled) if a process has failed.
+    virtual Tiles next_tiles(std::uint64_t queue, std::uint64_t tiles) = 0;
+
+    /// The sum of the numbers of all processes, which call it in the same order and wait for each other. If one of them
+    /// has failed instead, it throws that process's error in all others; share() does so too.
+    virtual std::uint64_t sum(std::uint64_t number) = 0;
+    /// What the first process has given, in all processes.
+    virtual std::string share(const std::string& of_first) = 0;
+    /// Waits until all processes have come here.
+    void meet() { sum(0); }
+
+    /// Sends bytes to the first process, in order, without waiting. Called from any thread of the others.
+    virtual void send(std::uint64_t channel, const std::string& bytes) = 0;
+    /// In the first process: what is called, on another thread, with all that is sent to a channel from now on; nothing
+    /// to call ends it.
+    virtual void listen(std::uint64_t channel, std::function<void(const std::string& bytes)> take) = 0;
+};
+
+/// While this object exists, this process is one of a team. To be made before any work begins.
+class HOGEL_API TeamScope {
+  public:
+    explicit TeamScope(Team& team);
+    ~TeamScope();
+    TeamScope(const TeamScope&) = delete;
+    TeamScope& operator=(const TeamScope&) = delete;
+};
+
+/// The team of this process; null if it is alone.
+HOGEL_API Team* team();
+
+}  // namespace hogel

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/core/shared_tiles.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "hogel/error.h"
+
+namespace hogel::core {
+namespace {
+
+// Gives this process every third run of two tiles, as if two others had the rest.
+class ThirdOfATeam final : public Team, public SharedSink {
+  public:
+    std::size_t rank() const override { return 0; }
+    std::size_t size() const override { return 3; }
+    Tiles next_tiles(std::uint64_t queue, std::uint64_t tiles) override {
+        EXPECT_EQ(queue, 9U);
+        if (next_ >= tiles) return {tiles, 0};
+        const Tiles given{next_, std::min<std::uint64_t>(2, tiles - next_)};
+        next_ += 6;
+        return given;
+    }
+    std::uint64_t sum(std::uint64_t number) override { return number; }
+    std::string share(const std::string& text) override { return text; }
+    void send(std::uint64_t, const std::string&) override {}
+    void listen(std::uint64_t, std::function<void(const std::string&)>) override {}
+    std::unique_ptr<TileQueue> share_tiles(std::size_t tiles) override {
+        return std::make_unique<TileQueue>(*this, 9, tiles);
+    }
+
+  private:
+    std::uint64_t next_ = 0;
+};
+
+TEST(SharedTiles, alone_a_process_has_all_of_them) {
+    std::vector<std::atomic<int>> done(100);
+    double last = 0;
+    for_each_tile(done.size(), nullptr, Progress([&](double fraction) { last = fraction; }),
+                  [&](std::size_t tile) { ++done[tile]; });
+    for (const auto& count : done) EXPECT_EQ(count, 1);
+    EXPECT_EQ(last, 1);
+}
+
+TEST(SharedTiles, one_of_a_team_has_those_that_it_is_handed) {
+    ThirdOfATeam team;
+    std::vector<std::atomic<int>> done(100);
+    std::vector<double> fractions;
+    for_each_tile(done.size(), &team, Progress([&](double fraction) { fractions.push_back(fraction); }),
+                  [&](std::size_t tile) { ++done[tile]; });
+    for (std::size_t tile = 0; tile < done.size(); ++tile) EXPECT_EQ(done[tile], tile % 6 < 2 ? 1 : 0) << tile;
+    EXPECT_TRUE(std::ranges::is_sorted(fractions));
+    EXPECT_GE(fractions.back(), 0.96);
+}
+
+TEST(SharedTiles, a_process_is_in_one_team_at_a_time) {
+    EXPECT_EQ(team(), nullptr);
+    ThirdOfATeam one, two;
+    {
+        const TeamScope scope(one);
+        EXPECT_EQ(team(), &one);
+        EXPECT_THROW(TeamScope{two}, Error);
+        EXPECT_EQ(team(), &one);
+    }
+    EXPECT_EQ(team(), nullptr);
+}
+
+}  // namespace
+}  // namespace hogel::core

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/team.h"
+
+#include <atomic>
+
+#include "hogel/error.h"
+
+namespace hogel {
+namespace {
+
+std::atomic<Team*> current = nullptr;
+
+}  // namespace
+
+TeamScope::TeamScope(Team& team) {
+    Team* none = nullptr;
+    if (!current.compare_exchange_strong(none, &team))
+        throw Error(ErrorCode::usage, "this process is one of a team already");
+}
+
+TeamScope::~TeamScope() { current = nullptr; }
+
+Team* team() { return current; }
+
+}  // namespace hogel

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "hogel/core/output_file.h"
+#include "hogel/core/parallel.h"
+#include "hogel/core/raw_file.h"
+#include "hogel/error.h"
+#include "hogel/files.h"
+#include "hogel/io/hdf5/part_file.h"
+#include "hogel/io/part_sinks.h"
+
+namespace hogel::io {
+namespace {
+
+using hdf5::PartHeader;
+
+constexpr std::uint64_t bytes_at_once = std::uint64_t{8} << 20;
+
+struct Part {
+    std::filesystem::path path;
+    PartHeader header;
+};
+
+[[noreturn]] void fail(const std::string& why) {
+    throw Error(ErrorCode::bad_input, fmt::format("cannot join parts: {}", why));
+}
+
+// What two parts of different files were made with.
+void require_same_file(const Part& a, const Part& b) {
+    if (a.header.count != b.header.count)
+        fail(fmt::format("'{}' is one of {} parts, '{}' one of {}", a.path.string(), a.header.count, b.path.string(),
+                         b.header.count));
+    const std::size_t lines = std::max(a.header.work.size(), b.header.work.size());
+    for (std::size_t i = 0; i < lines; ++i) {
+        const auto line = [i](const Part& part) {
+            return i < part.header.work.size() ? part.header.work[i] : std::string("nothing more");
+        };
+        if (line(a) != line(b))
+            fail(fmt::format("they belong to different files: '{}' was made with '{}', '{}' with '{}'", a.path.string(),
+                             line(a), b.path.string(), line(b)));
+    }
+    if (a.header.image != b.header.image || a.header.whole_bytes != b.header.whole_bytes)
+        fail(fmt::format("'{}' and '{}' belong to different files", a.path.string(), b.path.string()));
+}
+
+// The parts in their order, after all checks.
+std::vector<Part> open_parts(std::span<const std::filesystem::path> paths) {
+    if (paths.empty()) fail("none was named");
+    std::vector<std::optional<Part>> slots;
+    for (const std::filesystem::path& path : paths) {
+        Part part{path, hdf5::read_part_header(path)};
+        if (slots.empty()) {
+            if (part.header.count > 1'000'000) fail(fmt::format("'{}' is one of too many", path.string()));
+            slots.resize(part.header.count);
+        }
+        for (const std::optional<Part>& other : slots)
+            if (other) {
+                require_same_file(*other, part);
+                break;
+            }
+        std::optional<Part>& slot = slots[part.header.number - 1];
+        if (slot)
+            fail(fmt::format("'{}' and '{}' are both part {} of {}", slot->path.string(), path.string(),
+                             part.header.number, part.header.count));
+        slot = std::move(part);
+    }
+    std::vector<Part> parts;
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+        if (!slots[i]) fail(fmt::format("part {} of {} is missing", i + 1, slots.size()));
+        parts.push_back(std::move(*slots[i]));
+    }
+    return parts;
+}
+
+// Throws unless the bands of the parts follow each other and are whole datasets together.
+void require_all_rows(const std::vector<Part>& parts) {
+    for (std::size_t d = 0; d < parts.front().header.datasets.size(); ++d) {
+        const PartHeader::Samples& first = parts.front().header.datasets[d];
+        std::size_t at = 0;
+        for (const Part& part : parts) {
+            if (part.header.datasets.size() != parts.front().header.datasets.size())
+                fail(fmt::format("'{}' has other datasets", part.path.string()));
+            const PartHeader::Samples& s = part.header.datasets[d];
+            if (s.shape != first.shape || s.offset != first.offset || s.band.axis != first.band.axis ||
+                s.band.first != at)
+                fail(fmt::format("'{}' begins at row {} instead of {}", part.path.string(), s.band.first, at));
+            at += s.band.count;
+        }
+        if (at != first.shape[first.band.axis])
+            fail(fmt::format("they have {} of {} rows", at, first.shape[first.band.axis]));
+    }
+}
+
+class Joiner {
+  public:
+    Joiner(core::RawFile& out, const std::vector<Part>& parts, const Progress& progress)
+        : out_(out), progress_(progress) {
+        for (const Part& part : parts)
+            for (const PartHeader::Samples& s : part.header.datasets) all_ += s.bytes();
+    }
+
+    // Copies the bands of a part: one run for each index of the axes before theirs.
+    void copy(const Part& part) {
+        const core::RawFile in(part.path, core::RawFile::Mode::read, part.path);
+        for (std::size_t d = 0; d < part.header.datasets.size(); ++d) {
+            const PartHeader::Samples& s = part.header.datasets[d];
+            std::uint64_t row = s.element_bytes, outer = 1;
+            for (std::size_t axis = 0; axis < s.shape.size(); ++axis)
+                if (axis != s.band.axis) (axis > s.band.axis ? row : outer) *= s.shape[axis];
+            const std::uint64_t run = row * s.band.count;
+            for (std::uint64_t i = 0; i < outer; ++i)
+                copy(in, part.header.offsets[d] + i * run, s.offset + row * (i * s.shape[s.band.axis] + s.band.first),
+                     run);
+        }
+    }
+
+  private:
+    void copy(const core::RawFile& in, std::uint64_t from, std::uint64_t to, std::uint64_t bytes) {
+        buffer_.resize(std::min(bytes_at_once, std::max<std::uint64_t>(bytes, buffer_.size())));
+        for (std::uint64_t some = 0; bytes > 0; bytes -= some, from += some, to += some) {
+            core::throw_if_stopped();
+            some = std::min<std::uint64_t>(bytes, buffer_.size());
+            in.read(from, buffer_.data(), some);
+            out_.write(to, buffer_.data(), some);
+            done_ += some;
+            progress_.report(static_cast<double>(done_) / static_cast<double>(all_));
+        }
+    }
+
+    core::RawFile& out_;
+    const Progress& progress_;
+    std::uint64_t all_ = 0, done_ = 0;
+    std::vector<char> buffer_;
+};
+
+}  // namespace
+
+void join_parts(const std::filesystem::path& path, std::span<const std::filesystem::path> paths,
+                const Progress& progress) {
+    const core::StopScope scope(progress);
+    require_name(path, "hdf5");
+    const std::vector<Part> parts = open_parts(paths);
+    require_all_rows(parts);
+    core::OutputFile output(path);
+    core::RawFile out(output.temporary(), core::RawFile::Mode::write, path);
+    const PartHeader& header = parts.front().header;
+    out.reserve(header.whole_bytes);
+    out.resize(header.whole_bytes);
+    // The image lies between and around the datasets, which a header has in the order of their offsets.
+    std::uint64_t at = 0, taken = 0;
+    const auto write_image = [&](std::uint64_t end) {
+        out.write(at, header.image.data() + taken, end - at);
+        taken += end - at;
+    };
+    for (const PartHeader::Samples& dataset : header.datasets) {
+        write_image(dataset.offset);
+        at = dataset.offset + dataset.whole_bytes();
+    }
+    write_image(header.whole_bytes);
+    Joiner joiner(out, parts, progress);
+    for (const Part& part : parts) joiner.copy(part);
+    out.close();
+    output.commit();
+}
+
+}  // namespace hogel::io

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+#include <numeric>
+
+#include "hogel/error.h"
+#include "hogel/io/hdf5/part_file.h"
+#include "hogel/io/part_sinks.h"
+
+namespace hogel::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PartFileTest : public testing::Test {
+  protected:
+    PartFileTest() {
+        fs::create_directory(folder_);
+        grid_.hogels_s = 4;
+        grid_.hogels_t = 5;
+        grid_.directions_u = grid_.directions_v = 3;
+        grid_.channels = 3;
+        grid_.pitch = 1e-3;
+        grid_.view = Perspective{{0.3, 0.3}};
+    }
+    ~PartFileTest() override { fs::remove_all(folder_); }
+
+    // Writes rows of a light field of counted samples, one tile a row.
+    void write(const std::vector<std::unique_ptr<LightFieldSink>>& sinks, const Rows& rows) const {
+        LightFieldGrid here = grid_;
+        here.hogels_t = rows.count;
+        for (std::size_t t = 0; t < rows.count; ++t) {
+            LightFieldTile tile(here, {0, t, here.hogels_s, 1}, true);
+            std::iota(tile.radiance.elements().begin(), tile.radiance.elements().end(),
+                      static_cast<float>(100 * (rows.first + t)));
+            std::iota(tile.depth.elements().begin(), tile.depth.elements().end(), static_cast<float>(rows.first + t));
+            sinks.front()->write(tile);
+        }
+        sinks.front()->finish();
+    }
+    fs::path part(std::size_t number, std::size_t count, const Rows& rows) const {
+        const fs::path path = folder_ / ("part" + std::to_string(number));
+        write(create_light_field_part(path, {&grid_, 1}, options_, {number, count, "input"}, rows), rows);
+        return path;
+    }
+    static std::string bytes_of(const fs::path& path) {
+        std::ifstream file(path, std::ios::binary);
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+    static void write_bytes(const fs::path& path, const std::string& bytes) {
+        std::ofstream(path, std::ios::binary) << bytes;
+    }
+
+    fs::path folder_ = fs::temp_directory_path() / ("hogel_parts_" + std::to_string(::getpid()));
+    LightFieldGrid grid_;
+    LightFieldFileOptions options_{SampleType::half, true, {{"option seed", "1"}}, {}};
+};
+
+TEST_F(PartFileTest, joined_parts_have_the_bytes_of_the_whole_file) {
+    write(create_light_field(folder_ / "whole.h5", {&grid_, 1}, options_), {0, 5});
+    const std::vector<fs::path> parts{part(3, 3, {3, 2}), part(1, 3, {0, 1}), part(2, 3, {1, 2})};
+    join_parts(folder_ / "joined.h5", parts, {});
+    EXPECT_EQ(bytes_of(folder_ / "joined.h5"), bytes_of(folder_ / "whole.h5"));
+}
+
+TEST_F(PartFileTest, rows_that_overlap_or_are_missing_are_refused) {
+    for (const Rows& second : {Rows{1, 4}, Rows{3, 2}, Rows{2, 2}}) {
+        const std::vector<fs::path> parts{part(1, 2, {0, 2}), part(2, 2, second)};
+        try {
+            join_parts(folder_ / "joined.h5", parts, {});
+            FAIL() << "joined";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::bad_input);
+        }
+        EXPECT_FALSE(fs::exists(folder_ / "joined.h5"));
+    }
+}
+
+// Lengths and bits all over the file; each trial writes a file, so that not every one is tried.
+TEST_F(PartFileTest, damaged_parts_are_refused) {
+    const fs::path whole = part(1, 1, {0, 5}), damaged = folder_ / "damaged";
+    const std::string bytes = bytes_of(whole);
+    const std::uint64_t samples = hdf5::read_part_header(whole).offsets.front();
+    const auto refused = [&](const std::string& text) {
+        write_bytes(damaged, text);
+        try {
+            join_parts(folder_ / "joined.h5", {&damaged, 1}, {});
+        } catch (const Error& error) {
+            return error.code() == ErrorCode::bad_input;
+        }
+        return false;
+    };
+    for (std::size_t length = 0; length < bytes.size(); length += length < 300 ? 7 : 211)
+        ASSERT_TRUE(refused(bytes.substr(0, length))) << length << " bytes";
+    ASSERT_TRUE(refused(bytes + '\0'));
+    for (std::size_t at = 0; at < samples; at += at < 100 ? 3 : 61) {
+        std::string flipped = bytes;
+        flipped[at] = static_cast<char>(flipped[at] ^ (1 << at % 8));
+        if (refused(flipped)) continue;
+        // Blanks after the first line and between header and samples have no meaning.
+        EXPECT_EQ(bytes[at] == ' ' || bytes[at] == '\n' || bytes[at] == '\0', true) << "byte " << at;
+        EXPECT_TRUE(at < 64 || at + 4096 > samples) << "byte " << at;
+        fs::remove(folder_ / "joined.h5");
+    }
+}
+
+}  // namespace
+}  // namespace hogel::io
