@@ -36,6 +36,7 @@ TESTED = {
 }
 NOT_TESTED = {
     "help": "prints help",
+    "join": "joins what jobs of the command line wrote",
     "make": "is render, hologram and photo one after the other, and a page about them",
     "view": "serves pictures to a browser, and writes no file",
 }
