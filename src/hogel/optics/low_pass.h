@@ -15,4 +15,8 @@ struct LowPass {
     static double at(double distance);
 };
 
+/// A sinc(distance) in Kaiser's window of 72.6 dB, zero from `half_width` on: the transition between what it passes and
+/// what it stops, around half a cycle per sample, is 2.25 / half_width wide.
+double kaiser_sinc(double distance, double half_width);
+
 }  // namespace hogel::optics

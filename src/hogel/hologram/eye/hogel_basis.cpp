@@ -19,7 +19,7 @@ constexpr double pi = std::numbers::pi;
 
 // Relative to the strongest, the amplitude below which a function is left out, and the error of the band's samples up
 // to which nodes are added.
-constexpr double tolerance = 3e-4;
+constexpr double tolerance = 6e-4;
 
 // Nodes beyond either end of a hogel, at most.
 constexpr std::size_t max_beyond = 8;
@@ -146,6 +146,39 @@ void HogelBasis::tabulate(View<const double, 2> functions, std::span<const doubl
                 table_(fraction, k, samples_ + m) = again * table_(fraction, k, m);
             }
         }
+    folded_ = Array<float, 3>({fractions, samples_ / 2 + 1, functions_});
+    for (std::size_t fraction = 0; fraction < fractions; ++fraction)
+        for (std::size_t i = 0; i <= samples_ / 2; ++i)
+            for (std::size_t k = 0; k < functions_; ++k) folded_(fraction, i, k) = table_(fraction, k, i);
+    make_pairs();
+}
+
+void HogelBasis::make_pairs() {
+    const std::size_t n = samples_;
+    const bool opposite = n % 2 == 0;  // frequencies n apart
+    for (std::size_t fraction = 0; fraction < fractions; ++fraction)
+        for (std::size_t begin = 0; begin < n; ++begin) {
+            // The wave of i = m + begin, modulo n.
+            const auto wave = [&](std::size_t i) {
+                return static_cast<std::uint32_t>(i < begin ? i + n - begin : i - begin);
+            };
+            const auto sign = [&](bool negative) { return negative ? -0.0f : 0.0f; };
+            std::vector<WavePair> alone;
+            for (std::size_t i = 0; 2 * i + fraction <= n; ++i) {
+                const std::size_t again = n - i - fraction;  // of n − y
+                const bool negative = opposite && i < begin;
+                WavePair pair{wave(i), wave(i), sign(negative), 0, &folded_(fraction, i, 0)};
+                if (again == i || again == n) {
+                    alone.push_back(pair);
+                } else {
+                    pair.other = wave(again);
+                    pair.sign_other = sign((opposite && again < begin) != opposite);
+                    pairs_[fraction].push_back(pair);
+                }
+            }
+            alone_[fraction] = alone.size();
+            pairs_[fraction].insert(pairs_[fraction].end(), alone.begin(), alone.end());
+        }
 }
 
 HogelBasis::Weights HogelBasis::weights(double frequency) const {
@@ -156,7 +189,13 @@ HogelBasis::Weights HogelBasis::weights(double frequency) const {
     const double turns = std::floor(whole / n);
     const auto first = static_cast<std::size_t>(whole - turns * n);
     const bool opposite = samples_ % 2 == 0 && std::fmod(std::abs(turns), 2) != 0;
-    return {steps / static_cast<double>(fractions), opposite ? -1.0f : 1.0f, &table_(fraction, 0, first), 2 * samples_};
+    const std::size_t count = pairs_[fraction].size() / samples_;
+    return {steps / static_cast<double>(fractions),
+            opposite ? -1.0f : 1.0f,
+            &table_(fraction, 0, first),
+            2 * samples_,
+            std::span(pairs_[fraction]).subspan(first * count, count),
+            alone_[fraction]};
 }
 
 }  // namespace hogel::hologram::eye

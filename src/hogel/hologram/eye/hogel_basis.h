@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -39,26 +40,44 @@ class HogelBasis {
     /// [node][function]
     View<const float, 2> spread() const { return spread_; }
 
-    /// D_k(m + ν) for m = 0 … n−1, for ν rounded to a 64th: k's weights begin at first + k · stride.
+    /// Two waves whose weights are equal for even functions and opposite for odd ones, with the signs, ±0, with which
+    /// they are taken, and the weights of the first.
+    struct WavePair {
+        std::uint32_t one, other;
+        float sign_one, sign_other;
+        const float* weights;  ///< [function]
+    };
+
+    /// D_k(m + ν) for m = 0 … n−1, for ν rounded to a half: k's weights begin at first + k · stride.
+    ///
+    /// With i = m + the whole part of ν, modulo n, the frequencies y = i + the fraction and n − y have the same weights
+    /// for even functions and opposite ones for odd functions, but for signs. So sums and differences of two waves need
+    /// half the products. `pairs` lists the waves so.
     struct Weights {
         double frequency;  ///< ν as rounded
         float sign;        ///< factor of all weights
         const float* first;
         std::size_t stride;
+        std::span<const WavePair> pairs;
+        std::size_t alone;  ///< the last pairs, which have one wave only
     };
     Weights weights(double frequency) const;
-    static constexpr std::size_t fractions = 64;
+    static constexpr std::size_t fractions = 2;
 
     /// The relative error of S over |κ| ≤ κ_m, root mean square over waves of all frequencies.
     double error() const { return error_; }
 
   private:
     void tabulate(View<const double, 2> functions, std::span<const double> points, std::span<const double> shares);
+    void make_pairs();
 
     std::size_t samples_, per_hogel_, functions_ = 0, before_ = 0;
     double error_ = 0;
     Array<float, 2> spread_;
-    Array<float, 3> table_;  // [64ths of ν][function][0 … 2n − 1]
+    Array<float, 3> table_;                   // [halves of ν][function][0 … 2n − 1]
+    Array<float, 3> folded_;                  // [halves of ν][0 … n/2][function]
+    std::vector<WavePair> pairs_[fractions];  // [whole part of ν][pair], those with one wave last
+    std::size_t alone_[fractions] = {};
 };
 
 }  // namespace hogel::hologram::eye

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <vector>
 
 #include "hogel/core/random.h"
 #include "hogel/hologram/eye/symmetric_matrix.h"
@@ -78,6 +79,32 @@ TEST_P(HogelBasisOfSize, sends_the_light_of_the_samples_into_the_pupil) {
 INSTANTIATE_TEST_SUITE_P(, HogelBasisOfSize,
                          testing::Values(Case{32, 5, 1.1}, Case{32, 4, 0.9}, Case{16, 1, 0.2}, Case{64, 18, 4.0},
                                          Case{27, 3, 0.7}, Case{128, 9, 2.2}, Case{8, 2, 0.45}));
+
+// Every wave is in one pair, where its weights are those of the table with a sign.
+TEST(HogelBasis, pairs_waves_of_equal_weights) {
+    for (const std::size_t n : {16, 27}) {
+        const HogelBasis basis(n, 4, 0.9);
+        for (double frequency = -33.5; frequency < 70; frequency += 0.5) {
+            const HogelBasis::Weights weights = basis.weights(frequency);
+            std::vector<int> seen(n);
+            const auto check = [&](std::uint32_t m, float sign, const float* own, bool mirrored) {
+                ++seen.at(m);
+                for (std::size_t k = 0; k < basis.functions(); ++k) {
+                    const float factor = std::copysign(1.0f, sign) * (mirrored && k % 2 != 0 ? -1.0f : 1.0f);
+                    ASSERT_NEAR(factor * own[k], weights.first[k * weights.stride + m], 2e-5f)
+                        << n << ' ' << frequency << ' ' << m << ' ' << k;
+                }
+            };
+            const std::size_t two = weights.pairs.size() - weights.alone;
+            for (std::size_t i = 0; i < weights.pairs.size(); ++i) {
+                const HogelBasis::WavePair& pair = weights.pairs[i];
+                check(pair.one, pair.sign_one, pair.weights, false);
+                if (i < two) check(pair.other, pair.sign_other, pair.weights, true);
+            }
+            for (int times : seen) EXPECT_EQ(times, 1);
+        }
+    }
+}
 
 TEST(HogelBasis, needs_few_functions) {
     // Hardly more than the time-bandwidth product, 2.2 here.

@@ -14,24 +14,33 @@ Complex turn(std::size_t function) { return function % 2 == 0 ? Complex(1) : Com
 
 }  // namespace
 
-MiddlePhases::MiddlePhases(std::size_t samples) : re(padded(samples)), im(padded(samples)) {
+MiddlePhases::MiddlePhases(std::size_t samples) : factors_(padded(samples) * samples * 2) {
     const auto n = static_cast<double>(samples);
-    for (std::size_t m = 0; m < samples; ++m) {
-        const double angle = std::numbers::pi * std::fmod(static_cast<double>(m) * (n - 1) / n, 2.0);
-        re[m] = static_cast<float>(std::cos(angle));
-        im[m] = static_cast<float>(std::sin(angle));
-    }
+    for (std::size_t row = 0; row < samples; ++row)
+        for (std::size_t column = 0; column < samples; ++column) {
+            const double angle = std::numbers::pi * std::fmod(static_cast<double>(row + column) * (n - 1) / n, 2.0);
+            float* factor = &factors_[(row / lanes * samples + column) * 2 * lanes + row % lanes];
+            factor[0] = static_cast<float>(std::cos(angle));
+            factor[lanes] = static_cast<float>(std::sin(angle));
+        }
 }
 
-void project_plain(const HogelBasis& basis, const MiddlePhases& middle, const HogelView& view, const float* waves,
-                   const BandPlace& band) {
+void MiddlePhases::apply_plain(float* waves) const {
+    for (std::size_t first = 0; first < factors_.size(); first += 2 * lanes)
+        for (std::size_t i = first; i < first + lanes; ++i) {
+            const Complex product = Complex(waves[i], waves[i + lanes]) * Complex(factors_[i], factors_[i + lanes]);
+            waves[i] = product.real();
+            waves[i + lanes] = product.imag();
+        }
+}
+
+void project_plain(const HogelBasis& basis, const HogelView& view, const float* waves, const BandPlace& band) {
     const std::size_t n = basis.samples(), functions = basis.functions(), nodes = basis.nodes();
-    const auto middle_phase = [&](std::size_t m) { return Complex(middle.re[m], middle.im[m]); };
     Array<Complex, 2> lines({n, functions});  // D_x applied: [row][function across]
     for (std::size_t row = 0; row < n; ++row)
         for (std::size_t column = 0; column < n; ++column) {
             const float* wave = waves + ((row / lanes * n + column) * 2) * lanes + row % lanes;
-            const Complex value = Complex(wave[0], wave[lanes]) * middle_phase(row) * middle_phase(column);
+            const Complex value = Complex(wave[0], wave[lanes]);
             for (std::size_t k = 0; k < functions; ++k)
                 lines(row, k) += view.columns.first[k * view.columns.stride + column] * value;
         }

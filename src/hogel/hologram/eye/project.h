@@ -15,11 +15,17 @@ namespace hogel::hologram::eye {
 inline constexpr std::size_t lanes = 16;
 constexpr std::size_t padded(std::size_t count) { return (count + lanes - 1) / lanes * lanes; }
 
-/// e^{iπm(n−1)/n} for m = 0 … n−1, with which a wave's phase is counted from the middle of a hogel rather than from its
-/// first sample; zero up to padded(n).
-struct MiddlePhases {
+/// The factors e^{iπ(m+m′)(n−1)/n} with which the phases of a hogel's waves are counted from its middle rather than
+/// from its first sample, in the layout of HogelWaves::waves(). All eyes share the product.
+class MiddlePhases {
+  public:
     explicit MiddlePhases(std::size_t samples);
-    std::vector<float, CacheLineAllocator<float>> re, im;
+    /// Multiplies waves. Plain and fast twins agree to rounding.
+    void apply_plain(float* waves) const;
+    void apply(float* waves) const;
+
+  private:
+    std::vector<float, CacheLineAllocator<float>> factors_;
 };
 
 /// What is the same for all looks of a hogel seen by an eye.
@@ -37,13 +43,11 @@ struct BandPlace {
     std::size_t part, row;
 };
 
-/// Adds to a band what a hogel's waves send to an eye: E D_y C D_xᵀ Eᵀ, times the phases of the view, with C the waves
-/// times the phases of `middle`, D the weights of the view and E = basis.spread() with a factor i for odd functions.
+/// Adds to a band what a hogel's waves send to an eye: E D_y C D_xᵀ Eᵀ, times the phases of the view, with C the waves,
+/// D the weights of the view and E = basis.spread() with a factor i for odd functions.
 /// Plain and fast twins agree to rounding.
-/// @param waves  as HogelWaves::waves() gives them
-void project_plain(const HogelBasis& basis, const MiddlePhases& middle, const HogelView& view, const float* waves,
-                   const BandPlace& band);
-void project(const HogelBasis& basis, const MiddlePhases& middle, const HogelView& view, const float* waves,
-             const BandPlace& band);
+/// @param waves  in the layout of HogelWaves::waves(), with phases counted from the middle
+void project_plain(const HogelBasis& basis, const HogelView& view, const float* waves, const BandPlace& band);
+void project(const HogelBasis& basis, const HogelView& view, const float* waves, const BandPlace& band);
 
 }  // namespace hogel::hologram::eye

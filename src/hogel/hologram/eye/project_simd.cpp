@@ -20,9 +20,17 @@ using core::HWY_NAMESPACE::with_count;
 using hologram::HWY_NAMESPACE::transpose_sixteen;
 
 #if HWY_TARGET == HWY_SCALAR
-void Project(const HogelBasis& basis, const MiddlePhases& middle, const HogelView& view, const float* waves,
-             const BandPlace& band) {
-    project_plain(basis, middle, view, waves, band);
+void Project(const HogelBasis& basis, const HogelView& view, const float* waves, const BandPlace& band) {
+    project_plain(basis, view, waves, band);
+}
+
+void Multiply(const float* factors, std::size_t count, float* waves) {
+    for (std::size_t first = 0; first < count; first += 2 * lanes)
+        for (std::size_t i = first; i < first + lanes; ++i) {
+            const float a = waves[i], b = waves[i + lanes], c = factors[i], s = factors[i + lanes];
+            waves[i] = a * c - b * s;
+            waves[i + lanes] = a * s + b * c;
+        }
 }
 #else
 using D = hn::CappedTag<float, lanes>;
@@ -31,31 +39,79 @@ using V = hn::Vec<D>;
 // Functions whose two parts fill a row of sixteen numbers.
 constexpr std::size_t together = lanes / 2;
 
-// lines[part][function][row] of sixteen rows: the sums over all columns of weights times waves, whose phases are
-// counted from the middle.
+void Multiply(const float* factors, std::size_t count, float* waves) {
+    const D d;
+    for (std::size_t first = 0; first < count; first += 2 * lanes)
+        for (std::size_t i = first; i < first + lanes; i += hn::Lanes(d)) {
+            const V a = hn::Load(d, waves + i), b = hn::Load(d, waves + i + lanes);
+            const V c = hn::Load(d, factors + i), s = hn::Load(d, factors + i + lanes);
+            hn::Store(hn::NegMulAdd(b, s, hn::Mul(a, c)), d, waves + i);
+            hn::Store(hn::MulAdd(b, c, hn::Mul(a, s)), d, waves + i + lanes);
+        }
+}
+
+using WavePair = HogelBasis::WavePair;
+
+// lines[part][function][row] of sixteen rows: the sums over all columns of weights times waves, by pairs of columns.
 template <std::size_t functions>
-HWY_INLINE void sum_columns(const float* waves, std::size_t columns, const float* weights, std::size_t stride,
-                            const MiddlePhases& middle, std::size_t first_row, float* lines) {
+HWY_INLINE void sum_columns(const float* waves, const HogelBasis::Weights& weights, std::size_t first, float* lines) {
     const D d;
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
         V re[functions], im[functions];
         for (std::size_t k = 0; k < functions; ++k) re[k] = im[k] = hn::Zero(d);
-        for (std::size_t column = 0; column < columns; ++column) {
-            const float* wave = waves + 2 * lanes * column + i;
-            const V a = hn::Load(d, wave), b = hn::Load(d, wave + lanes);
-            const V c = hn::Set(d, middle.re[column]), s = hn::Set(d, middle.im[column]);
-            const V x = hn::NegMulAdd(b, s, hn::Mul(a, c)), y = hn::MulAdd(b, c, hn::Mul(a, s));
+        const std::size_t two = weights.pairs.size() - weights.alone;
+        for (const WavePair& pair : weights.pairs.first(two)) {
+            const float *one = waves + 2 * lanes * pair.one + i, *other = waves + 2 * lanes * pair.other + i;
+            const V sign = hn::Set(d, pair.sign_one), sign_other = hn::Set(d, pair.sign_other);
+            const V a = hn::Xor(hn::Load(d, one), sign), b = hn::Xor(hn::Load(d, one + lanes), sign);
+            const V c = hn::Xor(hn::Load(d, other), sign_other), e = hn::Xor(hn::Load(d, other + lanes), sign_other);
+            const V sum_re = hn::Add(a, c), sum_im = hn::Add(b, e);
+            const V difference_re = hn::Sub(a, c), difference_im = hn::Sub(b, e);
+            const float* weight = pair.weights + first;
             for (std::size_t k = 0; k < functions; ++k) {
-                const V weight = hn::Set(d, weights[k * stride + column]);
-                re[k] = hn::MulAdd(weight, x, re[k]);
-                im[k] = hn::MulAdd(weight, y, im[k]);
+                const V w = hn::Set(d, weight[k]);
+                re[k] = hn::MulAdd(w, k % 2 == 0 ? sum_re : difference_re, re[k]);
+                im[k] = hn::MulAdd(w, k % 2 == 0 ? sum_im : difference_im, im[k]);
             }
         }
-        const V c = hn::Load(d, middle.re.data() + first_row + i), s = hn::Load(d, middle.im.data() + first_row + i);
-        for (std::size_t k = 0; k < functions; ++k) {
-            hn::Store(hn::NegMulAdd(im[k], s, hn::Mul(re[k], c)), d, lines + k * lanes + i);
-            hn::Store(hn::MulAdd(im[k], c, hn::Mul(re[k], s)), d, lines + (together + k) * lanes + i);
+        for (const WavePair& pair : weights.pairs.subspan(two)) {
+            const float* one = waves + 2 * lanes * pair.one + i;
+            const V sign = hn::Set(d, pair.sign_one);
+            const V a = hn::Xor(hn::Load(d, one), sign), b = hn::Xor(hn::Load(d, one + lanes), sign);
+            for (std::size_t k = 0; k < functions; ++k) {
+                const V w = hn::Set(d, pair.weights[first + k]);
+                re[k] = hn::MulAdd(w, a, re[k]);
+                im[k] = hn::MulAdd(w, b, im[k]);
+            }
         }
+        for (std::size_t k = 0; k < functions; ++k) {
+            hn::Store(re[k], d, lines + k * lanes + i);
+            hn::Store(im[k], d, lines + (together + k) * lanes + i);
+        }
+    }
+}
+
+// out[l][…] = Σ_row D_l(row) in[row][…] for some functions l, sixteen numbers in a row, by pairs of rows.
+template <std::size_t functions>
+HWY_INLINE void sum_pairs_of_rows(const float* in, const HogelBasis::Weights& weights, std::size_t first, float* out) {
+    const D d;
+    for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
+        V sums[functions];
+        for (V& one : sums) one = hn::Zero(d);
+        const std::size_t two = weights.pairs.size() - weights.alone;
+        for (const WavePair& pair : weights.pairs.first(two)) {
+            const V a = hn::Xor(hn::Load(d, in + pair.one * lanes + i), hn::Set(d, pair.sign_one));
+            const V b = hn::Xor(hn::Load(d, in + pair.other * lanes + i), hn::Set(d, pair.sign_other));
+            const V sum = hn::Add(a, b), difference = hn::Sub(a, b);
+            for (std::size_t l = 0; l < functions; ++l)
+                sums[l] = hn::MulAdd(hn::Set(d, pair.weights[first + l]), l % 2 == 0 ? sum : difference, sums[l]);
+        }
+        for (const WavePair& pair : weights.pairs.subspan(two)) {
+            const V a = hn::Xor(hn::Load(d, in + pair.one * lanes + i), hn::Set(d, pair.sign_one));
+            for (std::size_t l = 0; l < functions; ++l)
+                sums[l] = hn::MulAdd(hn::Set(d, pair.weights[first + l]), a, sums[l]);
+        }
+        for (std::size_t l = 0; l < functions; ++l) hn::Store(sums[l], d, out + l * lanes + i);
     }
 }
 
@@ -84,26 +140,59 @@ void sum_all_rows(const float* in, std::size_t rows, std::size_t in_row, const f
         });
 }
 
-// Adds a row of nodes times their phases to the band.
-HWY_INLINE void add_times_phases(const float* re, const float* im, const float* phase_re, const float* phase_im,
-                                 float* to_re, float* to_im) {
+// Adds nodes times their phases to the band.
+HWY_INLINE void add_times_phases(V a, V b, const float* phase_re, const float* phase_im, float* to_re, float* to_im) {
     const D d;
-    for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
-        const V a = hn::Load(d, re + i), b = hn::Load(d, im + i);
-        const V c = hn::Load(d, phase_re + i), s = hn::Load(d, phase_im + i);
-        hn::StoreU(hn::Add(hn::LoadU(d, to_re + i), hn::NegMulAdd(b, s, hn::Mul(a, c))), d, to_re + i);
-        hn::StoreU(hn::Add(hn::LoadU(d, to_im + i), hn::MulAdd(b, c, hn::Mul(a, s))), d, to_im + i);
+    const V c = hn::Load(d, phase_re), s = hn::Load(d, phase_im);
+    hn::StoreU(hn::Add(hn::LoadU(d, to_re), hn::NegMulAdd(b, s, hn::Mul(a, c))), d, to_re);
+    hn::StoreU(hn::Add(hn::LoadU(d, to_im), hn::MulAdd(b, c, hn::Mul(a, s))), d, to_im);
+}
+
+// Adds sixteen nodes across, from x on, of `pairs` rows from y on and of as many from the other end to the band: rows
+// at the same distance from the middle have the same even functions and opposite odd ones.
+template <std::size_t pairs>
+HWY_INLINE void add_pairs_of_rows(const float* in, std::size_t across, const HogelBasis& basis, const HogelView& view,
+                                  std::size_t y, std::size_t x, const BandPlace& band) {
+    const D d;
+    const std::size_t functions = basis.functions(), nodes = basis.nodes();
+    const float* spread = basis.spread().data() + y * functions;
+    for (std::size_t i = x; i < x + lanes; i += hn::Lanes(d)) {
+        V sums[2][pairs][2];  // [odd][pair][part]
+        for (auto& parity : sums)
+            for (auto& sum : parity) sum[0] = sum[1] = hn::Zero(d);
+        const auto add = [&](std::size_t l, V(&to)[pairs][2]) HWY_ATTR {
+            const V re = hn::Load(d, in + 2 * l * across + i), im = hn::Load(d, in + (2 * l + 1) * across + i);
+            for (std::size_t p = 0; p < pairs; ++p) {
+                const V weight = hn::Set(d, spread[p * functions + l]);
+                to[p][0] = hn::MulAdd(weight, re, to[p][0]);
+                to[p][1] = hn::MulAdd(weight, im, to[p][1]);
+            }
+        };
+        for (std::size_t l = 0; l + 1 < functions; l += 2) {
+            add(l, sums[0]);
+            add(l + 1, sums[1]);
+        }
+        if (functions % 2 != 0) add(functions - 1, sums[0]);
+        for (std::size_t p = 0; p < pairs; ++p) {
+            const V even_re = sums[0][p][0], even_im = sums[0][p][1], odd_re = sums[1][p][0], odd_im = sums[1][p][1];
+            const std::size_t one = y + p, other = nodes - 1 - one;
+            float* to = band.first + one * band.row + i;
+            add_times_phases(hn::Add(even_re, odd_re), hn::Add(even_im, odd_im), &view.phases(one, 0, i),
+                             &view.phases(one, 1, i), to, to + band.part);
+            if (other == one) continue;
+            to = band.first + other * band.row + i;
+            add_times_phases(hn::Sub(even_re, odd_re), hn::Sub(even_im, odd_im), &view.phases(other, 0, i),
+                             &view.phases(other, 1, i), to, to + band.part);
+        }
     }
 }
 
-void Project(const HogelBasis& basis, const MiddlePhases& middle, const HogelView& view, const float* waves,
-             const BandPlace& band) {
+void Project(const HogelBasis& basis, const HogelView& view, const float* waves, const BandPlace& band) {
     const std::size_t n = basis.samples(), functions = basis.functions(), nodes = basis.nodes();
     const std::size_t rows = padded(n), groups = (functions + together - 1) / together, across = padded(nodes);
     const std::size_t all = groups * together;
     thread_local std::vector<float, CacheLineAllocator<float> > scratch;
-    const std::size_t needed =
-        lanes * (lanes + groups * (rows + all + across)) + 2 * across * all + 2 * all * all + lanes * lanes;
+    const std::size_t needed = lanes * (lanes + groups * (rows + 2 * all + across)) + 2 * across * all;
     if (scratch.size() < needed) scratch.resize(needed);
     float* lines = scratch.data();                       // [part][function][row]
     float* turned = lines + lanes * lanes;               // [group][row][part, function across]
@@ -111,14 +200,11 @@ void Project(const HogelBasis& basis, const MiddlePhases& middle, const HogelVie
     float* swapped = numbers + lanes * groups * all;     // [group down][function across][part, function down]
     float* spread_x = swapped + lanes * groups * all;    // [group down][node across][part, function down]
     float* rows_x = spread_x + lanes * groups * across;  // [function down][part][node across]
-    float* sums = rows_x + 2 * across * all;             // [part][node across]
     for (std::size_t group = 0; group < groups; ++group) {
         const std::size_t first = group * together, count = std::min(together, functions - first);
         for (std::size_t row = 0; row < n; row += lanes) {
-            with_count<together>(count, [&](auto some) {
-                sum_columns<some()>(waves + 2 * row * n, n, view.columns.first + first * view.columns.stride,
-                                    view.columns.stride, middle, row, lines);
-            });
+            with_count<together>(
+                count, [&](auto some) { sum_columns<some()>(waves + 2 * row * n, view.columns, first, lines); });
             for (std::size_t k = count; k < together; ++k)
                 for (std::size_t part : {std::size_t{0}, together})
                     std::fill_n(lines + (part + k) * lanes, lanes, 0.0f);
@@ -126,8 +212,11 @@ void Project(const HogelBasis& basis, const MiddlePhases& middle, const HogelVie
             transpose_sixteen([&](std::size_t i) { return lines + i * lanes; }, lanes,
                               [&](std::size_t j) { return to + j * lanes; });
         }
-        sum_all_rows(turned + group * rows * lanes, n, lanes, view.rows.first, view.rows.stride, functions,
-                     numbers + group * all * lanes, lanes);
+        for (std::size_t l = 0; l < functions; l += together)
+            with_count<together>(std::min(together, functions - l), [&](auto some) {
+                sum_pairs_of_rows<some()>(turned + group * rows * lanes, view.rows, l,
+                                          numbers + (group * all + l) * lanes);
+            });
     }
     // Functions down become those that lie side by side; i for each odd function.
     std::fill_n(swapped, lanes * groups * all, 0.0f);
@@ -153,15 +242,13 @@ void Project(const HogelBasis& basis, const MiddlePhases& middle, const HogelVie
                                   return rows_x + (2 * l + part) * across + node;
                               });
     }
-    for (std::size_t y = 0; y < nodes; ++y)
-        for (std::size_t x = 0; x < across; x += lanes) {
-            // One node down at a time: the sums over functions are short.
-            for (std::size_t part = 0; part < 2; ++part)
-                sum_rows<1>(rows_x + part * across + x, functions, 2 * across, spread + y * functions, functions,
-                            sums + part * lanes, lanes);
-            float* to = band.first + y * band.row + x;
-            add_times_phases(sums, sums + lanes, &view.phases(y, 0, x), &view.phases(y, 1, x), to, to + band.part);
-        }
+    constexpr std::size_t pairs_together = 4;
+    const std::size_t pairs = (nodes + 1) / 2;
+    for (std::size_t y = 0; y < pairs; y += pairs_together)
+        with_count<pairs_together>(std::min(pairs_together, pairs - y), [&](auto some) {
+            for (std::size_t x = 0; x < across; x += lanes)
+                add_pairs_of_rows<some()>(rows_x, across, basis, view, y, x, band);
+        });
 }
 #endif
 
@@ -172,11 +259,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace hogel::hologram::eye {
 
+HWY_EXPORT(Multiply);
 HWY_EXPORT(Project);
 
-void project(const HogelBasis& basis, const MiddlePhases& middle, const HogelView& view, const float* waves,
-             const BandPlace& band) {
-    HWY_DYNAMIC_DISPATCH(Project)(basis, middle, view, waves, band);
+void MiddlePhases::apply(float* waves) const {
+    HWY_DYNAMIC_DISPATCH(Multiply)(factors_.data(), factors_.size(), waves);
+}
+
+void project(const HogelBasis& basis, const HogelView& view, const float* waves, const BandPlace& band) {
+    HWY_DYNAMIC_DISPATCH(Project)(basis, view, waves, band);
 }
 
 }  // namespace hogel::hologram::eye

@@ -11,7 +11,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/hologram/eye/hogel_basis.h"
 #include "hogel/hologram/eye/project.h"
-#include "hogel/optics/low_pass.h"
+#include "hogel/optics/film/interpolation.h"
 #include "hogel/optics/phase_walk.h"
 
 namespace hogel::hologram::eye {
@@ -39,7 +39,8 @@ struct Bands {
     // Enough for the film's interpolation to pass the pupil's light, and for samples to hold a hogel's.
     std::size_t per_hogel() const {
         std::size_t count = 1;
-        while (static_cast<double>(count) < std::max(pupil * (1 + guard) / optics::LowPass::pass, 2.5 * held(count)))
+        while (static_cast<double>(count) <
+               std::max(pupil * (1 + guard) / optics::film::InterpolationTable::pass, 2.5 * held(count)))
             ++count;
         return count;
     }
@@ -137,10 +138,11 @@ class StereogramEyes final : public optics::EyeDrawing {
                 const std::size_t s = h % some.ns, t = h / some.ns;
                 hogels_.waves->waves(prepared[h].elements(), {some.s0 + s, some.t0 + t, first_look + look},
                                      waves.data());
+                middle_.apply(waves.data());
                 for (std::size_t e = 0; e < eyes_.size(); ++e) {
                     const EyeBand& eye = eyes_[e];
                     Array<float, 3>& band = contribution[e][look];
-                    project(*eye.basis, middle_, views[e][h], waves.data(),
+                    project(*eye.basis, views[e][h], waves.data(),
                             {&band(0, t * eye.per_hogel, s * eye.per_hogel), band.extent(1) * band.extent(2),
                              band.extent(2)});
                 }

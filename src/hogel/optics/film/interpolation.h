@@ -13,29 +13,31 @@
 
 namespace hogel::optics::film {
 
-/// LowPass as an interpolation kernel, tabulated by the fraction of a sample: ten taps around a position between two
-/// samples, each stored twice, for the real and the imaginary part. A band-limited signal changes by less than 1e-3 of
-/// its value over half a table step.
+/// A windowed sinc as an interpolation kernel, tabulated by the fraction of a sample: twelve taps around a position
+/// between two samples, each stored twice, for the real and the imaginary part. A band-limited signal changes by less
+/// than 1e-3 of its value over half a table step.
 class InterpolationTable {
   public:
-    static constexpr std::ptrdiff_t taps = 10;
-    static constexpr std::ptrdiff_t before = 4;     ///< taps before the sample left of a place
-    static constexpr std::size_t padded_taps = 12;  ///< with zeros, to fill vectors
+    static constexpr std::ptrdiff_t taps = 12;   ///< twice as many fill vectors of eight
+    static constexpr std::ptrdiff_t before = 5;  ///< taps before the sample left of a place
+    static constexpr double half_width = 6;
+    /// Cycles per sample that are passed; their images, from 1 − pass on, are stopped.
+    static constexpr double pass = 0.3125;
     static constexpr std::size_t phases = 1024;
 
-    InterpolationTable() : weights_((phases + 1) * 2 * padded_taps) {
+    InterpolationTable() : weights_((phases + 1) * 2 * taps) {
         for (std::size_t phase = 0; phase <= phases; ++phase)
             for (std::ptrdiff_t k = 0; k < taps; ++k) {
                 const double distance =
                     static_cast<double>(k - before) - static_cast<double>(phase) / static_cast<double>(phases);
-                float* both = &weights_[phase * 2 * padded_taps + 2 * static_cast<std::size_t>(k)];
-                both[0] = both[1] = static_cast<float>(LowPass::at(distance));
+                float* both = &weights_[phase * 2 * taps + 2 * static_cast<std::size_t>(k)];
+                both[0] = both[1] = static_cast<float>(kaiser_sinc(distance, half_width));
             }
     }
 
     /// The weights for a fraction of a sample, each twice.
     const float* weights(double fraction) const {
-        return &weights_[static_cast<std::size_t>(fraction * phases + 0.5) * 2 * padded_taps];
+        return &weights_[static_cast<std::size_t>(fraction * phases + 0.5) * 2 * taps];
     }
 
     /// The value of line[…] (count values, zero outside) at a position between samples.

@@ -74,6 +74,27 @@ TEST_P(FilmKernels, keep_waves) {
     }
 }
 
+// Waves are kept up to the highest frequency that is passed: their images are stopped.
+TEST_P(FilmKernels, resampling_keeps_what_it_passes) {
+    const InterpolationTable table;
+    for (const double frequency : {0.0, 0.1, 0.25, InterpolationTable::pass}) {
+        const auto wave = [&](double at) {
+            return std::polar(1.0f, static_cast<float>(6.283185307179586 * frequency * at));
+        };
+        std::vector<std::complex<float>> line;
+        for (int i = 0; i < 60; ++i) line.push_back(wave(i));
+        const std::size_t count = 300;
+        std::vector<std::complex<float>> values(count);
+        // Places 20 … 40, nearly uniform.
+        const TangentPlaces places{-0.01, 0.02 / static_cast<double>(count), 1, 1000, 30};
+        resample_tangents(line, places, table, values);
+        for (std::size_t i = 0; i < count; ++i) {
+            const double s = places.first + static_cast<double>(i) * places.step;
+            EXPECT_LT(std::abs(values[i] - wave(30 + 1000 * s / std::sqrt(1 - s * s))), 1.2e-3f) << frequency;
+        }
+    }
+}
+
 // Positions inside, at both ends and outside, going forwards and backwards.
 TEST_P(FilmKernels, vector_and_plain_resampling_agree) {
     const InterpolationTable table;
