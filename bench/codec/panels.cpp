@@ -210,7 +210,9 @@ std::string panels_svg(const std::string& title, const std::string& subtitle, co
         if (i + columns >= panels.size())
             svg += fmt::format("<text class=\"mute\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
                                frame.x0 + (left + panel_width - right) / 2, frame.y0 + panel_height - 10, own.x_name);
-        if (i % columns == 0 || panels[i].axes) {
+        // A panel's axis has the name of the one to its left, unless it says another.
+        if (i % columns == 0 ||
+            (panels[i].axes && own.y_name != (panels[i - 1].axes ? *panels[i - 1].axes : axes).y_name)) {
             const double middle = frame.y0 + (top + panel_height - bottom) / 2;
             svg += fmt::format(
                 "<text class=\"mute\" x=\"{2:.1f}\" y=\"{0:.1f}\" text-anchor=\"middle\" transform=\"rotate(-90 "
