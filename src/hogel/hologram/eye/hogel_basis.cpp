@@ -74,6 +74,21 @@ class Fit {
     Eigensystem normal_;
 };
 
+// The even (sign 1) or odd (sign −1) eigenfunctions of the kernel, times the roots of the weights. Each by itself,
+// because the largest eigenvalues of a wide band are all 1 but for rounding, and the kernel's own vectors mix both
+// parities there.
+Eigensystem prolate(const Quadrature& quadrature, std::size_t samples, double sign) {
+    const std::size_t points = quadrature.points.size();
+    Array<double, 2> kernel({points, points});
+    for (std::size_t i = 0; i < points; ++i)
+        for (std::size_t j = 0; j < points; ++j)
+            kernel(i, j) = 0.5 * std::sqrt(quadrature.weights[i] * quadrature.weights[j]) *
+                           (dirichlet(quadrature.points[i] - quadrature.points[j], samples) +
+                            sign * dirichlet(quadrature.points[i] + quadrature.points[j], samples)) /
+                           static_cast<double>(samples);
+    return eigensystem(std::move(kernel));
+}
+
 }  // namespace
 
 HogelBasis::HogelBasis(std::size_t samples, std::size_t nodes_per_hogel, double half_band)
@@ -81,19 +96,15 @@ HogelBasis::HogelBasis(std::size_t samples, std::size_t nodes_per_hogel, double 
     const Quadrature quadrature =
         math::gauss_legendre(20 + static_cast<std::size_t>(std::ceil(6 * half_band)), half_band);
     const std::size_t points = quadrature.points.size();
-    Array<double, 2> kernel({points, points});
-    for (std::size_t i = 0; i < points; ++i)
-        for (std::size_t j = 0; j < points; ++j)
-            kernel(i, j) = std::sqrt(quadrature.weights[i] * quadrature.weights[j]) *
-                           dirichlet(quadrature.points[i] - quadrature.points[j], samples) /
-                           static_cast<double>(samples);
-    const Eigensystem prolate = eigensystem(std::move(kernel));
+    const Eigensystem even_ones = prolate(quadrature, samples, 1), odd_ones = prolate(quadrature, samples, -1);
+    const auto of_parity = [&](std::size_t k) -> const Eigensystem& { return k % 2 == 0 ? even_ones : odd_ones; };
+    const auto eigenvalue = [&](std::size_t k) { return std::max(of_parity(k).values[k / 2], 0.0); };
     // An eigenvalue is the power that random samples have in its function.
     double power = 0, left_out = 0;
     for (std::size_t k = 0; k < points; ++k) {
-        const double value = std::max(prolate.values[k], 0.0);
+        const double value = eigenvalue(k);
         power += value;
-        if (value >= tolerance * tolerance * prolate.values[0])
+        if (value >= tolerance * tolerance * eigenvalue(0))
             functions_ = k + 1;
         else
             left_out += value;
@@ -101,7 +112,7 @@ HogelBasis::HogelBasis(std::size_t samples, std::size_t nodes_per_hogel, double 
     Array<double, 2> functions({functions_, points});
     for (std::size_t k = 0; k < functions_; ++k)
         for (std::size_t i = 0; i < points; ++i)
-            functions(k, i) = prolate.vectors(k, i) / std::sqrt(quadrature.weights[i]);
+            functions(k, i) = of_parity(k).vectors(k / 2, i) / std::sqrt(quadrature.weights[i]);
 
     double misfit = 0;
     for (before_ = 1; before_ <= max_beyond; ++before_) {
@@ -113,7 +124,7 @@ HogelBasis::HogelBasis(std::size_t samples, std::size_t nodes_per_hogel, double 
         for (std::size_t k = 0; k < functions_; ++k) {
             const Fit& fit = k % 2 == 0 ? even : odd;
             const std::vector<double> own = fit.samples(functions[k].elements());
-            misfit += prolate.values[k] * fit.error(own, functions[k].elements());
+            misfit += eigenvalue(k) * fit.error(own, functions[k].elements());
             for (std::size_t b = 0; b < own.size(); ++b)
                 spread_(b, k) =
                     static_cast<float>(own[b] * static_cast<double>(per_hogel_) / static_cast<double>(samples_));

@@ -78,7 +78,8 @@ TEST_P(HogelBasisOfSize, sends_the_light_of_the_samples_into_the_pupil) {
 
 INSTANTIATE_TEST_SUITE_P(, HogelBasisOfSize,
                          testing::Values(Case{32, 5, 1.1}, Case{32, 4, 0.9}, Case{16, 1, 0.2}, Case{64, 18, 4.0},
-                                         Case{27, 3, 0.7}, Case{128, 9, 2.2}, Case{8, 2, 0.45}));
+                                         Case{27, 3, 0.7}, Case{128, 9, 2.2}, Case{8, 2, 0.45}, Case{48, 22, 6.5},
+                                         Case{64, 24, 7.4}));
 
 // Every wave is in one pair, where its weights are those of the table with a sign.
 TEST(HogelBasis, pairs_waves_of_equal_weights) {

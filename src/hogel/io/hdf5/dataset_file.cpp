@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::size_t max_halves = std::size_t{1} << 24;      // of a box that is converted as a whole
 constexpr std::size_t halves_written = std::size_t{1} << 19;  // of a larger one at a time: they stay in the caches
-// How long the first process of a team that is stopped waits for the others to say what they have done: a stop takes less
-// than a second, and what starts the processes may kill them soon after.
+// How long the first process of a team that is stopped waits for the others to say what they have done: a stop takes
+// less than a second, and what starts the processes may kill them soon after.
 constexpr std::chrono::milliseconds patience{500};
 
 // Lines that identify the work of writing a file.
