@@ -100,7 +100,7 @@ def render_record(wanted: _core.LightFieldRequest, placed: _core.Scene, shaded: 
         "fov": _record.angle(given.get("fov"), 180 * units.deg if hemicube else defaults["field_of_view"]),
     }
     if placed.is_lit:
-        acted["shading"] = wanted.shading.model
+        acted["shading"] = _core.shading_model(placed, wanted.shading)
     if _core.shadow_map_bytes(placed, wanted.shading) > 0:
         acted["shadow-map"] = _record.words(given.get("shadow_map"), defaults["shadow_map"])
     if frequencies is not None:
