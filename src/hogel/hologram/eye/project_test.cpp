@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "hogel/core/test_targets.h"
@@ -43,7 +44,10 @@ TEST_P(EyeProjection, vector_and_plain_projection_agree) {
         float largest = 0;
         for (float value : plain) largest = std::max(largest, std::abs(value));
         EXPECT_GT(largest, 1.5f);
-        for (std::size_t i = 0; i < fast.size(); ++i) ASSERT_NEAR(fast[i], plain[i], 2e-5f * largest) << n << " " << i;
+        // Sums over n × n waves in another order: their rounding grows with n.
+        const float rounding = 5e-6f * std::sqrt(static_cast<float>(n));
+        for (std::size_t i = 0; i < fast.size(); ++i)
+            ASSERT_NEAR(fast[i], plain[i], rounding * largest) << n << " " << i;
     }
 }
 
