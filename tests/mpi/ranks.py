@@ -176,13 +176,13 @@ def stopped(run):
         deadline = time.monotonic() + 60
         while not (run.folder / "x.h5.part").exists() and time.monotonic() < deadline:
             time.sleep(0.02)
-        time.sleep(0.3 * seconds)
+        time.sleep(0.15 * seconds)  # which one rank took alone
         pids = children(process.pid)
         os.kill(process.pid if to == "mpirun" else pids[-1], signal.SIGTERM)
         began = time.monotonic()
         _, error = process.communicate(timeout=60)
         took = time.monotonic() - began
-        if process.returncode == 0:
+        if process.returncode == 0 or (run.folder / "x.h5").exists():  # a signal that comes late changes mpirun's status alone
             require(run.bytes("x.h5") == whole, "other bytes")
             print(f"{to}: was complete before it was stopped")
             continue
