@@ -220,6 +220,24 @@ function(hogel_internal_program name)
   target_link_libraries(${name} PRIVATE hogel_internal)
 endfunction()
 
+# A program beside hogel, of main.cpp in this folder: hogel_<name>, installed as hogel-<name>, thin over the library
+# <library>, with what else it links. Its tests, <name>_tests, see that library.
+function(hogel_program_beside name library)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "LINKS;TESTS")
+  add_executable(hogel_${name} main.cpp)
+  set_target_properties(hogel_${name} PROPERTIES OUTPUT_NAME hogel-${name} INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+  hogel_compile_options(hogel_${name})
+  hogel_compile_quickly(hogel_${name})
+  target_link_libraries(hogel_${name} PRIVATE ${library} ${arg_LINKS})
+  if(HOGEL_TESTS)
+    add_executable(${name}_tests ${arg_TESTS})
+    hogel_compile_options(${name}_tests)
+    hogel_precompiled_tests(${name}_tests)
+    target_link_libraries(${name}_tests PRIVATE ${library} GTest::gtest_main)
+    gtest_discover_tests(${name}_tests TEST_PREFIX ${name}. NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60)
+  endif()
+endfunction()
+
 # One test program a module: <module>_tests, from its *_test.cpp.
 function(hogel_module_tests)
   include(GoogleTest)
