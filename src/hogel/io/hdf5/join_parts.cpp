@@ -149,17 +149,11 @@ void join_parts(const std::filesystem::path& path, std::span<const std::filesyst
     const PartHeader& header = parts.front().header;
     out.reserve(header.whole_bytes);
     out.resize(header.whole_bytes);
-    // The image lies between and around the datasets, which a header has in the order of their offsets.
-    std::uint64_t at = 0, taken = 0;
-    const auto write_image = [&](std::uint64_t end) {
-        out.write(at, header.image.data() + taken, end - at);
-        taken += end - at;
-    };
-    for (const PartHeader::Samples& dataset : header.datasets) {
-        write_image(dataset.offset);
-        at = dataset.offset + dataset.whole_bytes();
+    std::uint64_t taken = 0;
+    for (const auto& [first, end] : header.image_runs()) {
+        out.write(first, header.image.data() + taken, end - first);
+        taken += end - first;
     }
-    write_image(header.whole_bytes);
     Joiner joiner(out, parts, progress);
     for (const Part& part : parts) joiner.copy(part);
     out.close();

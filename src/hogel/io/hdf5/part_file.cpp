@@ -20,24 +20,9 @@ namespace {
 
 constexpr std::string_view first_words = "hogel part 1 ";
 constexpr std::uint64_t alignment = 4096;
-// Of the text of the header and of the image of a file: both are kilobytes, unless options are long.
+// The text of the header and the image of a file are kilobytes, unless options are long.
 constexpr std::uint64_t max_text = std::uint64_t{16} << 20, max_image = std::uint64_t{64} << 20;
 constexpr std::size_t max_datasets = 256, max_axes = 8, first_line_bytes = 64;
-
-// The bytes of a file that are no samples, in runs of [first, end).
-std::vector<std::pair<std::uint64_t, std::uint64_t>> image_runs(const PartHeader& header) {
-    std::vector<std::pair<std::uint64_t, std::uint64_t>> samples, runs;
-    for (const PartHeader::Samples& dataset : header.datasets)
-        samples.emplace_back(dataset.offset, dataset.offset + dataset.whole_bytes());
-    std::ranges::sort(samples);
-    std::uint64_t at = 0;
-    for (const auto& [first, end] : samples) {
-        if (first > at) runs.emplace_back(at, first);
-        at = std::max(at, end);
-    }
-    if (at < header.whole_bytes) runs.emplace_back(at, header.whole_bytes);
-    return runs;
-}
 
 std::string line_of(const std::string& text) {
     std::string line = text;
@@ -137,6 +122,20 @@ std::uint64_t PartHeader::Samples::whole_bytes() const {
 
 std::uint64_t PartHeader::Samples::bytes() const { return whole_bytes() / shape[band.axis] * band.count; }
 
+std::vector<std::pair<std::uint64_t, std::uint64_t>> PartHeader::image_runs() const {
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> samples, runs;
+    for (const Samples& dataset : datasets)
+        samples.emplace_back(dataset.offset, dataset.offset + dataset.whole_bytes());
+    std::ranges::sort(samples);
+    std::uint64_t at = 0;
+    for (const auto& [first, end] : samples) {
+        if (first > at) runs.emplace_back(at, first);
+        at = std::max(at, end);
+    }
+    if (at < whole_bytes) runs.emplace_back(at, whole_bytes);
+    return runs;
+}
+
 std::uint64_t PartHeader::bytes() const { return offsets.back() + datasets.back().bytes(); }
 
 std::vector<std::uint64_t> lay_out_part(const std::filesystem::path& path, const std::filesystem::path& target,
@@ -155,7 +154,7 @@ std::vector<std::uint64_t> lay_out_part(const std::filesystem::path& path, const
             header.datasets.push_back({offsets[i], bytes_of(datasets[i].element), datasets[i].shape, part.bands[i]});
         const core::RawFile raw(whole.temporary(), core::RawFile::Mode::read, target);
         header.whole_bytes = raw.size();
-        for (const auto& [first, end] : image_runs(header)) {
+        for (const auto& [first, end] : header.image_runs()) {
             const std::size_t at = header.image.size();
             header.image.resize(at + (end - first));
             raw.read(first, header.image.data() + at, end - first);

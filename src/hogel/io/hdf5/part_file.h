@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hogel/io/hdf5/hdf5.h"
@@ -43,6 +44,8 @@ struct PartHeader {
     std::vector<std::uint64_t> offsets;  ///< of the datasets' bands in the part file
 
     std::uint64_t bytes() const;  ///< of the part file
+    /// Where the image lies in the whole file, between and around the datasets: runs of [first, end), in order.
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> image_runs() const;
 };
 
 /// Creates a part file with space for its samples and returns their offsets.
