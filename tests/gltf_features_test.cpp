@@ -173,7 +173,7 @@ class GltfFeatures : public ::testing::Test {
         seen_ = std::make_unique<LightFieldBuffer>(request_.grid);
         copy(render_light_field(scene, request_).front(), *seen_);
     }
-    /// Of the hogel at a place.
+    /// The radiance of the hogel at a place.
     Rgb radiance(double x, double y) const {
         const auto s = static_cast<std::size_t>(20 + x / 0.5e-3), t = static_cast<std::size_t>(20 - y / 0.5e-3);
         const auto& values = seen_->radiance;

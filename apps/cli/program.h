@@ -17,7 +17,7 @@ struct Outcome {
     std::string message = {};
 };
 
-/// Of a program that runs each command in several processes.
+/// The processes of a program that runs each command in several.
 class Processes {
   public:
     virtual ~Processes() = default;

@@ -96,7 +96,7 @@ Json told(const Reading& reading, const std::string& id) {
     return json;
 }
 
-// Of the contrasts that of edges and that of the size of squares that shows the clearest plane.
+// The contrasts that are told are that of edges and that of the size of squares that shows the clearest plane.
 Json told(const FocusSearch& search) {
     Json planes = Json::array(), edges = Json::array(), squares = Json::array();
     std::size_t kind = 0;

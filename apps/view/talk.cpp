@@ -82,7 +82,7 @@ void Viewer::Talk::ask(Viewer& viewer, const View& view) {
             const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
             const Json about = told(photograph, view, *subject, seconds);
             const auto there = to.lock();
-            // Of looks that follow each other faster than the page takes them only the last is owed.
+            // Looks may follow each other faster than the page takes them: only the last is owed.
             const bool last = !about.contains("looks") || about["looks"] == about["of_looks"];
             if (there && (last || !there->is_busy())) there->send_picture(dump(about) + encode(photograph, view));
         };
