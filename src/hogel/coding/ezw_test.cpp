@@ -8,6 +8,7 @@
 
 #include "hogel/coding/ezw_passes.h"
 #include "hogel/coding/quantise.h"
+#include "hogel/coding/test_waves.h"
 #include "hogel/error.h"
 #include "hogel/transform/transform.h"
 
@@ -63,21 +64,7 @@ TEST(Ezw, figure_4_16_symbol_by_symbol) {
     EXPECT_EQ(figure.refinements[0], "1101110");
 }
 
-std::vector<float> picture(const transform::Pyramid& pyramid) {
-    std::mt19937 random(1);
-    std::normal_distribution<float> normal;
-    const std::vector<std::size_t> strides = pyramid.strides();
-    std::vector<float> values(pyramid.size());
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        double phase = 0;
-        for (std::size_t axis = 0; axis < strides.size(); ++axis)
-            phase += static_cast<double>(i / strides[axis] % pyramid.shape()[axis]) *
-                     (0.11 + 0.07 * static_cast<double>(axis));
-        values[i] = static_cast<float>(std::sin(phase) + (phase > 2 ? 0.5 : 0)) + 0.01f * normal(random);
-    }
-    transform::transform("ai33").forward(pyramid, values);
-    return values;
-}
+std::vector<float> picture(const transform::Pyramid& pyramid) { return transformed_waves(pyramid, "ai33"); }
 
 double error(std::span<const float> a, std::span<const float> b) {
     double sum = 0;

@@ -9,6 +9,7 @@
 
 #include "hogel/coding/jpeg4d_blocks.h"
 #include "hogel/coding/quantise.h"
+#include "hogel/coding/test_waves.h"
 #include "hogel/error.h"
 #include "hogel/transform/transform.h"
 
@@ -82,21 +83,7 @@ TEST(Jpeg4d, tuples_count_zeros_and_bits) {
               (std::vector<Tuple>{{31, 1}, {7, 2}}));  // the last entry is not zero: no end of block
 }
 
-std::vector<float> picture(const transform::Pyramid& pyramid) {
-    std::mt19937 random(1);
-    std::normal_distribution<float> normal;
-    const std::vector<std::size_t> strides = pyramid.strides();
-    std::vector<float> values(pyramid.size());
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        double phase = 0;
-        for (std::size_t axis = 0; axis < strides.size(); ++axis)
-            phase += static_cast<double>(i / strides[axis] % pyramid.shape()[axis]) *
-                     (0.3 + 0.1 * static_cast<double>(axis));
-        values[i] = static_cast<float>(std::sin(phase)) + 0.02f * normal(random);
-    }
-    transform::transform("dct8").forward(pyramid, values);
-    return values;
-}
+std::vector<float> picture(const transform::Pyramid& pyramid) { return transformed_waves(pyramid, "dct8"); }
 
 std::vector<transform::Pyramid> pyramids() {
     return {transform::Pyramid::interleaved({1}),

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <random>
 
+#include "hogel/coding/test_waves.h"
 #include "hogel/coding/three_pass_trees.h"
 #include "hogel/error.h"
 #include "hogel/transform/transform.h"
@@ -51,22 +52,7 @@ TEST(ThreePass, figure_4_17_c_symbol_by_symbol) {
     EXPECT_EQ(recorder.levels, (std::vector<std::uint32_t>{7, 5, 3, 1, 3, 3, 1, 4, 1, 2}));
 }
 
-// The transform of a picture that is smooth, with edges.
-std::vector<float> picture(const transform::Pyramid& pyramid) {
-    const std::vector<std::size_t> strides = pyramid.strides();
-    std::vector<float> values(pyramid.size());
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        double phase = 0, edge = 0;
-        for (std::size_t axis = 0; axis < strides.size(); ++axis) {
-            const double x = static_cast<double>(i / strides[axis] % pyramid.shape()[axis]);
-            phase += x * (0.11 + 0.07 * static_cast<double>(axis));
-            edge += x * (axis % 2 == 0 ? 1 : -1);
-        }
-        values[i] = static_cast<float>(std::sin(phase) + (edge > 3 ? 0.5 : 0));
-    }
-    transform::transform("cdf97").forward(pyramid, values);
-    return values;
-}
+std::vector<float> picture(const transform::Pyramid& pyramid) { return transformed_waves(pyramid, "cdf97"); }
 
 double sqnr(std::span<const float> a, std::span<const float> b) {
     double signal = 0, noise = 0;

@@ -7,6 +7,8 @@
 #include <latch>
 #include <thread>
 
+#include "hogel/core/test_errors.h"
+
 namespace hogel::core {
 namespace {
 
@@ -26,14 +28,21 @@ std::shared_ptr<const int> endless() {
     return of(-2);
 }
 
-ErrorCode code_of(const auto& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        return error.code();
-    }
-    ADD_FAILURE() << "no error";
-    return ErrorCode::internal;
+// A thread that has begun to make the result of key 1 and does so until it is stopped.
+std::jthread endless_maker(Cache& cache, std::stop_token stop) {
+    auto begun = std::make_shared<std::latch>(1);
+    std::jthread maker([&cache, stop, begun] {
+        const StopScope scope{Progress(stop)};
+        EXPECT_EQ(code_of([&] {
+                      cache.get(1, [&] {
+                          begun->count_down();
+                          return endless();
+                      });
+                  }),
+                  ErrorCode::cancelled);
+    });
+    begun->wait();
+    return maker;
 }
 
 TEST(LruCache, keeps_the_results_used_last) {
@@ -71,18 +80,7 @@ TEST(LruCache, forgets_what_could_not_be_made) {
 TEST(LruCache, a_stop_of_the_work_that_makes_a_result_is_none_of_those_that_wait_for_it) {
     Cache cache(2);
     std::stop_source source;
-    std::latch begun(1);
-    std::jthread maker([&] {
-        const StopScope scope{Progress(source.get_token())};
-        EXPECT_EQ(code_of([&] {
-                      cache.get(1, [&] {
-                          begun.count_down();
-                          return endless();
-                      });
-                  }),
-                  ErrorCode::cancelled);
-    });
-    begun.wait();
+    std::jthread maker = endless_maker(cache, source.get_token());
     std::jthread waiter([&] { EXPECT_EQ(*cache.get(1, [] { return of(10); }), 10); });
     std::this_thread::sleep_for(milliseconds(30));
     source.request_stop();
@@ -94,18 +92,7 @@ TEST(LruCache, a_stop_of_the_work_that_makes_a_result_is_none_of_those_that_wait
 TEST(LruCache, work_that_waits_for_the_result_of_other_work_can_be_stopped) {
     Cache cache(2);
     std::stop_source of_maker, of_waiter;
-    std::latch begun(1);
-    std::jthread maker([&] {
-        const StopScope scope{Progress(of_maker.get_token())};
-        EXPECT_EQ(code_of([&] {
-                      cache.get(1, [&] {
-                          begun.count_down();
-                          return endless();
-                      });
-                  }),
-                  ErrorCode::cancelled);
-    });
-    begun.wait();
+    std::jthread maker = endless_maker(cache, of_maker.get_token());
     {
         const StopScope scope{Progress(of_waiter.get_token())};
         std::jthread soon([&] {

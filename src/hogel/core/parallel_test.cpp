@@ -7,21 +7,13 @@
 #include <chrono>
 #include <thread>
 
+#include "hogel/core/test_errors.h"
+
 namespace hogel::core {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
-
-bool is_cancelled(const auto& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ErrorCode::cancelled);
-        return true;
-    }
-    return false;
-}
 
 // Requests a stop from another thread after 30 ms and records the time.
 class StopSoon {

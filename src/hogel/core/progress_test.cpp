@@ -5,18 +5,12 @@
 
 #include <vector>
 
+#include "hogel/core/test_errors.h"
+
 namespace hogel {
 namespace {
 
-bool is_cancelled(const auto& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ErrorCode::cancelled);
-        return true;
-    }
-    return false;
-}
+using core::is_cancelled;
 
 TEST(Progress, without_a_callback_or_a_token_goes_on_for_ever) {
     const Progress progress;

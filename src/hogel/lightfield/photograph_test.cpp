@@ -42,6 +42,20 @@ Camera camera_at(Vec3 eye, double focus) {
     return camera;
 }
 
+// Each pixel shows the point of the luminous plane on the line of sight through the middle of the lens. The remaining
+// error is the unevenness of 256 points over the pupil and the pixel.
+void expect_plane(const Image& image, const Camera& camera, double depth,
+                  const std::function<double(double, double)>& f) {
+    const double reach = (camera.eye.z + depth) / camera.eye.z;
+    for (std::size_t row = 2; row < 28; ++row)
+        for (std::size_t column = 2; column < 38; ++column) {
+            const double x = camera.picture.x(double(column)), y = camera.picture.y(double(row));
+            const double expected =
+                f(camera.eye.x + (x - camera.eye.x) * reach, camera.eye.y + (y - camera.eye.y) * reach);
+            ASSERT_NEAR(image.pixels(row, column, 0), expected, 2e-3) << "pixel " << column << "," << row;
+        }
+}
+
 // For a linear radiance all four interpolations and the averages over pupil and pixel are exact: each pixel shows the
 // point where the line of sight through the middle of the lens meets the plane.
 TEST(GeometricPhotograph, shows_a_linear_radiance_where_the_line_of_sight_meets_it) {
@@ -51,16 +65,8 @@ TEST(GeometricPhotograph, shows_a_linear_radiance_where_the_line_of_sight_meets_
         for (double focus : {-4_mm, 0_mm, 6_mm})
             for (const Vec3 eye : {Vec3{0, 0, 0.1}, Vec3{10e-3, 0, 0.1}, Vec3{-6e-3, 8e-3, 0.12}}) {
                 const Camera camera = camera_at(eye, focus);
-                const Image image = photograph(borrow(light_field), std::span(&camera, 1), {256})[0];
-                for (std::size_t row = 2; row < 28; ++row)
-                    for (std::size_t column = 2; column < 38; ++column) {
-                        const double x = camera.picture.x(double(column)), y = camera.picture.y(double(row));
-                        const double reach = (eye.z + depth) / eye.z;
-                        const double expected = f(eye.x + (x - eye.x) * reach, eye.y + (y - eye.y) * reach);
-                        // The remaining error is the unevenness of 256 points over the pupil and the pixel.
-                        ASSERT_NEAR(image.pixels(row, column, 0), expected, 2e-3)
-                            << depth << " " << focus << " " << eye.x << " pixel " << column << "," << row;
-                    }
+                SCOPED_TRACE(testing::Message() << "depth " << depth << ", focus " << focus << ", eye at " << eye.x);
+                expect_plane(photograph(borrow(light_field), std::span(&camera, 1), {256})[0], camera, depth, f);
             }
     }
 }
@@ -75,15 +81,9 @@ TEST(GeometricPhotograph, with_a_fixed_focal_plane_shows_a_linear_radiance_where
             const LightFieldBuffer light_field = plane_at(depth, f, grid);
             for (const Vec3 eye : {Vec3{0, 0, 0.1}, Vec3{10e-3, 0, 0.1}, Vec3{-6e-3, 8e-3, 0.12}}) {
                 const Camera camera = camera_at(eye, depth);
-                const Image image = photograph(borrow(light_field), std::span(&camera, 1), {256})[0];
-                for (std::size_t row = 2; row < 28; ++row)
-                    for (std::size_t column = 2; column < 38; ++column) {
-                        const double x = camera.picture.x(double(column)), y = camera.picture.y(double(row));
-                        const double reach = (eye.z + depth) / eye.z;
-                        const double expected = f(eye.x + (x - eye.x) * reach, eye.y + (y - eye.y) * reach);
-                        ASSERT_NEAR(image.pixels(row, column, 0), expected, 2e-3)
-                            << focal << " " << depth << " " << eye.x << " pixel " << column << "," << row;
-                    }
+                SCOPED_TRACE(testing::Message()
+                             << "focal plane " << focal << ", depth " << depth << ", eye at " << eye.x);
+                expect_plane(photograph(borrow(light_field), std::span(&camera, 1), {256})[0], camera, depth, f);
             }
         }
 }

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "hogel/error.h"
+
+namespace hogel::core {
+
+// The code of the Error that a call throws; a call that throws none fails the test.
+ErrorCode code_of(const auto& call) {
+    try {
+        call();
+    } catch (const Error& error) {
+        return error.code();
+    }
+    ADD_FAILURE() << "no error";
+    return ErrorCode::internal;
+}
+
+// Whether a call ends by a stop; any other Error fails the test.
+bool is_cancelled(const auto& call) {
+    try {
+        call();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::cancelled);
+        return true;
+    }
+    return false;
+}
+
+}  // namespace hogel::core
