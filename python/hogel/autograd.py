@@ -12,14 +12,17 @@ from .field import Field
 
 
 class _Propagate(torch.autograd.Function):  # type: ignore[misc]
+    # Names and stars of the arguments are those of torch's class, for its types.
     @staticmethod
-    def forward(context: Any, samples: Any, pitch: float, wavelength: float, distance: float) -> Any:
-        context.optics = pitch, wavelength, distance
+    def forward(ctx: Any, *args: Any, **kwargs: Any) -> Any:
+        samples, pitch, wavelength, distance = args
+        ctx.optics = pitch, wavelength, distance
         return _moved(samples, pitch, wavelength, distance, adjoint=False)
 
     @staticmethod
-    def backward(context: Any, gradient: Any) -> Any:
-        pitch, wavelength, distance = context.optics
+    def backward(ctx: Any, *grad_outputs: Any) -> Any:
+        (gradient,) = grad_outputs
+        pitch, wavelength, distance = ctx.optics
         return _moved(gradient, pitch, wavelength, distance, adjoint=True), None, None, None
 
 
