@@ -286,7 +286,7 @@ void add_direction_options(Command& command, RenderOptions& options) {
         .positive_length(
             "--frequencies", options.frequencies,
             "Directions on the frequency grid of a hologram of this wavelength, as many as the field of view holds; "
-            "with --algorithm raytrace")
+            "with --algorithm raytrace, zbuffer or oblique")
         .excludes("--hemicube")
         .excludes("--focal-plane")
         .excludes("--directions")

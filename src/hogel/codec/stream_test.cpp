@@ -77,17 +77,46 @@ TEST(Stream, keeps_the_grid) {
 }
 
 // With and without depth, whose stream has the same directions.
-TEST(Stream, keeps_a_fixed_focal_plane) {
+TEST(Stream, keeps_a_fixed_focal_plane_and_frequencies) {
     const TestFolder folder;
     LightFieldGrid grid{3, 2, 1e-3, 4, 5, FocalPlane{{0.5, 0.7, 0.1, -0.2}, -0.3}, 1};
-    const LightFieldBuffer field(grid, true);
-    for (const bool depth : {false, true}) {
-        CompressionOptions options = small_tiles("threepass", "haar");
-        options.with_depth = depth;
-        compress(field, folder / "a.hgl", options);
+    for (const bool frequencies : {false, true})
+        for (const bool depth : {false, true}) {
+            if (frequencies) grid.view = Frequencies{grid.range()};
+            const LightFieldBuffer field(grid, true);
+            CompressionOptions options = small_tiles("threepass", "haar");
+            options.with_depth = depth;
+            compress(field, folder / "a.hgl", options);
+            const LightField back = open_stream(folder / "a.hgl");
+            EXPECT_TRUE(back.grid() == grid);
+            EXPECT_EQ(back.has_depth(), depth);
+        }
+}
+
+// By every coder.
+TEST(Stream, of_frequencies_has_the_quality_asked_for) {
+    const TestFolder folder;
+    LightFieldBuffer field = textured_planes(4, 3, 8, 8, 1);
+    LightFieldGrid grid = field.grid();
+    grid.view = Frequencies{{0.3, 0.2, 0.1, -0.05}};
+    LightFieldBuffer sines(grid);
+    std::ranges::copy(field.radiance.elements(), sines.radiance.elements().begin());
+    for (const char* coder : {"hogel", "threepass", "ezw", "jpeg4d", "fringes"}) {
+        CompressionOptions options;
+        options.method.coder = coder;
+        options.target = Sqnr{40};
+        compress(sines, folder / "a.hgl", options);
         const LightField back = open_stream(folder / "a.hgl");
-        EXPECT_TRUE(back.grid() == grid);
-        EXPECT_EQ(back.has_depth(), depth);
+        EXPECT_TRUE(back.grid() == grid) << coder;
+        LightFieldBuffer decoded(grid);
+        copy(back.front(), decoded);
+        double energy = 0, error = 0;
+        for (std::size_t i = 0; i < sines.radiance.size(); ++i) {
+            const double value = sines.radiance.data()[i], off = value - decoded.radiance.data()[i];
+            energy += value * value;
+            error += off * off;
+        }
+        EXPECT_LE(error, 1.1e-4 * energy) << coder;
     }
 }
 
@@ -294,6 +323,10 @@ TEST(Stream, the_default_error_of_depth_is_that_of_the_steepest_ray) {
     // With a fixed focal plane the hogels at the edge have the steepest: those at 75 µm see up to 0.5 + 75 µm/1 mm.
     grid.view = FocalPlane{grid.range(), 1e-3};
     EXPECT_DOUBLE_EQ(default_depth_error(grid, 1), 50e-6 / 32000 / 0.575);
+    // Of sines the steepest ray is (0.75, 0.5); (0.75, 0.75) belongs to none.
+    grid.directions_u = grid.directions_v = 7;
+    grid.view = Frequencies{{0.875, 0.875}};
+    EXPECT_NEAR(default_depth_error(grid, 1), 50e-6 / 32000 / (0.75 / std::sqrt(1 - 0.5625 - 0.25)), 1e-15);
 }
 
 // Layers of the radiance alone can be read without the depth stream.

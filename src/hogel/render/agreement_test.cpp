@@ -103,6 +103,25 @@ TEST_P(Agreement, with_ray_casting_on_2000_random_scenes) {
     EXPECT_GT(compared.hits, 1500u);
 }
 
+// On the frequencies of a hologram, by the renderers that take them: for a view within which all directions are rays,
+// and for one whose corners are evanescent.
+TEST_P(Agreement, with_ray_casting_on_frequencies) {
+    if (!renderers().find(GetParam()).takes_frequencies) return;
+    std::mt19937 random(3);
+    Compared compared;
+    for (int round = 0; round < 40; ++round) {
+        ShadedScene scene = random_scene(random, 16, round % 2 == 0);
+        scene.fronts_only = round % 4 >= 2;
+        const LightFieldGrid sines = round % 8 < 4
+                                         ? LightFieldGrid{5, 4, 1_mm, 33, 31, Frequencies{{0.44, 0.37, 0.1, -0.05}}, 3}
+                                         : LightFieldGrid{5, 4, 1_mm, 33, 31, Frequencies{{0.96, 0.96}}, 3};
+        expect_agreement(render("raytrace", scene, sines), render(GetParam(), scene, sines), 0, compared);
+        ASSERT_FALSE(HasFatalFailure()) << round;
+    }
+    EXPECT_GT(compared.samples, 40u * 7000);
+    EXPECT_GT(compared.hits, 40u * 2000);
+}
+
 // The renderers that use ObliqueTriangle to decide which samples see a triangle give exactly the result of testing
 // every ray against every triangle, independently of order and region. The grid has samples at its centre, where rays
 // pass through vertices and along edges.

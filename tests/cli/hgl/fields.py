@@ -22,6 +22,8 @@ def fields_of(source, end):
             depth = depth_bytes, beyond
         elif name == "focal_plane":
             assert size == 8 and source.take("d") != 0  # says what the directions are, not how they are coded
+        elif name == "frequencies":
+            assert size == 0  # likewise
         else:
             assert name == "chrominance" and size == 4
             chrominance = f32(source.take("f"))

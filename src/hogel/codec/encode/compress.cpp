@@ -222,7 +222,6 @@ CompressionResult compress(const LightField& light_field, const std::filesystem:
     header.grid = grid;
     header.method = method_for(options);
     header.metadata = with_history(options.metadata, to_metadata(light_field.provenance()));
-    if (grid.focal_plane() == nullptr) require_perspective(grid, ErrorCode::usage, "a compressed light field");
     header.companding = companding_for(light_field, options, progress);
     const LightField coded = header.companding.changes() ? companded(light_field, header.companding) : light_field;
     for (const LightField::Source& side : coded.faces().subspan(1)) header.sides.push_back(side->grid());

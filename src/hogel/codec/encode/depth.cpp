@@ -123,13 +123,29 @@ StreamInfo::Depth compress_depth(const LightField& light_field, const std::files
 
 namespace hogel {
 
+namespace {
+
+// The largest |U| and |V| of a hogel's rays.
+double steepest_slope(const LightFieldGrid& hogel) {
+    if (!hogel.has_frequencies())
+        return std::max(std::abs(hogel.center_u()) + hogel.half_u(), std::abs(hogel.center_v()) + hogel.half_v());
+    double steepest = 0;
+    for (std::size_t v = 0; v < hogel.directions_v; ++v)
+        for (std::size_t u = 0; u < hogel.directions_u; ++u) {
+            const Vec3 ray = hogel.direction_of(hogel.u(static_cast<double>(u)), hogel.v(static_cast<double>(v)));
+            steepest = std::max({steepest, std::abs(ray.x), std::abs(ray.y)});
+        }
+    return steepest;
+}
+
+}  // namespace
+
 double default_depth_error(const LightFieldGrid& grid, double range) {
     // The hogel in the first corner and the one in the last are those with the steepest directions.
     double steepest = 0;
     for (const LightFieldGrid& hogel : {grid.of_hogel(0, 0), grid.of_hogel(static_cast<double>(grid.hogels_s) - 1,
                                                                            static_cast<double>(grid.hogels_t) - 1)})
-        steepest = std::max(
-            {steepest, std::abs(hogel.center_u()) + hogel.half_u(), std::abs(hogel.center_v()) + hogel.half_v()});
+        steepest = std::max(steepest, steepest_slope(hogel));
     const double a_thousandth = 1e-3 * range;
     return steepest > 0 ? std::min(grid.pitch / (32000 * steepest), a_thousandth) : a_thousandth;
 }

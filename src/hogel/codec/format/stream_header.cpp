@@ -55,7 +55,7 @@ void take_sides(ByteReader& reader, StreamInfo& info) {
 
 // Optional fields at the end of a header. Each has a name and a length, so that a reader can refuse unknown ones.
 constexpr std::string_view tone_name = "tone", chrominance_name = "chrominance", depth_name = "depth",
-                           focal_plane_name = "focal_plane";
+                           focal_plane_name = "focal_plane", frequencies_name = "frequencies";
 
 void put_optional_fields(ByteWriter& fields, const StreamHeader& info) {
     const auto put_field = [&](std::string_view name, const std::vector<std::uint8_t>& bytes) {
@@ -85,6 +85,7 @@ void put_optional_fields(ByteWriter& fields, const StreamHeader& info) {
         field.put(plane->depth);
         put_field(focal_plane_name, field.bytes);
     }
+    if (info.grid.has_frequencies()) put_field(frequencies_name, {});
 }
 
 ToneCurve take_tone(ByteReader& field) {
@@ -121,6 +122,11 @@ FocalPlane take_focal_plane(ByteReader& field, const StreamHeader& info) {
     return plane;
 }
 
+Frequencies take_frequencies(ByteReader& field, const StreamHeader& info) {
+    if (field.left() > 0 || !info.sides.empty()) field.damaged("its header has impossible frequencies");
+    return {info.grid.range()};
+}
+
 void take_optional_fields(ByteReader& reader, StreamHeader& info) {
     Companding& companding = info.companding;
     while (reader.left() > 0) {
@@ -132,8 +138,10 @@ void take_optional_fields(ByteReader& reader, StreamHeader& info) {
             companding.chrominance = take_chrominance(field);
         else if (name == depth_name && info.depth.bytes == 0)
             info.depth = take_depth(field);
-        else if (name == focal_plane_name && info.grid.focal_plane() == nullptr)
+        else if (name == focal_plane_name && info.grid.is_perspective())
             info.grid.view = take_focal_plane(field, info);
+        else if (name == frequencies_name && info.grid.is_perspective())
+            info.grid.view = take_frequencies(field, info);
         else
             reader.damaged("its header has an unknown field, or one twice");
     }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "hogel/core/parallel.h"
 #include "hogel/render/baselines/oblique.h"
@@ -69,7 +70,7 @@ class ObliqueRenderer final : public Renderer, public CountsVisits {
             for (std::size_t u = 0; u < grid_.directions_u; ++u) {
                 core::throw_if_stopped();
                 std::ranges::fill(picture.elements(), NearestTriangle{});
-                for (std::uint32_t index : triangles_)
+                for (std::uint32_t index : is_ray(v, u) ? std::span(triangles_) : std::span<const std::uint32_t>())
                     scan_convert(ObliqueTriangle(*scene_, index, grid_, static_cast<double>(u), static_cast<double>(v)),
                                  index, tile.range, picture, visits);
                 for (std::size_t t = 0; t < tile.range.nt; ++t)
@@ -80,6 +81,11 @@ class ObliqueRenderer final : public Renderer, public CountsVisits {
     }
 
   private:
+    // The corners of a frequency grid are evanescent.
+    bool is_ray(std::size_t v, std::size_t u) const {
+        return grid_.direction_of(grid_.u(static_cast<double>(u)), grid_.v(static_cast<double>(v))) != Vec3{};
+    }
+
     void scan_convert(const ObliqueTriangle& triangle, std::uint32_t index, const HogelRange& range,
                       Array<NearestTriangle, 2>& picture, Visits& visits) const {
         const TriangleInHogels in_hogels(triangle, grid_, range);
@@ -109,7 +115,8 @@ RendererInfo oblique_renderer() {
         .make = [](std::shared_ptr<const ShadedScene> scene,
                    const LightFieldGrid& grid) { return std::make_unique<ObliqueRenderer>(std::move(scene), grid); },
         .depth_buffer_bytes = [](const LightFieldGrid&,
-                                 const HogelRange& region) { return buffer_bytes(oblique_buffer(region)); }};
+                                 const HogelRange& region) { return buffer_bytes(oblique_buffer(region)); },
+        .takes_frequencies = true};
 }
 
 }  // namespace hogel::render::baselines

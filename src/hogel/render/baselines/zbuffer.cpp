@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "hogel/core/parallel.h"
@@ -21,8 +22,26 @@ struct LinearInDirection {
 // A vertex seen from a hogel: its position relative to the hogel's centre, and its position in the hogel's picture.
 struct SeenVertex {
     double x, y, depth;  // x − s, y − t, ζ; on a side of a hemicube right, up and forward in its picture
-    double k, l;         // column and row of the picture, unless ζ is too close to zero
+    // Unless ζ is too close to zero, column and row of the picture; on a frequency grid the slopes U and V, between
+    // which sines are no linear functions.
+    double k, l;
 };
+
+// A rectangle of samples of a hogel's picture, ends included.
+struct Rectangle {
+    double k0, k1, l0, l1;
+
+    bool empty() const { return !(k0 <= k1 && l0 <= l1); }
+};
+
+// The range of the sine U/√(1 + U² + V²) where U and V are in these ranges: it grows with U, and its modulus falls with
+// that of V.
+std::pair<double, double> sines(double low_u, double high_u, double low_v, double high_v) {
+    const double high = std::max(std::abs(low_v), std::abs(high_v));
+    const double low = low_v <= 0 && high_v >= 0 ? 0 : std::min(std::abs(low_v), std::abs(high_v));
+    const auto sine = [](double u, double v) { return u / std::sqrt(1 + u * u + v * v); };
+    return {sine(low_u, low_u < 0 ? low : high), sine(high_u, high_u < 0 ? high : low)};
+}
 
 // The edge function of docs/notation.md section 2 for a ray through the origin of the hogel's frame:
 // E = U (dζ A_y − dy A_ζ) + V (dx A_ζ − dζ A_x) + dy A_x − dx A_y.
@@ -56,6 +75,7 @@ class ZbufferRenderer final : public Renderer {
 
     void set_scene(std::shared_ptr<const ShadedScene> scene) override {
         scene_ = std::move(scene);
+        slopes_ = grid_.has_frequencies() ? slopes_of(grid_) : std::vector<Slopes>{};
         double size = 0;
         for (const Vec3& p : scene_->positions) size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
         min_depth_ = 1e-6 * size;
@@ -80,19 +100,38 @@ class ZbufferRenderer final : public Renderer {
     }
 
   private:
+    struct Slopes {
+        double U, V;  // NaN in the corners of a frequency grid, which are evanescent
+    };
+
+    static std::vector<Slopes> slopes_of(const LightFieldGrid& grid) {
+        std::vector<Slopes> slopes;
+        slopes.reserve(grid.directions());
+        for (std::size_t v = 0; v < grid.directions_v; ++v)
+            for (std::size_t u = 0; u < grid.directions_u; ++u) {
+                const Vec3 ray = grid.direction_of(grid.u(static_cast<double>(u)), grid.v(static_cast<double>(v)));
+                slopes.push_back({ray.x / ray.z, ray.y / ray.z});
+            }
+        return slopes;
+    }
+
     // Where a hogel, whose directions are those of the grid, sees each vertex.
     void project(Vec3 hogel, const LightFieldGrid& grid, std::vector<SeenVertex>& vertices) const {
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             const Vec3& p = scene_->positions[i];
             const auto [x, y, depth] = to_face(grid.face(), {p.x - hogel.x, p.y - hogel.y, -p.z});
-            vertices[i] = {x, y, depth, grid.column(x / depth), grid.row(y / depth)};
+            if (slopes_.empty())
+                vertices[i] = {x, y, depth, grid.column(x / depth), grid.row(y / depth)};
+            else
+                vertices[i] = {x, y, depth, x / depth, y / depth};
         }
     }
 
     // Converts the picture's depth, a distance forward, to ζ in the tile.
     void store_as_depth(LightFieldTile& tile, const LightFieldGrid& grid, VisiblePoint point, std::size_t t,
                         std::size_t s, std::size_t v, std::size_t u) const {
-        point.depth *= grid.direction_of(grid.u(static_cast<double>(u)), grid.v(static_cast<double>(v))).z;
+        if (slopes_.empty())
+            point.depth *= grid.direction_of(grid.u(static_cast<double>(u)), grid.v(static_cast<double>(v))).z;
         store(tile, *scene_, grid, point, t, s, v, u);
     }
 
@@ -103,20 +142,46 @@ class ZbufferRenderer final : public Renderer {
         const SeenVertex& b = vertices[triangle.vertices[1]];
         const SeenVertex& c = vertices[triangle.vertices[2]];
 
-        // The rectangle of samples that the triangle can cover: all samples if it comes close to the hologram plane,
-        // where directions are undefined.
-        double k0 = 0, k1 = static_cast<double>(grid.directions_u) - 1;
-        double l0 = 0, l1 = static_cast<double>(grid.directions_v) - 1;
-        const auto [shallow, deep] = std::minmax({a.depth, b.depth, c.depth});
-        if (shallow > min_depth_ || deep < -min_depth_) {
-            constexpr double rounding = 1e-6;
-            k0 = std::max(k0, std::ceil(std::min({a.k, b.k, c.k}) - rounding));
-            k1 = std::min(k1, std::floor(std::max({a.k, b.k, c.k}) + rounding));
-            l0 = std::max(l0, std::ceil(std::min({a.l, b.l, c.l}) - rounding));
-            l1 = std::min(l1, std::floor(std::max({a.l, b.l, c.l}) + rounding));
-        }
-        if (!(k0 <= k1 && l0 <= l1)) return;
+        const Rectangle covered = covered_by(grid, a, b, c);
+        if (covered.empty()) return;
+        if (slopes_.empty())
+            scan_convert(index, grid, a, b, c, covered, picture, [&](double k, double l) {
+                return Slopes{grid.u(k), grid.v(l)};
+            });
+        else
+            scan_convert(index, grid, a, b, c, covered, picture, [&](double k, double l) {
+                return slopes_[static_cast<std::size_t>(l) * grid.directions_u + static_cast<std::size_t>(k)];
+            });
+    }
 
+    // The rectangle of samples that a triangle can cover: all samples if it comes close to the hologram plane, where
+    // directions are undefined.
+    Rectangle covered_by(const LightFieldGrid& grid, const SeenVertex& a, const SeenVertex& b,
+                         const SeenVertex& c) const {
+        Rectangle samples{0, static_cast<double>(grid.directions_u) - 1, 0, static_cast<double>(grid.directions_v) - 1};
+        const auto [shallow, deep] = std::minmax({a.depth, b.depth, c.depth});
+        if (!(shallow > min_depth_ || deep < -min_depth_)) return samples;
+        auto [low_k, high_k] = std::minmax({a.k, b.k, c.k});
+        auto [low_l, high_l] = std::minmax({a.l, b.l, c.l});
+        if (!slopes_.empty()) {
+            const auto [left, right] = sines(low_k, high_k, low_l, high_l);
+            const auto [bottom, top] = sines(low_l, high_l, low_k, high_k);
+            low_k = grid.column(left), high_k = grid.column(right);
+            low_l = grid.row(top), high_l = grid.row(bottom);
+        }
+        constexpr double rounding = 1e-6;
+        samples.k0 = std::max(samples.k0, std::ceil(low_k - rounding));
+        samples.k1 = std::min(samples.k1, std::floor(high_k + rounding));
+        samples.l0 = std::max(samples.l0, std::ceil(low_l - rounding));
+        samples.l1 = std::min(samples.l1, std::floor(high_l + rounding));
+        return samples;
+    }
+
+    // @param slopes_at  U and V of the ray in column k and row l
+    template <typename SlopesAt>
+    void scan_convert(std::size_t index, const LightFieldGrid& grid, const SeenVertex& a, const SeenVertex& b,
+                      const SeenVertex& c, const Rectangle& covered, std::vector<VisiblePoint>& picture,
+                      const SlopesAt& slopes_at) const {
         const Edge ea = edge(b, c), eb = edge(c, a), ec = edge(a, b);
         // The ray meets the triangle's plane at ζ = N·P / (N·(U, V, 1)).
         const double ux = b.x - a.x, uy = b.y - a.y, uz = b.depth - a.depth;
@@ -124,9 +189,9 @@ class ZbufferRenderer final : public Renderer {
         const double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
         const double plane = nx * a.x + ny * a.y + nz * a.depth;
 
-        for (double l = l0; l <= l1; ++l)
-            for (double k = k0; k <= k1; ++k) {
-                const double U = grid.u(k), V = grid.v(l);
+        for (double l = covered.l0; l <= covered.l1; ++l)
+            for (double k = covered.k0; k <= covered.k1; ++k) {
+                const auto [U, V] = slopes_at(k, l);
                 const double facing = nx * U + ny * V + nz;
                 if (facing == 0 || (facing < 0 && scene_->fronts_only)) continue;
                 const double sign = facing > 0 ? 1 : -1;
@@ -146,7 +211,8 @@ class ZbufferRenderer final : public Renderer {
 
     std::shared_ptr<const ShadedScene> scene_;
     LightFieldGrid grid_;
-    double min_depth_ = 0;  // below this distance, projected vertices are not used to bound a triangle
+    double min_depth_ = 0;        // below this distance, projected vertices are not used to bound a triangle
+    std::vector<Slopes> slopes_;  // [v][u] of a frequency grid; of others none
 };
 
 }  // namespace
@@ -161,6 +227,7 @@ RendererInfo zbuffer_renderer() {
             [](const LightFieldGrid& grid, const HogelRange&) {
                 return static_cast<double>(sizeof(VisiblePoint)) * static_cast<double>(grid.directions());
             },
+        .takes_frequencies = true,
         .takes_focal_plane = true};
 }
 
