@@ -131,6 +131,58 @@ TEST(Hemicube, has_the_sqnr_asked_for_in_both_layouts) {
         }
 }
 
+// The mean square of the step that the coding error makes across the edges of the front, where neighbouring directions
+// are on different faces.
+double seam(const std::vector<LightFieldBuffer>& faces, const CodingMethod& method, StreamLayout layout) {
+    const TestFolder folder;
+    CompressionOptions options;
+    options.method = method;
+    options.target = Sqnr{35};
+    options.layout = layout;
+    options.tile = HogelRange{0, 0, 3, 3};
+    compress(light_field(faces), folder / "a.hgl", options);
+    const LightField opened = open_stream(folder / "a.hgl");
+    std::vector<LightFieldBuffer> errors;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        LightFieldBuffer& decoded = errors.emplace_back(faces[i].grid());
+        copy(*opened.faces()[i], decoded);
+        for (std::size_t k = 0; k < decoded.radiance.size(); ++k)
+            decoded.radiance.data()[k] -= faces[i].radiance.data()[k];
+    }
+    const LightFieldGrid &front = faces[0].grid(), &left = faces[1].grid(), &top = faces[3].grid();
+    double sum = 0;
+    std::size_t count = 0;
+    const auto add = [&](float inside, float outside) {
+        sum += double(inside - outside) * double(inside - outside);
+        ++count;
+    };
+    for (std::size_t t = 0; t < front.hogels_t; ++t)
+        for (std::size_t s = 0; s < front.hogels_s; ++s) {
+            const auto of = [&](std::size_t face) { return errors[face].radiance[0][t][s]; };
+            for (std::size_t v = 0; v < front.directions_v; ++v) {
+                add(of(0)(v, 0), of(1)(v, left.directions_u - 1));
+                add(of(0)(v, front.directions_u - 1), of(2)(v, 0));
+            }
+            for (std::size_t u = 0; u < front.directions_u; ++u) {
+                add(of(0)(0, u), of(3)(top.directions_v - 1, u));
+                add(of(0)(front.directions_v - 1, u), of(4)(0, u));
+            }
+        }
+    return sum / double(count);
+}
+
+// At the same quality, in layouts that code the faces together and one by one. Wavelets longer than Haar's reach across
+// the edges; blocks and Haar's wavelets end there in both layouts.
+TEST(Hemicube, unfolded_has_smaller_seams_than_by_faces) {
+    const std::vector<LightFieldBuffer> faces = smooth_hemicube(6, 32, 32);
+    for (const auto& [coder, transform, at_most] :
+         {std::tuple{"threepass", "ai33", 0.4}, {"threepass", "cdf97", 0.1}, {"hogel", "", 0.9}}) {
+        const CodingMethod method{coder, transform};
+        EXPECT_LT(seam(faces, method, StreamLayout::unfolded), at_most * seam(faces, method, StreamLayout::faces))
+            << coder << " " << transform;
+    }
+}
+
 TEST(Hemicube, every_truncation_and_every_flipped_byte_is_noticed) {
     const TestFolder folder;
     const std::vector<LightFieldBuffer> faces = smooth_hemicube(2, 4, 4);
