@@ -11,6 +11,7 @@ struct Visits {
     std::uint64_t pieces = 0;   ///< shapes that were scan converted: simplices, or triangles in some projection
     std::uint64_t slices = 0;   ///< last slices of these, whose samples are tested one by one
     std::uint64_t samples = 0;  ///< pairs of a ray and a triangle that were tested
+    std::uint64_t cuts = 0;     ///< of simplices by planes of V and U, whether or not a sample lies in the slice
 
     friend bool operator==(const Visits&, const Visits&) = default;
 };
@@ -20,7 +21,7 @@ class CountsVisits {
   public:
     virtual ~CountsVisits() = default;
     /// The sum over all tiles that were read.
-    Visits visits() const { return {pieces_, slices_, samples_}; }
+    Visits visits() const { return {pieces_, slices_, samples_, cuts_}; }
 
   protected:
     /// Adds the visits of one tile.
@@ -28,10 +29,11 @@ class CountsVisits {
         pieces_ += of_tile.pieces;
         slices_ += of_tile.slices;
         samples_ += of_tile.samples;
+        cuts_ += of_tile.cuts;
     }
 
   private:
-    mutable std::atomic<std::uint64_t> pieces_ = 0, slices_ = 0, samples_ = 0;
+    mutable std::atomic<std::uint64_t> pieces_ = 0, slices_ = 0, samples_ = 0, cuts_ = 0;
 };
 
 }  // namespace hogel::render

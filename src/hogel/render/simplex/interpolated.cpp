@@ -12,6 +12,7 @@
 #include "hogel/render/oblique_triangle.h"
 #include "hogel/render/simplex/rays_in_blocks.h"
 #include "hogel/render/simplex/scan.h"
+#include "hogel/render/simplex/seen_directions.h"
 #include "hogel/render/simplex/slice.h"
 #include "hogel/render/simplex/volume.h"
 #include "hogel/render/visits.h"
@@ -91,14 +92,15 @@ class InterpolatingRenderer final : public Renderer, public CountsVisits {
         Array<BufferedSample, 4> buffer(
             {grid_.directions_v, grid_.directions_u, part.rows.size(), part.columns.size()});
         for (BufferedSample& sample : buffer.elements()) sample.radiance = scene_->background;
+        SeenDirections seen(grid_);
         Visits visits;
         for (const std::uint32_t index : triangles_) {
             core::throw_if_stopped();
             const DeepTriangle triangle = deep_triangle(*scene_, index);
-            if (!may_be_seen(triangle, grid_, region)) continue;
+            if (!seen.find(triangle, region)) continue;
             const RegionSides sides = split_at_back_face(triangle, grid_, region);
-            draw(index, triangle, sides.front, region, part, buffer, visits);
-            if (!scene_->fronts_only) draw(index, triangle, sides.back, region, part, buffer, visits);
+            draw(index, triangle, sides.front, region, part, seen, buffer, visits);
+            if (!scene_->fronts_only) draw(index, triangle, sides.back, region, part, seen, buffer, visits);
         }
         add_visits(visits);
         for_each_ray(grid_, part.rows, part.columns, [&](std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
@@ -135,7 +137,8 @@ class InterpolatingRenderer final : public Renderer, public CountsVisits {
 
     // Scan converts a triangle seen from a convex part of the region. Source: [K] 5.6.1, 5.7.3.
     void draw(std::uint32_t index, const DeepTriangle& triangle, const std::vector<CameraPoint>& seen_from,
-              const HogelRange& region, const Part& part, Array<BufferedSample, 4>& buffer, Visits& visits) const {
+              const HogelRange& region, const Part& part, const SeenDirections& seen, Array<BufferedSample, 4>& buffer,
+              Visits& visits) const {
         if (seen_from.size() < 3) return;
         std::vector<std::array<ShadedPoint, 3>> corners;
         for (const CameraPoint& camera : seen_from) corners.push_back(shaded_corners(index, triangle, camera, region));
@@ -149,8 +152,10 @@ class InterpolatingRenderer final : public Renderer, public CountsVisits {
                 std::array<ShadedPoint, 5> simplex;
                 for (std::size_t k = 0; k < 5; ++k) simplex[k] = corners[from[path[k].first]][order[path[k].second]];
                 ++visits.pieces;
-                slice_at_samples(simplex, axis::v, grid_.directions_v, [&](double v, const auto& at_v) {
-                    slice_at_samples(at_v, axis::u, grid_.directions_u, [&](double u, const ShadedSlice& slice) {
+                slice_at_samples(simplex, axis::v, seen.v(), [&](double v, const auto& at_v) {
+                    ++visits.cuts;
+                    slice_at_samples(at_v, axis::u, seen.u(), [&](double u, const ShadedSlice& slice) {
+                        ++visits.cuts;
                         scan_convert(index, slice, u, v, part,
                                      buffer[static_cast<std::size_t>(v)][static_cast<std::size_t>(u)], visits);
                     });

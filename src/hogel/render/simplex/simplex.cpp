@@ -6,6 +6,7 @@
 #include "hogel/render/region_memory.h"
 #include "hogel/render/simplex/rays_in_blocks.h"
 #include "hogel/render/simplex/scan.h"
+#include "hogel/render/simplex/seen_directions.h"
 #include "hogel/render/simplex/slice.h"
 #include "hogel/render/simplex/strip.h"
 #include "hogel/render/simplex/volume.h"
@@ -37,13 +38,14 @@ class SimplexRenderer final : public Renderer, public CountsVisits {
         Array<NearestTriangle, 4> buffer(simplex_buffer(grid_, tile.range));
         std::vector<Simplex<4>> simplices;
         StripSlices slices;
+        SeenDirections seen(grid_);
         Visits visits;
         for (std::uint32_t index : triangles_) {
             core::throw_if_stopped();
             // Clips at half the depth of the near plane, so that the visibility of every ray is decided by see(), not
             // by the clip.
             for (const DeepTriangle& part : clip_to_near_plane(deep_triangle(*scene_, index), 0.5 * near_)) {
-                if (!may_be_seen(part, grid_, tile.range)) continue;
+                if (!seen.find(part, tile.range)) continue;
                 const RegionSides sides = split_at_back_face(part, grid_, tile.range);
                 // From either side the volume is convex.
                 for (const auto* side : {&sides.front, &sides.back}) {
@@ -52,10 +54,10 @@ class SimplexRenderer final : public Renderer, public CountsVisits {
                     append_projected_volume(part, *side, grid_, tile.range, simplices, min_forward_);
                     visits.pieces += simplices.size();
                     if (strips_)
-                        scan_convert(index, simplices, slices, tile.range, buffer, visits);
+                        scan_convert(index, simplices, slices, seen, tile.range, buffer, visits);
                     else
                         for (const Simplex<4>& simplex : simplices)
-                            scan_convert(index, simplex, tile.range, buffer, visits);
+                            scan_convert(index, simplex, seen, tile.range, buffer, visits);
                 }
             }
         }
@@ -68,10 +70,12 @@ class SimplexRenderer final : public Renderer, public CountsVisits {
 
   private:
     // Source: [K] 5.7.3, 5.7.4.
-    void scan_convert(std::uint32_t index, const Simplex<4>& simplex, const HogelRange& range,
-                      Array<NearestTriangle, 4>& buffer, Visits& visits) const {
-        slice_at_samples(simplex, axis::v, grid_.directions_v, [&](double v, const Simplex<3>& at_v) {
-            slice_at_samples(at_v, axis::u, grid_.directions_u, [&](double u, const Simplex<2>& at_uv) {
+    void scan_convert(std::uint32_t index, const Simplex<4>& simplex, const SeenDirections& seen,
+                      const HogelRange& range, Array<NearestTriangle, 4>& buffer, Visits& visits) const {
+        slice_at_samples(simplex, axis::v, seen.v(), [&](double v, const Simplex<3>& at_v) {
+            ++visits.cuts;
+            slice_at_samples(at_v, axis::u, seen.u(), [&](double u, const Simplex<2>& at_uv) {
+                ++visits.cuts;
                 const SliceInHogels slice(at_uv);
                 const Span rows = slice.rows(range.nt);
                 if (rows.first == rows.end) return;
@@ -88,18 +92,18 @@ class SimplexRenderer final : public Renderer, public CountsVisits {
     // As above for all simplices of a volume, which is convex: a row of hogels is covered from the first to the last.
     // Source: [K] 7.2.2.
     void scan_convert(std::uint32_t index, const std::vector<Simplex<4>>& simplices, StripSlices& slices,
-                      const HogelRange& range, Array<NearestTriangle, 4>& buffer, Visits& visits) const {
-        slices.for_each(simplices, {grid_.directions_v, grid_.directions_u},
-                        [&](std::size_t v, std::size_t u, const Strip<2>& at_uv) {
-                            const StripInHogels slice(at_uv);
-                            const Span rows = slice.rows(range.nt);
-                            if (rows.first == rows.end) return;
-                            ++visits.slices;
-                            const ObliqueTriangle triangle(*scene_, index, grid_, static_cast<double>(u),
-                                                           static_cast<double>(v));
-                            for (std::size_t t = rows.first; t < rows.end; ++t)
-                                see_row(index, triangle, t, slice.columns(t, range.ns), range, buffer[v][u], visits);
-                        });
+                      const SeenDirections& seen, const HogelRange& range, Array<NearestTriangle, 4>& buffer,
+                      Visits& visits) const {
+        visits.cuts +=
+            slices.for_each(simplices, {seen.v(), seen.u()}, [&](std::size_t v, std::size_t u, const Strip<2>& at_uv) {
+                const StripInHogels slice(at_uv);
+                const Span rows = slice.rows(range.nt);
+                if (rows.first == rows.end) return;
+                ++visits.slices;
+                const ObliqueTriangle triangle(*scene_, index, grid_, static_cast<double>(u), static_cast<double>(v));
+                for (std::size_t t = rows.first; t < rows.end; ++t)
+                    see_row(index, triangle, t, slice.columns(t, range.ns), range, buffer[v][u], visits);
+            });
     }
 
     void see_row(std::uint32_t index, const ObliqueTriangle& triangle, std::size_t t, const Span& columns,

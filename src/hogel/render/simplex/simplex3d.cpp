@@ -8,6 +8,7 @@
 #include "hogel/render/region_memory.h"
 #include "hogel/render/row_tile.h"
 #include "hogel/render/simplex/rays_in_blocks.h"
+#include "hogel/render/simplex/seen_directions.h"
 #include "hogel/render/simplex/slice.h"
 #include "hogel/render/simplex/volume.h"
 #include "hogel/render/span.h"
@@ -37,6 +38,7 @@ class Simplex3dRenderer final : public Renderer, public CountsVisits {
     void read(LightFieldTile& tile) const override {
         Array<NearestTriangle, 3> buffer(simplex3d_buffer(grid_, tile.range));
         std::vector<Simplex<3>> simplices;
+        SeenDirections seen(grid_);
         Visits visits;
         for (std::size_t t = 0; t < tile.range.nt; ++t) {
             std::ranges::fill(buffer.elements(), NearestTriangle{});
@@ -44,13 +46,13 @@ class Simplex3dRenderer final : public Renderer, public CountsVisits {
             for (std::uint32_t index : triangles_) {
                 core::throw_if_stopped();
                 for (const DeepTriangle& part : clip_to_near_plane(deep_triangle(*scene_, index), 0.5 * near_)) {
-                    if (!may_be_seen(part, grid_, row)) continue;
+                    if (!seen.find(part, row)) continue;
                     simplices.clear();
                     for (const CameraLine& line : split_row_at_back_face(part, t, grid_, tile.range))
                         if (line.front_visible || !scene_->fronts_only)
                             append_projected_volume(part, line, grid_, tile.range, simplices, min_forward_);
                     for (const Simplex<3>& simplex : simplices)
-                        scan_convert(index, simplex, t, tile.range, buffer, visits);
+                        scan_convert(index, simplex, seen, t, tile.range, buffer, visits);
                 }
             }
             for_each_ray(grid_, {t, t + 1}, {0, tile.range.ns},
@@ -62,12 +64,14 @@ class Simplex3dRenderer final : public Renderer, public CountsVisits {
     }
 
   private:
-    void scan_convert(std::uint32_t index, const Simplex<3>& simplex, std::size_t t, const HogelRange& range,
-                      Array<NearestTriangle, 3>& buffer, Visits& visits) const {
+    void scan_convert(std::uint32_t index, const Simplex<3>& simplex, const SeenDirections& seen, std::size_t t,
+                      const HogelRange& range, Array<NearestTriangle, 3>& buffer, Visits& visits) const {
         ++visits.pieces;
         const double hogel_t = grid_.t(static_cast<double>(range.t0 + t));
-        slice_at_samples(simplex, axis::v, grid_.directions_v, [&](double v, const Simplex<2>& at_v) {
-            slice_at_samples(at_v, axis::u, grid_.directions_u, [&](double u, const Simplex<1>& at_uv) {
+        slice_at_samples(simplex, axis::v, seen.v(), [&](double v, const Simplex<2>& at_v) {
+            ++visits.cuts;
+            slice_at_samples(at_v, axis::u, seen.u(), [&](double u, const Simplex<1>& at_uv) {
+                ++visits.cuts;
                 const double s0 = at_uv[0][axis::s] / at_uv[0][axis::q], s1 = at_uv[1][axis::s] / at_uv[1][axis::q];
                 const Span columns = samples_between(std::min(s0, s1), std::max(s0, s1), range.ns);
                 if (columns.first == columns.end) return;

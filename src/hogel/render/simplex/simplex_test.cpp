@@ -353,9 +353,13 @@ TEST(Slice, two_simplices_that_share_a_corner_on_a_plane_are_sliced_there_once) 
     const auto at = [](double v) { return ProjectedPoint{0, v, 0, 0, 1}; };
     std::vector<double> values;
     const auto collect = [&](double value, const auto&) { values.push_back(value); };
-    slice_at_samples(std::array{at(0.5), at(2)}, axis::v, 9, collect);
-    slice_at_samples(std::array{at(2), at(4)}, axis::v, 9, collect);
+    std::vector<std::uint8_t> seen(9, 1);
+    slice_at_samples(std::array{at(0.5), at(2)}, axis::v, seen, collect);
+    slice_at_samples(std::array{at(2), at(4)}, axis::v, seen, collect);
     EXPECT_EQ(values, (std::vector<double>{1, 2, 3, 4}));
+    seen[3] = 0;
+    slice_at_samples(std::array{at(2), at(4)}, axis::v, seen, collect);
+    EXPECT_EQ(values, (std::vector<double>{1, 2, 3, 4, 4}));
 }
 
 // A triangle just behind the hologram moves by thousands of directions from hogel to hogel. The work for its simplices
@@ -363,16 +367,17 @@ TEST(Slice, two_simplices_that_share_a_corner_on_a_plane_are_sliced_there_once) 
 TEST(Slice, work_is_bounded_by_the_field_of_view) {
     std::mt19937 random(6);
     constexpr std::size_t samples = 4;
+    const std::vector<std::uint8_t> seen(samples, 1);
     std::size_t slices = 0;
     for (int i = 0; i < 200; ++i) {
         Simplex<4> simplex = random_simplex(random);
         for (ProjectedPoint& corner : simplex)
             for (const std::size_t along : {axis::u, axis::v}) corner[along] = (corner[along] - 5) * 1e4;
         std::size_t at_v = 0, at_uv = 0;
-        slice_at_samples(simplex, axis::v, samples, [&](double v, const Simplex<3>& tetrahedron) {
+        slice_at_samples(simplex, axis::v, seen, [&](double v, const Simplex<3>& tetrahedron) {
             ASSERT_TRUE(v >= 0 && v < samples);
             ++at_v;
-            slice_at_samples(tetrahedron, axis::u, samples, [&](double u, const Simplex<2>&) {
+            slice_at_samples(tetrahedron, axis::u, seen, [&](double u, const Simplex<2>&) {
                 ASSERT_TRUE(u >= 0 && u < samples);
                 ++at_uv;
             });

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "hogel/render/simplex/volume.h"
@@ -69,15 +71,17 @@ void slice(const std::array<std::array<double, Size>, N>& sorted, std::size_t ax
     }
 }
 
-/// Calls use(value, Simplex<N − 1>) for the slices of a simplex at the samples 0 to `samples` − 1 of an axis that it
-/// reaches. Source: [K] 5.7.3. Differs: [K] 5.7.2 first clips simplices to the field of view, which cuts one into up to
-/// six at each of four edges. No sample lies outside, so that leaving out the slices there is the same.
+/// Calls use(value, Simplex<N − 1>) for the slices of a simplex at the samples of an axis that it reaches. Source:
+/// [K] 5.7.3. Differs: [K] 5.7.2 first clips simplices to the field of view, which cuts one into up to six at each of
+/// four edges. No sample lies outside, so that leaving out the slices there is the same.
+/// @param seen  for each sample, whether a slice there may hold a hogel; others are left out
 template <std::size_t Size, std::size_t N, class Use>
-void slice_at_samples(std::array<std::array<double, Size>, N> simplex, std::size_t axis, std::size_t samples,
-                      const Use& use) {
+void slice_at_samples(std::array<std::array<double, Size>, N> simplex, std::size_t axis,
+                      std::span<const std::uint8_t> seen, const Use& use) {
     sort_along(axis, simplex);
-    const Span cut = samples_cut(simplex.front()[axis], simplex.back()[axis], samples);
+    const Span cut = samples_cut(simplex.front()[axis], simplex.back()[axis], seen.size());
     for (std::size_t i = cut.first; i < cut.end; ++i) {
+        if (seen[i] == 0) continue;
         const auto value = static_cast<double>(i);
         slice(simplex, axis, value, [&](const auto& piece) { use(value, piece); });
     }

@@ -108,27 +108,35 @@ class SlicedStrip {
 /// Slices the simplices of one volume together, first at each V, then at each U.
 class StripSlices {
   public:
-    struct Samples {
-        std::size_t v, u;
+    /// For each row and column of directions, whether hogels may see the triangle in it; see SeenDirections.
+    struct Seen {
+        std::span<const std::uint8_t> v, u;
     };
 
-    /// Calls use(v, u, Strip<2>) for each direction of the field of view that the volume reaches.
+    /// Calls use(v, u, Strip<2>) for each direction that the volume reaches and in which hogels may see the triangle.
+    /// Returns the number of slices that were made of single simplices.
     template <class Use>
-    void for_each(std::span<const Simplex<4>> simplices, Samples directions, const Use& use) {
-        if (simplices.empty()) return;
+    std::size_t for_each(std::span<const Simplex<4>> simplices, const Seen& seen, const Use& use) {
+        if (simplices.empty()) return 0;
+        std::size_t cuts = 0;
         into_strips(simplices, volume_);
         at_every_v_.sort(volume_, axis::v);
-        const Span rows = at_every_v_.samples(directions.v);
+        const Span rows = at_every_v_.samples(seen.v.size());
         for (std::size_t v = rows.first; v < rows.end; ++v) {
+            if (seen.v[v] == 0) continue;
             at_every_v_.slice(static_cast<double>(v), at_v_);
+            cuts += at_v_.simplices.size();
             if (at_v_.simplices.empty()) continue;
             at_every_u_.sort(at_v_, axis::u);
-            const Span columns = at_every_u_.samples(directions.u);
+            const Span columns = at_every_u_.samples(seen.u.size());
             for (std::size_t u = columns.first; u < columns.end; ++u) {
+                if (seen.u[u] == 0) continue;
                 at_every_u_.slice(static_cast<double>(u), at_uv_);
+                cuts += at_uv_.simplices.size();
                 if (!at_uv_.simplices.empty()) use(v, u, at_uv_);
             }
         }
+        return cuts;
     }
 
   private:

@@ -140,34 +140,6 @@ std::array<ProjectedPoint, 3> project(const DeepTriangle& triangle, CameraPoint 
     return points;
 }
 
-bool may_be_seen(const DeepTriangle& triangle, const LightFieldGrid& grid, const HogelRange& range) {
-    if (grid.face() != Face::front) return true;
-    const CameraPoint last{static_cast<double>(range.ns) - 1 + margin, static_cast<double>(range.nt) - 1 + margin};
-    const auto s = [&](double i) { return grid.s(static_cast<double>(range.s0) + i); };
-    const auto t = [&](double j) { return grid.t(static_cast<double>(range.t0) + j); };
-    const std::array cameras_s{s(-margin), s(last.s)}, cameras_t{t(-margin), t(last.t)};
-    // The volume is the convex hull of the corners as the corners of the tile see them.
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    double low_u = infinity, high_u = -infinity, low_v = infinity, high_v = -infinity;
-    for (const auto& [x, y, depth] : triangle) {
-        const double q = 1 / depth;
-        for (const double camera : cameras_s) {
-            low_u = std::min(low_u, (x - camera) * q);
-            high_u = std::max(high_u, (x - camera) * q);
-        }
-        for (const double camera : cameras_t) {
-            low_v = std::min(low_v, (y - camera) * q);
-            high_v = std::max(high_v, (y - camera) * q);
-        }
-    }
-    const auto reaches = [](double low, double high, std::size_t samples) {
-        const double rounding = 1e-3 + 1e-12 * std::max(std::abs(low), std::abs(high));
-        return high >= -rounding && low <= static_cast<double>(samples) - 1 + rounding;
-    };
-    return reaches(grid.column(low_u), grid.column(high_u), grid.directions_u) &&
-           reaches(grid.row(high_v), grid.row(low_v), grid.directions_v);
-}
-
 RegionSides split_at_back_face(const DeepTriangle& triangle, const LightFieldGrid& grid, const HogelRange& range) {
     const Facing front(triangle, grid, range);
     const auto back = [&](const CameraPoint& p) { return -front(p); };

@@ -51,11 +51,6 @@ struct CameraPoint {
 std::array<ProjectedPoint, 3> project(const DeepTriangle& triangle, CameraPoint camera, const LightFieldGrid& grid,
                                       const HogelRange& range);
 
-/// Whether hogels of a tile may see a part of a triangle, which lies behind the near plane, in one of the grid's
-/// directions; true for the sides of a hemicube, where that is found out when simplices are cut. What no hogel sees
-/// need not be made into a volume, which is most of the work where a tile has few hogels or a grid few directions.
-bool may_be_seen(const DeepTriangle& triangle, const LightFieldGrid& grid, const HogelRange& range);
-
 /// The parts of a tile's rectangle of camera points that see a triangle's front and its back, separated by the line
 /// where the triangle's plane meets the camera plane. Each is empty, a polygon of three to five corners, or the whole
 /// rectangle. Source: [K] 5.7.1. Differs: the part that sees the back is dropped only if back faces are culled.
