@@ -9,7 +9,6 @@
 #include <string>
 #include <variant>
 
-#include "concerns.h"
 #include "hogel/error.h"
 #include "hogel/scene_hologram.h"
 #include "hogel/units.h"
@@ -318,20 +317,24 @@ void add_scene_hologram_options(Command& command, HologramChoices& options) {
     command.count("--planes", options.planes, "Depth planes of fresnel and planes");
 }
 
-Scene load_scene(const Session& session, const std::string& name, const RenderOptions& options, RunRecord& record) {
-    if (scenes().look_up(name) == nullptr) {
-        record.acted({"as-is"});
-        if (!options.as_is) record.acted({"front"});
-    }
+LightFieldRequest scene_request(const RenderOptions& options) {
     LightFieldRequest request = options.request();
     request.pose = options.scene.complete_pose();
     request.import.point_size = options.scene.point_size;
     if (!request.pose.camera.empty() && (request.pose.up || request.pose.rotation != Vec3{} || options.as_is))
         throw Error(ErrorCode::usage,
                     "--scene-camera: turns and fits the scene itself; leave out --up, --rotate and --as-is");
+    return request;
+}
+
+Scene load_scene(const Session& session, const std::string& name, const RenderOptions& options, RunRecord& record) {
+    if (scenes().look_up(name) == nullptr) {
+        record.acted({"as-is"});
+        if (!options.as_is) record.acted({"front"});
+    }
+    const LightFieldRequest request = scene_request(options);
     Stage stage(session, "scene");
-    const Scene scene = with_options({{"texture coordinates", "--texture"}, {"camera", "--scene-camera"}},
-                                     [&] { return hogel::load_scene(name, request, stage.progress()); });
+    const Scene scene = placing_scene([&] { return hogel::load_scene(name, request, stage.progress()); });
     options.scene.record(record, scene);
     for (const std::string& note : scene.notes) session.say(fmt::format("{}: note: {}", name, note));
     return scene;

@@ -57,6 +57,11 @@ void add_view_options(Command& command, ViewOptions& options, Session& session) 
                 "For the samples of the light field; of a larger one some hogels are left out")
         .range(0.001, 1e6);
     command.count("--looks", options.looks, "Photographs by waves averaged against speckle, unless of a hologram file");
+    command.count("--layers", options.layers, "Show the first layers of a .hgl file alone (default: all)").no_default();
+    command
+        .text("--original", options.original, "X.h5",
+              "The light field that a .hgl file was made of, beside which errors are shown (default: the whole file)")
+        .no_default();
     add_hologram_options(command, options.hologram);
     add_render_options(command, options.render);
     add_hemicube_option(command, options.render);

@@ -22,6 +22,8 @@ struct ViewOptions {
     bool no_browser = false;
     double memory = 4;  ///< GB for the samples of the light field
     std::size_t looks = defaults.looks;
+    std::size_t layers = 0;  ///< of a .hgl stream; 0: all
+    std::string original;    ///< a light field beside which errors are shown; empty: the whole stream
     RenderOptions render;
     HologramChoices hologram;
     FieldOptions field;

@@ -92,6 +92,7 @@ Json told(const Reading& reading, const std::string& id) {
               {"inside", reading.inside}};
     if (reading.inside) json["radiance"] = reading.radiance;
     if (reading.depth) json["depth_m"] = *reading.depth;
+    if (reading.bytes) json["hogel_bytes"] = *reading.bytes;
     if (reading.phase) json["phase_deg"] = *reading.phase * degrees;
     return json;
 }
@@ -115,6 +116,11 @@ Json told(const FocusSearch& search) {
         {"type", "sharpness"}, {"depths_m", search.depths},        {"edges", edges},
         {"squares", squares},  {"cell", FocusSearch::cells[kind]}, {"depth_of_focus_m", search.light_depth_of_focus},
         {"planes", planes}};
+}
+
+Json told(const LevelCounts& levels) {
+    return {{"type", "levels"},       {"encoding", levels.encoding}, {"width", levels.width},
+            {"height", levels.height}, {"counts", levels.counts},     {"efficiency", levels.efficiency}};
 }
 
 }  // namespace hogel::view

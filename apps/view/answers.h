@@ -31,6 +31,7 @@ std::string type_of(const View& view);
 Json told(const Photograph& photograph, const View& view, const Subject& subject, double seconds);
 Json told(const Reading& reading, const std::string& id);
 Json told(const FocusSearch& search);
+Json told(const LevelCounts& levels);
 
 /// Does the work of a job, which throws nothing then; gives `refuse` the answer that says what went wrong.
 template <class Work, class Refuse>

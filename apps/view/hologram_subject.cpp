@@ -12,6 +12,7 @@
 
 #include "cli/display.h"
 #include "hogel/error.h"
+#include "hogel/pattern.h"
 #include "hogel/reconstruct.h"
 
 namespace hogel::view {
@@ -180,6 +181,19 @@ double HologramSubject::focus(const View& view, const Spot& spot, const Progress
 FocusSearch HologramSubject::find_focus(const Progress& progress) {
     constexpr std::size_t planes = 192;  // coarse beside the depth of focus; around what stands out the search is finer
     return hogel::find_focus(fields_, depths(planes), progress);
+}
+
+LevelCounts HologramSubject::count_levels(const std::string& encoding, const Progress& progress) {
+    constexpr std::size_t side = 1024;
+    const Grid& plane = fields_.front()->grid().plane;
+    const EncodingInfo& row = encodings().find(encoding);
+    PatternOptions options;
+    options.encoding = row.encoding;
+    options.modulator = {"", std::min(side, plane.width), std::min(side, plane.height), plane.pitch_x, 256};
+    const Pattern pattern = encode_pattern(*fields_.front(), options, progress);
+    LevelCounts levels{row.name, {}, options.modulator.width, options.modulator.height, pattern.efficiency};
+    for (const std::uint8_t level : pattern.levels.elements()) ++levels.counts[level];
+    return levels;
 }
 
 // As far as samples and size resolve alike, at no more depths than one waits for.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hogel/error.h"
+#include "view/heat.h"
 #include "view/light_field_subject.h"
 
 namespace hogel::view {
@@ -115,7 +116,44 @@ Image depths(const LightField& light_field, const Camera& camera, std::size_t si
     return picture;
 }
 
+// The share of a hogel's rays that meet something: of those with a depth, or else of those that are not black.
+double coverage_of(const LightFieldTile& tile, std::size_t s, const LightFieldGrid& grid) {
+    std::size_t met = 0;
+    for (std::size_t v = 0; v < grid.directions_v; ++v)
+        for (std::size_t u = 0; u < grid.directions_u; ++u) {
+            bool meets = tile.depth.size() > 0 && std::isfinite(tile.depth(0, s, v, u));
+            for (std::size_t c = 0; tile.depth.size() == 0 && c < grid.channels; ++c)
+                meets = meets || tile.radiance(c, 0, s, v, u) > 0;
+            met += meets;
+        }
+    return static_cast<double>(met) / static_cast<double>(grid.directions());
+}
+
+// Of up to `side` rows of hogels, and of as many hogels of each.
+Image coverage(const LightField& light_field, std::size_t side, const Progress& progress) {
+    const LightFieldGrid& grid = light_field.grid();
+    const std::size_t columns = std::min(side, grid.hogels_s), rows = std::min(side, grid.hogels_t);
+    Array<double, 2> shares(Shape<2>{rows, columns});
+    for (std::size_t y = 0; y < rows; ++y) {
+        LightFieldTile tile(grid, {0, (2 * y + 1) * grid.hogels_t / (2 * rows), grid.hogels_s, 1},
+                            light_field.has_depth());
+        light_field.front().read(tile);
+        for (std::size_t x = 0; x < columns; ++x)
+            shares(y, x) = coverage_of(tile, (2 * x + 1) * grid.hogels_s / (2 * columns), grid);
+        progress.report(static_cast<double>(y + 1) / static_cast<double>(rows));
+    }
+    return heat_map(shares, 0, 1);
+}
+
 }  // namespace
+
+Image LightFieldSubject::rates() const {
+    const std::lock_guard lock(measured_);
+    if (bytes_of_hogels_.size() == 0)
+        throw Error(ErrorCode::usage, "what=rate: the bytes of hogels are not known; of a .hgl file they are");
+    const auto [fewest, most] = std::ranges::minmax(bytes_of_hogels_.elements());
+    return heat_map(bytes_of_hogels_, fewest, most);
+}
 
 // The pictures that eyes far away see, each of one direction: rays of all hogels, interpolated.
 Image LightFieldSubject::views(const Inside& inside, const Progress& progress) {
@@ -170,7 +208,13 @@ Photograph LightFieldSubject::inside(const View& view, const Spot& spot, const I
             throw Error(ErrorCode::usage, "what=depth: the light field has no depth; 'hogel render --depth' stores it");
         return {depths(light_field_, camera, inside.side, progress), 1, 0, {}};
     }
-    throw Error(ErrorCode::usage, fmt::format("what: '{}' is not hogel, views, s-u, t-v or depth", inside.what));
+    if (inside.what == "coverage") {
+        constexpr std::size_t max_rows = 128;  // of hogels, each of which is read
+        return {enlarged_to(coverage(light_field_, std::min(inside.side, max_rows), progress), inside.side), 1, 0, {}};
+    }
+    if (inside.what == "rate") return {enlarged_to(rates(), inside.side), 1, 0, {}};
+    throw Error(ErrorCode::usage,
+                fmt::format("what: '{}' is not hogel, views, s-u, t-v, depth, coverage or rate", inside.what));
 }
 
 }  // namespace hogel::view

@@ -11,16 +11,6 @@
 namespace hogel::view {
 namespace {
 
-constexpr double first_look_samples = 8e6;  // 32 MB: a few hundredths of a second from the page cache
-
-// A light field with sides or unusual directions is read by each photograph instead of being kept.
-std::size_t step_for(const LightFieldGrid& grid, double samples) {
-    const double step = std::sqrt(grid.samples() / samples);
-    if (step <= 1) return 1;
-    const auto n = static_cast<std::size_t>(std::ceil(step));
-    return n % 2 == 1 ? n : n + 1;
-}
-
 View front_view(const LightFieldGrid& grid) {
     View view;
     view.camera.resolution = {128, 0};
@@ -45,6 +35,13 @@ double contrast(const Image& image) {
 
 }  // namespace
 
+std::size_t step_for(const LightFieldGrid& grid, double samples) {
+    const double step = std::sqrt(grid.samples() / samples);
+    if (step <= 1) return 1;
+    const auto n = static_cast<std::size_t>(std::ceil(step));
+    return n % 2 == 1 ? n : n + 1;
+}
+
 std::size_t step_that_fits(const LightFieldGrid& grid, std::size_t memory) {
     return step_for(grid, static_cast<double>(memory) / 2);
 }
@@ -54,18 +51,36 @@ std::size_t step_of_first_look(const LightFieldGrid& grid) { return step_for(gri
 LightFieldSubject::LightFieldSubject(LightField light_field, LightField shown, std::size_t memory,
                                      const Progress& progress, std::unique_ptr<Waves> waves)
     : light_field_(std::move(light_field)),
-      shown_(shown.grid()),
-      photographer_(std::move(shown), {.memory = memory}, progress),
-      waves_(std::move(waves)) {
-    exposure_ = automatic_exposure(photographer_.photograph(camera(front_view(grid())), {.pupil_samples = 4}));
+      rays_(std::make_shared<Rays>(std::move(shown), memory, progress)),
+      waves_(std::move(waves)),
+      memory_(memory) {
+    exposure_ = automatic_exposure(
+        rays_->photographer.photograph(camera(front_view(grid())), {.pupil_samples = 4}, progress));
+}
+
+LightFieldSubject::LightFieldSubject(const LightFieldSubject& other, std::unique_ptr<Waves> waves)
+    : light_field_(other.light_field_),
+      rays_(other.rays_),
+      waves_(std::move(waves)),
+      exposure_(other.exposure_),
+      memory_(other.memory_) {}
+
+void LightFieldSubject::set_original(LightField original) {
+    original_ = std::make_unique<Original>(Original{std::move(original), memory_, {}});
+}
+
+void LightFieldSubject::set_bytes_of_hogels(Array<double, 2> bytes) {
+    const std::lock_guard lock(measured_);
+    bytes_of_hogels_ = std::move(bytes);
 }
 
 nlohmann::ordered_json LightFieldSubject::facts() const {
     const LightFieldGrid& grid = this->grid();
-    return {{"kind", "light field"},
+    nlohmann::ordered_json facts{
+        {"kind", "light field"},
             {"hogels_s", grid.hogels_s},
             {"hogels_t", grid.hogels_t},
-            {"shown_hogels_s", shown_.hogels_s},
+            {"shown_hogels_s", shown().hogels_s},
             {"directions_u", grid.directions_u},
             {"directions_v", grid.directions_v},
             {"tan_half_u", grid.half_u()},
@@ -74,11 +89,29 @@ nlohmann::ordered_json LightFieldSubject::facts() const {
             {"center_v", grid.center_v()},
             {"channels", grid.channels},
             {"depth", light_field_.has_depth()}};
+    const std::lock_guard lock(measured_);
+    if (const auto bytes = bytes_of_hogels_.elements(); !bytes.empty()) {
+        const auto [fewest, most] = std::ranges::minmax(bytes);
+        facts["hogel_bytes"] = {fewest, most};
+    }
+    return facts;
+}
+
+Image LightFieldSubject::photograph_rays(Rays& rays, const View& view, const Progress& progress) {
+    const std::lock_guard lock(rays.photographing);
+    return rays.photographer.photograph(camera(view), {.pupil_samples = view.pupil_samples}, progress);
 }
 
 Image LightFieldSubject::by_rays(const View& view, const Progress& progress) {
-    const std::lock_guard lock(photographing_);
-    return photographer_.photograph(camera(view), {.pupil_samples = view.pupil_samples}, progress);
+    const bool error = view.by == By::error;
+    if (view.by != By::original && !error) return photograph_rays(*rays_, view, progress);
+    // One thread photographs by rays, so that nothing else looks at this.
+    if (!original_->rays)
+        original_->rays = std::make_unique<Rays>(every_nth_hogel(original_->light_field,
+                                                                 step_that_fits(grid(), original_->memory)),
+                                                 original_->memory, progress);
+    Image original = photograph_rays(*original_->rays, view, progress);
+    return error ? difference(photograph_rays(*rays_, view, progress), original) : original;
 }
 
 void LightFieldSubject::by_waves(const View& view, std::size_t looks, const ShownLooks& shown,
@@ -108,6 +141,11 @@ Reading LightFieldSubject::read(const View& view, const Spot& spot) const {
     light_field_.front().read(tile);
     const auto u = static_cast<std::size_t>(k), v = static_cast<std::size_t>(l);
     reading.inside = true;
+    {
+        const std::lock_guard lock(measured_);
+        if (bytes_of_hogels_.size() > 0)
+            reading.bytes = bytes_of_hogels_(static_cast<std::size_t>(j), static_cast<std::size_t>(i));
+    }
     for (std::size_t c = 0; c < 3; ++c) reading.radiance[c] = tile.radiance(std::min(c, grid.channels - 1), 0, 0, v, u);
     if (tile.depth.size() > 0 && std::isfinite(tile.depth(0, 0, v, u))) reading.depth = tile.depth(0, 0, v, u);
     return reading;
@@ -137,9 +175,9 @@ double LightFieldSubject::sharpest(const View& view, const Spot& spot, const Pro
     patch.pupil = std::max(whole.pupil, 0.02 * whole.eye.z);
     std::tie(patch.picture.center_x, patch.picture.center_y) = point_at(whole, spot);
     patch.picture.width = patch.picture.height = pixels;
-    patch.picture.pitch_x = patch.picture.pitch_y = std::max(whole.picture.pitch_x, 0.5 * shown_.pitch);
+    patch.picture.pitch_x = patch.picture.pitch_y = std::max(whole.picture.pitch_x, 0.5 * shown().pitch);
     // A light field shows depths of up to a few times pitch/step sharply: [K] 2.3.
-    const std::lock_guard lock(photographing_);
+    const std::lock_guard lock(rays_->photographing);
     double reach = 6 * grid().pitch / std::max(grid().step_u(), 1e-9), middle = 0, best = -1;
     for (int round = 0; round < 2; ++round) {
         const double around = middle;
@@ -147,7 +185,7 @@ double LightFieldSubject::sharpest(const View& view, const Spot& spot, const Pro
             const double depth = around + reach * (2.0 * i / (planes - 1) - 1);
             if (!(depth > -0.9 * whole.eye.z)) continue;
             patch.focus_depth = depth;
-            const double value = contrast(photographer_.photograph(patch, {.pupil_samples = 32}, progress));
+            const double value = contrast(rays_->photographer.photograph(patch, {.pupil_samples = 32}, progress));
             if (value > best) {
                 best = value;
                 middle = depth;

@@ -1,51 +1,98 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <condition_variable>
 #include <cstddef>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 
-#include "cli/view_options.h"
+#include "hogel/scene_model.h"
+#include "view/drop_folder.h"
+#include "view/facts.h"
+#include "view/light_field_subject.h"
+#include "view/settings.h"
 #include "view/viewer.h"
 #include "view/waves.h"
 
 namespace hogel::view {
 
 /// Prepares what is looked at on a thread of its own, a coarse light field first, while the server already answers.
-class Loader {
+/// Pages change options and open files; the newest of these wins and stops the work on an earlier one.
+class Loader final : public Changes {
   public:
-    Loader(const cli::Session& session, const cli::ViewOptions& options, std::string input, Viewer& viewer);
+    /// Opens the input, so that what is wrong with a file is known before there is a page.
+    Loader(Settings settings, Viewer& viewer);
+    ~Loader() override;
 
-    /// Opens a file, so that what is wrong with it is known before there is a page.
-    void open();
-    /// Calls `failed` on that thread if it throws.
-    void load(const std::function<void()>& failed);
-    /// Waits for the thread and throws what it threw.
+    /// Begins. Calls `failed` on the loader's thread if the first input cannot be shown.
+    void start(std::function<void()> failed);
+    /// Waits for the thread and throws what the first input threw.
     void finish();
 
+    void change(const std::map<std::string, std::string>& options, bool moving) override;
+    std::filesystem::path place_for(const std::string& name) override;
+    void open(const std::filesystem::path& file) override;
+
   private:
+    // What is to be shown next.
+    struct Task {
+        std::map<std::string, std::string> options;  // to change
+        std::filesystem::path file;                  // to open instead, if it is not empty
+        bool moving = false;
+    };
+
+    void run(const std::stop_token& end);
+    std::optional<Task> next(const std::stop_token& end);
+    void do_task(const Task& task);
+    void open_input();
+    void show_input(bool moving);
+    void show_file(const LightField& light_field);
+    bool is_compressed() const;
+    void show_stream();
+    void measure_stream(const LightField& layers, const LightField& original, LightFieldSubject& subject);
+    void show_scene(bool moving);
+    void show_other_waves();
+    std::shared_ptr<LightFieldSubject> show_of_scene(const LightField& whole, const LightField& shown,
+                                                     std::unique_ptr<Waves> waves = {});
+    void show(const LightField& whole, const LightField& shown, const char* what, std::unique_ptr<Waves> waves = {});
+    void describe();
+    std::vector<Advice> advice() const;
+
+    std::shared_ptr<const ShadedScene> light(const Scene& scene, const LightFieldRequest& request);
+    LightField renderer_of(const std::shared_ptr<const ShadedScene>& lit, const LightFieldRequest& request);
     Progress progress(const char* what);
     std::unique_ptr<Waves> waves_of(const LightField& light_field, bool rendered);
-    void show(const LightField& whole, const LightField& shown, const char* what, std::unique_ptr<Waves> waves = {});
-    void show_file(const LightField& light_field);
-    void show_scene();
-    static LightField with_fewer_hogels(const std::shared_ptr<const ShadedScene>& lit, LightFieldRequest request,
-                                        std::size_t step);
+    void require_memory_for(const LightFieldGrid& grid) const;
+    std::size_t memory() const;
 
-    const cli::Session& session_;
-    const cli::ViewOptions& options_;
-    std::string input_;
-    std::size_t memory_;
+    // Used by the thread alone, once it runs.
+    Settings settings_;
     Viewer& viewer_;
-    cli::RunRecord record_;
     std::optional<LightField> file_;
     Fields fields_;
+    std::optional<StreamFacts> stream_;
+    std::optional<SceneModel> model_;
+    std::optional<Settings> made_;              // of the light field of the scene
+    std::optional<Bounds> box_;                 // of the scene
+    std::shared_ptr<LightFieldSubject> whole_;  // what is shown of a scene, once it has all hogels
+    double exposure_ = 0;                       // that stays while a scene changes; 0: automatic
+    double coarse_samples_;                     // of a light field that is rendered in a moment
+    std::size_t opened_ = 0;                    // files
+
+    std::mutex mutex_;
+    std::condition_variable_any changed_;
+    std::optional<Task> waiting_;
+    std::stop_source stop_;  // of the work
+    DropFolder dropped_;     // guarded by mutex_
     std::exception_ptr error_;
-    std::jthread thread_;
+    std::jthread thread_;  // last, so that it ends before what it uses
 };
 
 }  // namespace hogel::view

@@ -21,7 +21,7 @@ constexpr std::size_t max_query = 2048, max_words = 64;
 // A picture's cost: a screen of 3840x2160 with 64 points of the pupil takes seconds, and stops when the next is asked.
 constexpr std::size_t max_side = 4096, max_samples = 1024, max_looks = 1024;
 // Words that stand beside those of a view.
-constexpr std::string_view of_others[] = {"token", "x", "y", "what", "colour", "side"};
+constexpr std::string_view of_others[] = {"token", "x", "y", "what", "colour", "side", "encoding"};
 
 using Words = std::map<std::string, std::string>;
 
@@ -89,8 +89,12 @@ double exposure(const std::string& text) {
 }
 
 By method(const std::string& text) {
-    const std::string known = choice("by", text, {"rays", "waves", "side", "difference"});
-    return known == "rays" ? By::rays : known == "waves" ? By::waves : known == "side" ? By::side : By::difference;
+    constexpr std::pair<const char*, By> known[] = {{"rays", By::rays},           {"waves", By::waves},
+                                                    {"side", By::side},           {"difference", By::difference},
+                                                    {"original", By::original},   {"error", By::error}};
+    for (const auto& [name, by] : known)
+        if (text == name) return by;
+    refuse("by", text.substr(0, 40), "rays or waves or side or difference or original or error");
 }
 
 double fraction(const Words& words, const std::string& name) {

@@ -20,7 +20,10 @@ enum class By {
     waves,
     side,        ///< both, side by side, rays left
     difference,  ///< the magnitude of their difference
+    original,    ///< by rays, of what a compressed light field was made of
+    error,       ///< the magnitude of the difference from that, by rays
 };
+constexpr bool needs_waves(By by) { return by == By::waves || by == By::side || by == By::difference; }
 
 /// One picture, in words that are the options of `hogel photo` without their dashes. So a query, the address of the
 /// page and a command line say the same, and cli::make_cameras() makes the same camera of them.

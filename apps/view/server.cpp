@@ -177,11 +177,14 @@ class Connection final : public std::enable_shared_from_this<Connection> {
     void read(int seconds) {
         parser_.emplace();
         parser_->header_limit(static_cast<std::uint32_t>(shared_->limits.header));
+        parser_->body_limit(shared_->limits.body);
         place_ = shared_->idle.insert(shared_->idle.end(), weak_from_this());
         stream_.expires_after(std::chrono::seconds(seconds));
-        http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](Code error, std::size_t) {
+        http::async_read_header(stream_, buffer_, *parser_, [self = shared_from_this()](Code error, std::size_t) {
             self->leave_idle();
-            self->received(error);
+            if (!error && self->parser_->get().method() == http::verb::post) return self->read_file();
+            if (error) return self->received(error);
+            self->read_nothing();
         });
     }
 
@@ -194,6 +197,34 @@ class Connection final : public std::enable_shared_from_this<Connection> {
     void leave_idle() {
         if (place_) shared_->idle.erase(*place_);
         place_.reset();
+    }
+
+    // What follows a header that announces no body; a body makes this an error.
+    void read_nothing() {
+        http::async_read(stream_, buffer_, *parser_,
+                         [self = shared_from_this()](Code error, std::size_t) { self->received(error); });
+    }
+
+    // The body of a POST becomes a file, if the site has a place for it.
+    void read_file() {
+        const Request request = request_of(parser_->get());
+        auto place = shared_->site->place_for(request);
+        if (std::holds_alternative<Response>(place)) return respond(std::get<Response>(place), false);
+        const auto file = std::get<std::filesystem::path>(place);
+        auto body = std::make_shared<http::request_parser<http::file_body>>(std::move(*parser_));
+        body->body_limit(shared_->limits.body);
+        Code error;
+        body->get().body().open(file.c_str(), beast::file_mode::write, error);
+        if (error) return respond({500, "text/plain; charset=utf-8", "the file cannot be kept: " + error.message() + "\n"}, false);
+        stream_.expires_after(std::chrono::seconds(shared_->limits.body_seconds));
+        http::async_read(stream_, buffer_, *body, [self = shared_from_this(), body, request, file](Code failed, std::size_t) {
+            body->get().body().close();
+            if (!failed) return self->respond(self->shared_->site->take(request, file), true);
+            std::error_code none;
+            std::filesystem::remove(file, none);
+            if (failed == http::error::body_limit)
+                self->respond({413, "text/plain; charset=utf-8", "the file is larger than --memory\n"}, false);
+        });
     }
 
     void received(Code error) {

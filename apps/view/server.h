@@ -2,15 +2,18 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <variant>
 
 namespace hogel::view {
 
-/// A request without a body, all that is answered.
+/// A request. None has a body but those that bring a file, which goes to Site::place_for().
 struct Request {
     std::string method, path, query;       ///< "GET", "/picture", "eye=0,0,300mm"
     std::string host, origin, fetch_site;  ///< headers Host, Origin, Sec-Fetch-Site; empty: none
@@ -50,6 +53,10 @@ class Site {
     virtual void answer(const Request& request, std::function<void(Response)> reply) = 0;
     /// Whether a WebSocket may be opened; `status` 101 if so.
     virtual Response admit(const Request& request) = 0;
+    /// Where the file is to be written that a POST brings as its body, or why it is refused.
+    virtual std::variant<std::filesystem::path, Response> place_for(const Request& request) = 0;
+    /// Takes that file, which is complete.
+    virtual Response take(const Request& request, const std::filesystem::path& file) = 0;
     virtual std::shared_ptr<Conversation> open(std::weak_ptr<Socket> socket) = 0;
 };
 
@@ -58,6 +65,8 @@ struct ServerLimits {
     std::size_t connections = 128;  ///< at once; of more, the one that has been idle longest is closed
     std::size_t header = 16384;     ///< bytes of a request
     std::size_t message = 4096;     ///< bytes of a message of a WebSocket
+    std::uint64_t body = 0;         ///< bytes of a file that a POST brings
+    int body_seconds = 600;         ///< to send it
     int header_seconds = 10;        ///< to send a request
     int idle_seconds = 60;          ///< between two, and to take an answer
 };

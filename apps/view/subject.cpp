@@ -15,19 +15,6 @@ namespace {
 
 constexpr std::size_t max_pixels = std::size_t{3840} * 2160;
 
-bool needs_rays(By by) { return by != By::waves; }
-
-// The magnitude of the difference of two pictures; grey beside colour counts as that grey in all of its channels.
-Image difference(const Image& a, const Image& b) {
-    Image result(a.width(), a.height(), std::max(a.channels(), b.channels()));
-    for (std::size_t y = 0; y < a.height(); ++y)
-        for (std::size_t x = 0; x < a.width(); ++x)
-            for (std::size_t c = 0; c < result.channels(); ++c)
-                result.pixels(y, x, c) = std::abs(a.pixels(y, x, std::min(c, a.channels() - 1)) -
-                                                  b.pixels(y, x, std::min(c, b.channels() - 1)));
-    return result;
-}
-
 // Both pictures as they are beside each other, shown with one exposure.
 Photograph together(const View& view, const Image& rays, const Image& waves, double exposure) {
     Photograph both;
@@ -44,6 +31,16 @@ Photograph together(const View& view, const Image& rays, const Image& waves, dou
 }
 
 }  // namespace
+
+Image difference(const Image& a, const Image& b) {
+    Image result(a.width(), a.height(), std::max(a.channels(), b.channels()));
+    for (std::size_t y = 0; y < a.height(); ++y)
+        for (std::size_t x = 0; x < a.width(); ++x)
+            for (std::size_t c = 0; c < result.channels(); ++c)
+                result.pixels(y, x, c) = std::abs(a.pixels(y, x, std::min(c, a.channels() - 1)) -
+                                                  b.pixels(y, x, std::min(c, b.channels() - 1)));
+    return result;
+}
 
 std::pair<double, double> point_at(const Camera& camera, const Spot& spot) {
     const Grid& picture = camera.picture;
@@ -90,16 +87,22 @@ Camera Subject::camera(const View& view) const {
 
 void Subject::require(const View& view) const {
     camera(view);
-    if (needs_rays(view.by) && !has_rays())
+    if (view.by != By::waves && !has_rays())
         throw Error(ErrorCode::usage, "by: a hologram has no rays to follow; by=waves would do");
-    if (view.by != By::rays && looks() == 0)
+    if ((view.by == By::original || view.by == By::error) && !has_original())
+        throw Error(ErrorCode::usage, "by: there is no original; a .hgl file has one");
+    if (needs_waves(view.by) && looks() == 0)
         throw Error(ErrorCode::usage, "by: there are no waves yet; by=rays would do");
-    if (view.by != By::rays && view.by != By::waves && view.eyes > 0)
+    if ((view.by == By::side || view.by == By::difference) && view.eyes > 0)
         throw Error(ErrorCode::usage, "by: rays and waves are compared from one eye; leave out eyes");
 }
 
 FocusSearch Subject::find_focus(const Progress&) {
     throw Error(ErrorCode::usage, "the depths of a light field are looked for under the pointer: 'focus?'");
+}
+
+LevelCounts Subject::count_levels(const std::string&, const Progress&) {
+    throw Error(ErrorCode::usage, "levels: a light field has none; a hologram has");
 }
 
 Photograph Subject::photograph(const View& view, const Progress& progress) {
@@ -117,8 +120,8 @@ void Subject::photograph(const View& view, const Shown& shown, const Progress& p
 void Subject::photograph_eye(const View& view, std::size_t looks, const Shown& shown, const Progress& progress) {
     const double exposure = view.logarithmic ? 1 : view.exposure > 0 ? view.exposure : this->exposure();
     Image rays;
-    if (needs_rays(view.by)) rays = by_rays(view, progress);
-    if (view.by == By::rays)
+    if (view.by != By::waves) rays = by_rays(view, progress);
+    if (!needs_waves(view.by))
         return shown({view.logarithmic ? cli::logarithmic(rays) : std::move(rays), exposure, 0, {}});
     by_waves(
         view, looks,

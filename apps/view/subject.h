@@ -6,6 +6,7 @@
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string>
 
 #include "hogel/focus.h"
 #include "hogel/image.h"
@@ -21,7 +22,16 @@ struct Reading {
     bool inside = false;              ///< whether the subject has it; the rest is known then
     std::array<float, 3> radiance{};  ///< of the nearest sample; equal for grey
     std::optional<double> depth;      ///< metres behind the hologram, where the light field knows it
+    std::optional<double> bytes;      ///< that the hogel takes in a compressed file
     std::optional<double> phase;      ///< of the hologram's nearest sample, radians
+};
+
+/// How often a modulator shows each of its levels.
+struct LevelCounts {
+    std::string encoding;
+    std::array<std::size_t, 256> counts{};
+    std::size_t width = 0, height = 0;  ///< pixels that were looked at, in the middle of the hologram
+    double efficiency = 0;              ///< share of the light on the modulator that goes into the hologram's wave
 };
 
 /// A picture, or the mean of the looks so far.
@@ -44,6 +54,8 @@ class Subject {
     virtual double width() const = 0;  ///< of the hologram, metres
     virtual double height() const = 0;
     virtual bool has_rays() const = 0;
+    /// Whether there is something beside which its errors are seen.
+    virtual bool has_original() const { return false; }
     /// The number of looks by waves; 0: there are no waves.
     virtual std::size_t looks() const = 0;
     /// Facts for the page, in SI units, as members of one object.
@@ -58,6 +70,9 @@ class Subject {
     virtual Photograph inside(const View& view, const Spot& spot, const Inside& inside, const Progress& progress) = 0;
     /// How sharp the whole is at many depths. Throws Error(usage) for a subject whose depths are known.
     virtual FocusSearch find_focus(const Progress& progress);
+    /// The levels of a modulator that shows a hologram, encoded by a row of encodings(). Throws Error(usage) for a
+    /// subject that is none.
+    virtual LevelCounts count_levels(const std::string& encoding, const Progress& progress);
 
     /// The camera of `hogel photo` with those options. Throws Error(usage).
     Camera camera(const View& view) const;
@@ -71,6 +86,7 @@ class Subject {
   protected:
     /// Receives the mean of so many looks.
     using ShownLooks = std::function<void(const Image&, std::size_t)>;
+    /// Of `view.by` also the original, and the difference from it.
     virtual Image by_rays(const View& view, const Progress& progress) = 0;
     /// The first looks of the hologram, each of which is shown; `looks` 0: all.
     virtual void by_waves(const View& view, std::size_t looks, const ShownLooks& shown, const Progress& progress) = 0;
@@ -86,6 +102,8 @@ std::pair<double, double> point_at(const Camera& camera, const Spot& spot);
 Reading ray_at(const Camera& camera, const Spot& spot);
 /// The eye that a spot of two pictures side by side belongs to, or the method, and the spot in its picture.
 std::pair<View, Spot> in_one_picture(const View& view, const Spot& spot);
+/// The magnitude of the difference of two pictures; grey beside colour counts as that grey in all of its channels.
+Image difference(const Image& a, const Image& b);
 /// Two pictures of one height as one.
 Image side_by_side(const Image& left, const Image& right);
 

@@ -53,8 +53,10 @@ void Viewer::Talk::receive(std::string_view text) {
             ask(*viewer, parse_view(words));
         else if (verb == "reading" || verb == "focus")
             ask_there(*viewer, parse_view(words), parse_spot(words), verb == "focus");
+        else if (verb == "change")
+            change(*viewer, words);
         else
-            throw Error(ErrorCode::usage, "a message begins with picture?, reading? or focus?");
+            throw Error(ErrorCode::usage, "a message begins with picture?, reading?, focus? or change?");
     });
 }
 
@@ -88,9 +90,15 @@ void Viewer::Talk::ask(Viewer& viewer, const View& view) {
         };
         attempt_for(to, [&] { subject->photograph(view, shown, Progress(stop)); });
     };
-    const bool rays = view.by == By::rays;
+    const bool rays = !needs_waves(view.by);
     (rays ? viewer.waves_ : viewer.rays_).drop(pictures_);
     (rays ? viewer.rays_ : viewer.waves_).put(pictures_, {work, view.moving});
+}
+
+void Viewer::Talk::change(Viewer& viewer, Words words) {
+    const bool moving = words.erase("moving") > 0;
+    const std::lock_guard lock(viewer.mutex_);
+    if (viewer.changes_ != nullptr) viewer.changes_->change(words, moving);
 }
 
 void Viewer::Talk::ask_there(Viewer& viewer, const View& view, const Spot& spot, bool focus) {

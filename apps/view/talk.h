@@ -18,6 +18,7 @@ class Viewer::Talk final : public Conversation {
 
   private:
     void ask(Viewer& viewer, const View& view);
+    void change(Viewer& viewer, std::map<std::string, std::string> words);
     void ask_there(Viewer& viewer, const View& view, const Spot& spot, bool focus);
 
     std::weak_ptr<Viewer> viewer_;

@@ -17,6 +17,10 @@ using Reply = std::function<void(Response)>;
 // What is asked for by an address, made on a worker's thread.
 Response made(const std::string& path, Subject& subject, const Words& words, const Progress& progress) {
     const View view = parse_view(words);
+    if (path == "/levels") {
+        const auto encoding = words.find("encoding");
+        return answer_with(told(subject.count_levels(encoding == words.end() ? "phase" : encoding->second, progress)));
+    }
     if (path == "/sharpness") return answer_with(told(subject.find_focus(progress)));
     if (path == "/picture") return {200, type_of(view), encode(subject.photograph(view, progress), view)};
     View png = view;
@@ -26,8 +30,7 @@ Response made(const std::string& path, Subject& subject, const Words& words, con
 
 }  // namespace
 
-Viewer::Viewer(Access access, std::string name, std::string photo)
-    : access_(std::move(access)), name_(std::move(name)), photo_(std::move(photo)) {}
+Viewer::Viewer(Access access) : access_(std::move(access)) {}
 
 Viewer::~Viewer() = default;
 
@@ -39,10 +42,26 @@ std::shared_ptr<Subject> Viewer::subject() const {
 void Viewer::show(std::shared_ptr<Subject> subject) {
     {
         const std::lock_guard lock(mutex_);
-        subject_ = std::move(subject);
+        subject_.swap(subject);
+        ++generation_;
     }
     tell(state());
 }
+
+void Viewer::set_changes(Changes* changes) {
+    const std::lock_guard lock(mutex_);
+    changes_ = changes;
+}
+
+void Viewer::describe(Json facts) {
+    {
+        const std::lock_guard lock(mutex_);
+        description_ = std::move(facts);
+    }
+    tell(state());
+}
+
+void Viewer::complain(const std::string& message) { tell(dump({{"type", "error"}, {"message", message}})); }
 
 void Viewer::say(const std::string& what, double fraction) {
     {
@@ -68,13 +87,16 @@ void Viewer::tell(const std::string& text) {
 // What the page needs to know of the subject; SI units.
 std::string Viewer::state() const {
     const std::lock_guard lock(mutex_);
-    Json json{{"type", "state"}, {"name", name_},         {"photo", photo_},
-              {"work", what_},   {"fraction", fraction_}, {"ready", subject_ != nullptr}};
+    Json json{{"type", "state"},         {"work", what_},
+              {"fraction", fraction_},   {"ready", subject_ != nullptr},
+              {"generation", generation_}};
+    json.update(description_);
     if (subject_) {
         json["width_m"] = subject_->width();
         json["height_m"] = subject_->height();
         json["exposure"] = subject_->exposure();
         json["rays"] = subject_->has_rays();
+        json["has_original"] = subject_->has_original();
         json["looks"] = subject_->looks();
         json.update(subject_->facts());
     }
@@ -109,7 +131,7 @@ void Viewer::answer_about(const Request& request, const Reply& reply) {
     if (request.path == "/state") return reply({200, json_type, state()});
     const auto subject = this->subject();
     bool known = false;
-    for (const char* path : {"/picture", "/reading", "/inside", "/sharpness"}) known = known || request.path == path;
+    for (const char* path : {"/picture", "/reading", "/inside", "/sharpness", "/levels"}) known = known || request.path == path;
     if (!known) return reply(failure(404, "there is no such page"));
     if (!subject) return reply(failure(503, "the light field is not there yet"));
     const Words words = parse_query(request.query);
@@ -121,13 +143,36 @@ void Viewer::answer_about(const Request& request, const Reply& reply) {
         subject->camera(view);
     if (request.path == "/reading") return reply(answer_with(told(subject->read(view, parse_spot(words)), view.id)));
     if (request.path == "/inside") parse_spot(words);
-    const bool waves = picture ? view.by != By::rays : request.path == "/sharpness";
+    const bool waves = picture ? needs_waves(view.by) : request.path == "/sharpness" || request.path == "/levels";
     // Waits in turn with the pictures of others; nothing takes its place.
     (waves ? waves_ : rays_)
         .put(++clients_, {[subject, words, path = request.path, reply](std::stop_token stop) {
                               attempt([&] { reply(made(path, *subject, words, Progress(stop))); }, reply);
                           },
                           true});
+}
+
+std::variant<std::filesystem::path, Response> Viewer::place_for(const Request& request) {
+    if (request.path != "/drop") return failure(405, "only GET is answered");
+    if (const std::string why = refusal(request); !why.empty()) return failure(403, why);
+    // A page's own script says where it comes from; what says nothing may be a form of another page.
+    if (request.origin.empty()) return failure(403, "only this server's page sends files");
+    std::variant<std::filesystem::path, Response> place = failure(503, "nothing is opened any more");
+    attempt(
+        [&] {
+            const std::lock_guard lock(mutex_);
+            const Words words = parse_query(request.query);
+            const auto name = words.find("name");
+            if (changes_ != nullptr) place = changes_->place_for(name == words.end() ? "" : name->second);
+        },
+        [&](Response refused) { place = std::move(refused); });
+    return place;
+}
+
+Response Viewer::take(const Request& request, const std::filesystem::path& file) {
+    const std::lock_guard lock(mutex_);
+    if (changes_ != nullptr && !parse_query(request.query).contains("more")) changes_->open(file);
+    return {200, json_type, dump({{"type", "taken"}})};
 }
 
 Response Viewer::admit(const Request& request) {

@@ -3,11 +3,14 @@
 
 #include <atomic>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "view/access.h"
@@ -17,27 +20,47 @@
 
 namespace hogel::view {
 
+/// What pages may change of what is looked at. Functions are called on the server's thread and return at once.
+class Changes {
+  public:
+    virtual ~Changes() = default;
+    /// Other values of options; the newest wins. @param moving  whether others will follow, so that coarse will do
+    virtual void change(const std::map<std::string, std::string>& options, bool moving) = 0;
+    /// Where a file is to be put that a page sends under this name, if it may send files. Throws Error(usage) for a name
+    /// that is none of a file.
+    virtual std::filesystem::path place_for(const std::string& name) = 0;
+    /// Opens a file that was put there.
+    virtual void open(const std::filesystem::path& file) = 0;
+};
+
 /// The site of one light field or hologram: the page, pictures by HTTP, and conversations by WebSocket.
 ///
 /// GET /picture?VIEW answers with a picture, /inside?VIEW&x=0.5&y=0.5&what=hogel with one of what lies there,
 /// /reading?VIEW&x=&y= with what is known of it, /sharpness with the contrast of a hologram at many depths. In a
-/// conversation the page sends "picture?VIEW", "reading?VIEW&x=&y=" or "focus?VIEW&x=&y="; it gets texts, JSON objects
-/// whose `type` is state, reading, focus or error, and pictures: a line of JSON about the picture, a line feed, and the
-/// file.
+/// conversation the page sends "picture?VIEW", "reading?VIEW&x=&y=", "focus?VIEW&x=&y=" or "change?hogels=200"; it gets
+/// texts, JSON objects whose `type` is state, reading, focus or error, and pictures: a line of JSON about the picture, a
+/// line feed, and the file. POST /drop?name=bunny.ply brings a file, which is opened; with &more=yes it lies beside the
+/// next one.
 class Viewer final : public Site, public std::enable_shared_from_this<Viewer> {
   public:
-    /// @param name   the input as it is named on the command line
-    /// @param photo  the command line that photographs it, without the options of the camera
-    Viewer(Access access, std::string name, std::string photo);
+    explicit Viewer(Access access);
     ~Viewer() override;
 
-    /// Shows a subject from now on, in place of one that was coarser.
+    /// Who changes what is looked at; null: nobody (any more).
+    void set_changes(Changes* changes);
+    /// Shows a subject from now on, in place of another.
     void show(std::shared_ptr<Subject> subject);
+    /// Facts beside those of the subject, as members of one object: what it is called, the commands that repeat it.
+    void describe(nlohmann::ordered_json facts);
+    /// Tells every page what went wrong.
+    void complain(const std::string& message);
     /// Says how far the work on the next one is: "rendering", 0 to 1. An empty text: it is done.
     void say(const std::string& what, double fraction);
 
     void answer(const Request& request, std::function<void(Response)> reply) override;
     Response admit(const Request& request) override;
+    std::variant<std::filesystem::path, Response> place_for(const Request& request) override;
+    Response take(const Request& request, const std::filesystem::path& file) override;
     std::shared_ptr<Conversation> open(std::weak_ptr<Socket> socket) override;
 
   private:
@@ -50,8 +73,10 @@ class Viewer final : public Site, public std::enable_shared_from_this<Viewer> {
     void answer_about(const Request& request, const std::function<void(Response)>& reply);
 
     Access access_;
-    std::string name_, photo_;
     mutable std::mutex mutex_;
+    Changes* changes_ = nullptr;
+    nlohmann::ordered_json description_;
+    std::size_t generation_ = 0;  // of the subjects that were shown
     std::shared_ptr<Subject> subject_;
     std::string what_ = "opening";
     double fraction_ = 0;

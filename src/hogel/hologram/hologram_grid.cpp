@@ -6,14 +6,14 @@
 #include <numbers>
 
 #include "hogel/hologram.h"
+#include "hogel/hologram/diffraction.h"
 #include "hogel/units.h"
 
 namespace hogel {
-namespace {
 
-std::size_t samples_per_hogel(const LightFieldGrid& light_field, double pitch) {
-    return static_cast<std::size_t>(std::max(1.0, std::round(light_field.pitch / pitch)));
-}
+using hologram::samples_per_hogel;
+
+namespace {
 
 // A hogel of width d sends light of wavelength λ into directions λ/d apart, of which the sines from -1 to 1 must hold
 // two; and it needs a sample.
@@ -44,14 +44,7 @@ void require_enough_directions(const LightFieldGrid& light_field, double wavelen
 }
 
 void require_diffraction(const LightFieldGrid& light_field, double wavelength, double pitch) {
-    // Considers the steepest directions on the axes; in the corners of the field of view frequencies beyond the limit
-    // are left out.
-    const double edge = std::max(std::abs(light_field.center_u()) + light_field.half_u(),
-                                 std::abs(light_field.center_v()) + light_field.half_v());
-    // On a frequency grid the outermost frequency is half a step inside the edge.
-    const double needed = light_field.has_frequencies() ? std::min(1.0, edge - 0.5 * light_field.step_u())
-                                                        : edge / std::sqrt(1 + edge * edge);
-    const double possible = wavelength / (2 * pitch);
+    const double needed = hologram::steepest_sine(light_field), possible = wavelength / (2 * pitch);
     if (needed <= possible) return;
     throw Error(
         ErrorCode::usage,
@@ -59,7 +52,7 @@ void require_diffraction(const LightFieldGrid& light_field, double wavelength, d
                     "a pitch of {} or less would do",
                     format_length(pitch), format_length(wavelength),
                     std::asin(std::min(possible, 1.0)) * 180 / std::numbers::pi,
-                    std::asin(needed) * 180 / std::numbers::pi, format_length(wavelength / (2 * needed))));
+                    std::asin(needed) * 180 / std::numbers::pi, format_length(hologram::max_pitch(light_field, wavelength))));
 }
 
 void require_one_row(std::span<const LightFieldGrid> faces) {

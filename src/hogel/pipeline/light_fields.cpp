@@ -10,6 +10,7 @@
 #include "hogel/core/part.h"
 #include "hogel/error.h"
 #include "hogel/pipeline.h"
+#include "hogel/pipeline/scene_placing.h"
 #include "hogel/render/cache_spacing.h"
 #include "hogel/shading/radiance_cache.h"
 #include "hogel/units.h"
@@ -21,15 +22,6 @@ namespace {
 constexpr double max_buffered_bytes = 2e9;
 // Maximum bytes of cached tiles for larger light fields.
 constexpr double max_cached_tile_bytes = 1e9;
-
-// Throws unless a file of this name exists. A name that looks like a path is reported as a missing file, any other as
-// an unknown scene.
-void require_file(const std::string& name) {
-    if (std::filesystem::exists(name)) return;
-    if (name.find_first_of("./") != std::string::npos)
-        throw Error(ErrorCode::bad_input, fmt::format("{}: no such file", name));
-    scenes().find(name);  // throws, naming the nearest scene
-}
 
 // What the request alone says that this build cannot do.
 void require_built_in(const LightFieldRequest& request) {
@@ -57,9 +49,27 @@ std::vector<LightFieldGrid> LightFieldRequest::grids() const {
     return hemicube ? hogel::hemicube(grid, hemicube_across, hemicube_down) : std::vector{grid};
 }
 
+namespace pipeline {
+
+void require_scene_file(const std::string& name) {
+    if (std::filesystem::exists(name)) return;
+    if (name.find_first_of("./") != std::string::npos)
+        throw Error(ErrorCode::bad_input, fmt::format("{}: no such file", name));
+    scenes().find(name);  // throws, naming the nearest scene
+}
+
+Scene place_built_in(Scene scene, const LightFieldRequest& request) {
+    if (!request.pose.camera.empty()) find_camera(scene, request.pose.camera);
+    turn_scene(scene, request.pose);
+    place_scene(scene, request.pose, request.grid.width());
+    return scene;
+}
+
+}  // namespace pipeline
+
 InputKind input_kind(const std::string& name) {
     if (scenes().look_up(name) != nullptr) return InputKind::scene;
-    require_file(name);
+    pipeline::require_scene_file(name);
     if (is_view_set(name)) return InputKind::light_field;
     switch (file_kind(name)) {
         case FileKind::light_field:
@@ -141,16 +151,10 @@ void place_own(Scene& scene, const LightFieldRequest& request) {
 Scene load_scene(const std::string& name, const LightFieldRequest& request, const Progress& progress) {
     const core::StopScope scope(progress);
     require_built_in(request);
-    if (scenes().look_up(name) == nullptr) {
-        require_file(name);
-        return prepare_scene(import_scene(name, progress, request.import), request);
-    }
-    const double width = request.grid.width();
-    Scene scene = make_scene(name, width, progress);
-    if (!request.pose.camera.empty()) find_camera(scene, request.pose.camera);
-    turn_scene(scene, request.pose);
-    place_scene(scene, request.pose, width);
-    return scene;
+    if (scenes().look_up(name) != nullptr)
+        return pipeline::place_built_in(make_scene(name, request.grid.width(), progress), request);
+    pipeline::require_scene_file(name);
+    return prepare_scene(import_scene(name, progress, request.import), request);
 }
 
 Scene prepare_scene(Scene scene, const LightFieldRequest& request) {

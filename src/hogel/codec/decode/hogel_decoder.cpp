@@ -71,6 +71,13 @@ void HogelDecoder::take_layers(std::size_t layers) {
     if (reader.left() > 0) reader.damaged("bytes are left over");
 }
 
+std::vector<std::size_t> HogelDecoder::code_bytes() const {
+    std::vector<std::size_t> bytes(range_.hogels());
+    for (std::size_t hogel = 0; hogel < bytes.size(); ++hogel)
+        if (place_[hogel] < codes_.size()) bytes[hogel] = codes_[place_[hogel]].size();
+    return bytes;
+}
+
 void HogelDecoder::read(LightFieldTile& part) {
     std::vector<std::size_t> wanted;
     for (std::size_t t = part.range.t0; t < part.range.t0 + part.range.nt; ++t)

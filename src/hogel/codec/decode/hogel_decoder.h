@@ -19,6 +19,9 @@ class HogelDecoder final : public TileDecoder {
                  std::size_t layers);
     void read(LightFieldTile& part) override;
 
+    // The bytes of each hogel's own code, [t][s]; 0 for hogels of further layers.
+    std::vector<std::size_t> code_bytes() const;
+
     // Statistics for tests: hogels whose syntax elements are known, and blocks that have been reconstructed.
     std::size_t hogels_read() const;
     std::size_t blocks_reconstructed() const;

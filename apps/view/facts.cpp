@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/facts.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace hogel::view {
+
+
+nlohmann::ordered_json facts_of_scene(const Settings& settings, const std::vector<Advice>& advice, bool is_file) {
+    const cli::RenderOptions& render = settings.options().render;
+    constexpr double degree = std::numbers::pi / 180;
+    const Vec3 turn = render.scene.pose.rotation, move = render.scene.pose.shift;
+    nlohmann::ordered_json told = nlohmann::ordered_json::array();
+    for (const Advice& each : advice)
+        told.push_back(
+            {{"option", each.parameter}, {"text", each.text}, {"enough", each.enough}, {"refused", each.refused}});
+    return {{"hogels", render.hogels.columns},
+            {"directions", render.directions.columns},
+            {"size_m", render.size},
+            {"fov_deg", render.field_of_view.across / degree},
+            {"front", render.front},
+            {"move_m", {move.x, move.y, move.z}},
+            {"rotate_deg", {turn.x / degree, turn.y / degree, turn.z / degree}},
+            {"lights", render.scene.lights},
+            {"pitch_m", settings.options().hologram.pitch},
+            {"is_file", is_file},
+            {"make", settings.make_command()},
+            {"advice", told}};
+}
+
+nlohmann::ordered_json facts_of_stream(const StreamFacts& stream) {
+    nlohmann::ordered_json facts{{"layers", stream.layers},
+               {"of_layers", stream.of_layers},
+               {"bytes", stream.bytes},
+               {"original", stream.original}};
+    if (stream.sqnr) {
+        facts["exact"] = !std::isfinite(*stream.sqnr);
+        if (std::isfinite(*stream.sqnr)) facts["sqnr_db"] = *stream.sqnr;
+        if (std::isfinite(*stream.psnr)) facts["psnr_db"] = *stream.psnr;
+    }
+    return facts;
+}
+
+}  // namespace hogel::view

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compressed light fields: some or all of their layers, beside what they were made of.
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "hogel/compress.h"
+#include "hogel/error.h"
+#include "hogel/stream_rates.h"
+#include "view/loader.h"
+
+namespace hogel::view {
+namespace {
+
+constexpr double max_compared_samples = 4e8;  // a few seconds of decoding; of more, every n-th hogel is compared
+
+LightField open_original(const std::string& name, const LightFieldGrid& grid) {
+    LightField original = open_light_field_or_views(name);
+    if (!same_hogels(original.grid(), grid) || original.grid().directions() != grid.directions())
+        throw Error(ErrorCode::usage,
+                    fmt::format("--original {}: has {}x{} hogels of {}x{} directions; expected {}x{} of {}x{}", name,
+                                original.grid().hogels_s, original.grid().hogels_t, original.grid().directions_u,
+                                original.grid().directions_v, grid.hogels_s, grid.hogels_t, grid.directions_u,
+                                grid.directions_v));
+    return original;
+}
+
+}  // namespace
+
+bool Loader::is_compressed() const { return !is_view_set(settings_.input()) && is_stream(settings_.input()); }
+
+void Loader::show_stream() {
+    const std::string& input = settings_.input();
+    const cli::ViewOptions& options = settings_.options();
+    const StreamInfo info = read_stream_info(input);
+    const std::size_t layers = options.layers > 0 ? options.layers : info.layers_there;
+    const LightField light_field =
+        cli::with_options({{"", "--layers"}}, [&] { return open_stream(input, {.layers = layers}); });
+    const LightField original =
+        options.original.empty() ? *file_ : open_original(options.original, light_field.grid());
+    stream_ = StreamFacts{layers, info.layers_there, static_cast<double>(info.layer_ends[layers - 1]),
+                          options.original, {}, {}};
+    describe();
+    const LightFieldGrid& grid = light_field.grid();
+    const std::size_t finest = step_that_fits(grid, memory()), first = step_of_first_look(grid);
+    if (first > finest && exposure_ == 0) show(light_field, every_nth_hogel(light_field, first), "decoding");
+    auto subject = std::make_shared<LightFieldSubject>(light_field, every_nth_hogel(light_field, finest), memory(),
+                                                       progress("decoding"), waves_of(light_field, false));
+    subject->set_original(original);
+    // That of all layers, so that they are seen beside each other.
+    if (exposure_ > 0) subject->set_exposure(exposure_);
+    exposure_ = subject->exposure();
+    viewer_.show(subject);
+    measure_stream(light_field, original, *subject);
+}
+
+// What takes longer than a picture: the bytes of hogels, and errors.
+void Loader::measure_stream(const LightField& layers, const LightField& original, LightFieldSubject& subject) {
+    subject.set_bytes_of_hogels(bytes_of_hogels(settings_.input(), stream_->layers, progress("rates of hogels")));
+    describe();
+    const std::size_t step = step_for(layers.grid(), max_compared_samples);
+    const SampleComparison errors =
+        compare(every_nth_hogel(original, step), every_nth_hogel(layers, step), progress("measuring errors"));
+    stream_->sqnr = errors.sqnr;
+    stream_->psnr = errors.psnr;
+    describe();
+}
+
+}  // namespace hogel::view

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "hogel/error.h"
+
+namespace hogel::view {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+// Options that a page may change. All of them have a value.
+constexpr std::array<std::string_view, 10> changeable{"hogels", "directions", "size",  "fov",   "front",
+                                                      "move",   "rotate",     "light", "pitch", "layers"};
+// Options with a value that are the server's own, and those of them without one.
+constexpr std::array<std::string_view, 7> of_server{"--port",  "--host",     "--token",  "--memory",
+                                                    "--looks", "--original", "--layers"};
+constexpr std::array<std::string_view, 2> flags_of_server{"--no-browser", "--json"};
+
+bool contains(const auto& names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
+
+std::string_view name_of(std::string_view word) { return word.substr(0, word.find('=')); }
+
+// Without an option, which has a value behind it or behind '='.
+void remove(Arguments& words, std::string_view option) {
+    for (std::size_t i = 0; i < words.size();) {
+        const bool found = name_of(words[i]) == option, apart = words[i] == option;
+        const auto begin = words.begin() + static_cast<std::ptrdiff_t>(i);
+        if (found)
+            words.erase(begin, begin + (apart && i + 1 < words.size() ? 2 : 1));
+        else
+            ++i;
+    }
+}
+
+// A word of a command line as a shell reads it.
+std::string quoted(const std::string& word) {
+    const bool plain = !word.empty() && word.find_first_not_of(
+                                            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                            "0123456789._-+=,:/@%") == std::string::npos;
+    if (plain) return word;
+    std::string text = "'";
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
+}
+
+}  // namespace
+
+// A command line that is read. The session gives its options to the function that declares them.
+struct Settings::Line : cli::Session {
+    cli::ViewOptions view;
+    std::unique_ptr<cli::CommandLine> parser;
+
+    static void declare(cli::Command& command, cli::Session& session) {
+        cli::add_view_options(command, static_cast<Line&>(session).view, session);
+    }
+};
+
+Settings::Settings(const cli::Session& session, const cli::ViewOptions& options)
+    : input_(cli::require_viewable(options)), name_(options.input) {
+    for (char* const* at = session.arguments + 2; *at != nullptr; ++at) first_.emplace_back(*at);
+    words_ = first_;
+    line_ = std::make_shared<Line>();
+    line_->stop = session.stop;
+    read();
+}
+
+void Settings::read() {
+    static const cli::CommandInfo rows[] = {{"view", cli::view_summary, Line::declare}};
+    auto line = std::make_shared<Line>();
+    line->stop = line_->stop;
+    line->parser = std::make_unique<cli::CommandLine>(rows, *line);
+    std::vector<const char*> arguments{"hogel", "view"};
+    for (const std::string& word : words_) arguments.push_back(word.c_str());
+    line->command = line->parser->parse(static_cast<int>(arguments.size()), arguments.data());
+    line_ = std::move(line);
+}
+
+const cli::Session& Settings::session() const { return *line_; }
+const cli::ViewOptions& Settings::options() const { return line_->view; }
+
+Settings Settings::with(const Settings::Words& changes) const {
+    Settings changed = *this;
+    for (const auto& [name, value] : changes) {
+        if (!contains(changeable, name))
+            throw Error(ErrorCode::usage, fmt::format("change: '{}' is no option that a page changes", name));
+        remove(changed.words_, "--" + name);
+        if (!value.empty()) changed.words_.push_back(fmt::format("--{}={}", name, value));
+    }
+    changed.read();
+    return changed;
+}
+
+Settings Settings::of(const std::string& file, const std::string& name) const {
+    Settings other = *this;
+    other.words_ = other.first_;
+    remove(other.words_, "--original");
+    std::ranges::replace(other.words_, name_, name);
+    std::ranges::replace(other.first_, name_, name);
+    other.read();
+    cli::ViewOptions options = other.options();
+    options.input = file;
+    other.input_ = cli::require_viewable(options);
+    other.name_ = name;
+    other.is_dropped_ = true;
+    return other;
+}
+
+bool Settings::same_light_field(const Settings& other) const {
+    const auto light_field_words = [](Arguments words) {
+        remove(words, "--pitch");
+        return words;
+    };
+    return input_ == other.input_ && light_field_words(words_) == light_field_words(other.words_);
+}
+
+std::string Settings::command(const std::string& begin, const std::string& input) const {
+    std::string text = begin;
+    for (std::size_t i = 0; i < words_.size(); ++i) {
+        const std::string& word = words_[i];
+        const std::string name{name_of(word)};
+        if (contains(flags_of_server, name)) continue;
+        if (contains(of_server, name)) {
+            if (name == word) ++i;
+            continue;
+        }
+        text += " ";
+        if (word.starts_with("--") && name != word)
+            text += name + " " + quoted(word.substr(name.size() + 1));
+        else
+            text += quoted(word == name_ ? input : word);
+    }
+    return text;
+}
+
+std::string Settings::photo_command() const {
+    const std::string input = is_dropped_ ? name_ : input_;
+    if (options().layers == 0) return command("hogel photo", input);
+    return fmt::format("hogel decompress {} -o layers.h5 --layers {} && {}", quoted(input), options().layers,
+                       command("hogel photo", "layers.h5"));
+}
+
+std::string Settings::make_command() const {
+    Settings without = *this;
+    std::erase(without.words_, "--hemicube");  // which hogel make does not have
+    return without.command("hogel make", is_dropped_ ? name_ : input_) + " -o made";
+}
+
+}  // namespace hogel::view
