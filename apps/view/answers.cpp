@@ -119,7 +119,7 @@ Json told(const FocusSearch& search) {
 }
 
 Json told(const LevelCounts& levels) {
-    return {{"type", "levels"},       {"encoding", levels.encoding}, {"width", levels.width},
+    return {{"type", "levels"},        {"encoding", levels.encoding}, {"width", levels.width},
             {"height", levels.height}, {"counts", levels.counts},     {"efficiency", levels.efficiency}};
 }
 

@@ -31,13 +31,11 @@ DropFolder::~DropFolder() {
 std::filesystem::path DropFolder::place_for(const std::string& name) {
     const bool plain = !name.empty() && name.size() <= max_name && name.front() != '.' && name.front() != '-' &&
                        name.find('/') == std::string::npos && name.find('\0') == std::string::npos;
-    if (!plain)
-        throw Error(ErrorCode::usage, fmt::format("name: '{}' is no name of a file", name.substr(0, 40)));
+    if (!plain) throw Error(ErrorCode::usage, fmt::format("name: '{}' is no name of a file", name.substr(0, 40)));
     if (coming_.empty()) {
         std::string folder = (std::filesystem::temp_directory_path() / "hogel-view-XXXXXX").string();
         if (mkdtemp(folder.data()) == nullptr)
-            throw Error(ErrorCode::cannot_write,
-                        folder + ": cannot be made; the folder of TMPDIR must be writable");
+            throw Error(ErrorCode::cannot_write, folder + ": cannot be made; the folder of TMPDIR must be writable");
         coming_ = folder;
     }
     return coming_ / name;

@@ -6,22 +6,22 @@
 
 namespace hogel::view {
 
-
 nlohmann::ordered_json facts_of_scene(const Settings& settings, const std::vector<Advice>& advice, bool is_file) {
     const cli::RenderOptions& render = settings.options().render;
-    constexpr double degree = std::numbers::pi / 180;
+    // As they were typed, without what the conversion to radians and back adds.
+    const auto degrees = [](double radians) { return std::round(radians * 180 / std::numbers::pi * 1e9) / 1e9; };
     const Vec3 turn = render.scene.pose.rotation, move = render.scene.pose.shift;
     nlohmann::ordered_json told = nlohmann::ordered_json::array();
     for (const Advice& each : advice)
         told.push_back(
             {{"option", each.parameter}, {"text", each.text}, {"enough", each.enough}, {"refused", each.refused}});
-    return {{"hogels", render.hogels.columns},
-            {"directions", render.directions.columns},
+    return {{"hogels", {render.hogels.columns, render.hogels.rows}},
+            {"directions", {render.directions.columns, render.directions.rows}},
             {"size_m", render.size},
-            {"fov_deg", render.field_of_view.across / degree},
+            {"fov_deg", {degrees(render.field_of_view.across), degrees(render.field_of_view.down)}},
             {"front", render.front},
             {"move_m", {move.x, move.y, move.z}},
-            {"rotate_deg", {turn.x / degree, turn.y / degree, turn.z / degree}},
+            {"rotate_deg", {degrees(turn.x), degrees(turn.y), degrees(turn.z)}},
             {"lights", render.scene.lights},
             {"pitch_m", settings.options().hologram.pitch},
             {"is_file", is_file},
@@ -31,9 +31,9 @@ nlohmann::ordered_json facts_of_scene(const Settings& settings, const std::vecto
 
 nlohmann::ordered_json facts_of_stream(const StreamFacts& stream) {
     nlohmann::ordered_json facts{{"layers", stream.layers},
-               {"of_layers", stream.of_layers},
-               {"bytes", stream.bytes},
-               {"original", stream.original}};
+                                 {"of_layers", stream.of_layers},
+                                 {"bytes", stream.bytes},
+                                 {"original", stream.original}};
     if (stream.sqnr) {
         facts["exact"] = !std::isfinite(*stream.sqnr);
         if (std::isfinite(*stream.sqnr)) facts["sqnr_db"] = *stream.sqnr;

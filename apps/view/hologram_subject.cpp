@@ -131,6 +131,7 @@ nlohmann::ordered_json HologramSubject::facts() const {
             {"center_v", 0},
             {"channels", fields_.size()},
             {"efficiency", efficiency_},
+            {"encodings", encodings().names()},
             {"depth", false}};
 }
 

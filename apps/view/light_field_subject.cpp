@@ -54,8 +54,8 @@ LightFieldSubject::LightFieldSubject(LightField light_field, LightField shown, s
       rays_(std::make_shared<Rays>(std::move(shown), memory, progress)),
       waves_(std::move(waves)),
       memory_(memory) {
-    exposure_ = automatic_exposure(
-        rays_->photographer.photograph(camera(front_view(grid())), {.pupil_samples = 4}, progress));
+    exposure_ =
+        automatic_exposure(rays_->photographer.photograph(camera(front_view(grid())), {.pupil_samples = 4}, progress));
 }
 
 LightFieldSubject::LightFieldSubject(const LightFieldSubject& other, std::unique_ptr<Waves> waves)
@@ -76,19 +76,18 @@ void LightFieldSubject::set_bytes_of_hogels(Array<double, 2> bytes) {
 
 nlohmann::ordered_json LightFieldSubject::facts() const {
     const LightFieldGrid& grid = this->grid();
-    nlohmann::ordered_json facts{
-        {"kind", "light field"},
-            {"hogels_s", grid.hogels_s},
-            {"hogels_t", grid.hogels_t},
-            {"shown_hogels_s", shown().hogels_s},
-            {"directions_u", grid.directions_u},
-            {"directions_v", grid.directions_v},
-            {"tan_half_u", grid.half_u()},
-            {"tan_half_v", grid.half_v()},
-            {"center_u", grid.center_u()},
-            {"center_v", grid.center_v()},
-            {"channels", grid.channels},
-            {"depth", light_field_.has_depth()}};
+    nlohmann::ordered_json facts{{"kind", "light field"},
+                                 {"hogels_s", grid.hogels_s},
+                                 {"hogels_t", grid.hogels_t},
+                                 {"shown_hogels_s", shown().hogels_s},
+                                 {"directions_u", grid.directions_u},
+                                 {"directions_v", grid.directions_v},
+                                 {"tan_half_u", grid.half_u()},
+                                 {"tan_half_v", grid.half_v()},
+                                 {"center_u", grid.center_u()},
+                                 {"center_v", grid.center_v()},
+                                 {"channels", grid.channels},
+                                 {"depth", light_field_.has_depth()}};
     const std::lock_guard lock(measured_);
     if (const auto bytes = bytes_of_hogels_.elements(); !bytes.empty()) {
         const auto [fewest, most] = std::ranges::minmax(bytes);
@@ -107,9 +106,9 @@ Image LightFieldSubject::by_rays(const View& view, const Progress& progress) {
     if (view.by != By::original && !error) return photograph_rays(*rays_, view, progress);
     // One thread photographs by rays, so that nothing else looks at this.
     if (!original_->rays)
-        original_->rays = std::make_unique<Rays>(every_nth_hogel(original_->light_field,
-                                                                 step_that_fits(grid(), original_->memory)),
-                                                 original_->memory, progress);
+        original_->rays =
+            std::make_unique<Rays>(every_nth_hogel(original_->light_field, step_that_fits(grid(), original_->memory)),
+                                   original_->memory, progress);
     Image original = photograph_rays(*original_->rays, view, progress);
     return error ? difference(photograph_rays(*rays_, view, progress), original) : original;
 }

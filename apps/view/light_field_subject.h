@@ -79,7 +79,7 @@ class LightFieldSubject final : public Subject {
     std::unique_ptr<Waves> waves_;
     double exposure_ = 1;
     std::size_t memory_;
-    mutable std::mutex measured_;      // guards what becomes known while it is shown
+    mutable std::mutex measured_;  // guards what becomes known while it is shown
     Array<double, 2> bytes_of_hogels_;
 };
 

@@ -21,13 +21,17 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point began) { return std::chrono::duration<double>(Clock::now() - began).count(); }
 
-// The same hologram with hogels `step` times as wide.
-LightField with_fewer_hogels(const std::shared_ptr<const ShadedScene>& lit, LightFieldRequest request,
-                             std::size_t step) {
+// A light field of the same scene in about so many samples. Half as many directions come first, because an eye sees
+// hogels one by one, and directions between two of them well enough in motion.
+LightField with_fewer_samples(const std::shared_ptr<const ShadedScene>& lit, LightFieldRequest request,
+                              double samples) {
     LightFieldGrid& grid = request.grid;
-    const double width = grid.width();
-    grid.hogels_t = std::max<std::size_t>(1, grid.hogels_t / step);
-    grid.hogels_s = std::max<std::size_t>(1, grid.hogels_s / step);
+    constexpr std::size_t few = 16;  // directions, which are not halved
+    for (std::size_t* count : {&grid.directions_u, &grid.directions_v})
+        if (*count >= 2 * few) *count = (*count + 1) / 2;
+    const double width = grid.width(), step = std::max(1.0, std::sqrt(grid.samples() / samples));
+    for (std::size_t* count : {&grid.hogels_s, &grid.hogels_t})
+        *count = std::max<std::size_t>(1, static_cast<std::size_t>(static_cast<double>(*count) / step));
     grid.pitch = width / static_cast<double>(grid.hogels_s);
     return hogel::render_light_field(lit, request);
 }
@@ -35,8 +39,9 @@ LightField with_fewer_hogels(const std::shared_ptr<const ShadedScene>& lit, Ligh
 }  // namespace
 
 Loader::Loader(Settings settings, Viewer& viewer)
-    : settings_(std::move(settings)), viewer_(viewer), coarse_samples_(first_look_samples) {
-    open_input();
+    : viewer_(viewer), now_(std::make_shared<State>(std::move(settings))), coarse_samples_(first_look_samples) {
+    open_input(*now_);
+    describe();
 }
 
 Loader::~Loader() {
@@ -44,36 +49,25 @@ Loader::~Loader() {
     stop_.request_stop();
 }
 
-std::size_t Loader::memory() const { return static_cast<std::size_t>(settings_.options().memory * 1e9); }
+std::size_t Loader::memory() const { return static_cast<std::size_t>(now_->settings.options().memory * 1e9); }
 
-void Loader::open_input() {
-    const cli::ViewOptions& options = settings_.options();
-    const std::string& input = settings_.input();
-    std::optional<LightField> file;
-    Fields fields;
+void Loader::open_input(State& state) {
+    const cli::ViewOptions& options = state.settings.options();
+    const std::string& input = state.settings.input();
     if (cli::is_external(input, options.field) || input_kind(input) == InputKind::hologram) {
-        cli::RunRecord record(settings_.session());
-        fields = cli::open_and_reconstruct(settings_.session(), input, options.field, options.hologram.pitch,
-                                           options.hologram.wavelengths, record);
+        cli::RunRecord record(state.settings.session());
+        state.fields = cli::open_and_reconstruct(state.settings.session(), input, options.field, options.hologram.pitch,
+                                                 options.hologram.wavelengths, record);
     } else if (input_kind(input) == InputKind::light_field) {
-        file = open_light_field_or_views(input);
+        state.file = open_light_field_or_views(input);
     }
-    file_ = std::move(file);
-    fields_ = std::move(fields);
-    model_.reset();
-    box_.reset();
-    stream_.reset();
-    whole_.reset();
-    made_.reset();
-    exposure_ = 0;
-    ++opened_;
-    describe();
 }
 
 void Loader::start(std::function<void()> failed) {
     thread_ = std::jthread([this, failed = std::move(failed)](const std::stop_token& end) {
         try {
             show_input(false);
+            shown_ = now_;
             viewer_.say("", 1);
         } catch (...) {
             const std::lock_guard lock(mutex_);
@@ -134,47 +128,56 @@ void Loader::run(const std::stop_token& end) {
             viewer_.say("", 1);
         } catch (const Error& error) {
             if (error.code() == ErrorCode::cancelled) continue;  // for a newer task
-            viewer_.complain(error.what());
-            viewer_.say("", 1);
+            give_up(error.what());
         } catch (const std::exception& error) {
-            viewer_.complain(error.what());
-            viewer_.say("", 1);
+            give_up(error.what());
         }
     }
 }
 
 void Loader::do_task(const Task& task) {
     if (task.file.empty()) {
-        settings_ = settings_.with(task.options);
+        now_->settings = now_->settings.with(task.options);
         return show_input(task.moving);
     }
-    const Settings before = settings_;
-    try {
-        settings_ = settings_.of(task.file, task.file.filename());
-        open_input();
-    } catch (...) {
-        settings_ = before;
-        throw;
-    }
+    auto another = std::make_shared<State>(now_->settings.of(task.file, task.file.filename()));
+    another->number = now_->number + 1;
+    open_input(*another);
+    now_ = std::move(another);
     show_input(false);
+    shown_ = now_;
     const std::lock_guard lock(mutex_);
     dropped_.forget_earlier();
 }
 
+// What was shown before stays.
+void Loader::give_up(const std::string& why) {
+    if (shown_ && now_ != shown_) {
+        shown_->number = now_->number;
+        now_ = shown_;
+        describe();
+    }
+    viewer_.complain(why);
+    viewer_.say("", 1);
+}
+
 void Loader::describe() {
-    nlohmann::ordered_json facts{{"name", settings_.name()},
-               {"photo", settings_.photo_command()},
-               {"opened", opened_},
-               {"largest_file", static_cast<double>(memory())}};
-    if (made_ && box_) facts["scene"] = facts_of_scene(settings_, advice(), model_->is_file());
-    if (stream_) facts["stream"] = facts_of_stream(*stream_);
+    nlohmann::ordered_json facts{{"name", now_->settings.name()},
+                                 {"photo", now_->settings.photo_command()},
+                                 {"opened", now_->number},
+                                 {"largest_file", static_cast<double>(memory())}};
+    if (now_->made && now_->box) facts["scene"] = facts_of_scene(now_->settings, advice(), now_->model->is_file());
+    if (now_->stream) {
+        facts["stream"] = facts_of_stream(*now_->stream);
+        facts["photo_original"] = now_->settings.original_command();
+    }
     viewer_.describe(std::move(facts));
 }
 
 std::vector<Advice> Loader::advice() const {
-    const cli::ViewOptions& options = settings_.options();
+    const cli::ViewOptions& options = now_->settings.options();
     const LightFieldRequest request = options.render.request();
-    std::vector<Advice> all = advise(*box_, request, options.hologram.request(settings_.session(), 1));
+    std::vector<Advice> all = advise(*now_->box, request, options.hologram.request(now_->settings.session(), 1));
     const double most = 0.5 * static_cast<double>(memory()), samples = request.grid.samples();
     if (samples > most)
         all.push_back({"hogels",
@@ -197,11 +200,11 @@ Progress Loader::progress(const char* what) {
 
 // The holograms that `hogel photo --wave` makes, of the light field in memory where it is rendered.
 std::unique_ptr<Waves> Loader::waves_of(const LightField& light_field, bool rendered) {
-    const auto making = Progress(settings_.session().stop.get_token(), [viewer = &viewer_](double fraction) {
+    const auto making = Progress(now_->settings.session().stop.get_token(), [viewer = &viewer_](double fraction) {
         viewer->say(fraction < 1 ? "preparing waves" : "", fraction);
         return true;
     });
-    const auto make = [settings = settings_, light_field, rendered, making] {
+    const auto make = [settings = now_->settings, light_field, rendered, making] {
         const cli::ViewOptions& options = settings.options();
         const HologramRequest request = options.hologram.request(settings.session(), options.looks);
         LightField common = with_common_directions(light_field);
@@ -210,7 +213,7 @@ std::unique_ptr<Waves> Loader::waves_of(const LightField& light_field, bool rend
             common = hogel::prepare_for_reading(common, request.channels.size(), needs_depth(request.method), making);
         return make_holograms(common, request);
     };
-    return std::make_unique<Waves>(make, settings_.options().looks, memory() / 2, making);
+    return std::make_unique<Waves>(make, now_->settings.options().looks, memory() / 2, making);
 }
 
 void Loader::show(const LightField& whole, const LightField& shown, const char* what, std::unique_ptr<Waves> waves) {
@@ -218,23 +221,25 @@ void Loader::show(const LightField& whole, const LightField& shown, const char* 
 }
 
 void Loader::show_input(bool moving) {
-    if (!fields_.empty())
-        viewer_.show(std::make_shared<HologramSubject>(fields_, memory(), progress("reading")));
-    else if (!file_)
+    describe();
+    if (!now_->fields.empty())
+        viewer_.show(std::make_shared<HologramSubject>(now_->fields, memory(), progress("reading")));
+    else if (!now_->file)
         show_scene(moving);
     else if (is_compressed())
         show_stream();
     else
-        show_file(*file_);
+        show_file(*now_->file);
 }
 
 void Loader::show_file(const LightField& light_field) {
     const LightFieldGrid& grid = light_field.grid();
     const std::size_t finest = step_that_fits(grid, memory()), first = step_of_first_look(grid);
     if (finest > 1)
-        settings_.session().say(fmt::format("{}: every {} of {}x{} hogels, which fit into --memory {:g}",
-                                            settings_.name(), finest == 3 ? "3rd" : fmt::format("{}th", finest),
-                                            grid.hogels_s, grid.hogels_t, settings_.options().memory));
+        now_->settings.session().say(fmt::format("{}: every {} of {}x{} hogels, which fit into --memory {:g}",
+                                                 now_->settings.name(),
+                                                 finest == 3 ? "3rd" : fmt::format("{}th", finest), grid.hogels_s,
+                                                 grid.hogels_t, now_->settings.options().memory));
     if (first > finest) show(light_field, every_nth_hogel(light_field, first), "opening");
     show(light_field, every_nth_hogel(light_field, finest), "reading", waves_of(light_field, false));
 }
@@ -242,18 +247,18 @@ void Loader::show_file(const LightField& light_field) {
 // A scene as it is now. What moves, and what comes first, has few hogels; then come more of them.
 void Loader::show_scene(bool moving) {
     // Other samples of a hologram need no other light field.
-    if (whole_ && made_->same_light_field(settings_)) return show_other_waves();
-    whole_.reset();
-    const LightFieldRequest request = cli::scene_request(settings_.options().render);
+    if (now_->whole && now_->made->same_light_field(now_->settings)) return show_other_waves();
+    now_->whole.reset();
+    const LightFieldRequest request = cli::scene_request(now_->settings.options().render);
     viewer_.say("lighting", 0);
-    if (!model_) model_.emplace(settings_.input(), request.import, progress("reading"));
+    if (!now_->model) now_->model.emplace(now_->settings.input(), request.import, progress("reading"));
     const Clock::time_point began = Clock::now();
-    const Scene scene = cli::placing_scene([&] { return model_->placed(request, progress("placing")); });
-    if (!made_)
+    const Scene scene = cli::placing_scene([&] { return now_->model->placed(request, progress("placing")); });
+    if (!now_->made)
         for (const std::string& note : scene.notes)
-            settings_.session().say(fmt::format("{}: note: {}", settings_.name(), note));
-    made_ = settings_;
-    box_ = bounds(scene);
+            now_->settings.session().say(fmt::format("{}: note: {}", now_->settings.name(), note));
+    now_->made = now_->settings;
+    now_->box = bounds(scene);
     describe();
     require_memory_for(request.grid);
     const auto lit = light(scene, request);
@@ -263,43 +268,43 @@ void Loader::show_scene(bool moving) {
         const LightField kept = hogel::prepare_for_reading(whole, 2, false, progress("rendering"));
         return show(kept, kept, "rendering", waves_of(kept, false));
     }
-    const std::size_t first = step_for(request.grid, coarse_samples_), finer = step_for(request.grid, 8 * coarse_samples_);
-    if (first > 1) {
-        show_of_scene(whole, with_fewer_hogels(lit, request, first));
+    const double samples = request.grid.samples();
+    if (samples > coarse_samples_) {
+        show_of_scene(whole, with_fewer_samples(lit, request, coarse_samples_));
         // While something is dragged, as many samples as come in a tenth of a second.
-        constexpr double wanted = 0.1, fewest = 5e5, most = 64e6;
+        constexpr double wanted = 0.1, fewest = 3e6, most = 64e6;
         if (moving) coarse_samples_ *= std::clamp(wanted / seconds_since(began), 0.5, 1.5);
         coarse_samples_ = std::clamp(coarse_samples_, fewest, most);
         if (moving) return;
     }
-    if (finer > 2) show_of_scene(whole, with_fewer_hogels(lit, request, finer));
-    whole_ = show_of_scene(whole, whole, waves_of(whole, true));
+    if (samples > 32 * coarse_samples_) show_of_scene(whole, with_fewer_samples(lit, request, 8 * coarse_samples_));
+    now_->whole = show_of_scene(whole, whole, waves_of(whole, true));
 }
 
 // Its exposure stays what it was at first, so that a light that moves is seen to.
 std::shared_ptr<LightFieldSubject> Loader::show_of_scene(const LightField& whole, const LightField& shown,
                                                          std::unique_ptr<Waves> waves) {
     auto subject = std::make_shared<LightFieldSubject>(whole, shown, memory(), progress("rendering"), std::move(waves));
-    if (exposure_ > 0)
-        subject->set_exposure(exposure_);
+    if (now_->exposure > 0)
+        subject->set_exposure(now_->exposure);
     else if (shown.grid() == whole.grid())
-        exposure_ = subject->exposure();
+        now_->exposure = subject->exposure();
     viewer_.show(subject);
     return subject;
 }
 
 void Loader::show_other_waves() {
-    made_ = settings_;
+    now_->made = now_->settings;
     describe();
-    whole_ = std::make_shared<LightFieldSubject>(*whole_, waves_of(whole_->light_field(), true));
-    viewer_.show(whole_);
+    now_->whole = std::make_shared<LightFieldSubject>(*now_->whole, waves_of(now_->whole->light_field(), true));
+    viewer_.show(now_->whole);
 }
 
 void Loader::require_memory_for(const LightFieldGrid& grid) const {
     if (step_that_fits(grid, memory()) == 1) return;
     throw Error(ErrorCode::usage, fmt::format("--memory {:g}: the light field has {:.3g} samples of 2 bytes; "
                                               "fewer --hogels or --directions would do",
-                                              settings_.options().memory, grid.samples()));
+                                              now_->settings.options().memory, grid.samples()));
 }
 
 std::shared_ptr<const ShadedScene> Loader::light(const Scene& scene, const LightFieldRequest& request) {

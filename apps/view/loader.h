@@ -48,10 +48,26 @@ class Loader final : public Changes {
         bool moving = false;
     };
 
+    // One input as it is now.
+    struct State {
+        explicit State(Settings of) : settings(std::move(of)) {}
+        Settings settings;
+        std::optional<LightField> file;
+        Fields fields;
+        std::optional<StreamFacts> stream;
+        std::optional<SceneModel> model;
+        std::optional<Settings> made;              // of the light field of the scene
+        std::optional<Bounds> box;                 // of the scene
+        std::shared_ptr<LightFieldSubject> whole;  // what is shown of a scene, once it has all hogels
+        double exposure = 0;                       // that stays while a scene changes; 0: automatic
+        std::size_t number = 1;                    // of the inputs
+    };
+
     void run(const std::stop_token& end);
     std::optional<Task> next(const std::stop_token& end);
     void do_task(const Task& task);
-    void open_input();
+    void give_up(const std::string& why);
+    static void open_input(State& state);
     void show_input(bool moving);
     void show_file(const LightField& light_field);
     bool is_compressed() const;
@@ -73,18 +89,9 @@ class Loader final : public Changes {
     std::size_t memory() const;
 
     // Used by the thread alone, once it runs.
-    Settings settings_;
     Viewer& viewer_;
-    std::optional<LightField> file_;
-    Fields fields_;
-    std::optional<StreamFacts> stream_;
-    std::optional<SceneModel> model_;
-    std::optional<Settings> made_;              // of the light field of the scene
-    std::optional<Bounds> box_;                 // of the scene
-    std::shared_ptr<LightFieldSubject> whole_;  // what is shown of a scene, once it has all hogels
-    double exposure_ = 0;                       // that stays while a scene changes; 0: automatic
-    double coarse_samples_;                     // of a light field that is rendered in a moment
-    std::size_t opened_ = 0;                    // files
+    std::shared_ptr<State> now_, shown_;  // what is prepared, and what was shown last
+    double coarse_samples_;               // of a light field that is rendered in a moment
 
     std::mutex mutex_;
     std::condition_variable_any changed_;

@@ -27,42 +27,43 @@ LightField open_original(const std::string& name, const LightFieldGrid& grid) {
 
 }  // namespace
 
-bool Loader::is_compressed() const { return !is_view_set(settings_.input()) && is_stream(settings_.input()); }
+bool Loader::is_compressed() const { return !is_view_set(now_->settings.input()) && is_stream(now_->settings.input()); }
 
 void Loader::show_stream() {
-    const std::string& input = settings_.input();
-    const cli::ViewOptions& options = settings_.options();
+    const std::string& input = now_->settings.input();
+    const cli::ViewOptions& options = now_->settings.options();
     const StreamInfo info = read_stream_info(input);
     const std::size_t layers = options.layers > 0 ? options.layers : info.layers_there;
     const LightField light_field =
         cli::with_options({{"", "--layers"}}, [&] { return open_stream(input, {.layers = layers}); });
     const LightField original =
-        options.original.empty() ? *file_ : open_original(options.original, light_field.grid());
-    stream_ = StreamFacts{layers, info.layers_there, static_cast<double>(info.layer_ends[layers - 1]),
-                          options.original, {}, {}};
+        options.original.empty() ? *now_->file : open_original(options.original, light_field.grid());
+    now_->stream = StreamFacts{
+        layers, info.layers_there, static_cast<double>(info.layer_ends[layers - 1]), options.original, {}, {}};
     describe();
     const LightFieldGrid& grid = light_field.grid();
     const std::size_t finest = step_that_fits(grid, memory()), first = step_of_first_look(grid);
-    if (first > finest && exposure_ == 0) show(light_field, every_nth_hogel(light_field, first), "decoding");
+    if (first > finest && now_->exposure == 0) show(light_field, every_nth_hogel(light_field, first), "decoding");
     auto subject = std::make_shared<LightFieldSubject>(light_field, every_nth_hogel(light_field, finest), memory(),
                                                        progress("decoding"), waves_of(light_field, false));
     subject->set_original(original);
     // That of all layers, so that they are seen beside each other.
-    if (exposure_ > 0) subject->set_exposure(exposure_);
-    exposure_ = subject->exposure();
+    if (now_->exposure > 0) subject->set_exposure(now_->exposure);
+    now_->exposure = subject->exposure();
     viewer_.show(subject);
     measure_stream(light_field, original, *subject);
 }
 
 // What takes longer than a picture: the bytes of hogels, and errors.
 void Loader::measure_stream(const LightField& layers, const LightField& original, LightFieldSubject& subject) {
-    subject.set_bytes_of_hogels(bytes_of_hogels(settings_.input(), stream_->layers, progress("rates of hogels")));
+    subject.set_bytes_of_hogels(
+        bytes_of_hogels(now_->settings.input(), now_->stream->layers, progress("rates of hogels")));
     describe();
     const std::size_t step = step_for(layers.grid(), max_compared_samples);
     const SampleComparison errors =
         compare(every_nth_hogel(original, step), every_nth_hogel(layers, step), progress("measuring errors"));
-    stream_->sqnr = errors.sqnr;
-    stream_->psnr = errors.psnr;
+    now_->stream->sqnr = errors.sqnr;
+    now_->stream->psnr = errors.psnr;
     describe();
 }
 

@@ -89,9 +89,9 @@ double exposure(const std::string& text) {
 }
 
 By method(const std::string& text) {
-    constexpr std::pair<const char*, By> known[] = {{"rays", By::rays},           {"waves", By::waves},
-                                                    {"side", By::side},           {"difference", By::difference},
-                                                    {"original", By::original},   {"error", By::error}};
+    constexpr std::pair<const char*, By> known[] = {{"rays", By::rays},         {"waves", By::waves},
+                                                    {"side", By::side},         {"difference", By::difference},
+                                                    {"original", By::original}, {"error", By::error}};
     for (const auto& [name, by] : known)
         if (text == name) return by;
     refuse("by", text.substr(0, 40), "rays or waves or side or difference or original or error");

@@ -215,16 +215,19 @@ class Connection final : public std::enable_shared_from_this<Connection> {
         body->body_limit(shared_->limits.body);
         Code error;
         body->get().body().open(file.c_str(), beast::file_mode::write, error);
-        if (error) return respond({500, "text/plain; charset=utf-8", "the file cannot be kept: " + error.message() + "\n"}, false);
+        if (error)
+            return respond({500, "text/plain; charset=utf-8", "the file cannot be kept: " + error.message() + "\n"},
+                           false);
         stream_.expires_after(std::chrono::seconds(shared_->limits.body_seconds));
-        http::async_read(stream_, buffer_, *body, [self = shared_from_this(), body, request, file](Code failed, std::size_t) {
-            body->get().body().close();
-            if (!failed) return self->respond(self->shared_->site->take(request, file), true);
-            std::error_code none;
-            std::filesystem::remove(file, none);
-            if (failed == http::error::body_limit)
-                self->respond({413, "text/plain; charset=utf-8", "the file is larger than --memory\n"}, false);
-        });
+        http::async_read(
+            stream_, buffer_, *body, [self = shared_from_this(), body, request, file](Code failed, std::size_t) {
+                body->get().body().close();
+                if (!failed) return self->respond(self->shared_->site->take(request, file), true);
+                std::error_code none;
+                std::filesystem::remove(file, none);
+                if (failed == http::error::body_limit)
+                    self->respond({413, "text/plain; charset=utf-8", "the file is larger than --memory\n"}, false);
+            });
     }
 
     void received(Code error) {

@@ -18,9 +18,17 @@ using Arguments = std::vector<std::string>;
 constexpr std::array<std::string_view, 10> changeable{"hogels", "directions", "size",  "fov",   "front",
                                                       "move",   "rotate",     "light", "pitch", "layers"};
 // Options with a value that are the server's own, and those of them without one.
-constexpr std::array<std::string_view, 7> of_server{"--port",  "--host",     "--token",  "--memory",
+constexpr std::array<std::string_view, 7> of_server{"--port",  "--host",     "--token", "--memory",
                                                     "--looks", "--original", "--layers"};
 constexpr std::array<std::string_view, 2> flags_of_server{"--no-browser", "--json"};
+
+// Options of holograms that hogel make does not have, which makes those of three wavelengths by the method fourier.
+constexpr std::array<std::string_view, 8> of_holograms{"--wavelength", "--method",     "--phase",     "--lobes",
+                                                       "--basis",      "--line-pitch", "--tolerance", "--hemicube"};
+// Options of other programs' fields, which no scene is.
+constexpr std::array<std::string_view, 11> of_fields{"--aperture", "--focal",       "--imaginary",       "--order",
+                                                     "--phases",   "--reconstruct", "--values",          "--variable",
+                                                     "--zero",     "--phase-code",  "--reference-source"};
 
 bool contains(const auto& names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
 
@@ -36,6 +44,13 @@ void remove(Arguments& words, std::string_view option) {
         else
             ++i;
     }
+}
+
+// An option as it stands in a command line, with its value; nothing where it is not.
+Arguments find_option(const Arguments& words, std::string_view option) {
+    const auto found = std::ranges::find_if(words, [&](const std::string& word) { return name_of(word) == option; });
+    if (found == words.end()) return {};
+    return {found, found + (*found == option && found + 1 != words.end() ? 2 : 1)};
 }
 
 // A word of a command line as a shell reads it.
@@ -90,7 +105,9 @@ Settings Settings::with(const Settings::Words& changes) const {
         if (!contains(changeable, name))
             throw Error(ErrorCode::usage, fmt::format("change: '{}' is no option that a page changes", name));
         remove(changed.words_, "--" + name);
-        if (!value.empty()) changed.words_.push_back(fmt::format("--{}={}", name, value));
+        const Arguments word =
+            value.empty() ? find_option(first_, "--" + name) : Arguments{fmt::format("--{}={}", name, value)};
+        changed.words_.insert(changed.words_.end(), word.begin(), word.end());
     }
     changed.read();
     return changed;
@@ -145,10 +162,19 @@ std::string Settings::photo_command() const {
                        command("hogel photo", "layers.h5"));
 }
 
+std::string Settings::original_command() const {
+    return command("hogel photo", !options().original.empty() ? options().original : is_dropped_ ? name_ : input_);
+}
+
 std::string Settings::make_command() const {
-    Settings without = *this;
-    std::erase(without.words_, "--hemicube");  // which hogel make does not have
-    return without.command("hogel make", is_dropped_ ? name_ : input_) + " -o made";
+    Settings scene = *this;
+    std::erase(scene.words_, "--conjugate");
+    for (const std::string_view option : of_fields) remove(scene.words_, option);
+    const bool by_itself =
+        std::ranges::any_of(words_, [](const std::string& word) { return contains(of_holograms, name_of(word)); });
+    const std::string input = is_dropped_ ? name_ : input_;
+    return by_itself ? scene.command("hogel hologram", input) + " -o hologram.h5"
+                     : scene.command("hogel make", input) + " -o made";
 }
 
 }  // namespace hogel::view

@@ -11,8 +11,9 @@
 
 namespace hogel::view {
 
-/// The command line of what is looked at. A page changes its options ("hogels", "rotate") and gets a command line again,
-/// read as hogel reads every other. So what the page shows, what it copies and what hogel makes of that are the same.
+/// The command line of what is looked at. A page changes its options ("hogels", "rotate") and gets a command line
+/// again, read as hogel reads every other. So what the page shows, what it copies and what hogel makes of that are the
+/// same.
 class Settings {
   public:
     using Words = std::map<std::string, std::string>;
@@ -20,8 +21,8 @@ class Settings {
     /// The program's own command line, "hogel-view view INPUT …".
     Settings(const cli::Session& session, const cli::ViewOptions& options);
 
-    /// With other values of some options, and without those whose value is empty. Throws Error(usage) for an option that
-    /// may not be changed, and for a value that hogel would refuse.
+    /// With other values of some options, and without those whose value is empty. Throws Error(usage) for an option
+    /// that may not be changed, and for a value that hogel would refuse.
     Settings with(const Words& changes) const;
     /// The first command line with another input, by its name in command lines.
     Settings of(const std::string& file, const std::string& name) const;
@@ -37,7 +38,9 @@ class Settings {
 
     /// `hogel photo` of this, without the camera; of the first layers of a stream behind `hogel decompress`.
     std::string photo_command() const;
-    /// `hogel make` of this scene.
+    /// The same of the light field beside which errors are shown.
+    std::string original_command() const;
+    /// `hogel make` of this scene; with options of holograms that it does not have, `hogel hologram`.
     std::string make_command() const;
 
   private:

@@ -61,7 +61,7 @@ void Viewer::describe(Json facts) {
     tell(state());
 }
 
-void Viewer::complain(const std::string& message) { tell(dump({{"type", "error"}, {"message", message}})); }
+void Viewer::complain(const std::string& message) { tell(dump({{"type", "problem"}, {"message", message}})); }
 
 void Viewer::say(const std::string& what, double fraction) {
     {
@@ -87,8 +87,10 @@ void Viewer::tell(const std::string& text) {
 // What the page needs to know of the subject; SI units.
 std::string Viewer::state() const {
     const std::lock_guard lock(mutex_);
-    Json json{{"type", "state"},         {"work", what_},
-              {"fraction", fraction_},   {"ready", subject_ != nullptr},
+    Json json{{"type", "state"},
+              {"work", what_},
+              {"fraction", fraction_},
+              {"ready", subject_ != nullptr},
               {"generation", generation_}};
     json.update(description_);
     if (subject_) {
@@ -131,7 +133,8 @@ void Viewer::answer_about(const Request& request, const Reply& reply) {
     if (request.path == "/state") return reply({200, json_type, state()});
     const auto subject = this->subject();
     bool known = false;
-    for (const char* path : {"/picture", "/reading", "/inside", "/sharpness", "/levels"}) known = known || request.path == path;
+    for (const char* path : {"/picture", "/reading", "/inside", "/sharpness", "/levels"})
+        known = known || request.path == path;
     if (!known) return reply(failure(404, "there is no such page"));
     if (!subject) return reply(failure(503, "the light field is not there yet"));
     const Words words = parse_query(request.query);

@@ -26,8 +26,8 @@ class Changes {
     virtual ~Changes() = default;
     /// Other values of options; the newest wins. @param moving  whether others will follow, so that coarse will do
     virtual void change(const std::map<std::string, std::string>& options, bool moving) = 0;
-    /// Where a file is to be put that a page sends under this name, if it may send files. Throws Error(usage) for a name
-    /// that is none of a file.
+    /// Where a file is to be put that a page sends under this name, if it may send files. Throws Error(usage) for a
+    /// name that is none of a file.
     virtual std::filesystem::path place_for(const std::string& name) = 0;
     /// Opens a file that was put there.
     virtual void open(const std::filesystem::path& file) = 0;
@@ -38,9 +38,9 @@ class Changes {
 /// GET /picture?VIEW answers with a picture, /inside?VIEW&x=0.5&y=0.5&what=hogel with one of what lies there,
 /// /reading?VIEW&x=&y= with what is known of it, /sharpness with the contrast of a hologram at many depths. In a
 /// conversation the page sends "picture?VIEW", "reading?VIEW&x=&y=", "focus?VIEW&x=&y=" or "change?hogels=200"; it gets
-/// texts, JSON objects whose `type` is state, reading, focus or error, and pictures: a line of JSON about the picture, a
-/// line feed, and the file. POST /drop?name=bunny.ply brings a file, which is opened; with &more=yes it lies beside the
-/// next one.
+/// texts, JSON objects whose `type` is state, reading, focus or error, and pictures: a line of JSON about the picture,
+/// a line feed, and the file. POST /drop?name=bunny.ply brings a file, which is opened; with &more=yes it lies beside
+/// the next one.
 class Viewer final : public Site, public std::enable_shared_from_this<Viewer> {
   public:
     explicit Viewer(Access access);

@@ -43,9 +43,11 @@ struct Advice {
 ///
 /// * pitch: samples of pitch p diffract the wavelength λ to sin θ = λ/(2p) at most; steeper rays would alias. The pitch
 ///   is rounded so that a hogel has a whole number of samples, and `enough` is a pitch that needs no rounding.
-/// * directions: at depth ζ the rays of neighbouring directions are |ζ|ΔU apart. Where that is more than a hogel, details
+/// * directions: at depth ζ the rays of neighbouring directions are |ζ|ΔU apart. Where that is more than a hogel,
+/// details
 ///   of a hogel's size are lost ([K] 2.3).
-/// * hogels: a hogel of width d diffracts light of wavelength λ into λ/d, which at depth ζ is |ζ|λ/d wide. Where that is
+/// * hogels: a hogel of width d diffracts light of wavelength λ into λ/d, which at depth ζ is |ζ|λ/d wide. Where that
+/// is
 ///   more than the hogel itself, fewer and larger hogels, √(λ|ζ|) wide, show it more sharply.
 ///
 /// @param scene  as it is placed; its nearest and farthest depths count

@@ -3,8 +3,8 @@
 """Checks what `hogel view` serves, as a browser and as a stranger would ask: the page, pictures that equal those of
 `hogel photo`, the WebSocket, and what must be refused or survived.
 
-usage: check_view.py X.h5 H.h5     in a folder with that light field, 24x20 hogels of a sphere with depth, and its hologram;
-                                   hogel in the PATH
+usage: check_view.py X.h5 H.h5 X.hgl     in a folder with that light field, 24x20 hogels of a sphere with depth, its hologram,
+                                         and what it is compressed to; hogel in the PATH
 """
 import base64
 import hashlib
@@ -20,7 +20,7 @@ import subprocess
 import sys
 import time
 
-INPUT, HOLOGRAM = (sys.argv[1:] + ["", ""])[:2]
+INPUT, HOLOGRAM, STREAM = (sys.argv[1:] + ["", "", ""])[:3]
 VIEW = "eye=5,-3,100mm&focus=2mm&pupil=3mm&resolution=90x70&pupil-samples=16"
 
 
@@ -145,7 +145,7 @@ def check_pages(server, state):
     expect(status == 200 and b"<!doctype html>" in page, "the page")
     expect("default-src 'none'" in headers["Content-Security-Policy"], "the page's policy")
     expect(b"http://" not in page and b"https://" not in page, "the page names another server")
-    for name in ("main.js", "view.js", "link.js", "stage.js", "keys.js", "inside.js", "finder.js", "style.css", "icon.svg"):
+    for name in ("main.js", "view.js", "link.js", "stage.js", "keys.js", "inside.js", "finder.js", "scene.js", "drop.js", "levels.js", "style.css", "icon.svg"):
         expect(server.get("/" + name)[0] == 200, name)
     expect((state["hogels_s"], state["hogels_t"], state["directions_u"], state["depth"]) == (24, 20, 16, True), "state")
 
@@ -193,11 +193,11 @@ def check_waves(server, state):
 
 def check_insides(server):
     there = f"{VIEW}&x=0.4&y=0.6"
-    for what in ("hogel", "views", "s-u", "t-v", "depth"):
+    for what in ("hogel", "views", "s-u", "t-v", "depth", "coverage"):
         status, headers, file = server.get(f"/inside?{there}&what={what}&side=200")
         expect(status == 200 and file[1:4] == b"PNG", f"inside {what}: {status} {file[:200]}")
     expect(struct.unpack(">II", server.get(f"/inside?{there}&what=s-u")[2][16:24]) == (24, 16), "24 hogels, 16 directions")
-    for query in ("what=hogel", f"{there}&what=phase", f"{there}&what=", f"{there}&what=hogel&side=5000", f"{there}&what=hogel&colour=4"):
+    for query in ("what=hogel", f"{there}&what=rate", f"{there}&what=phase", f"{there}&what=", f"{there}&what=hogel&side=5000", f"{there}&what=hogel&colour=4"):
         expect(server.get("/inside?" + query)[0] == 400, query)
     expect(server.get("/sharpness?")[0] == 400, "the depths of a light field")
 
@@ -213,6 +213,9 @@ def check_hologram():
     for what in ("intensity", "phase", "real", "spectrum"):
         file = server.get(f"/inside?eye=1,0,100mm&x=0.5&y=0.5&side=64&colour=2&what={what}")[2]
         expect(struct.unpack(">II", file[16:24]) == (64, 64), f"inside {what}")
+    levels = json.loads(server.get("/levels?encoding=double-phase")[2])
+    expect(sum(levels["counts"]) == levels["width"] * levels["height"] and 0 < levels["efficiency"] < 1, f"levels {levels}")
+    expect(server.get("/levels?encoding=sound")[0] == 400, "an encoding that is none")
     reading = json.loads(server.get("/reading?eye=1,0,100mm&x=0.5&y=0.5")[2])
     expect(reading["inside"] and -180 <= reading["phase_deg"] <= 180, f"reading {reading}")
     server.stop(signal.SIGTERM)
@@ -242,7 +245,8 @@ def check_refusals(server):
         expect(server.get("/picture?" + query)[0] == 400, query)
     for method in ("POST", "PUT", "DELETE", "OPTIONS", "HEAD", "TRACE"):
         expect(server.get("/", method=method)[0] == 405, method)
-    expect(server.get("/", method="POST", body="x" * 100)[0] == 400, "a body")
+    expect(server.get("/", method="POST", body="x" * 100)[0] == 405, "a body")
+    expect(server.get("/", method="PUT", body="x" * 100)[0] == 400, "a body of another kind")
     expect(server.get("/picture?" + "a" * 3000)[0] == 400, "a long query")
     for text in (b"\0" * 100, b"GET / HTTP/9.9\r\n\r\n", b"\x16\x03\x01" + os.urandom(200), b"GET / HTTP/1.1\r\n" + b"a: b\r\n" * 9000,
                  b"GET /" + b"a" * 70000 + b" HTTP/1.1\r\n\r\n", b"GET / HTTP/1.1\r\nHost: a\r\nContent-Length: 99999999999\r\n\r\n"):
@@ -311,6 +315,119 @@ def check_focus(server):
     expect(page.until("focus")["depth_m"] == reading["depth_m"], "the depth of what was clicked")
 
 
+def next_state(page, test):
+    while not test(state := page.until("state")):
+        pass
+    return state
+
+
+def check_scene():
+    """A scene changes as the command line would change it; the commands that are shown make the same."""
+    server = Server("--hogels", "24x20", "--directions", "16", "--size", "6mm", "--wavelength", "633nm", input="sphere")
+    server.wait()
+    page = WebSocket(server)
+    before = page.until("state")
+    expect(not before["scene"]["is_file"] and before["scene"]["make"].startswith("hogel hologram sphere --hogels 24x20"), f"{before['scene']}")
+    page.send("change?rotate=0,30,0deg&light=1,0.5,1:white:3&hogels=30x25&fov=20deg")
+    state = next_state(page, lambda each: each["ready"] and each["hogels_s"] == 30 and not each["work"])
+    expect((state["hogels_t"], state["scene"]["rotate_deg"], state["scene"]["lights"]) == (25, [0, 30, 0], ["1,0.5,1:white:3"]), f"{state['scene']}")
+    expect(state["exposure"] == before["exposure"], "the exposure changes with the light")
+    subprocess.run(f"{state['photo']} -q -o photo.png --geometric --eye 5,-3,100mm --resolution 60 --pupil-samples 16 --exposure 1", shell=True, check=True)
+    file = server.get("/picture?eye=5,-3,100mm&resolution=60&pupil-samples=16&exposure=1&format=png")[2]
+    expect(pixels(file)["max_error"] == 0, "the changed scene is not that of hogel photo")
+    # Another pitch keeps the light field; what aliases is told with the number that would do, and that does.
+    page.send("change?pitch=4um")
+    state = next_state(page, lambda each: each["generation"] > state["generation"])
+    advice = {each["option"]: each for each in state["scene"]["advice"]}
+    expect(advice["pitch"]["refused"] and "would do" in advice["pitch"]["text"], f"{advice}")
+    expect(server.get("/picture?eye=0,0,100mm&resolution=20&by=waves&looks=1")[0] == 400, "a pitch that aliases")
+    page.send(f"change?pitch={advice['pitch']['enough'] * 1e6}um")
+    state = next_state(page, lambda each: each["generation"] > state["generation"])
+    expect("pitch" not in [told["option"] for told in state["scene"]["advice"]], f"{state['scene']}")
+    expect(server.get("/picture?eye=0,0,100mm&resolution=20&by=waves&looks=1")[0] == 200, "the pitch that would do")
+    done = subprocess.run(f"{state['scene']['make']} -q", shell=True, capture_output=True, text=True)
+    expect(done.returncode == 0 and pathlib.Path("hologram.h5").exists(), f"{state['scene']['make']}: {done.stderr}")
+    for message in ("change?hogels=0", "change?hogels=x", "change?threads=7", "change?rotate=1", "change?front=2", "change?hogels=100000"):
+        page.send(message)
+        expect(page.until("problem")["message"], message)
+    page.send("change?hogels=&light=&rotate=&fov=")
+    state = next_state(page, lambda each: each["hogels_s"] == 24 and not each["work"])
+    expect("rotate" not in state["scene"]["make"] and state["scene"]["lights"] == [], "as it was")
+    made = Server("--hogels", "20", "--directions", "16", "--size", "4mm", input="sphere")
+    make = made.wait()["scene"]["make"]
+    made.stop(signal.SIGTERM)
+    done = subprocess.run(f"{make} --resolution 8 --looks 1 -q", shell=True, capture_output=True, text=True)
+    expect(done.returncode == 0 and pathlib.Path("made/report.json").exists(), f"{make}: {done.stderr}")
+    # The newest of many changes is what stays.
+    for i in range(60):
+        page.send(f"change?hogels={20 + i}&moving=yes")
+    page.send("change?hogels=33")
+    next_state(page, lambda each: each["hogels_s"] == 33 and each["shown_hogels_s"] == 33 and not each["work"])
+    server.stop(signal.SIGTERM)
+
+
+def check_stream():
+    """Layers of a compressed light field, beside what it was made of."""
+    server = Server("--original", INPUT, input=STREAM)
+    server.wait()
+    page = WebSocket(server)
+    state = next_state(page, lambda each: "sqnr_db" in each.get("stream", {}))
+    all_layers = state["stream"]["of_layers"]
+    expect(state["stream"]["layers"] == all_layers > 2 and state["has_original"] and state["hogel_bytes"][0] > 0, f"{state['stream']}")
+    told = json.loads(subprocess.run(["hogel", "compare", INPUT, STREAM, "--json"], capture_output=True, text=True).stdout)
+    expect(abs(told["sqnr"] - state["stream"]["sqnr_db"]) < 1e-6, f"SQNR {state['stream']} beside {told}")
+    there = f"{VIEW}&format=png&exposure=1"
+    subprocess.run(f"{state['photo_original']} -q -o photo.png --geometric --eye 5,-3,100mm --focus 2mm --pupil 3mm --resolution 90x70 --pupil-samples 16 --exposure 1",
+                   shell=True, check=True)
+    expect(pixels(server.get(f"/picture?{there}&by=original")[2])["max_error"] == 0, "the original")
+    errors = [server.get(f"/picture?{there}&by=error")[2]]
+    expect(server.get(f"/inside?{there}&x=0.5&y=0.5&what=rate")[0] == 200, "rates")
+    expect(json.loads(server.get(f"/reading?{VIEW}&x=0.5&y=0.5")[2])["hogel_bytes"] > 0, "the bytes of a hogel")
+    sqnr = state["stream"]["sqnr_db"]
+    for layers in range(all_layers - 1, 0, -1):
+        page.send(f"change?layers={layers}")
+        state = next_state(page, lambda each: each["stream"]["layers"] == layers and "sqnr_db" in each["stream"])
+        expect(state["stream"]["sqnr_db"] < sqnr, f"layer {layers}: {state['stream']['sqnr_db']} dB, one more {sqnr} dB")
+        sqnr = state["stream"]["sqnr_db"]
+    expect(server.get(f"/picture?{there}&by=error")[2] not in errors, "the error of one layer")
+    subprocess.run(state["photo"] + " -q -o photo.png --geometric --eye 5,-3,100mm --focus 2mm --pupil 3mm --resolution 90x70 --pupil-samples 16 --exposure 1",
+                   shell=True, check=True)
+    # hogel decompress writes halves.
+    expect((pixels(server.get(f"/picture?{there}")[2])["psnr"] or 99) > 50, "one layer is not that of hogel decompress")
+    page.send(f"change?layers={all_layers + 1}")
+    expect("layers" in page.until("problem")["message"], "more layers than there are")
+    server.stop(signal.SIGTERM)
+
+
+def check_drops(server):
+    """Files from the page are opened; what is broken, too large or from elsewhere is not, and what was there stays."""
+    own = {"Origin": f"http://{server.host}"}
+    page = WebSocket(server)
+    mesh = b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n" \
+           b"property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+    for headers in ({}, {"Origin": "http://evil.example"}, {"Origin": "null"}, own | {"Sec_Fetch_Site": "cross-site"}, own | {"Host": "evil.example"}):
+        expect(server.get("/drop?name=a.ply", "POST", mesh, **headers)[0] == 403, f"a file of {headers}")
+    for name in ("", "..", "../a.ply", "/etc/passwd", "a/b.ply", ".ply", "-o", "a" * 200, "%00"):
+        expect(server.get(f"/drop?name={name}", "POST", mesh, **own)[0] == 400, f"a file named {name}")
+    large = b"POST /drop?name=a.ply HTTP/1.1\r\nHost: %s\r\nOrigin: http://%s\r\nContent-Length: 99999999999\r\n\r\n" % (server.host.encode(), server.host.encode())
+    expect(not server.raw(large, 2).startswith(b"HTTP/1.1 2"), "a file that is too large")
+    before = json.loads(server.get("/state")[2])
+    expect(server.get("/drop?name=bad.ply", "POST", b"ply\nformat ascii 1.0\n", **own)[0] == 200, "a broken file is taken")
+    expect("bad.ply" in page.until("problem")["message"], "a broken file is not told")
+    state = json.loads(server.get("/state")[2])
+    expect(state["name"] == before["name"] and server.get(f"/picture?{VIEW}")[0] == 200, f"after a broken file: {state}")
+    expect(server.get("/drop?name=one%20mesh.ply", "POST", mesh, **own)[0] == 200, "a mesh")
+    state = next_state(page, lambda each: each["name"] == "one mesh.ply" and each["ready"] and each.get("scene") and not each["work"])
+    expect(state["scene"]["is_file"] and state["photo"] == "hogel photo 'one mesh.ply' --hogels 40 --directions 16", f"{state['photo']}")
+    obj = b"mtllib o.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+    expect(server.get("/drop?name=o.mtl&more=yes", "POST", b"newmtl m\nKd 1 0 0\n", **own)[0] == 200, "a material")
+    expect(server.get("/drop?name=o.obj", "POST", obj, **own)[0] == 200, "a mesh with a material")
+    next_state(page, lambda each: each["name"] == "o.obj" and not each["work"])
+    expect(server.get("/drop?name=x.h5", "POST", pathlib.Path(INPUT).read_bytes(), **own)[0] == 200, "a light field")
+    next_state(page, lambda each: each["name"] == "x.h5" and each["hogels_s"] == 24 and not each["work"])
+    expect(server.get(f"/picture?{VIEW}")[0] == 200, "a picture of a light field that was dropped")
+
+
 def check_token():
     token = "abcdefghijklmnop-1"
     server = Server("--host", "0.0.0.0", "--token", token)
@@ -338,6 +455,9 @@ def main():
     check_web_socket(server)
     check_newest_wins(server)
     check_focus(server)
+    check_drops(Server("--hogels", "40", "--directions", "16"))
+    check_scene()
+    check_stream()
     check_token()
     page = WebSocket(server)
     page.send("picture?eye=0,0,100mm&resolution=1500x1250&pupil-samples=1024")
@@ -346,7 +466,7 @@ def main():
         status, seconds, words = running.stop(number)
         expect(status == 128 + number and words == "hogel: stopped\n", f"stop: {status} {words}")
         expect(seconds < 1 * float(os.environ.get("HOGEL_PATIENCE", 1)), f"stop took {seconds} s")
-    print("address, page, state, pictures, waves, insides, hologram, readings, refusals, web socket, newest wins, depth in focus, stop")
+    print("address, page, state, pictures, waves, insides, hologram, readings, refusals, web socket, newest wins, depth in focus, dropped files, scene, layers, stop")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The focus finder: how sharp a hologram is at many depths, as a plot. A click goes to a depth.
 
-const svg = (name, attributes, text) => {
+export const svg = (name, attributes, text) => {
   const element = document.createElementNS("http://www.w3.org/2000/svg", name);
   for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
   if (text) element.textContent = text;

@@ -2,13 +2,14 @@
 // The look inside: a small picture of what lies under the pointer, which the server makes.
 
 const kinds = {
-  "light field": {off: "Off", hogel: "One hogel, all of its directions", views: "Views from 7 × 7 directions", "s-u": "Epipolar plane (s, U)", "t-v": "Epipolar plane (t, V)", depth: "Depth, near is bright"},
+  "light field": {off: "Off", hogel: "One hogel, all of its directions", views: "Views from 7 × 7 directions", "s-u": "Epipolar plane (s, U)", "t-v": "Epipolar plane (t, V)", depth: "Depth, near is bright", coverage: "Coverage of the hogels", rate: "Bytes of each hogel"},
   hologram: {off: "Off", intensity: "Fringes: intensity", phase: "Fringes: phase", real: "Fringes: real part", spectrum: "Local spectrum, four decades"},
 };
 const captions = {
   hogel: "Directions to the right and up, of the hogel under the pointer.", views: "Each picture is one direction.",
   "s-u": "s to the right, U down: a point makes a line, whose slope is its depth.", "t-v": "V to the right, t down.",
-  depth: "White is nearest, black holds nothing.", intensity: "140 × 140 samples around the pointer.",
+  depth: "White is nearest, black holds nothing.", coverage: "The share of each hogel's rays that meet something.",
+  rate: "What each hogel takes in the file.", intensity: "140 × 140 samples around the pointer.",
   phase: "140 × 140 samples; black is −180°, white 180°.", real: "140 × 140 samples; grey is zero.",
   spectrum: "Frequency zero in the middle, half a cycle a sample at the edges.",
 };
@@ -25,10 +26,14 @@ export class InsideLook {
 
   // What there is to look at.
   offer(field) {
-    if (field.kind === this.kind) return;
-    this.kind = field.kind;
-    const what = this.by("inside-what");
-    what.replaceChildren(...Object.entries(kinds[field.kind] ?? {}).map(([value, text]) => new Option(text, value)));
+    this.bytes = field.hogel_bytes;
+    const known = Object.entries(kinds[field.kind] ?? {}).filter(([value]) => (value !== "depth" || field.depth) && (value !== "rate" || this.bytes));
+    const kind = known.map(([value]) => value).join();
+    if (kind === this.kind) return this.show();
+    this.kind = kind;
+    const what = this.by("inside-what"), before = what.value;
+    what.replaceChildren(...known.map(([value, text]) => new Option(text, value)));
+    if (known.some(([value]) => value === before)) what.value = before;
     this.show();
   }
 
@@ -46,11 +51,14 @@ export class InsideLook {
     const on = this.what !== "off" && this.what !== "";
     this.by("inside-large").hidden = this.by("inside-caption").hidden = !on;
     this.by("inside-caption").textContent = captions[this.what] ?? "";
+    const ends = {coverage: ["0 %", "100 %"], rate: this.bytes?.map(bytes => `${Math.round(bytes)} bytes`)}[this.what];
+    this.by("legend").hidden = !ends;
+    if (ends) [this.by("legend-low").textContent, this.by("legend-high").textContent] = ends;
   }
 
   point(x, y) {
     this.at = [x, y];
-    if (this.what !== "views" && this.what !== "depth") this.look();
+    if (!["views", "depth", "coverage", "rate"].includes(this.what)) this.look();
   }
 
   async look() {

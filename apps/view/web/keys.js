@@ -2,7 +2,7 @@
 // The table of keys: what is pressed, what the help says, what happens. `to` are the page's actions.
 
 export const keys = to => [
-  {shown: "← → ↑ ↓", text: "Move the eye; with Shift, further", keys: ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"], act: (key, shift) => {
+  {shown: "← → ↑ ↓", text: "Move the eye, the scene or the light; with Shift, further", keys: ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"], act: (key, shift) => {
     const step = shift ? 0.2 : 0.04;
     to.move({ArrowLeft: -step, ArrowRight: step}[key] ?? 0, {ArrowUp: step, ArrowDown: -step}[key] ?? 0);
   }},
@@ -12,8 +12,12 @@ export const keys = to => [
   {shown: "d b", text: "Darker, brighter", keys: ["d", "b"], act: key => to.step("stops", key === "b" ? 1 : -1)},
   {shown: "t", text: "Tone: linear light or its logarithm", keys: ["t"], act: () => to.tone()},
   {shown: "2", text: "Two eyes side by side, or one", keys: ["2"], act: () => to.stereo()},
-  {shown: "w", text: "Photographed by rays, waves, both side by side, their difference", keys: ["w"], act: () => to.method()},
+  {shown: "w", text: "Photographed by rays, waves, both side by side, their difference; of a compressed file its error", keys: ["w"], act: () => to.method()},
   {shown: "i", text: "Look inside: the next kind of picture", keys: ["i"], act: () => to.inside()},
+  {shown: "g", text: "What dragging and arrows move: eye, scene, light", keys: ["g"], act: () => to.dragging()},
+  {shown: "m", text: "Make this: the command line for the scene as it is", keys: ["m"], act: () => to.make()},
+  {shown: "o", text: "Open a file; one that is dropped on the page is opened too", keys: ["o"], act: () => to.open()},
+  {shown: "h", text: "Histogram of a modulator's levels (holograms)", keys: ["h"], act: () => to.levels()},
   {shown: "p", text: "Find planes in focus (holograms)", keys: ["p"], act: () => to.find()},
   {shown: "Enter", text: "Focus on the middle of the picture", keys: ["Enter"], act: () => to.focusMiddle()},
   {shown: "0", text: "Reset the view", keys: ["0"], act: () => to.reset()},

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page of `hogel view`. It makes no picture itself: it asks the server, which is hogel, and draws what comes.
-import {View, command, hash, methods, query} from "./view.js";
+import {View, byWaves, command, hash, methods, query} from "./view.js";
+import {Drop} from "./drop.js";
 import {InsideLook} from "./inside.js";
+import {SceneControls} from "./scene.js";
+import {histogram} from "./levels.js";
 import {plot} from "./finder.js";
 import {Link} from "./link.js";
 import {Stage} from "./stage.js";
@@ -13,7 +16,7 @@ const pause = 140;  // milliseconds without a change that are rest
 
 const view = new View();
 let field = {center_u: 0, center_v: 0, tan_half_u: 0.1, tan_half_v: 0.1, ready: false};  // the server's last state
-let number = 0, wanted = 0, drawn = null, resting = 0, hovering = 0;
+let lost = false, number = 0, wanted = 0, drawn = null, resting = 0, hovering = 0;
 const asked = new Map();  // number of a request → when it was made necessary
 
 // Requests
@@ -29,8 +32,8 @@ function ask(moving, since) {
   const id = ++number;
   asked.set(id, since);
   for (const old of asked.keys()) if (old < id - 64) asked.delete(old);
-  const looks = moving && view.by !== "rays" ? {looks: 1} : {};
-  link.send("picture?" + query({...words(moving), ...looks, quality: moving ? inMotion.quality : view.by === "rays" ? atRest.quality : speckled, moving: moving ? "yes" : "no", id}));
+  const waves = byWaves(view.by), looks = moving && waves ? {looks: 1} : {};
+  link.send("picture?" + query({...words(moving), ...looks, quality: moving ? inMotion.quality : waves ? speckled : atRest.quality, moving: moving ? "yes" : "no", id}));
 }
 
 // What the server makes of an address, which holds the token if there is one.
@@ -58,8 +61,12 @@ function rest() {
   wanted = 0;
   ask(false, performance.now());
   inside.look();
-  history.replaceState(null, "", location.pathname + location.search + hash(view.words()));
+  remember();
 }
+
+// The address holds the view, and what was changed of what is looked at.
+const address = () => location.pathname + location.search + hash({...view.words(), ...scene.words, ...layerWords()});
+const remember = () => history.replaceState(null, "", address());
 
 async function picture(about, blob) {
   const id = Number(about.id), since = asked.get(id);
@@ -117,11 +124,14 @@ function say(text) {
 
 function problem(text) {
   by("problem").hidden = !text;
-  by("problem").textContent = text;
+  by("problem-text").textContent = text;
 }
 
 function state(message) {
-  const first = !field.ready && message.ready, finer = message.shown_hogels_s !== field.shown_hogels_s;
+  const first = message.ready && (!field.ready || message.opened !== field.opened), another = message.generation !== field.generation;
+  // A link is of what is opened with the page; another file is looked at from its front.
+  const linked = !field.ready;
+  for (const name of ["scene", "stream", "hogel_bytes"]) delete field[name];
   field = {...field, ...message};
   by("name").textContent = field.name;
   document.title = `${field.name} – hogel view`;
@@ -130,16 +140,73 @@ function state(message) {
   by("bar").value = field.fraction;
   if (!field.ready) return;
   by("facts").textContent = facts();
-  by("by-control").hidden = !field.rays || !field.looks;
-  by("finder").hidden = field.kind !== "hologram";
+  const known = offered();
+  for (const option of by("by").options) option.hidden = option.disabled = !known.includes(option.value);
+  by("by-control").hidden = known.length < 2;
+  by("finder").hidden = by("levels").hidden = field.kind !== "hologram";
+  if (field.encodings && by("encoding").options.length === 0) by("encoding").append(...field.encodings.map(name => new Option(name, name)));
   inside.offer(field);
   if (first) {
     view.reset(field);
-    view.read(location.hash);
+    if (linked) view.read(location.hash); else forget();
   }
+  scene.show(field.scene, field.width_m, field.height_m);
+  showLayers();
   show();
-  if (first || finer) ask(false, performance.now());
+  if (first && linked) {
+    scene.read(location.hash);
+    readLayers();
+  }
+  if (first || another) {
+    ask(false, performance.now());
+    inside.look();
+  }
 }
+
+// How pictures of this can be made.
+const offered = () => methods.filter(method => byWaves(method) ? field.looks > 0 && (field.rays || method === "waves") : field.rays && (method === "rays" || field.has_original));
+
+// Another file begins without what was changed of the one before.
+function forget() {
+  scene.words = {};
+  layers = 0;
+  by("finder-plot").replaceChildren();
+  by("levels-plot").replaceChildren();
+  problem("");
+  remember();
+}
+
+// Layers of a compressed light field
+
+let layers = 0;  // 0: all
+const layerWords = () => layers ? {layers: String(layers)} : {};
+
+function setLayers(count) {
+  layers = count === field.stream?.of_layers ? 0 : count;
+  link.send("change?" + query({layers: layers ? String(layers) : ""}));
+  remember();
+}
+
+function readLayers() {
+  const wanted = Number(new URLSearchParams(location.hash.replace(/^#/, "")).get("layers"));
+  if (field.stream && Number.isInteger(wanted) && wanted > 0 && wanted < field.stream.of_layers) setLayers(wanted);
+}
+
+function showLayers() {
+  const {stream} = field;
+  by("layers-control").hidden = !stream;
+  if (!stream) return;
+  by("layers").max = stream.of_layers;
+  by("layers").disabled = stream.of_layers < 2;
+  if (document.activeElement !== by("layers") || !field.work) by("layers").value = stream.layers;
+  by("layers-out").textContent = `${stream.layers} of ${stream.of_layers}`;
+  by("layers").setAttribute("aria-valuetext", by("layers-out").textContent);
+  const beside = stream.original ? `beside ${stream.original}` : "beside the whole file";
+  const errors = stream.exact ? `no error ${beside}` : stream.sqnr_db === undefined ? "its error is being measured" : `SQNR ${stream.sqnr_db.toFixed(1)} dB ${beside}`;
+  by("layers-hint").textContent = `${size(stream.bytes)}, ${errors}.`;
+}
+
+const size = bytes => bytes < 1e6 ? `${(bytes / 1e3).toPrecision(3)} kB` : `${(bytes / 1e6).toPrecision(3)} MB`;
 
 function facts() {
   if (field.kind === "hologram")
@@ -156,6 +223,7 @@ function reading(message) {
   if (!message.inside) parts.push(`outside the ${field.kind}`);
   if (message.radiance) parts.push(`${field.kind === "hologram" ? "intensity" : "radiance"} ${message.radiance.map(value => +value.toPrecision(3)).join(" ")}`);
   if (message.depth_m !== undefined) parts.push(`depth ${millimetres(1e3 * message.depth_m)}`);
+  if (message.hogel_bytes !== undefined) parts.push(`hogel ${Math.round(message.hogel_bytes)} bytes`);
   if (message.phase_deg !== undefined) parts.push(`phase ${message.phase_deg.toFixed(0)}°`);
   by("reading").textContent = parts.join(" · ");
 }
@@ -164,6 +232,7 @@ function reading(message) {
 
 const to = {
   move(right, up) {
+    if (scene.dragging !== "eye") return scene.drag(right, up);
     const z = view.eye[2];
     view.moveTo(view.eye[0] + right * 2 * field.tan_half_u * z, view.eye[1] + up * 2 * field.tan_half_v * z, field);
     changed();
@@ -177,12 +246,12 @@ const to = {
   },
   stereo() { if (!view.two) { view.eyes = view.eyes > 0 ? 0 : 63; changed(); } },
   by(method) {
-    if (!field.rays || !field.looks) return;
+    if (!offered().includes(method)) return;
     view.by = method;
     if (view.two) view.eyes = 0;
     changed();
   },
-  method() { to.by(methods[(methods.indexOf(view.by) + 1) % methods.length]); },
+  method() { const known = offered(); to.by(known[(known.indexOf(view.by) + 1) % known.length]); },
   inside() { inside.next(); },
   async find() {
     if (field.kind !== "hologram") return say("The depths of a light field are found by a click on the picture");
@@ -192,6 +261,25 @@ const to = {
       say("");
     } catch (error) { say(error.message); }
   },
+  async levels() {
+    if (field.kind !== "hologram") return say("A light field has no levels of a modulator");
+    say("Counting levels");
+    try {
+      by("levels-plot").replaceChildren(...histogram(await (await get("/levels?", {encoding: by("encoding").value})).json()));
+      say("");
+    } catch (error) { say(error.message); }
+  },
+  dragging() {
+    if (!field.scene) return say("A file stays as it is; only scenes move");
+    scene.dragging = {eye: "scene", scene: "light", light: "eye"}[scene.dragging];
+    say(`Dragging and arrow keys move the ${scene.dragging}`);
+  },
+  make() {
+    if (!field.scene) return say("Scenes are made; this is a file");
+    by("made-command").textContent = field.scene.make;
+    by("made").showModal();
+  },
+  open() { by("file").click(); },
   tone() { view.display = view.display === "log" ? "intensity" : "log"; changed(); },
   focusAt(x, y) { link.send("focus?" + query({...words(false), x: x.toFixed(5), y: y.toFixed(5)})); },
   focusMiddle() { to.focusAt(0.5, 0.5); },
@@ -210,7 +298,7 @@ const to = {
     if (drawn && all.display !== "log") all.exposure = String(+drawn.exposure.toPrecision(9));
     copy(command(field.photo ?? "hogel photo LIGHTFIELD", all, view, field));
   },
-  copyLink() { copy(location.origin + location.pathname + location.search + hash(view.words())); },
+  copyLink() { copy(location.origin + address()); },
   full() { document.fullscreenElement ? document.exitFullscreen() : by("stage").requestFullscreen?.(); },
   help() { by("keys").showModal(); },
 };
@@ -223,7 +311,7 @@ async function copy(text) {
 }
 
 const stage = new Stage(by("picture"), {
-  drag: (dx, dy) => to.move(-dx, dy),
+  drag: (dx, dy) => scene.dragging === "eye" ? to.move(-dx, dy) : scene.drag(dx, -dy),
   zoom: to.zoom,
   click: to.focusAt,
   hover(x, y) {
@@ -237,14 +325,29 @@ stage.fit();
 
 const inside = new InsideLook(by, async there => (await get("/inside?", {...words(false), ...there})).blob());
 
+const scene = new SceneControls(by, (words, moving) => {
+  link.send("change?" + query({...words, ...(moving ? {moving: "yes"} : {})}));
+  if (!moving) remember();
+}, 250);
+
+new Drop(by, {
+  largest: () => field.largest_file ?? 0,
+  address(name, more) {
+    const token = new URLSearchParams(location.search).get("token");
+    return "/drop?" + query({name, ...(more ? {more: "yes"} : {}), ...(token ? {token} : {})});
+  },
+  began: say, ended: say, failed: problem,
+});
+
 const link = new Link({
-  onOpen() { problem(""); if (field.ready) ask(false, performance.now()); },
-  onLost() { problem("The server does not answer: hogel view has ended, or this page's address is of an earlier one. Trying again."); },
+  onOpen() { if (lost) problem(""); lost = false; if (field.ready) ask(false, performance.now()); },
+  onLost() { lost = true; problem("The server does not answer: hogel view has ended, or this page's address is of an earlier one. Trying again."); },
   onPicture: picture,
   onText(message) {
     if (message.type === "state") state(message);
     if (message.type === "reading") reading(message);
     if (message.type === "focus") { view.focus = 1e3 * message.depth_m; changed(); say(`In focus: ${millimetres(view.focus)}`); }
+    if (message.type === "problem") problem(message.message);
     if (message.type === "error") say(message.message);
   },
 });
@@ -260,6 +363,11 @@ by("stops").addEventListener("input", event => {
 by("display").addEventListener("change", event => { view.display = event.target.value; changed(); });
 by("by").addEventListener("change", event => to.by(event.target.value));
 by("find").addEventListener("click", to.find);
+by("count-levels").addEventListener("click", to.levels);
+by("layers").addEventListener("input", event => setLayers(Number(event.target.value)));
+by("make").addEventListener("click", to.make);
+by("copy-made").addEventListener("click", () => copy(by("made-command").textContent));
+by("dismiss").addEventListener("click", () => problem(""));
 by("stereo").addEventListener("change", to.stereo);
 by("controls").addEventListener("reset", event => { event.preventDefault(); to.reset(); });
 by("controls").addEventListener("submit", event => event.preventDefault());
@@ -282,6 +390,6 @@ by("key-rows").append(...table.map(row => {
   return line;
 }));
 
-window.addEventListener("hashchange", () => { view.read(location.hash); changed(); });
+window.addEventListener("hashchange", () => { view.read(location.hash); scene.read(location.hash); readLayers(); changed(); });
 new ResizeObserver(() => { const before = stage.pixels; if (stage.fit() !== before && field.ready) changed(); }).observe(by("stage"));
 show();

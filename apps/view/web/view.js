@@ -4,7 +4,8 @@
 const tidy = number => String(+number.toFixed(4));
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
 
-export const methods = ["rays", "waves", "side", "difference"];
+export const methods = ["rays", "waves", "side", "difference", "original", "error"];
+export const byWaves = by => ["waves", "side", "difference"].includes(by);
 export const nearest = 20, farthest = 5000;
 
 export class View {
@@ -75,7 +76,10 @@ export function command(photo, words, view, field) {
   const {eyes, by, "pupil-samples": samples, ...others} = words;
   const how = waves => field.rays === false ? {} : waves ? {wave: "", looks: field.looks} : {geometric: "", "pupil-samples": samples};
   const one = (name, eye, waves) => `${photo} -o ${name} ${Object.entries({...how(waves), ...others, eye}).map(([word, value]) => `--${word} ${value}`).join(" ").replaceAll("  ", " ")}`;
-  const waves = view.by !== "rays";
+  const photographs = photo.split(" && ").at(-1), original = words => words.replace(photo, field.photo_original ?? photographs);
+  if (view.by === "original") return original(one("view.png", words.eye, false));
+  if (view.by === "error") return `${one("shown.png", words.eye, false)} && ${original(one("original.png", words.eye, false))} && hogel compare original.png shown.png`;
+  const waves = byWaves(view.by);
   if (view.two) return `${one("rays.png", words.eye, false)} && ${one("waves.png", words.eye, true)}`;
   if (!eyes) return one("view.png", words.eye, waves);
   const of = side => `${[view.eye[0] + side * view.eyes / 2, view.eye[1], view.eye[2]].map(tidy).join(",")}mm`;

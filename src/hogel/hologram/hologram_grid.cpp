@@ -52,7 +52,8 @@ void require_diffraction(const LightFieldGrid& light_field, double wavelength, d
                     "a pitch of {} or less would do",
                     format_length(pitch), format_length(wavelength),
                     std::asin(std::min(possible, 1.0)) * 180 / std::numbers::pi,
-                    std::asin(needed) * 180 / std::numbers::pi, format_length(hologram::max_pitch(light_field, wavelength))));
+                    std::asin(needed) * 180 / std::numbers::pi,
+                    format_length(hologram::max_pitch(light_field, wavelength))));
 }
 
 void require_one_row(std::span<const LightFieldGrid> faces) {

@@ -19,6 +19,12 @@ using namespace literals;
 
 namespace {
 
+// A length of three digits, as many as a person acts on; or what is just below it.
+std::string about(double metres, bool below = false) {
+    const double unit = std::pow(10, std::floor(std::log10(metres)) - 2), digits = metres / unit;
+    return format_length((below ? std::floor(digits) : std::round(digits)) * unit);
+}
+
 // The distance from the hologram of what of a scene is farthest from it, metres.
 double greatest_depth(const Bounds& scene) { return std::max(std::abs(scene.low.z), std::abs(scene.high.z)); }
 
@@ -30,24 +36,25 @@ void advise_pitch(const LightFieldGrid& grid, const HologramRequest& hologram, s
     // A pitch beyond two hogels leaves the hogel without a sample.
     if (pitch <= possible && hologram.pitch <= 2 * grid.pitch) return;
     const double enough = grid.pitch / std::ceil(grid.pitch / possible * (1 - 1e-12));
-    all.push_back({"pitch",
-                   fmt::format("a pitch of {} aliases: it diffracts {} no farther than {:.2f} degrees, but the light "
-                               "field reaches {:.2f}; {} would do",
-                               format_length(pitch), format_length(shortest),
-                               std::asin(std::min(shortest / (2 * pitch), 1.0)) / 1_deg,
-                               std::asin(hologram::steepest_sine(grid)) / 1_deg, format_length(enough)),
-                   enough, true});
+    all.push_back(
+        {"pitch",
+         fmt::format("a pitch of {} aliases: it diffracts {} no farther than {:.2f} degrees, but the light "
+                     "field reaches {:.2f}; {} would do",
+                     about(pitch), format_length(shortest), std::asin(std::min(shortest / (2 * pitch), 1.0)) / 1_deg,
+                     std::asin(hologram::steepest_sine(grid)) / 1_deg, about(enough, true)),
+         enough, true});
 }
 
 void advise_directions(const LightFieldGrid& grid, double depth, std::vector<Advice>& all) {
     const double apart = depth * std::max(grid.step_u(), grid.step_v());
     if (apart <= grid.pitch * (1 + 1e-9)) return;
     const double enough = std::ceil(static_cast<double>(grid.directions_u) * apart / grid.pitch * (1 - 1e-12));
-    all.push_back({"directions",
-                   fmt::format("at a depth of {} neighbouring directions are {} apart, {:.2g} hogels; {:.0f} directions "
-                               "would do",
-                               format_length(depth), format_length(apart), apart / grid.pitch, enough),
-                   enough, false});
+    all.push_back(
+        {"directions",
+         fmt::format("at a depth of {} neighbouring directions are {} apart, {:.2g} hogels; {:.0f} directions "
+                     "would do",
+                     about(depth), about(apart), apart / grid.pitch, enough),
+         enough, false});
 }
 
 void advise_hogels(const LightFieldGrid& grid, double depth, const HologramRequest& hologram,
@@ -59,8 +66,7 @@ void advise_hogels(const LightFieldGrid& grid, double depth, const HologramReque
     if (enough < 1) return;
     all.push_back({"hogels",
                    fmt::format("by waves, hogels of {} blur a depth of {} to {}; {:.0f} hogels of {} would do",
-                               format_length(grid.pitch), format_length(depth), format_length(blur), enough,
-                               format_length(grid.width() / enough)),
+                               about(grid.pitch), about(depth), about(blur), enough, about(grid.width() / enough)),
                    enough, false});
 }
 
@@ -84,8 +90,7 @@ Scene SceneModel::placed(const LightFieldRequest& request, const Progress& progr
     return pipeline::place_built_in(*made_, request);
 }
 
-std::vector<Advice> advise(const Bounds& scene, const LightFieldRequest& light_field,
-                           const HologramRequest& hologram) {
+std::vector<Advice> advise(const Bounds& scene, const LightFieldRequest& light_field, const HologramRequest& hologram) {
     std::vector<Advice> all;
     const double depth = greatest_depth(scene);
     if (hologram.channels.empty()) return all;

@@ -21,8 +21,9 @@ using namespace codec::format;
 namespace {
 
 // The bytes of each hogel's own code in a tile, [t][s]. Coders that code a tile's hogels together have none.
-std::vector<std::size_t> own_bytes(const StreamInfo& info, const TileCoder& coder, const std::vector<std::uint8_t>& code,
-                                   const LightFieldGrid& grid, const HogelRange& range, std::size_t layers) {
+std::vector<std::size_t> own_bytes(const StreamInfo& info, const TileCoder& coder,
+                                   const std::vector<std::uint8_t>& code, const LightFieldGrid& grid,
+                                   const HogelRange& range, std::size_t layers) {
     if (info.method.coder == "hogel") {
         const std::unique_ptr<TileDecoder> tile = coder.open(code, grid, range, std::min(layers, coder.layers(range)));
         if (const auto* by_hogels = dynamic_cast<const decode::HogelDecoder*>(tile.get()))
