@@ -173,6 +173,7 @@ function forget() {
   by("finder-plot").replaceChildren();
   by("levels-plot").replaceChildren();
   problem("");
+  say("");
   remember();
 }
 

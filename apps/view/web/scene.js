@@ -133,7 +133,7 @@ export class SceneControls {
     for (const slider of sliders) {
       const value = slider.of(this.scene), input = by(slider.id), position = slider.log ? Math.log10(value) : value;
       if (document.activeElement !== input || !held) input.value = position;
-      const text = slider.id.startsWith("light") && !this.scene.lights.length ? "scene's own" : `${+value.toPrecision(4)}${slider.unit}`;
+      const text = slider.id.startsWith("light") && !this.scene.lights.length ? "scene's own" : `${slider.unit === "°" ? +value.toFixed(1) : +value.toPrecision(4)}${slider.unit}`;
       by(`${slider.id}-out`).textContent = text;
       input.setAttribute("aria-valuetext", text);
     }

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/settings.h"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "hogel/error.h"
+#include "view/drop_folder.h"
+
+namespace hogel::view {
+namespace {
+
+// Of "hogel view WORDS...".
+Settings settings_of(std::vector<std::string> words, const std::string& input) {
+    words.insert(words.begin(), {"hogel-view", "view"});
+    static std::vector<std::vector<char*>> kept;
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(strdup(word.c_str()));
+    arguments.push_back(nullptr);
+    kept.push_back(arguments);
+    cli::Session session;
+    session.arguments = kept.back().data();
+    cli::ViewOptions options;
+    options.input = input;
+    return {session, options};
+}
+
+TEST(Settings, changes_are_those_of_a_command_line) {
+    const Settings first =
+        settings_of({"pumpkin", "--hogels", "60", "--port=0", "--size=9mm", "--no-browser"}, "pumpkin");
+    EXPECT_EQ(first.options().render.hogels.columns, 60u);
+    EXPECT_EQ(first.photo_command(), "hogel photo pumpkin --hogels 60 --size 9mm");
+    const Settings changed = first.with({{"hogels", "70x50"}, {"rotate", "0,20,0deg"}, {"size", "8mm"}});
+    EXPECT_EQ(changed.options().render.hogels.rows, 50u);
+    EXPECT_NEAR(changed.options().render.size, 8e-3, 1e-12);
+    EXPECT_EQ(changed.make_command(), "hogel make pumpkin --hogels 70x50 --rotate 0,20,0deg --size 8mm -o made");
+    EXPECT_FALSE(changed.same_light_field(first));
+    EXPECT_TRUE(changed.same_light_field(changed.with({{"pitch", "2um"}})));
+    EXPECT_FALSE(changed.same_light_field(changed.with({{"fov", "20deg"}})));
+    // Without a value it is that of the first command line.
+    const Settings back = changed.with({{"hogels", ""}, {"rotate", ""}, {"size", ""}});
+    EXPECT_EQ(back.photo_command(), first.photo_command());
+    EXPECT_TRUE(back.with({}).options().render.scene.lights.empty());
+    EXPECT_EQ(first.with({{"light", "1,1,1:red"}}).photo_command(),
+              "hogel photo pumpkin --hogels 60 --size 9mm --light 1,1,1:red");
+}
+
+TEST(Settings, refuse_what_a_command_line_would) {
+    const Settings first = settings_of({"pumpkin"}, "pumpkin");
+    for (const auto& [name, value] : std::vector<std::pair<std::string, std::string>>{{"hogels", "0"},
+                                                                                      {"hogels", "many"},
+                                                                                      {"size", "-1mm"},
+                                                                                      {"front", "7"},
+                                                                                      {"rotate", "1,2deg"},
+                                                                                      {"threads", "2"},
+                                                                                      {"memory", "1"},
+                                                                                      {"host", "0.0.0.0"},
+                                                                                      {"", "x"}})
+        EXPECT_THROW(first.with({{name, value}}), Error) << name << value;
+    // Nor does a value become another option.
+    EXPECT_THROW(first.with({{"size", "8mm --token x"}}), Error);
+}
+
+TEST(Settings, make_holograms_by_themselves_with_options_that_make_lacks) {
+    EXPECT_EQ(settings_of({"pumpkin", "--wavelength", "532nm"}, "pumpkin").make_command(),
+              "hogel hologram pumpkin --wavelength 532nm -o hologram.h5");
+    EXPECT_EQ(settings_of({"pumpkin", "--looks", "4", "--zero", "3"}, "pumpkin").make_command(),
+              "hogel make pumpkin -o made");
+}
+
+TEST(DropFolder, keeps_what_is_shown_and_forgets_what_was) {
+    std::filesystem::path first, second;
+    {
+        DropFolder folder;
+        first = folder.place_for("a.gltf");
+        EXPECT_EQ(folder.place_for("a.bin").parent_path(), first.parent_path());
+        std::ofstream(first) << "x";
+        EXPECT_EQ(std::filesystem::status(first.parent_path()).permissions() & std::filesystem::perms::all,
+                  std::filesystem::perms::owner_all);
+        folder.opened();
+        second = folder.place_for("b.ply");
+        EXPECT_NE(second.parent_path(), first.parent_path());
+        folder.opened();
+        EXPECT_TRUE(std::filesystem::exists(first));  // until the second is shown
+        folder.forget_earlier();
+        EXPECT_FALSE(std::filesystem::exists(first.parent_path()));
+        EXPECT_TRUE(std::filesystem::exists(second.parent_path()));
+        for (const char* name : {"", ".", "..", "../a", "/a", "a/b", ".hidden", "-o"})
+            EXPECT_THROW(folder.place_for(name), Error) << name;
+    }
+    EXPECT_FALSE(std::filesystem::exists(second.parent_path()));
+}
+
+}  // namespace
+}  // namespace hogel::view
