@@ -356,7 +356,7 @@ def check_scene():
     made = Server("--hogels", "20", "--directions", "16", "--size", "4mm", input="sphere")
     make = made.wait()["scene"]["make"]
     made.stop(signal.SIGTERM)
-    done = subprocess.run(f"{make} --resolution 8 --looks 1 -q", shell=True, capture_output=True, text=True)
+    done = subprocess.run(f"{make} --resolution 8 --looks 1 --force -q", shell=True, capture_output=True, text=True)
     expect(done.returncode == 0 and pathlib.Path("made/report.json").exists(), f"{make}: {done.stderr}")
     # The newest of many changes is what stays.
     for i in range(60):
@@ -390,7 +390,7 @@ def check_stream():
         expect(state["stream"]["sqnr_db"] < sqnr, f"layer {layers}: {state['stream']['sqnr_db']} dB, one more {sqnr} dB")
         sqnr = state["stream"]["sqnr_db"]
     expect(server.get(f"/picture?{there}&by=error")[2] not in errors, "the error of one layer")
-    subprocess.run(state["photo"] + " -q -o photo.png --geometric --eye 5,-3,100mm --focus 2mm --pupil 3mm --resolution 90x70 --pupil-samples 16 --exposure 1",
+    subprocess.run(state["photo"].replace("decompress", "decompress -q") + " -q -o photo.png --geometric --eye 5,-3,100mm --focus 2mm --pupil 3mm --resolution 90x70 --pupil-samples 16 --exposure 1",
                    shell=True, check=True)
     # hogel decompress writes halves.
     expect((pixels(server.get(f"/picture?{there}")[2])["psnr"] or 99) > 50, "one layer is not that of hogel decompress")
