@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/shading/vertex_visibility.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "hogel/core/parallel.h"
+#include "hogel/scenes.h"
+#include "hogel/shading/illumination.h"
+#include "hogel/shading/lighting.h"
+
+namespace hogel::shading {
+namespace {
+
+constexpr std::size_t vertices_per_task = 16;
+// Of the scene's diagonal: what is finer is finer than the hogels of most holograms.
+constexpr double min_side = 0.01;
+constexpr int parts = 4;  // a triangle is sampled in the middles of parts² equal ones
+
+/// The middles of the parts of a triangle, as weights of its corners.
+std::array<std::array<float, 3>, parts * parts> middles() {
+    std::array<std::array<float, 3>, parts * parts> weights{};
+    std::size_t n = 0;
+    const auto add = [&](double b, double c) {
+        weights[n++] = {static_cast<float>(1 - (b + c) / parts), static_cast<float>(b / parts),
+                        static_cast<float>(c / parts)};
+    };
+    for (int i = 0; i < parts; ++i)
+        for (int k = 0; i + k < parts; ++k) {
+            add(i + 1.0 / 3, k + 1.0 / 3);
+            if (i + k + 1 < parts) add(i + 2.0 / 3, k + 2.0 / 3);
+        }
+    return weights;
+}
+
+class VertexVisibility {
+  public:
+    VertexVisibility(const Scene& scene, const ShadedScene& shaded, const trace::RayCaster& caster, const Light& light)
+        : shaded_(shaded), caster_(caster), light_(light), states_(shaded.positions.size(), State::unlit) {
+        const double usual = ray_offset(scene);
+        const Bounds box = bounds(scene);
+        min_side_ = min_side * length(box.high - box.low);
+        std::size_t base = 0;
+        for (const Mesh& mesh : scene.meshes) {
+            meshes_.push_back({&mesh, base, ray_offset(mesh, usual)});
+            base += mesh.positions.size();
+        }
+    }
+
+    std::vector<float> find() {
+        for (const Part& part : meshes_) trace_vertices(part);
+        std::vector<float> visible(states_.size());
+        for (std::size_t i = 0; i < states_.size(); ++i) visible[i] = states_[i] == State::lit ? 1.0f : 0.0f;
+        if (light_.casts_shadows) smooth(visible);
+        return visible;
+    }
+
+  private:
+    enum class State : std::uint8_t { unlit, shadow, lit };  // unlit: it faces away
+    struct Part {
+        const Mesh* mesh;
+        std::size_t base;
+        double offset;
+    };
+    /// Of one triangle, the sums over its samples for each corner: of the corner's weights, and of those in light.
+    struct Shares {
+        std::array<float, 3> all{}, lit{};
+    };
+
+    State trace(const Part& part, Vec3 point, Vec3 normal) const {
+        const Illumination from = illuminate(light_, point);
+        if (!(dot(normal, from.to_light) > 0)) return State::unlit;
+        const bool hidden =
+            light_.casts_shadows && caster_.occluded(point + part.offset * normal, from.to_light, 0, from.distance);
+        return hidden ? State::shadow : State::lit;
+    }
+
+    void trace_vertices(const Part& part) {
+        const Mesh& mesh = *part.mesh;
+        if (!mesh.radiance.empty() || mesh.normals.empty()) return;
+        const std::size_t n = mesh.positions.size();
+        core::parallel_for((n + vertices_per_task - 1) / vertices_per_task, [&](std::size_t task) {
+            const std::size_t first = task * vertices_per_task;
+            for (std::size_t i = first; i < std::min(n, first + vertices_per_task); ++i)
+                states_[part.base + i] = trace(part, mesh.positions[i], mesh.normals[i]);
+        });
+    }
+
+    bool is_crossed(const ShadedScene::Triangle& triangle) const {
+        const auto is = [&](State state) {
+            return std::ranges::any_of(triangle.vertices, [&](auto vertex) { return states_[vertex] == state; });
+        };
+        if (!is(State::lit) || !is(State::shadow)) return false;
+        const auto& [a, b, c] = triangle.vertices;
+        const Vec3 ab = shaded_.positions[b] - shaded_.positions[a], bc = shaded_.positions[c] - shaded_.positions[b];
+        return std::max({length(ab), length(bc), length(ab + bc)}) > min_side_;
+    }
+
+    Shares sample(const ShadedScene::Triangle& triangle) const {
+        static const auto samples = middles();
+        const Part& part = meshes_[triangle.mesh];
+        Shares shares;
+        for (const auto& weights : samples) {
+            Vec3 point, normal;
+            for (std::size_t k = 0; k < 3; ++k) {
+                point += double{weights[k]} * shaded_.positions[triangle.vertices[k]];
+                normal += double{weights[k]} * part.mesh->normals[triangle.vertices[k] - part.base];
+            }
+            if (!(length(normal) > 0)) continue;
+            const State state = trace(part, point, normalize(normal));
+            if (state == State::unlit) continue;
+            for (std::size_t k = 0; k < 3; ++k) {
+                shares.all[k] += weights[k];
+                if (state == State::lit) shares.lit[k] += weights[k];
+            }
+        }
+        return shares;
+    }
+
+    // What a triangle without an edge of a shadow says of its corners: that they are all in light, or all in shadow.
+    Shares whole(const ShadedScene::Triangle& triangle) const {
+        constexpr float third = parts * parts / 3.0f;
+        Shares shares;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const State state = states_[triangle.vertices[k]];
+            shares.all[k] = state == State::unlit ? 0 : third;
+            shares.lit[k] = state == State::lit ? third : 0;
+        }
+        return shares;
+    }
+
+    void smooth(std::vector<float>& visible) const {
+        std::vector<std::uint32_t> crossed;
+        for (std::uint32_t i = 0; i < shaded_.triangles.size(); ++i)
+            if (is_crossed(shaded_.triangles[i])) crossed.push_back(i);
+        if (crossed.empty()) return;
+        std::vector<Shares> sampled(crossed.size());
+        core::parallel_for(crossed.size(), [&](std::size_t i) { sampled[i] = sample(shaded_.triangles[crossed[i]]); });
+        std::vector<char> at_edge(visible.size());
+        for (const std::uint32_t i : crossed)
+            for (const std::uint32_t vertex : shaded_.triangles[i].vertices) at_edge[vertex] = 1;
+        std::vector<double> all(visible.size()), lit(visible.size());
+        std::size_t next = 0;
+        for (std::uint32_t i = 0; i < shaded_.triangles.size(); ++i) {
+            const ShadedScene::Triangle& triangle = shaded_.triangles[i];
+            const bool is_sampled = next < crossed.size() && crossed[next] == i;
+            const auto& [a, b, c] = triangle.vertices;
+            if (!is_sampled && !at_edge[a] && !at_edge[b] && !at_edge[c]) continue;
+            const Shares shares = is_sampled ? sampled[next++] : whole(triangle);
+            const Vec3 origin = shaded_.positions[a];
+            const double area = length(cross(shaded_.positions[b] - origin, shaded_.positions[c] - origin));
+            for (std::size_t k = 0; k < 3; ++k) {
+                all[triangle.vertices[k]] += area * double{shares.all[k]};
+                lit[triangle.vertices[k]] += area * double{shares.lit[k]};
+            }
+        }
+        for (std::size_t i = 0; i < visible.size(); ++i)
+            if (at_edge[i] && states_[i] != State::unlit && all[i] > 0)
+                visible[i] = static_cast<float>(lit[i] / all[i]);
+    }
+
+    const ShadedScene& shaded_;
+    const trace::RayCaster& caster_;
+    const Light& light_;
+    double min_side_ = 0;
+    std::vector<Part> meshes_;
+    std::vector<State> states_;
+};
+
+}  // namespace
+
+std::vector<float> vertex_visibility(const Scene& scene, const ShadedScene& shaded, const trace::RayCaster& caster,
+                                     const Light& light) {
+    return VertexVisibility(scene, shaded, caster, light).find();
+}
+
+}  // namespace hogel::shading
