@@ -345,9 +345,10 @@ std::shared_ptr<const ShadedScene> light_scene(const Session& session, const Sce
     const LightFieldRequest request = options.request();
     if (std::ranges::any_of(scene.meshes, [](const Mesh& mesh) { return mesh.radiance.empty(); }))
         record.acted("shading", shading_model(scene, request.shading));
-    if (scene.has_large_triangles && request.shading.model == "auto")
-        session.detail(
-            fmt::format("shading: {}, because its triangles are large", shading_model(scene, request.shading)));
+    if (request.shading.model == "auto" && shading_model(scene, request.shading) == "direct")
+        session.detail(fmt::format("shading: direct, because {}", scene.has_large_triangles
+                                                                      ? "its triangles are large"
+                                                                      : "of its maps of gloss or relief"));
     if (const double bytes = shadow_map_bytes(scene, request.shading); bytes > 0) {
         record.acted({"shadow-map"});
         session.detail(fmt::format("shadow maps: {}", format_bytes(bytes)));

@@ -117,6 +117,41 @@ bool has_large_triangles(const Scene& scene, double hologram_width) {
     return large > 0.5 * all;
 }
 
+/// The part of a scene's depth that is before the hologram's plane: as asked for, but no more than the hologram is wide
+/// or high. What stands further in front is behind the eye, or nowhere near it.
+double front_within_reach(const Bounds& box, const Fit& fit) {
+    const Vec3 size = box.high - box.low;
+    const double scale = fit.fill * std::min(fit.width / size.x, fit.height / size.y);
+    return std::min(fit.front, std::min(fit.width, fit.height) / (scale * size.z));
+}
+
+void fit_within_reach(Scene& scene, Fit fit) {
+    const Bounds box = bounds(scene);
+    const double within = front_within_reach(box, fit);
+    if (within < fit.front) {
+        scene.notes.push_back(
+            fmt::format("it is deep: {:.2g} of its depth is before the hologram instead of {:.2g}", within, fit.front));
+        fit.front = within;
+    }
+    fit_scene(scene, fit);
+}
+
+/// Notes what only the shading model `direct` shows, where another is taken.
+void note_gloss(Scene& scene, const ShadingOptions& options) {
+    if (shading_model(scene, options) == "direct") return;
+    const auto is_glossy = [](const Mesh& mesh) {
+        const Material& material = mesh.material;
+        return mesh.radiance.empty() && ((material.metallic > 0.5f && material.roughness < 0.95f) ||
+                                         (material.is_glossy() && material.roughness < 0.5f) ||
+                                         material.metallic_roughness_texture || material.normal_texture);
+    };
+    const auto count = std::ranges::count_if(scene.meshes, is_glossy);
+    if (count > 0)
+        scene.notes.push_back(
+            fmt::format("{} of {} meshes have metal, gloss or relief, which only --shading direct shows", count,
+                        scene.meshes.size()));
+}
+
 /// Turns and fits the scene of a file, or takes the view of its camera, and notes what was decided.
 void place_own(Scene& scene, const LightFieldRequest& request) {
     const ScenePose& pose = request.pose;
@@ -143,7 +178,7 @@ void place_own(Scene& scene, const LightFieldRequest& request) {
                                           names, scene.cameras.size() > 4 ? " ..." : ""));
     }
     turn_scene(scene, pose);
-    if (request.fit) fit_scene(scene, fit);
+    if (request.fit) fit_within_reach(scene, fit);
 }
 
 }  // namespace
@@ -163,6 +198,7 @@ Scene prepare_scene(Scene scene, const LightFieldRequest& request) {
     scene.has_large_triangles = has_large_triangles(scene, width);
     if (scene.lights.empty()) add_default_lights(scene);
     place_scene(scene, request.pose, width);
+    note_gloss(scene, request.shading);
     return scene;
 }
 

@@ -109,6 +109,46 @@ TEST_F(Pipeline, large_triangles_of_a_file_are_lit_at_each_point) {
     EXPECT_EQ(shadow_map_bytes(squares, {.model = "auto"}), 0);
 }
 
+// Of a long street most would be behind the viewer.
+TEST_F(Pipeline, what_is_before_the_hologram_stays_within_reach) {
+    Scene street;
+    Mesh& mesh = street.meshes.emplace_back();
+    const auto front = [&](double depth, double asked) {
+        mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, -depth}, {0, 1, -depth}};
+        mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+        mesh.normals.assign(4, {0, 0, 1});
+        request_.front = asked;
+        const Scene placed = prepare_scene(street, request_);
+        return std::pair{bounds(placed).high.z, placed.notes.size()};
+    };
+    const double width = 2e-3, fill = Fit{}.fill;
+    EXPECT_NEAR(front(1, 0.3).first, 0.3 * fill * width, 1e-9);
+    EXPECT_EQ(front(1, 0.3).second, 0u);
+    EXPECT_NEAR(front(1, 1).first, fill * width, 1e-9);
+    EXPECT_NEAR(front(50, 0.3).first, width, 1e-9);
+    EXPECT_EQ(front(50, 0.3).second, 1u);
+    EXPECT_NEAR(front(0, 0.3).first, 0, 1e-9);
+}
+
+// Gloss that the model does not show is said.
+TEST_F(Pipeline, gloss_that_is_not_shown_is_noted) {
+    Scene scene;
+    Mesh& mesh = scene.meshes.emplace_back();
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    mesh.normals.assign(4, {0, 0, 1});
+    const auto notes = [&](float metallic, float roughness, const char* model) {
+        mesh.material.reflectance = 0.04f;
+        mesh.material.metallic = metallic, mesh.material.roughness = roughness;
+        request_.shading.model = model;
+        return prepare_scene(scene, request_).notes.size();
+    };
+    EXPECT_EQ(notes(0, 0.8f, "auto"), 0u);
+    EXPECT_EQ(notes(0, 0.2f, "auto"), 1u);
+    EXPECT_EQ(notes(1, 0.5f, "vertex"), 1u);
+    EXPECT_EQ(notes(1, 0.5f, "direct"), 0u);
+}
+
 TEST_F(Pipeline, a_light_field_keeps_its_camera) {
     const Camera camera = camera_for(2_mm, 2_mm, 40);
     const auto radiance = folder_ / "a.h5", stream = folder_ / "a.hgl";

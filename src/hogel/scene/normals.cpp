@@ -2,28 +2,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <tuple>
+#include <vector>
 
 #include "hogel/scene.h"
+#include "hogel/scene/edges.h"
 #include "hogel/scene/vertices.h"
 
 namespace hogel {
 namespace {
 
 using Index = std::uint32_t;
-
-/// For every vertex the lowest-numbered vertex at the same position.
-std::vector<Index> weld(const std::vector<Vec3>& positions) {
-    std::vector<Index> order(positions.size()), welded(positions.size());
-    std::iota(order.begin(), order.end(), Index{0});
-    std::sort(order.begin(), order.end(), [&](Index i, Index j) {
-        const Vec3 &a = positions[i], &b = positions[j];
-        return std::tie(a.x, a.y, a.z, i) < std::tie(b.x, b.y, b.z, j);
-    });
-    for (std::size_t k = 0; k < order.size(); ++k)
-        welded[order[k]] = k > 0 && positions[order[k]] == positions[order[k - 1]] ? welded[order[k - 1]] : order[k];
-    return welded;
-}
 
 /// Sets of triangle corners that share a normal, as a union-find forest.
 class Groups {
@@ -42,28 +30,6 @@ class Groups {
     std::vector<Index> parent_;
 };
 
-/// An edge of a triangle between two welded vertices; `at_low` is the triangle's corner at the lower-numbered one.
-struct Edge {
-    Index low, high, at_low, at_high;
-};
-
-std::vector<Edge> sorted_edges(const Mesh& mesh, const std::vector<Index>& welded) {
-    std::vector<Edge> edges;
-    edges.reserve(3 * mesh.triangles.size());
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t next = (k + 1) % 3;
-            Edge edge{welded[mesh.triangles[t][k]], welded[mesh.triangles[t][next]], static_cast<Index>(3 * t + k),
-                      static_cast<Index>(3 * t + next)};
-            if (edge.low > edge.high) edge = {edge.high, edge.low, edge.at_high, edge.at_low};
-            edges.push_back(edge);
-        }
-    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-        return std::tie(a.low, a.high, a.at_low) < std::tie(b.low, b.high, b.at_low);
-    });
-    return edges;
-}
-
 /// Twice the area times the unit normal of every triangle.
 std::vector<Vec3> area_normals(const Mesh& mesh) {
     std::vector<Vec3> normals;
@@ -73,29 +39,71 @@ std::vector<Vec3> area_normals(const Mesh& mesh) {
     return normals;
 }
 
-/// Joins the corners of neighbouring triangles that meet at an angle of at most `crease` radians.
-Groups smoothing_groups(const Mesh& mesh, const std::vector<Vec3>& faces, double crease) {
-    const std::vector<Edge> edges = sorted_edges(mesh, weld(mesh.positions));
-    Groups groups(3 * mesh.triangles.size());
+/// Calls `visit` with every two edges between the same positions that follow each other.
+template <class Visit>
+void for_neighbors(const std::vector<scene::TriangleEdge>& edges, const Visit& visit) {
+    for (std::size_t i = 1; i < edges.size(); ++i)
+        if (edges[i - 1].joins_the_same(edges[i])) visit(edges[i - 1], edges[i]);
+}
+
+/// Which triangles are folded: decimated scans have some that lie with their back upwards on a surface, between
+/// neighbours that all face the other way and agree with each other. A fold is a third of the size of its neighbours.
+std::vector<char> find_folds(const std::vector<scene::TriangleEdge>& edges, const std::vector<Vec3>& faces) {
+    constexpr double agreeing = 0.8;  // length of the mean of unit normals: within about 37 degrees of it
+    struct Neighbors {
+        Vec3 sum;
+        std::uint32_t count = 0, opposite = 0;
+    };
+    std::vector<Neighbors> neighbors(faces.size());
+    for_neighbors(edges, [&](const scene::TriangleEdge& a, const scene::TriangleEdge& b) {
+        const Vec3 na = faces[a.triangle()], nb = faces[b.triangle()];
+        const double la = length(na), lb = length(nb);
+        if (!(la > 0 && lb > 0)) return;
+        const bool opposite = dot(na, nb) < 0;
+        const auto add = [&](std::uint32_t triangle, Vec3 unit) {
+            Neighbors& of = neighbors[triangle];
+            of.sum += unit;
+            ++of.count;
+            of.opposite += opposite ? 1 : 0;
+        };
+        add(a.triangle(), nb / lb);
+        add(b.triangle(), na / la);
+    });
+    std::vector<char> folds(faces.size());
+    for (std::size_t t = 0; t < faces.size(); ++t) {
+        const Neighbors& of = neighbors[t];
+        folds[t] = of.count > 1 && of.opposite == of.count && length(of.sum) > agreeing * of.count;
+    }
+    return folds;
+}
+
+/// Joins the corners of neighbouring triangles that meet at an angle of at most `crease` radians, and those of folds
+/// with all neighbours.
+Groups smoothing_groups(const std::vector<scene::TriangleEdge>& edges, const std::vector<Vec3>& faces,
+                        const std::vector<char>& folds, double crease) {
+    Groups groups(3 * faces.size());
     const double cosine = std::cos(crease);
-    for (std::size_t i = 1; i < edges.size(); ++i) {
-        const Edge &a = edges[i - 1], &b = edges[i];
-        if (a.low != b.low || a.high != b.high) continue;
-        const Vec3 na = faces[a.at_low / 3], nb = faces[b.at_low / 3];
-        if (dot(na, nb) <= 0 && cosine > 0) continue;
-        const double both = length(na) * length(nb);
-        if (both == 0 || dot(na, nb) < cosine * both) continue;
+    for_neighbors(edges, [&](const scene::TriangleEdge& a, const scene::TriangleEdge& b) {
+        if (!folds[a.triangle()] && !folds[b.triangle()]) {
+            const Vec3 na = faces[a.triangle()], nb = faces[b.triangle()];
+            if (dot(na, nb) <= 0 && cosine > 0) return;
+            const double both = length(na) * length(nb);
+            if (both == 0 || dot(na, nb) < cosine * both) return;
+        }
         groups.join(a.at_low, b.at_low);
         groups.join(a.at_high, b.at_high);
-    }
+    });
     return groups;
 }
 
 void add_normals(Mesh& mesh, double crease) {
     const std::vector<Vec3> faces = area_normals(mesh);
-    Groups groups = smoothing_groups(mesh, faces, crease);
+    const std::vector<scene::TriangleEdge> edges = scene::sorted_edges(mesh);
+    const std::vector<char> folds = find_folds(edges, faces);
+    Groups groups = smoothing_groups(edges, faces, folds, crease);
     std::vector<Vec3> sums(3 * mesh.triangles.size());
-    for (Index corner = 0; corner < sums.size(); ++corner) sums[groups.find(corner)] += faces[corner / 3];
+    for (Index corner = 0; corner < sums.size(); ++corner)
+        if (!folds[corner / 3]) sums[groups.find(corner)] += faces[corner / 3];
 
     // A vertex keeps its index for the first group that uses it and is copied for every further group.
     constexpr Index none = ~Index{0};

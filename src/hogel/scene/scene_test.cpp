@@ -49,6 +49,30 @@ TEST(Normals, of_a_cube_are_smooth_below_a_wide_crease_angle) {
     for (std::size_t i = 0; i < 8; ++i) EXPECT_GT(dot(mesh.normals[i], normalize(mesh.positions[i])), 0.9);
 }
 
+// Decimated scans have triangles that lie on a surface with their back upwards.
+TEST(Normals, of_a_folded_triangle_are_those_of_its_neighbors) {
+    constexpr std::uint32_t n = 6;
+    Mesh sheet;
+    for (std::uint32_t row = 0; row <= n; ++row)
+        for (std::uint32_t column = 0; column <= n; ++column) sheet.positions.push_back({1.0 * column, 1.0 * row, 0});
+    for (std::uint32_t row = 0; row < n; ++row)
+        for (std::uint32_t column = 0; column < n; ++column) {
+            const std::uint32_t a = row * (n + 1) + column, b = a + 1, c = a + n + 1, d = c + 1;
+            sheet.triangles.push_back({a, b, d});
+            sheet.triangles.push_back({a, d, c});
+        }
+    for (std::size_t folded = 0; folded < sheet.triangles.size(); ++folded) {
+        Scene scene;
+        scene.meshes = {sheet};
+        std::swap(scene.meshes[0].triangles[folded][1], scene.meshes[0].triangles[folded][2]);
+        add_missing_normals(scene, 1);
+        const bool at_corner = folded == 1 + 2 * n * (n - 1) || folded == 2 * (n - 1);  // with two free sides
+        if (at_corner) continue;
+        EXPECT_EQ(scene.meshes[0].positions.size(), sheet.positions.size()) << folded;
+        for (const Vec3& normal : scene.meshes[0].normals) EXPECT_EQ(normal, (Vec3{0, 0, 1})) << folded;
+    }
+}
+
 TEST(Normals, are_smooth_between_triangles_that_share_only_positions) {
     Scene soup;
     soup.meshes.emplace_back();

@@ -24,11 +24,28 @@ namespace {
 constexpr std::size_t max_texels = 32768;  // along a side of a shadow map
 constexpr const char* automatic = "auto";
 
+/// Whether maps say of more than a tenth of a scene's surface what only `direct` shows: its gloss or its relief.
+bool has_maps_of_gloss(const Scene& scene) {
+    const auto has_maps = [](const Mesh& mesh) {
+        return mesh.radiance.empty() && (mesh.material.metallic_roughness_texture || mesh.material.normal_texture);
+    };
+    if (std::ranges::none_of(scene.meshes, has_maps)) return false;
+    double all = 0, with_maps = 0;
+    for (const Mesh& mesh : scene.meshes) {
+        double area = 0;
+        for (const auto& [a, b, c] : mesh.triangles)
+            area += length(cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]));
+        all += area;
+        if (has_maps(mesh)) with_maps += area;
+    }
+    return with_maps > 0.1 * all;
+}
+
 /// A name for one of the others, which shading_model() finds.
 ShadingInfo automatic_shading() {
     return {
         .name = automatic,
-        .text = "direct for a file with large triangles, vertex for all others",
+        .text = "direct for a file with large triangles or maps of gloss, vertex for others",
         .make = [](const Scene& scene, const ShadingOptions& options, ShadedScene& shaded, const Progress& progress) {
             return shading_models().find(shading_model(scene, options)).make(scene, options, shaded, progress);
         }};
@@ -122,7 +139,8 @@ std::string shading_model(const Scene& scene, const ShadingOptions& options) {
     if (options.model != automatic) return shading_models().find(options.model).name;
     ShadingOptions direct = options;
     direct.model = "direct";
-    const bool is_direct = scene.has_large_triangles && shadow_map_bytes(scene, direct) <= options.max_shadow_bytes;
+    const bool is_direct = (scene.has_large_triangles || has_maps_of_gloss(scene)) &&
+                           shadow_map_bytes(scene, direct) <= options.max_shadow_bytes;
     return is_direct ? direct.model : "vertex";
 }
 

@@ -93,6 +93,28 @@ TEST(ShadeSceneInto, leaves_lighting_alone_that_another_scene_shares) {
     expect_same(shaded, shade_scene(second, by("direct")));
 }
 
+// What `vertex` cannot show is not left out silently: maps on more than a tenth of the surface are lit by `direct`.
+TEST(ShadingModels, auto_is_direct_for_large_triangles_and_for_maps_of_gloss_or_relief) {
+    Scene scene;
+    scene.meshes = {square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), square({0, 0, 1}, {0.2, 0, 0}, {0, 0.2, 0})};
+    scene.lights = {lamp({0, 0, 2}, 1)};
+    scene.meshes[0].material.reflectance = 0.04f;
+    scene.meshes[0].material.base_color_texture = picture(0.5f);
+    EXPECT_EQ(shading_model(scene), "vertex");
+    scene.meshes[1].material.normal_texture = picture(0.5f);  // on 4 % of the surface
+    EXPECT_EQ(shading_model(scene), "vertex");
+    scene.meshes[0].material.metallic_roughness_texture = picture(0.5f);
+    EXPECT_EQ(shading_model(scene), "direct");
+    scene.meshes[0].material.metallic_roughness_texture = nullptr;
+    scene.meshes[0].material.normal_texture = picture(0.5f);
+    EXPECT_EQ(shading_model(scene), "direct");
+    EXPECT_EQ(shading_model(scene, {.max_shadow_bytes = 1}), "vertex");
+    EXPECT_EQ(shading_model(scene, {.model = "shadowed"}), "shadowed");
+    scene.meshes[0].material.normal_texture = nullptr;
+    scene.has_large_triangles = true;
+    EXPECT_EQ(shading_model(scene), "direct");
+}
+
 TEST(ShadingModels, unknown_names_are_usage_errors_that_list_the_known_ones) {
     for (const bool bytes : {false, true}) {
         try {

@@ -2,7 +2,6 @@
 #include "hogel/shading/sides.h"
 
 #include <algorithm>
-#include <limits>
 #include <unordered_map>
 #include <vector>
 
@@ -22,30 +21,34 @@ bool has_sides(const Mesh& mesh) { return mesh.material.double_sided && mesh.rad
 class BackFinder {
   public:
     BackFinder(const Scene& scene, const ShadedScene& shaded)
-        : shaded_(shaded), caster_(all_triangles(shaded)), offset_(ray_offset(scene)) {}
+        : shaded_(shaded), caster_(all_triangles(shaded)), eye_(eye_of(scene)), offset_(ray_offset(scene)) {}
 
     /// Whether the back of a triangle is seen at its middle or near a corner.
     bool is_seen_from_behind(const ShadedScene::Triangle& triangle) const {
         const Vec3 a = at(triangle, 0), b = at(triangle, 1), c = at(triangle, 2);
         const Vec3 front = cross(b - a, c - a);
-        if (!(length(front) > 0) || dot(front, ray_through_middle((a + b + c) / 3)) <= 0) return false;
+        if (!(length(front) > 0) || dot(front, (a + b + c) / 3 - eye_) <= 0) return false;
         const Vec3 behind = -offset_ / length(front) * front;
         return std::ranges::any_of(std::array{(a + b + c) / 3, near(a, b, c), near(b, c, a), near(c, a, b)},
                                    [&](Vec3 point) { return is_open(point + behind); });
     }
 
   private:
+    static Vec3 eye_of(const Scene& scene) {
+        const auto [low, high] = bounds(scene);
+        return {0, 0, std::max(high.z, 0.0) + 5 * std::max(high.x - low.x, high.y - low.y)};
+    }
     Vec3 at(const ShadedScene::Triangle& triangle, std::size_t corner) const {
         return shaded_.positions[triangle.vertices[corner]];
     }
     static Vec3 near(Vec3 corner, Vec3 b, Vec3 c) { return 0.8 * corner + 0.1 * (b + c); }
     bool is_open(Vec3 point) const {
-        return !caster_.occluded(point, -normalize(ray_through_middle(point)), 0,
-                                 std::numeric_limits<double>::infinity());
+        return !caster_.occluded(point, normalize(eye_ - point), 0, length(eye_ - point));
     }
 
     const ShadedScene& shaded_;
     trace::RayCaster caster_;
+    Vec3 eye_;
     double offset_;
 };
 

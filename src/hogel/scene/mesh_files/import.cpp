@@ -19,6 +19,7 @@
 #include "hogel/scene/mesh_files/mtl.h"
 #include "hogel/scene/mesh_files/obj.h"
 #include "hogel/scene/mesh_files/off.h"
+#include "hogel/scene/mesh_files/orient.h"
 #include "hogel/scene/mesh_files/points.h"
 #include "hogel/scene/mesh_files/transfer.h"
 #include "hogel/scenes.h"
@@ -107,10 +108,60 @@ void show_unlit(ImportedMesh& part) {
         mesh.radiance[i] = mesh.radiance[i] * mesh.colors[i];
 }
 
+/// What was turned of meshes whose files do not say which side is the front.
+struct Turned {
+    std::size_t bodies = 0;     ///< as a whole
+    std::size_t triangles = 0;  ///< because their neighbours faced the other way
+};
+
+/// Only glTF says which side is the front. In other files neighbours agree and bodies face outwards; sheets show the
+/// light on either side.
+void face_outwards(Mesh& mesh, bool has_facet_normals, Turned& turned) {
+    if (mesh.name == points_name || mesh.triangles.empty()) return;
+    if (has_facet_normals) mesh.normals.clear();
+    if (mesh.normals.empty()) turned.triangles += orient_neighbors(mesh);
+    const Sides sides = turn_inside_out(mesh);
+    if (sides.turned) ++turned.bodies;
+    if (!sides.is_body) mesh.material.double_sided = true;
+}
+
+void note(const Turned& turned, std::vector<std::string>& notes) {
+    if (turned.triangles > 0)
+        notes.push_back(
+            fmt::format("{} triangles face the other way than their neighbours: they are turned", turned.triangles));
+    if (turned.bodies > 0) notes.push_back("its surfaces face inwards: they are turned inside out");
+}
+
+/// Some programs write black for a colour that they leave to another.
+void show_black_as_white(Scene& scene) {
+    const auto is_black = [](const Mesh& mesh) {
+        const Material& material = mesh.material;
+        return material.base_color == Rgb{0, 0, 0} && material.emission == Rgb{0, 0, 0} && mesh.radiance.empty() &&
+               !(material.metallic > 0);
+    };
+    if (!std::ranges::all_of(scene.meshes, is_black)) return;
+    for (Mesh& mesh : scene.meshes) mesh.material.base_color = Material{}.base_color;
+    scene.notes.push_back("all its surfaces are black: they are shown in grey");
+}
+
+/// Coordinates are read in single precision, whose steps show on what lies far from the origin, as in maps of a
+/// country.
+void note_distance(const Scene& scene, std::vector<std::string>& notes) {
+    const Bounds box = bounds(scene);
+    const double sizes = std::max(length(box.low), length(box.high)) / length(box.high - box.low),
+                 steps = sizes * 0x1p-24;
+    if (steps > 1e-4 && sizes < 1e12)
+        notes.push_back(fmt::format(
+            "it lies {:.2g} times its size from the origin, where coordinates are read in steps of {:.1g} of "
+            "its size: move it to the origin",
+            sizes, steps));
+}
+
 Scene convert(Read read, const std::filesystem::path& path, const std::string& file) {
     Imported& imported = read.imported;
     Textures textures(read.has_looks ? std::move(read.looks.images) : std::move(imported.textures), path.parent_path(),
                       file);
+    if (!read.has_looks) textures.leave_out_missing();
     Scene scene;
     scene.name = path.stem().string();
     scene.provenance = std::move(imported.provenance);
@@ -120,7 +171,7 @@ Scene convert(Read read, const std::filesystem::path& path, const std::string& f
     scene.cameras = std::move(read.looks.cameras);
     scene.notes = std::move(read.looks.notes);
     scene.notes.insert(scene.notes.end(), imported.notes.begin(), imported.notes.end());
-    std::size_t turned = 0;
+    Turned turned;
     for (ImportedMesh& part : imported.meshes) {
         Mesh& mesh = part.mesh;
         if (read.has_looks) {
@@ -129,20 +180,26 @@ Scene convert(Read read, const std::filesystem::path& path, const std::string& f
             mesh.material.base_color_texture = textures.get(part.texture);
             if (mesh.texture_coordinates.empty()) mesh.material.base_color_texture = nullptr;
             apply_obj_looks(part, textures);
-            // Only glTF says which side is the front.
-            if (mesh.name != points_name && turn_inside_out(mesh)) ++turned;
+            face_outwards(mesh, has_extension(path, {".stl"}), turned);
         }
         show_unlit(part);
         if (!mesh.triangles.empty()) scene.meshes.push_back(std::move(mesh));
     }
-    if (turned > 0) scene.notes.push_back("its surfaces face inwards: they are turned inside out");
-    if (scene.meshes.empty()) reject_file(file, "no triangles that have an area", "at least one");
+    note(turned, scene.notes);
+    for (const std::string& name : textures.missing())
+        scene.notes.push_back(fmt::format("its texture '{}' is not found: surfaces have none", one_line(name)));
+    if (!read.has_looks) show_black_as_white(scene);
+    if (scene.meshes.empty())
+        reject_file(file,
+                    "no triangles that have an area" + (scene.notes.empty() ? "" : " (" + scene.notes.front() + ")"),
+                    "at least one");
     try {
         validate(scene);
     } catch (const Error& error) {
         throw Error(error.code(), fmt::format("{}: {}", file, error.what()));
     }
     add_missing_normals(scene, crease);
+    if (!read.has_looks) note_distance(scene, scene.notes);
     return scene;
 }
 

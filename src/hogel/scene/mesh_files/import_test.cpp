@@ -222,18 +222,60 @@ TEST_F(Import, a_giant_polygon_is_refused) {
     expect_refusal("giant.obj", obj + face + "\n", "5000 corners");
 }
 
-TEST_F(Import, textures_that_are_missing_or_outside_the_folder_are_refused) {
+TEST_F(Import, textures_that_are_missing_or_outside_the_folder_are_named_in_a_note) {
     std::ofstream(folder_ / "secret.png") << "not for you";
     const std::string obj =
         "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n";
     for (const std::string name : {"gone.png", "../secret.png", "/etc/passwd"}) {
         write("m.mtl", "newmtl a\nKd 1 1 1\nmap_Kd " + name + "\n");
-        const std::string message = refusal(write("t.obj", obj));
-        EXPECT_NE(message.find("texture '" + name + "' not found"), std::string::npos) << message;
+        const Scene scene = import_scene(write("t.obj", obj));
+        EXPECT_FALSE(scene.meshes[0].material.base_color_texture);
+        ASSERT_EQ(scene.notes.size(), 1u);
+        EXPECT_NE(scene.notes[0].find("texture '" + name + "' is not found"), std::string::npos) << scene.notes[0];
     }
     fs::create_symlink(folder_ / "secret.png", folder_ / "meshes" / "link.png");
     write("m.mtl", "newmtl a\nmap_Kd link.png\n");
-    EXPECT_NE(refusal(write("t.obj", obj)).find("not found"), std::string::npos);
+    const Scene linked = import_scene(write("t.obj", obj));
+    EXPECT_FALSE(linked.meshes[0].material.base_color_texture);
+    EXPECT_EQ(linked.notes.size(), 1u);
+    // A glowing surface whose map is missing does not glow all over.
+    write("m.mtl", "newmtl a\nKd 1 1 1\nKe 1 1 1\nmap_Ke gone.png\n");
+    EXPECT_EQ(import_scene(write("t.obj", obj)).meshes[0].material.emission, (Rgb{0, 0, 0}));
+}
+
+// Paths of the machine on which the file was made.
+TEST_F(Import, a_texture_beside_the_mesh_is_found_by_the_last_part_of_its_name) {
+    write("near.ppm", "P6 1 1 255\n" + std::string("\xff\x00\x00", 3));
+    const std::string obj =
+        "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n";
+    for (const std::string path : {"C:\\Users\\me\\near.ppm", "/home/me/near.ppm", "../textures/near.ppm"}) {
+        write("m.mtl", "newmtl a\nKd 1 1 1\nmap_Kd " + path + "\n");
+        const Scene scene = import_scene(write("t.obj", obj));
+        EXPECT_TRUE(scene.meshes[0].material.base_color_texture) << path;
+        EXPECT_TRUE(scene.notes.empty()) << path;
+    }
+}
+
+TEST_F(Import, files_that_are_black_all_over_are_shown_in_grey) {
+    const std::string obj = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl a\nf 1 2 3\n";
+    write("m.mtl", "newmtl a\nKd 0 0 0\nnewmtl b\nKd 1 0 0\n");
+    const Scene black = import_scene(write("t.obj", obj));
+    EXPECT_EQ(black.meshes[0].material.base_color, Material{}.base_color);
+    EXPECT_EQ(black.notes.size(), 1u);
+    const Scene tyres = import_scene(write("t.obj", obj + "usemtl b\nf 1 3 4\n"));
+    EXPECT_EQ(tyres.meshes.at(0).material.base_color, (Rgb{0, 0, 0}));
+    EXPECT_TRUE(tyres.notes.empty());
+}
+
+TEST_F(Import, a_mesh_far_from_the_origin_is_named) {
+    const auto notes_at = [&](double x) {
+        return import_scene(
+                   write("t.obj", fmt::format("v {:.3f} 0 0\nv {:.3f} 0 0\nv {:.3f} 1 0\nf 1 2 3\n", x, x + 1, x)))
+            .notes;
+    };
+    EXPECT_TRUE(notes_at(100).empty());
+    ASSERT_EQ(notes_at(400000).size(), 1u);
+    EXPECT_NE(notes_at(400000)[0].find("from the origin"), std::string::npos);
 }
 
 TEST_F(Import, buffers_outside_the_folder_are_not_opened) {

@@ -5,17 +5,16 @@
 #include <utility>
 
 namespace hogel::scene::mesh_files {
-namespace {
 
-// The sum of all areas as vectors is zero for a closed surface; an open box has a fifth of its area left.
-constexpr double max_open = 0.1;
-// Volume by the area to 3/2: 0.094 of a sphere, 0.007 of a plate fifty times as wide as thick.
-constexpr double min_volume = 0.003;
+bool is_body(Vec3 open, double area, double volume) {
+    constexpr double max_open = 0.1;  // by the area; an open box has a fifth of its area left
+    // By the area to 3/2: 0.094 for a sphere, 0.007 for a plate fifty times as wide as thick.
+    constexpr double min_volume = 0.003;
+    return std::abs(volume) > min_volume * std::pow(area, 1.5) && length(open) <= max_open * area;
+}
 
-}  // namespace
-
-bool turn_inside_out(Mesh& mesh) {
-    if (mesh.triangles.empty()) return false;
+Sides turn_inside_out(Mesh& mesh) {
+    if (mesh.triangles.empty()) return {};
     const Vec3 origin = mesh.positions[mesh.triangles[0][0]];
     Vec3 open{};
     double area = 0, volume = 0, agreement = 0;
@@ -27,11 +26,13 @@ bool turn_inside_out(Mesh& mesh) {
         volume += dot(p, cross(q, r)) / 6;
         if (!mesh.normals.empty()) agreement += dot(front, mesh.normals[a] + mesh.normals[b] + mesh.normals[c]);
     }
-    if (!(volume < -min_volume * std::pow(area, 1.5)) || length(open) > max_open * area) return false;
-    for (auto& corners : mesh.triangles) std::swap(corners[1], corners[2]);
-    if (agreement > 0)
+    if (!is_body(open, area, volume)) return {};
+    const bool inwards = volume < 0, normals_inwards = inwards ? agreement > 0 : agreement < 0;
+    if (inwards)
+        for (auto& corners : mesh.triangles) std::swap(corners[1], corners[2]);
+    if (normals_inwards)
         for (Vec3& normal : mesh.normals) normal = -normal;
-    return true;
+    return {true, inwards || normals_inwards};
 }
 
 }  // namespace hogel::scene::mesh_files

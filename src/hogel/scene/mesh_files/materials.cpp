@@ -109,7 +109,7 @@ Textures::Textures(std::vector<TextureSource> sources, std::filesystem::path fol
     : sources_(std::move(sources)), folder_(std::move(folder)), file_(std::move(file)) {}
 
 std::shared_ptr<const Image> Textures::get(std::uint32_t number, image::TexturePixels pixels) {
-    if (number >= sources_.size()) return nullptr;
+    if (number >= sources_.size() || is_left_out(sources_[number])) return nullptr;
     auto& known = images_[{number, pixels}];
     if (!known) known = std::make_shared<Image>(load(sources_[number], pixels));
     return known;
@@ -171,7 +171,22 @@ void apply_obj_looks(ImportedMesh& part, Textures& textures) {
     if (material.emission == Rgb{0, 0, 0}) return;
     // The base-colour texture does not multiply emission.
     if (has_coordinates) material.emission_texture = textures.get(part.emission_texture);
+    if (part.emission_texture != ImportedMesh::no_texture && has_coordinates && !material.emission_texture)
+        material.emission = {0, 0, 0};  // the map is missing: it does not shine all over
     if (!material.emission_texture && material.base_color_texture) material.emission_texture = white_picture();
+}
+
+/// By its name or, where that is a path on another machine, by the last part of it.
+std::optional<std::filesystem::path> Textures::find(const TextureSource& source) const {
+    if (auto path = find_in_folder(folder_, source.name)) return path;
+    const std::size_t last = source.name.find_last_of("/\\");
+    return last == source.name.npos ? std::nullopt : find_in_folder(folder_, source.name.substr(last + 1));
+}
+
+bool Textures::is_left_out(const TextureSource& source) {
+    if (!leaves_out_ || source.kind != TextureSource::Kind::file || find(source)) return false;
+    missing_.insert(source.name);
+    return true;
 }
 
 Image Textures::load(const TextureSource& source, image::TexturePixels pixels) const {
@@ -182,7 +197,7 @@ Image Textures::load(const TextureSource& source, image::TexturePixels pixels) c
             throw Error(ErrorCode::bad_input, where(file_, source) + ": damaged; expected a picture");
         return from_texels(source);
     }
-    if (const auto path = find_in_folder(folder_, source.name)) return image::read_texture(*path, pixels);
+    if (const auto path = find(source)) return image::read_texture(*path, pixels);
     throw Error(
         ErrorCode::bad_input,
         fmt::format("{}: texture '{}' not found; expected a file in the folder of the mesh", file_, source.name));

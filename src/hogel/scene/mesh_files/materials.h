@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,7 +40,12 @@ class Textures {
     /// @param folder  of the mesh, canonical
     /// @param file    name of the mesh for messages, as the caller gave it
     Textures(std::vector<TextureSource> sources, std::filesystem::path folder, std::string file);
-    /// Null for a number that does not exist. Throws Error(bad_input) for a missing or damaged picture.
+    /// From now on missing pictures are left out.
+    void leave_out_missing() { leaves_out_ = true; }
+    /// The names of those that were.
+    const std::set<std::string>& missing() const { return missing_; }
+    /// Null for a number that does not exist, and for a picture that is left out. Throws Error(bad_input) for a missing
+    /// or damaged one.
     std::shared_ptr<const Image> get(std::uint32_t number, image::TexturePixels pixels = image::TexturePixels::color);
 
     /// A picture with the opacity of another as its fourth channel: that one's alpha, or its brightness where it has
@@ -47,12 +54,16 @@ class Textures {
 
   private:
     Image load(const TextureSource& source, image::TexturePixels pixels) const;
+    std::optional<std::filesystem::path> find(const TextureSource& source) const;
+    bool is_left_out(const TextureSource& source);
 
     std::vector<TextureSource> sources_;
     std::map<std::pair<std::uint32_t, image::TexturePixels>, std::shared_ptr<const Image>> images_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::shared_ptr<const Image>> with_opacity_;
     std::filesystem::path folder_;
     std::string file_;
+    bool leaves_out_ = false;
+    std::set<std::string> missing_;
 };
 
 /// Gives a mesh of an OBJ file its opacity and its emission by pictures. `part` has its base-colour texture.

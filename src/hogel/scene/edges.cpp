@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/scene/edges.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace hogel::scene {
+namespace {
+
+using Index = std::uint32_t;
+
+/// For every vertex the lowest-numbered vertex at the same position.
+std::vector<Index> weld(const std::vector<Vec3>& positions) {
+    std::vector<Index> order(positions.size()), welded(positions.size());
+    std::iota(order.begin(), order.end(), Index{0});
+    std::sort(order.begin(), order.end(), [&](Index i, Index j) {
+        const Vec3 &a = positions[i], &b = positions[j];
+        return std::tie(a.x, a.y, a.z, i) < std::tie(b.x, b.y, b.z, j);
+    });
+    for (std::size_t k = 0; k < order.size(); ++k)
+        welded[order[k]] = k > 0 && positions[order[k]] == positions[order[k - 1]] ? welded[order[k - 1]] : order[k];
+    return welded;
+}
+
+template <class Visit>
+void for_edges(const Mesh& mesh, const std::vector<Index>& welded, const Visit& visit) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t next = (k + 1) % 3;
+            const Index a = welded[mesh.triangles[t][k]], b = welded[mesh.triangles[t][next]],
+                        at_a = static_cast<Index>(3 * t + k), at_b = static_cast<Index>(3 * t + next);
+            visit(a > b ? TriangleEdge{b, a, at_b, at_a} : TriangleEdge{a, b, at_a, at_b});
+        }
+}
+
+}  // namespace
+
+/// A vertex has about six edges: they are counted into its place and sorted there, which takes a quarter of the time of
+/// sorting all.
+std::vector<TriangleEdge> sorted_edges(const Mesh& mesh) {
+    const std::vector<Index> welded = weld(mesh.positions);
+    std::vector<std::size_t> ends(mesh.positions.size() + 1);
+    for_edges(mesh, welded, [&](const TriangleEdge& edge) { ++ends[edge.low + 1]; });
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    std::vector<std::size_t> at(ends.begin(), ends.end() - 1);
+    std::vector<TriangleEdge> edges(3 * mesh.triangles.size());
+    for_edges(mesh, welded, [&](const TriangleEdge& edge) { edges[at[edge.low]++] = edge; });
+    for (std::size_t vertex = 0; vertex + 1 < ends.size(); ++vertex)
+        std::sort(edges.begin() + static_cast<std::ptrdiff_t>(ends[vertex]),
+                  edges.begin() + static_cast<std::ptrdiff_t>(ends[vertex + 1]),
+                  [](const TriangleEdge& a, const TriangleEdge& b) {
+                      return std::tie(a.high, a.at_low) < std::tie(b.high, b.at_low);
+                  });
+    return edges;
+}
+
+}  // namespace hogel::scene
