@@ -27,7 +27,7 @@ ALGORITHMS = ("epi", "raytrace", "zbuffer", "simplex", "simplex-strips", "simplo
 HOGELS, DIRECTIONS, SIZE, FIELD = 12, 12, 4e-3, 40  # degrees
 # The way to each of the two lights of mesh files, and its irradiance at normal incidence.
 LIGHTS = [(np.array(way) / np.linalg.norm(way), np.array(irradiance))
-          for way, irradiance in (((-0.5, 0.6, 0.7), (2.2, 2.15, 2.05)), ((0.8, 0.1, 0.6), (0.55, 0.6, 0.7)))]
+          for way, irradiance in (((-0.6, 0.75, 0.6), (2.4, 2.34, 2.24)), ((0.8, 0.1, 0.5), (0.42, 0.46, 0.54)))]
 AMBIENT = np.array([0.08, 0.08, 0.09])
 BALL = {"colour": np.array([0.8, 0.55, 0.3]), "ambient": np.array([0.1, 0.1, 0.12]), "irradiance": np.array([2.4, 2.3, 2.1]),
         "radius": 0.3 * SIZE}

@@ -24,4 +24,8 @@ struct TriangleEdge {
 /// to each other.
 std::vector<TriangleEdge> sorted_edges(const Mesh& mesh);
 
+/// Gives a mesh the normals of add_missing_normals().
+/// @param edges  sorted_edges() of the mesh
+void add_normals(Mesh& mesh, const std::vector<TriangleEdge>& edges, double crease);
+
 }  // namespace hogel::scene

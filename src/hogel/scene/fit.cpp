@@ -33,11 +33,11 @@ void fit_scene(Scene& scene, const Fit& fit) {
 
 void add_default_lights(Scene& scene) {
     Light key;
-    key.direction = normalize({0.5, -0.6, -0.7});
-    key.intensity = {2.2f, 2.15f, 2.05f};
+    key.direction = normalize({0.6, -0.75, -0.6});
+    key.intensity = {2.4f, 2.34f, 2.24f};
     Light fill;
-    fill.direction = normalize({-0.8, -0.1, -0.6});
-    fill.intensity = {0.55f, 0.6f, 0.7f};
+    fill.direction = normalize({-0.8, -0.1, -0.5});
+    fill.intensity = {0.42f, 0.46f, 0.54f};
     scene.lights.push_back(key);
     scene.lights.push_back(fill);
     scene.ambient += Rgb{0.08f, 0.08f, 0.09f};

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "hogel/scene.h"
@@ -25,6 +26,11 @@ class Groups {
         i = find(i), j = find(j);
         parent_[std::max(i, j)] = std::min(i, j);
     }
+    /// The group of every corner: its lowest-numbered one. A parent comes before its children, so one pass is enough.
+    std::vector<Index> all() && {
+        for (Index& parent : parent_) parent = parent_[parent];
+        return std::move(parent_);
+    }
 
   private:
     std::vector<Index> parent_;
@@ -47,63 +53,69 @@ void for_neighbors(const std::vector<scene::TriangleEdge>& edges, const Visit& v
 }
 
 /// Which triangles are folded: decimated scans have some that lie with their back upwards on a surface, between
-/// neighbours that all face the other way and agree with each other. A fold is a third of the size of its neighbours.
+/// neighbours that all face the other way and agree with each other. None of most meshes, which have no triangle with
+/// two opposite neighbours: then the list is empty.
 std::vector<char> find_folds(const std::vector<scene::TriangleEdge>& edges, const std::vector<Vec3>& faces) {
     constexpr double agreeing = 0.8;  // length of the mean of unit normals: within about 37 degrees of it
+    std::vector<std::uint8_t> opposite(faces.size());
+    for_neighbors(edges, [&](const scene::TriangleEdge& a, const scene::TriangleEdge& b) {
+        if (!(dot(faces[a.triangle()], faces[b.triangle()]) < 0)) return;
+        for (const std::uint32_t t : {a.triangle(), b.triangle()})
+            opposite[t] = static_cast<std::uint8_t>(std::min(opposite[t] + 1, 255));
+    });
+    if (std::ranges::none_of(opposite, [](int count) { return count > 1; })) return {};
     struct Neighbors {
         Vec3 sum;
-        std::uint32_t count = 0, opposite = 0;
+        int count = 0;
     };
     std::vector<Neighbors> neighbors(faces.size());
+    const auto add = [&](std::uint32_t triangle, Vec3 face) {
+        if (opposite[triangle] < 2 || !(length(face) > 0)) return;
+        neighbors[triangle].sum += normalize(face);
+        ++neighbors[triangle].count;
+    };
     for_neighbors(edges, [&](const scene::TriangleEdge& a, const scene::TriangleEdge& b) {
-        const Vec3 na = faces[a.triangle()], nb = faces[b.triangle()];
-        const double la = length(na), lb = length(nb);
-        if (!(la > 0 && lb > 0)) return;
-        const bool opposite = dot(na, nb) < 0;
-        const auto add = [&](std::uint32_t triangle, Vec3 unit) {
-            Neighbors& of = neighbors[triangle];
-            of.sum += unit;
-            ++of.count;
-            of.opposite += opposite ? 1 : 0;
-        };
-        add(a.triangle(), nb / lb);
-        add(b.triangle(), na / la);
+        add(a.triangle(), faces[b.triangle()]);
+        add(b.triangle(), faces[a.triangle()]);
     });
     std::vector<char> folds(faces.size());
-    for (std::size_t t = 0; t < faces.size(); ++t) {
-        const Neighbors& of = neighbors[t];
-        folds[t] = of.count > 1 && of.opposite == of.count && length(of.sum) > agreeing * of.count;
-    }
+    for (std::size_t t = 0; t < faces.size(); ++t)
+        folds[t] = opposite[t] > 1 && opposite[t] == neighbors[t].count &&
+                   length(neighbors[t].sum) > agreeing * neighbors[t].count;
     return folds;
 }
 
 /// Joins the corners of neighbouring triangles that meet at an angle of at most `crease` radians, and those of folds
 /// with all neighbours.
-Groups smoothing_groups(const std::vector<scene::TriangleEdge>& edges, const std::vector<Vec3>& faces,
-                        const std::vector<char>& folds, double crease) {
+std::vector<Index> smoothing_groups(const std::vector<scene::TriangleEdge>& edges, const std::vector<Vec3>& faces,
+                                    const std::vector<char>& folds, double crease) {
     Groups groups(3 * faces.size());
     const double cosine = std::cos(crease);
+    std::vector<double> lengths;
+    lengths.reserve(faces.size());
+    for (const Vec3& face : faces) lengths.push_back(length(face));
     for_neighbors(edges, [&](const scene::TriangleEdge& a, const scene::TriangleEdge& b) {
-        if (!folds[a.triangle()] && !folds[b.triangle()]) {
+        if (folds.empty() || (!folds[a.triangle()] && !folds[b.triangle()])) {
             const Vec3 na = faces[a.triangle()], nb = faces[b.triangle()];
             if (dot(na, nb) <= 0 && cosine > 0) return;
-            const double both = length(na) * length(nb);
+            const double both = lengths[a.triangle()] * lengths[b.triangle()];
             if (both == 0 || dot(na, nb) < cosine * both) return;
         }
         groups.join(a.at_low, b.at_low);
         groups.join(a.at_high, b.at_high);
     });
-    return groups;
+    return std::move(groups).all();
 }
 
-void add_normals(Mesh& mesh, double crease) {
+}  // namespace
+
+void scene::add_normals(Mesh& mesh, const std::vector<TriangleEdge>& edges, double crease) {
     const std::vector<Vec3> faces = area_normals(mesh);
-    const std::vector<scene::TriangleEdge> edges = scene::sorted_edges(mesh);
     const std::vector<char> folds = find_folds(edges, faces);
-    Groups groups = smoothing_groups(edges, faces, folds, crease);
+    const std::vector<Index> groups = smoothing_groups(edges, faces, folds, crease);
     std::vector<Vec3> sums(3 * mesh.triangles.size());
     for (Index corner = 0; corner < sums.size(); ++corner)
-        if (!folds[corner / 3]) sums[groups.find(corner)] += faces[corner / 3];
+        if (folds.empty() || !folds[corner / 3]) sums[groups[corner]] += faces[corner / 3];
 
     // A vertex keeps its index for the first group that uses it and is copied for every further group.
     constexpr Index none = ~Index{0};
@@ -113,7 +125,7 @@ void add_normals(Mesh& mesh, double crease) {
     std::vector<Use> uses(mesh.positions.size());
     mesh.normals.assign(mesh.positions.size(), Vec3{0, 0, 1});
     for (Index corner = 0; corner < sums.size(); ++corner) {
-        const Index group = groups.find(corner);
+        const Index group = groups[corner];
         const double size = length(sums[group]);
         const Vec3 normal = size > 0 ? sums[group] / size : Vec3{0, 0, 1};
         Index& vertex = mesh.triangles[corner / 3][corner % 3];
@@ -133,11 +145,9 @@ void add_normals(Mesh& mesh, double crease) {
     }
 }
 
-}  // namespace
-
 void add_missing_normals(Scene& scene, double crease) {
     for (Mesh& mesh : scene.meshes)
-        if (mesh.normals.empty()) add_normals(mesh, crease);
+        if (mesh.normals.empty()) scene::add_normals(mesh, scene::sorted_edges(mesh), crease);
 }
 
 }  // namespace hogel

@@ -43,8 +43,8 @@ void add_irradiance(const Scene& scene, const Light& light, const std::vector<fl
 
 void light_vertices(const Scene& scene, ShadedScene& shaded) {
     const trace::RayCaster caster = shadow_caster(scene, shaded, "vertex");
-    for (const Light& light : scene.lights)
-        add_irradiance(scene, light, vertex_visibility(scene, shaded, caster, light), shaded.radiance);
+    VertexVisibility visibility(scene, shaded, caster);
+    for (const Light& light : scene.lights) add_irradiance(scene, light, visibility.of(light), shaded.radiance);
     constexpr auto reflected = static_cast<float>(std::numbers::inv_pi);
     for_lit_vertices(scene, [&](const Mesh& mesh, std::size_t base, std::size_t first, std::size_t end) {
         for (std::size_t i = first; i < end; ++i) {

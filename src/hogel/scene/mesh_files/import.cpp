@@ -9,6 +9,7 @@
 #include "hogel/core/child_process.h"
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/scene/edges.h"
 #include "hogel/scene/mesh_files/apply_looks.h"
 #include "hogel/scene/mesh_files/assimp_import.h"
 #include "hogel/scene/mesh_files/checks.h"
@@ -115,14 +116,23 @@ struct Turned {
 };
 
 /// Only glTF says which side is the front. In other files neighbours agree and bodies face outwards; sheets show the
-/// light on either side.
+/// light on either side. Missing normals are made as well, from the same list of edges.
 void face_outwards(Mesh& mesh, bool has_facet_normals, Turned& turned) {
     if (mesh.name == points_name || mesh.triangles.empty()) return;
     if (has_facet_normals) mesh.normals.clear();
-    if (mesh.normals.empty()) turned.triangles += orient_neighbors(mesh);
+    const bool lacks_normals = mesh.normals.empty();
+    std::vector<scene::TriangleEdge> edges;
+    std::size_t neighbors = 0;
+    if (lacks_normals) {
+        edges = scene::sorted_edges(mesh);
+        turned.triangles += neighbors = orient_neighbors(mesh, edges);
+    }
     const Sides sides = turn_inside_out(mesh);
     if (sides.turned) ++turned.bodies;
     if (!sides.is_body) mesh.material.double_sided = true;
+    if (!lacks_normals) return;
+    if (neighbors > 0 || sides.turned) edges = scene::sorted_edges(mesh);
+    scene::add_normals(mesh, edges, crease);
 }
 
 void note(const Turned& turned, std::vector<std::string>& notes) {
@@ -139,8 +149,9 @@ void show_black_as_white(Scene& scene) {
         return material.base_color == Rgb{0, 0, 0} && material.emission == Rgb{0, 0, 0} && mesh.radiance.empty() &&
                !(material.metallic > 0);
     };
-    if (!std::ranges::all_of(scene.meshes, is_black)) return;
-    for (Mesh& mesh : scene.meshes) mesh.material.base_color = Material{}.base_color;
+    if (scene.meshes.empty() || !std::ranges::all_of(scene.meshes, is_black)) return;
+    for (Mesh& mesh : scene.meshes)
+        mesh.material.base_color = mesh.material.base_color_texture ? Rgb{1, 1, 1} : Material{}.base_color;
     scene.notes.push_back("all its surfaces are black: they are shown in grey");
 }
 
@@ -171,7 +182,6 @@ Scene convert(Read read, const std::filesystem::path& path, const std::string& f
     scene.cameras = std::move(read.looks.cameras);
     scene.notes = std::move(read.looks.notes);
     scene.notes.insert(scene.notes.end(), imported.notes.begin(), imported.notes.end());
-    Turned turned;
     for (ImportedMesh& part : imported.meshes) {
         Mesh& mesh = part.mesh;
         if (read.has_looks) {
@@ -180,12 +190,10 @@ Scene convert(Read read, const std::filesystem::path& path, const std::string& f
             mesh.material.base_color_texture = textures.get(part.texture);
             if (mesh.texture_coordinates.empty()) mesh.material.base_color_texture = nullptr;
             apply_obj_looks(part, textures);
-            face_outwards(mesh, has_extension(path, {".stl"}), turned);
         }
         show_unlit(part);
         if (!mesh.triangles.empty()) scene.meshes.push_back(std::move(mesh));
     }
-    note(turned, scene.notes);
     for (const std::string& name : textures.missing())
         scene.notes.push_back(fmt::format("its texture '{}' is not found: surfaces have none", one_line(name)));
     if (!read.has_looks) show_black_as_white(scene);
@@ -198,8 +206,13 @@ Scene convert(Read read, const std::filesystem::path& path, const std::string& f
     } catch (const Error& error) {
         throw Error(error.code(), fmt::format("{}: {}", file, error.what()));
     }
+    if (!read.has_looks) {
+        Turned turned;
+        for (Mesh& mesh : scene.meshes) face_outwards(mesh, has_extension(path, {".stl"}), turned);
+        note(turned, scene.notes);
+        note_distance(scene, scene.notes);
+    }
     add_missing_normals(scene, crease);
-    if (!read.has_looks) note_distance(scene, scene.notes);
     return scene;
 }
 

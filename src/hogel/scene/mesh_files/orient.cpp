@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "hogel/scene/edges.h"
 #include "hogel/scene/mesh_files/inside_out.h"
 
 namespace hogel::scene::mesh_files {
@@ -95,8 +94,7 @@ std::vector<Sums> sum_surfaces(const Mesh& mesh, const std::vector<Surfaces::Lin
 
 }  // namespace
 
-std::size_t orient_neighbors(Mesh& mesh) {
-    const std::vector<TriangleEdge> edges = sorted_edges(mesh);
+std::size_t orient_neighbors(Mesh& mesh, const std::vector<TriangleEdge>& edges) {
     bool any = false;
     for_neighbors(edges, [&](std::uint32_t, std::uint32_t, bool opposite) { any |= opposite; });
     if (!any) return 0;
