@@ -120,7 +120,7 @@ void add_render_light_field(CLI::App* command, RenderOptions& options) {
 }
 
 struct RenderChoice : RenderOptions {
-    bool scaling = false, stream = false, dense = false, interpolation = false;
+    bool scaling = false, stream = false, dense = false, interpolation = false, tiles = false;
     CLI::Option* peers_option = nullptr;
 };
 
@@ -135,6 +135,8 @@ void measure_render(const RenderChoice& choice, const Session& session) {
         measure_dense(choice, session);
     else if (choice.interpolation)
         measure_interpolation(choice, session);
+    else if (choice.tiles)
+        measure_tiles(choice, session);
     else
         measure_regions(choice, session);
 }
@@ -164,6 +166,10 @@ void add_render_measurements(CLI::App* command, RenderChoice& options) {
         ->add_flag("--dense", options.dense,
                    "Instead: the regions with hogels so close that a point moves less than a direction from one to the "
                    "next, and the three curves of Kartch's thesis in a plot of their own")
+        ->excludes(options.peers_option)
+        ->excludes(scaling)
+        ->excludes(stream);
+    command->add_flag("--tiles", options.tiles, "Instead: processor time of each tile of 4x4 hogels, microseconds")
         ->excludes(options.peers_option)
         ->excludes(scaling)
         ->excludes(stream);

@@ -71,13 +71,14 @@ int straight_from_scene(const Options& options, const SceneHologramMethod& metho
     how.seed = session.seed;
     how.spacing = options.hologram.spacing;
     how.planes = options.hologram.planes;
-    Stage stage(session, "hologram");
-    for (std::size_t i = 0; i < grids.size(); ++i) {
-        how.channel = colour_of(grids[i].wavelength);
-        copy(with_options({{"a spacing of", "--spacing"}, {"", "--method"}},
-                          [&] { return method.make(*scene, grids[i], how, stage.progress(i, grids.size())); }),
-             *sinks[i]);
+    std::vector<SceneHologramOptions> of_each;
+    for (const FieldGrid& grid : grids) {
+        how.channel = colour_of(grid.wavelength);
+        of_each.push_back(how);
     }
+    Stage stage(session, "hologram");
+    with_options({{"a spacing of", "--spacing"}, {"", "--method"}},
+                 [&] { write_scene_holograms(method, *scene, grids, of_each, sinks, stage.progress()); });
     report_hologram(options, grids, session);
     return 0;
 }

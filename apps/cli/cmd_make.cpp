@@ -11,6 +11,7 @@
 #include "concerns.h"
 #include "hogel/pipeline.h"
 #include "hogel/resources.h"
+#include "hogel/team.h"
 #include "hogel/units.h"
 #include "inputs.h"
 #include "outputs.h"
@@ -158,7 +159,7 @@ class PassingFile {
     PassingFile& operator=(const PassingFile&) = delete;
     ~PassingFile() {
         std::error_code none;
-        if (!keep_) std::filesystem::remove(path_, none);
+        if (!keep_ && is_first_process()) std::filesystem::remove(path_, none);
     }
     const std::filesystem::path& path() const { return path_; }
 
@@ -273,6 +274,7 @@ int make(const Options& options, const Session& session) {
             for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].expected = std::move(pictures[i]);
         });
 
+    if (!is_first_process()) return 0;
     // One exposure for all pictures, from the view from above.
     report.exposure = automatic_exposure(report.pairs[1].geometric);
     for (PhotographPair& pair : report.pairs) {

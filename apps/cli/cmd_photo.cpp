@@ -10,6 +10,7 @@
 #include "display.h"
 #include "fields.h"
 #include "hogel/pipeline.h"
+#include "hogel/team.h"
 #include "inputs.h"
 #include "movie.h"
 #include "outputs.h"
@@ -206,6 +207,7 @@ void record_photograph(RunRecord& record, const Options& options, InputKind kind
 // Writes the pictures and reports them.
 void write_photographs(const Options& options, std::span<const Image> pictures, double exposure, bool geometric,
                        const RunRecord& record, const Session& session) {
+    if (!is_first_process()) return;
     Metadata metadata = record.metadata();
     metadata.emplace_back("exposure", fmt::format("{:.9g}", exposure));
     const Image& first = pictures.front();

@@ -9,6 +9,7 @@
 #include "fields.h"
 #include "hogel/pipeline.h"
 #include "hogel/propagate.h"
+#include "hogel/team.h"
 #include "hogel/units.h"
 #include "inputs.h"
 #include "outputs.h"
@@ -154,7 +155,7 @@ int propagate_fields(const Options& options, const Session& session) {
     } else if (kind == OutputKind::array) {
         std::vector<Field> propagated;
         for (std::size_t c = 0; c < grids.size(); ++c) colour(c, propagated.emplace_back(grids[c]));
-        write_fields(options.output, propagated, metadata);
+        if (is_first_process()) write_fields(options.output, propagated, metadata);
     } else {
         Image picture(plane.width, plane.height, grids.size());
         for (std::size_t c = 0; c < grids.size(); ++c) {
@@ -169,8 +170,9 @@ int propagate_fields(const Options& options, const Session& session) {
         const double exposure = grey ? 1 : automatic_exposure(picture);
         metadata.emplace_back("exposure", fmt::format("{:.9g}", exposure));
         exposed = {{"width", picture.width()}, {"height", picture.height()}, {"exposure", exposure}};
-        write_image(options.output, picture, exposure, metadata);
+        if (is_first_process()) write_image(options.output, picture, exposure, metadata);
     }
+    if (!is_first_process()) return 0;
     session.say(fmt::format("{}: {}x{} samples at {}, {} on", options.output, plane.width, plane.height,
                             format_length(plane.pitch_x), format_length(options.distance)));
     report(options, kind, grids, methods, exposed, session);

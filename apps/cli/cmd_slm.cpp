@@ -10,6 +10,7 @@
 #include "hogel/image.h"
 #include "hogel/pattern.h"
 #include "hogel/pipeline.h"
+#include "hogel/team.h"
 #include "hogel/units.h"
 #include "inputs.h"
 #include "outputs.h"
@@ -120,14 +121,15 @@ int slm(const Options& options, const Session& session) {
     record_pattern(record, options, encoding);
     Metadata metadata = record.metadata();
     ResultList patterns;
+    const std::vector<Pattern> encoded =
+        with_options({{"reference", options.pattern.reference_angle != 0 ? "--reference" : "--encoding"},
+                      {"squares", "--window"},
+                      {"share", "--clip"},
+                      {"columns", "--encoding"},
+                      {"pixels", options.device.empty() ? "--pixel-pitch" : "--device"}},
+                     [&] { return encode_patterns(fields, pattern_options, stage.progress()); });
     for (std::size_t c = 0; c < colours; ++c) {
-        const Pattern pattern =
-            with_options({{"reference", options.pattern.reference_angle != 0 ? "--reference" : "--encoding"},
-                          {"squares", "--window"},
-                          {"share", "--clip"},
-                          {"columns", "--encoding"},
-                          {"pixels", options.device.empty() ? "--pixel-pitch" : "--device"}},
-                         [&] { return encode_pattern(*fields[c], pattern_options, stage.progress(c, colours)); });
+        const Pattern& pattern = encoded[c];
         for (std::size_t i = 0; i < pattern.levels.size(); ++i)
             levels.data()[i * colours + c] = pattern.levels.data()[i];
         const std::string name = format_length(fields[c]->grid().wavelength);
@@ -150,6 +152,7 @@ int slm(const Options& options, const Session& session) {
                                   fmt::format("{:.6f}deg", pattern.reference_angle * 180 / std::numbers::pi));
         patterns.push_back(result_of(pattern, fields[c]->grid().wavelength, pattern_options.encoding));
     }
+    if (!is_first_process()) return 0;
     write_raw_pixels(options.output, levels, with_history(metadata, to_metadata(fields.front()->provenance())));
     session.say(fmt::format("{}: {}x{} pixels of {}", options.output, modulator.width, modulator.height,
                             format_length(modulator.pitch)));

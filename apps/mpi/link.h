@@ -9,7 +9,7 @@
 namespace hogel::mpi {
 
 /// The kinds of messages between processes.
-enum class Kind : int { ask = 1, answer, report, verdict, post, please_stop, stop };
+enum class Kind : int { ask = 1, answer, report, verdict, post, please_stop, stop, direct };
 
 struct Message {
     std::size_t from = 0;

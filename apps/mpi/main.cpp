@@ -16,7 +16,6 @@
 #include "cli/commands.h"
 #include "cli/program.h"
 #include "hogel/error.h"
-#include "hogel/scene_hologram.h"
 #include "mpi/mpi_link.h"
 #include "mpi/rank_team.h"
 
@@ -26,8 +25,9 @@ namespace {
 // A rank that has failed waits so long for the others, which end within a second of a stop.
 constexpr std::chrono::seconds patience{15};
 
-// Those whose long work is tiles of light fields or holograms that are written to HDF5 files.
-constexpr std::array<std::string_view, 3> shared_commands{"render", "hologram", "decompress"};
+// Those whose long work the library shares among the processes of a team.
+constexpr std::array<std::string_view, 8> shared_commands{"render", "compress", "decompress", "hologram",
+                                                          "slm",    "photo",    "propagate",  "make"};
 
 // Signals are for the thread that waits for them, not for those that MPI starts.
 void block_signals() {
@@ -56,26 +56,11 @@ class Ranks final : public cli::Processes {
         if (session.threads == 0) session.threads = link_.threads();
         if (!team_.is_first()) session.quiet = true;
         const std::string command = session.command->name();
-        const Metadata values = session.command->values();
-        const auto value = [&](std::string_view name) {
-            const auto found = std::ranges::find(values, name, [](const auto& entry) { return entry.first; });
-            return found != values.end() ? found->second : std::string();
-        };
         if (std::ranges::find(shared_commands, command) == shared_commands.end())
             throw Error(ErrorCode::not_built_in,
                         fmt::format("{}: the ranks of hogel-mpi cannot share its work yet; expected {}, or the program "
                                     "hogel",
                                     command, fmt::join(shared_commands, ", ")));
-        if (value("output").ends_with(".hgl"))
-            throw Error(ErrorCode::not_built_in,
-                        fmt::format("{}: the ranks of hogel-mpi cannot share the work of compressing yet; expected a "
-                                    "name that ends in .h5",
-                                    value("output")));
-        if (command == "hologram" && scene_hologram_methods().look_up(value("method")) != nullptr)
-            throw Error(ErrorCode::not_built_in,
-                        fmt::format("--method: the ranks of hogel-mpi cannot share the work of method {} yet; expected "
-                                    "one that makes holograms of light fields",
-                                    value("method")));
     }
 
     cli::Outcome end(const cli::Outcome& own) override {

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <utility>
 
+#include "mpi/hand_out.h"
+
 namespace hogel::mpi {
 namespace {
 
@@ -12,9 +14,6 @@ using Clock = std::chrono::steady_clock;
 
 // How often messages are looked for: by the first process, for which others wait, and by those that wait for a stop.
 constexpr std::chrono::microseconds between_requests{200}, between_stops{5000}, between_answers{100};
-// A process is given this fraction of its fair share of what is left, and at most so many tiles: neighbours, which may
-// have much in common. Work whose tiles differ in cost by a hundred times stays even (docs/decisions/0115).
-constexpr std::uint64_t of_fair_share = 4, max_tiles_at_once = 16;
 
 template <class... Numbers>
 std::string pack(Numbers... numbers) {
@@ -98,6 +97,8 @@ void RankTeam::stop_all() {
     stop_sent_ = true;
     if (stopping_.exchange(true)) return;
     for (std::size_t other = 1; other < link_.size(); ++other) link_.send(other, Kind::stop, "");
+    answer_requests();
+    passed_.notify_all();
     stop_.request_stop();
 }
 
@@ -114,14 +115,19 @@ bool RankTeam::serve_first() {
     if (const auto message = link_.receive(Kind::ask)) {
         any = true;
         const std::lock_guard lock(mutex_);
-        const Tiles tiles = take_tiles(number_at(message->bytes, 0), number_at(message->bytes, 1));
-        link_.send(message->from, Kind::answer, pack(tiles.first, tiles.count));
+        requests_.push_back(
+            {message->from, number_at(message->bytes, 0), number_at(message->bytes, 1), number_at(message->bytes, 2)});
+        answer_requests();
     }
     if (const auto message = link_.receive(Kind::post)) {
         any = true;
         const std::lock_guard lock(listening_);
-        const auto listener = listeners_.find(number_at(message->bytes, 0));
-        if (listener != listeners_.end()) listener->second(tail_of(message->bytes, 1));
+        const std::uint64_t channel = number_at(message->bytes, 0);
+        const auto listener = listeners_.find(channel);
+        if (listener == listeners_.end())
+            early_[channel].push_back(tail_of(message->bytes, 1));
+        else if (listener->second)
+            listener->second(tail_of(message->bytes, 1));
     }
     if (const auto message = link_.receive(Kind::report)) {
         any = true;
@@ -199,25 +205,47 @@ std::string RankTeam::share(const std::string& of_first) {
     return agree(std::move(own)).text;
 }
 
-// Called with the lock. No tiles are handed out any more when work is to stop.
-Team::Tiles RankTeam::take_tiles(std::uint64_t queue, std::uint64_t tiles) {
-    Queue& of = queues_.try_emplace(queue, Queue{0, tiles}).first->second;
-    if (stopping_ || of.tiles != tiles) return {of.tiles, 0};
+// Called with the lock. No tiles are handed out any more when work is to stop; nothing is returned where none may be
+// handed out yet.
+std::optional<Team::Tiles> RankTeam::take_tiles(const Request& request) {
+    Queue& of = queues_.try_emplace(request.queue, Queue{0, request.tiles}).first->second;
+    if (stopping_ || of.tiles != request.tiles || of.next == of.tiles) return Tiles{of.tiles, 0};
     const std::uint64_t left = of.tiles - of.next;
-    const std::uint64_t fair = left / (of_fair_share * link_.size());
-    const Tiles given{of.next, std::min(left, std::clamp<std::uint64_t>(fair, 1, max_tiles_at_once))};
+    const std::uint64_t begun = of.next - std::min(of.next, of.done);
+    if (begun >= request.ahead) return std::nullopt;
+    const Tiles given{
+        of.next, std::min({left, request.ahead - begun, tiles_at_once(std::min(left, request.ahead), link_.size())})};
     of.next += given.count;
     return given;
 }
 
-Team::Tiles RankTeam::next_tiles(std::uint64_t queue, std::uint64_t tiles) {
+// Called with the lock.
+void RankTeam::answer_requests() {
+    for (auto each = requests_.begin(); each != requests_.end();) {
+        const std::optional<Tiles> tiles = take_tiles(*each);
+        if (tiles) link_.send(each->from, Kind::answer, pack(tiles->first, tiles->count));
+        each = tiles ? requests_.erase(each) : std::next(each);
+    }
+}
+
+void RankTeam::pass(std::uint64_t queue, std::uint64_t done) {
+    const std::lock_guard lock(mutex_);
+    Queue& of = queues_[queue];
+    of.done = std::max(of.done, done);
+    answer_requests();
+    passed_.notify_all();
+}
+
+Team::Tiles RankTeam::next_tiles(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead) {
     Tiles given;
     if (link_.rank() == 0) {
-        const std::lock_guard lock(mutex_);
-        given = take_tiles(queue, tiles);
+        std::unique_lock lock(mutex_);
+        std::optional<Tiles> some;
+        passed_.wait(lock, [&] { return (some = take_tiles({0, queue, tiles, ahead})).has_value(); });
+        given = *some;
     } else {
         const std::lock_guard asking(asking_);
-        link_.send(0, Kind::ask, pack(queue, tiles));
+        link_.send(0, Kind::ask, pack(queue, tiles, ahead));
         for (;;) {
             if (const auto message = link_.receive(Kind::answer)) {
                 given = {number_at(message->bytes, 0), number_at(message->bytes, 1)};
@@ -236,10 +264,28 @@ void RankTeam::send(std::uint64_t channel, const std::string& bytes) {
 
 void RankTeam::listen(std::uint64_t channel, std::function<void(const std::string& bytes)> take) {
     const std::lock_guard lock(listening_);
-    if (take)
-        listeners_[channel] = std::move(take);
-    else
-        listeners_.erase(channel);
+    const auto early = early_.extract(channel);
+    if (take && !early.empty())
+        for (const std::string& bytes : early.mapped()) take(bytes);
+    listeners_[channel] = std::move(take);
+}
+
+void RankTeam::send_to(std::size_t process, const std::string& bytes) { link_.send(process, Kind::direct, bytes); }
+
+std::string RankTeam::receive_from(std::size_t process) {
+    for (;;) {
+        std::list<std::string>& of_it = direct_[process];
+        if (!of_it.empty()) {
+            std::string first = std::move(of_it.front());
+            of_it.pop_front();
+            return first;
+        }
+        if (auto message = link_.receive(Kind::direct))
+            direct_[message->from].push_back(std::move(message->bytes));
+        else
+            std::this_thread::sleep_for(between_answers);
+        if (stopping_) throw Error(ErrorCode::cancelled, "stopped on request");
+    }
 }
 
 }  // namespace hogel::mpi

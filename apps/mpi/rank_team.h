@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <list>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -39,11 +40,14 @@ class RankTeam final : public Team {
 
     std::size_t rank() const override { return link_.rank(); }
     std::size_t size() const override { return link_.size(); }
-    Tiles next_tiles(std::uint64_t queue, std::uint64_t tiles) override;
+    Tiles next_tiles(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead = UINT64_MAX) override;
+    void pass(std::uint64_t queue, std::uint64_t done) override;
     std::uint64_t sum(std::uint64_t number) override;
     std::string share(const std::string& of_first) override;
     void send(std::uint64_t channel, const std::string& bytes) override;
     void listen(std::uint64_t channel, std::function<void(const std::string& bytes)> take) override;
+    void send_to(std::size_t process, const std::string& bytes) override;
+    std::string receive_from(std::size_t process) override;
 
     /// A stop of any process is requested from the sources of all.
     void stop_with(std::stop_source stop);
@@ -53,7 +57,11 @@ class RankTeam final : public Team {
 
   private:
     struct Queue {
-        std::uint64_t next = 0, tiles = 0;
+        std::uint64_t next = 0, tiles = 0, done = 0;
+    };
+    struct Request {
+        std::size_t from;
+        std::uint64_t queue, tiles, ahead;
     };
     Report agree(Report own);
     std::optional<Report> exchange(Report own, std::optional<std::chrono::seconds> patience);
@@ -62,12 +70,15 @@ class RankTeam final : public Team {
     void take_report(std::size_t from, Report report);
     void stop_all();
     void stop_here();
-    Tiles take_tiles(std::uint64_t queue, std::uint64_t tiles);
+    std::optional<Tiles> take_tiles(const Request& request);
+    void answer_requests();
 
     Link& link_;
     std::mutex mutex_;  // of the members up to the listeners
     std::condition_variable concluded_;
+    std::condition_variable passed_;
     std::map<std::uint64_t, Queue> queues_;
+    std::list<Request> requests_;  // that wait until tiles may be handed out
     std::vector<std::optional<Report>> reports_;
     std::optional<Report> verdict_;
     std::stop_source stop_;
@@ -76,7 +87,9 @@ class RankTeam final : public Team {
     std::optional<Report> failure_;  // once known
     std::mutex asking_;
     std::mutex listening_;
-    std::map<std::uint64_t, std::function<void(const std::string&)>> listeners_;
+    std::map<std::uint64_t, std::function<void(const std::string&)>> listeners_;  // null: ended
+    std::map<std::uint64_t, std::list<std::string>> early_;  // what came before a channel's listener
+    std::map<std::size_t, std::list<std::string>> direct_;   // what came of a process before it was waited for
     std::jthread server_;
 };
 

@@ -14,7 +14,8 @@ namespace hogel::bench {
 /// The defaults of `hogel-bench render` that its help shows.
 struct RenderDefaults {
     std::size_t hogels = 360, directions = 128;
-    std::size_t few_hogels = 64;  ///< along a side: --scaling, and the first table row of a scene with --peers
+    std::size_t tiles_across = 64;  ///< --tiles, each of 4x4 hogels
+    std::size_t few_hogels = 64;    ///< along a side: --scaling, and the first table row of a scene with --peers
     std::size_t stream_hogels = 512;
     std::size_t many_directions = 256;  ///< --peers, --stream
     double seconds = 8;                 ///< limit for a region
@@ -73,6 +74,9 @@ void measure_peers(const RenderOptions& options, const Session& session);
 /// `--scaling`: prints how the time grows with hogels, directions and triangles, the gain of a second thread, and the
 /// speed relative to plain writing of memory.
 void measure_scaling(const RenderOptions& options, const Session& session);
+/// `--tiles`: prints what each tile of a light field takes, processor time in microseconds, row by row: costs that
+/// differ by much, by which a division of work among processes is judged.
+void measure_tiles(const RenderOptions& options, const Session& session);
 /// `--stream`: prints the time of whole light fields, which may be larger than memory and are not kept.
 void measure_stream(const RenderOptions& options, const Session& session);
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -98,6 +100,11 @@ inline constexpr double phase_alone_correlation = 0.99;
 /// wave cannot keep the orders apart, naming the angle or the pitch that suffices.
 HOGEL_API Pattern encode_pattern(const FieldSource& field, const PatternOptions& options,
                                  const Progress& progress = {});
+
+/// encode_pattern() for each of several fields, such as those of three wavelengths. The processes of a team (team.h)
+/// take a field each, and all of them get all patterns.
+HOGEL_API std::vector<Pattern> encode_patterns(std::span<const std::shared_ptr<const FieldSource>> fields,
+                                               const PatternOptions& options, const Progress& progress = {});
 
 /// The complex transmission of a pattern [y][x], e^{2πi v} for phases or v for amplitudes, with v its values rounded to
 /// levels. It is the field behind the modulator in a uniform laser beam.

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <span>
 #include <string>
 
 #include "hogel/export.h"
@@ -35,6 +37,14 @@ struct SceneHologramMethod {
     bool uses_spacing = false;  ///< whether SceneHologramOptions::spacing acts
     bool uses_planes = false;   ///< whether SceneHologramOptions::planes acts
 };
+
+/// The holograms of one scene that a method makes for several wavelengths, each written to its sink, which is finished.
+/// The processes of a team (team.h) take a wavelength each.
+/// @param options  one for each grid
+/// Throws as the method does.
+HOGEL_API void write_scene_holograms(const SceneHologramMethod& method, const ShadedScene& scene,
+                                     std::span<const FieldGrid> grids, std::span<const SceneHologramOptions> options,
+                                     std::span<const std::unique_ptr<FieldSink>> sinks, const Progress& progress = {});
 
 /// All methods by name, and those that a program adds.
 HOGEL_API Table<SceneHologramMethod>& scene_hologram_methods();

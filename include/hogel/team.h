@@ -11,9 +11,12 @@
 namespace hogel {
 
 /// Several processes that do one work together, as the ranks of an MPI program do. Each of them calls the same
-/// functions with the same arguments; the light fields and holograms that they write to HDF5 files are then one file,
-/// whose tiles are handed out to whoever is free, and everything else is computed by each of them. The file has the
-/// same bytes as that of a single process. All processes must see the folder of the file.
+/// functions with the same arguments. The light fields and holograms that they write to HDF5 files are then one file,
+/// whose tiles are handed out to whoever is free; sums over tiles (compression, photographs) are made by the first
+/// process of what all send it, in the order of the tiles; large fields are transformed in parts that the processes
+/// exchange; and everything else is computed by each of them. Results have the same bytes as those of a single process.
+/// Files of other kinds are written by the first process alone: see is_first_process(). All processes must see the
+/// folders of the files.
 ///
 /// A program derives the messages of its processes from this class, and a TeamScope makes the library use them.
 class HOGEL_API Team {
@@ -30,7 +33,10 @@ class HOGEL_API Team {
     };
     /// The next of the `tiles` tiles of a queue, which no process has been given yet; none at its end. Queues begin
     /// with the first call for their number. Called from any thread. Throws Error(cancelled) if a process has failed.
-    virtual Tiles next_tiles(std::uint64_t queue, std::uint64_t tiles) = 0;
+    /// @param ahead  how many tiles beyond those that pass() has been told of are handed out; the call waits for more
+    virtual Tiles next_tiles(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead = UINT64_MAX) = 0;
+    /// In the first process: the first `done` tiles of a queue need no more memory.
+    virtual void pass(std::uint64_t queue, std::uint64_t done) = 0;
 
     /// The sum of the numbers of all processes, which call it in the same order and wait for each other. If one of them
     /// has failed instead, it throws that process's error in all others; share() does so too.
@@ -42,9 +48,22 @@ class HOGEL_API Team {
 
     /// Sends bytes to the first process, in order, without waiting. Called from any thread of the others.
     virtual void send(std::uint64_t channel, const std::string& bytes) = 0;
-    /// In the first process: what is called, on another thread, with all that is sent to a channel from now on; nothing
-    /// to call ends it.
+    /// In the first process: what is called, on another thread, with all that is sent to a channel, also before this
+    /// call; nothing to call ends the channel.
     virtual void listen(std::uint64_t channel, std::function<void(const std::string& bytes)> take) = 0;
+
+    /// Sends bytes to any other process, in order, without waiting.
+    virtual void send_to(std::size_t process, const std::string& bytes) = 0;
+    /// Waits for the next bytes that a process has sent so. For one thread. Throws Error(cancelled) if a process has
+    /// failed.
+    virtual std::string receive_from(std::size_t process) = 0;
+
+    /// A number for a queue or channel of work that all processes do, which call this in the same order. Those below
+    /// 2³² are the caller's own.
+    std::uint64_t next_number() { return numbers_++; }
+
+  private:
+    std::uint64_t numbers_ = std::uint64_t{1} << 32;
 };
 
 /// While this object exists, this process is one of a team. To be made before any work begins.
@@ -58,5 +77,9 @@ class HOGEL_API TeamScope {
 
 /// The team of this process; null if it is alone.
 HOGEL_API Team* team();
+
+/// Whether this process is alone or the first of a team: the one that writes files of which each is written by one
+/// process. Others compute the same and leave it at that.
+HOGEL_API bool is_first_process();
 
 }  // namespace hogel

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace hogel::coding {
@@ -18,6 +19,9 @@ class MagnitudeHistogram {
     void add(std::span<const float> values);
     void add(const MagnitudeHistogram& other);
     float max() const { return max_; }
+    const std::vector<std::uint64_t>& counts() const { return counts_; }
+    /// The histogram with that maximum and those counts.
+    MagnitudeHistogram(float max, std::vector<std::uint64_t> counts) : counts_(std::move(counts)), max_(max) {}
 
     /// The bits that the rule predicts.
     double bits(double step, double c) const;

@@ -23,6 +23,8 @@ class PagedArray {
     View<const std::complex<float>, 2> view() const { return {data_.get(), shape_}; }
     const Shape<2>& shape() const { return shape_; }
     std::size_t extent(std::size_t axis) const { return shape_[axis]; }
+    /// Forgets all rows but the first ones.
+    void keep_rows(std::size_t rows) { shape_[0] = rows; }
 
   private:
     Shape<2> shape_{};

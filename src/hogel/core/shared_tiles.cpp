@@ -10,7 +10,7 @@ namespace hogel::core {
 std::optional<std::size_t> TileQueue::next() {
     const std::lock_guard lock(mutex_);
     if (here_.count == 0 && !over_) {
-        here_ = team_.next_tiles(queue_, tiles_);
+        here_ = team_.next_tiles(queue_, tiles_, ahead_);
         over_ = here_.count == 0;
         last_ = over_ ? tiles_ : std::min<std::size_t>(here_.first + here_.count, tiles_);
     }

@@ -15,17 +15,20 @@ class ThirdOfATeam final : public Team, public SharedSink {
   public:
     std::size_t rank() const override { return 0; }
     std::size_t size() const override { return 3; }
-    Tiles next_tiles(std::uint64_t queue, std::uint64_t tiles) override {
+    Tiles next_tiles(std::uint64_t queue, std::uint64_t tiles, std::uint64_t) override {
         EXPECT_EQ(queue, 9U);
         if (next_ >= tiles) return {tiles, 0};
         const Tiles given{next_, std::min<std::uint64_t>(2, tiles - next_)};
         next_ += 6;
         return given;
     }
+    void pass(std::uint64_t, std::uint64_t) override {}
     std::uint64_t sum(std::uint64_t number) override { return number; }
     std::string share(const std::string& text) override { return text; }
     void send(std::uint64_t, const std::string&) override {}
     void listen(std::uint64_t, std::function<void(const std::string&)>) override {}
+    void send_to(std::size_t, const std::string&) override {}
+    std::string receive_from(std::size_t) override { return {}; }
     std::unique_ptr<TileQueue> share_tiles(std::size_t tiles) override {
         return std::make_unique<TileQueue>(*this, 9, tiles);
     }

@@ -22,4 +22,6 @@ TeamScope::~TeamScope() { current = nullptr; }
 
 Team* team() { return current; }
 
+bool is_first_process() { return team() == nullptr || team()->is_first(); }
+
 }  // namespace hogel

@@ -54,6 +54,12 @@ class Exposure {
   public:
     Exposure(std::vector<LightFieldGrid> faces, const Camera& camera, std::size_t lens_count,
              Looking looking = Looking::fast);
+    /// The same for rows [first, end) of the picture alone, which are those of the whole picture to the last bit.
+    Exposure(std::vector<LightFieldGrid> faces, const Camera& camera, std::size_t lens_count, std::size_t first,
+             std::size_t end);
+
+    /// Rows [first, end) of hogels, with whose cells below them the rows of the picture have to do.
+    std::pair<std::size_t, std::size_t> cells() const;
 
     /// Adds all rays of a face that cross the hologram plane in a cell whose upper left hogel is in `cells`; the block
     /// holds these hogels and their right and lower neighbours.
@@ -90,6 +96,7 @@ class Exposure {
     static std::vector<LensPoint> lens_points(double pupil, std::size_t count);
     template <class Index>
     static Run run(std::size_t places, std::size_t samples, const Index& index);
+    double row_of_hogels(double row, double lens) const;
     Rays rays_of(const LensPoint& point) const;
     void prepare(std::size_t first, std::size_t count);
     bool shown_before(std::size_t face, Vec3 direction) const;
@@ -106,7 +113,8 @@ class Exposure {
     std::vector<LightFieldGrid> faces_;
     LightFieldGrid grid_;  // its hogels and channels are those of all faces
     Camera camera_;
-    bool vectors_;  // whether the front is looked at by vectors
+    bool vectors_;                         // whether the front is looked at by vectors
+    std::size_t first_row_ = 0, end_row_;  // of the picture
     std::vector<LensPoint> points_;
     std::size_t first_ = 0;  // the points [first_, first_ + rays_.size()) are prepared
     std::vector<Rays> rays_;

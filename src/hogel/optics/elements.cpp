@@ -17,8 +17,8 @@ namespace {
 template <class Factor>
 void multiply_everywhere(Wave& wave, const Factor& factor) {
     const Grid& plane = wave.grid().plane;
-    core::parallel_for(plane.height, [&](std::size_t row) {
-        const double y = plane.y(static_cast<double>(row));
+    core::parallel_for(wave.rows.count, [&](std::size_t row) {
+        const double y = plane.y(static_cast<double>(wave.rows.first + row));
         std::complex<float>* samples = &wave.samples.view()(row, 0);
         for (std::size_t column = 0; column < plane.width; ++column) {
             const std::complex<double> value(samples[column]);

@@ -26,7 +26,7 @@ class EyeDrawing {
     /// The sampling of the narrow band of an eye.
     virtual const narrow_band::BandGrid& band(std::size_t eye) const = 0;
     /// The narrow bands of looks [first_look, first_look + looks): [eye][look][row][column], as from
-    /// draw_narrow_bands(). They do not depend on the number of threads.
+    /// draw_narrow_bands(). They do not depend on the number of threads; in a team the first process has them.
     virtual std::vector<std::vector<Array<std::complex<float>, 2>>> draw(std::size_t first_look, std::size_t looks,
                                                                          const Progress& progress) const = 0;
 };

@@ -15,6 +15,7 @@
 #include "hogel/optics/narrow_band/narrow_band.h"
 #include "hogel/optics/photograph_plan.h"
 #include "hogel/optics/spectrum.h"
+#include "hogel/team.h"
 #include "hogel/units.h"
 
 namespace hogel {
@@ -77,6 +78,7 @@ void photograph_window(const FieldSource& whole, const PhotographPlan::Window& p
             report(0.9 * fraction);
             return true;
         });
+        if (!is_first_process()) continue;  // the first one has the light of all
         for (std::size_t e = 0; e < eyes.size(); ++e) {
             // Waves of a pupil take less memory than the bands from which they come.
             std::vector<Array<std::complex<float>, 2>> waves;
@@ -89,6 +91,7 @@ void photograph_window(const FieldSource& whole, const PhotographPlan::Window& p
             report(0.9 + 0.1 * static_cast<double>(e + 1) / static_cast<double>(eyes.size()));
         }
     }
+    if (!is_first_process()) return;
     for (std::size_t e = 0; e < eyes.size(); ++e)
         for (std::size_t c = 0; c < eyes[e].members.size(); ++c) {
             const std::size_t camera = eyes[e].members[c];

@@ -7,8 +7,10 @@
 #include <complex>
 #include <numbers>
 #include <numeric>
+#include <optional>
+#include <utility>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/shared_order.h"
 #include "hogel/error.h"
 #include "hogel/image/film.h"
 #include "hogel/math/fft.h"
@@ -43,6 +45,7 @@ struct Chain {
     const FieldSource& hologram;
     std::size_t look;
     const PlaneWaveCameraOptions& options;
+    Team* team;  // whose processes share the transforms; null: none
 };
 
 bool is_tilted(const Camera& camera) { return camera.focus_slope_x != 0 || camera.focus_slope_y != 0; }
@@ -83,7 +86,7 @@ Spectrum wave_at_lens(const Chain& chain, std::span<const Camera> cameras, const
             spread = std::max(spread, (is_tilted(cameras[i]) ? 2 : 1) * focus_ratio(cameras[i], corner.x, corner.y));
     const Grid window = padded(plane, spread * (plane.size_x() + pupil), spread * (plane.size_y() + pupil));
     const Band band = band_between(Rectangle(plane), around(lens, pupil), lens.z, wavelength);
-    Spectrum waves = spectrum_of(chain.hologram, chain.look, window, band, chain.options.scratch, progress);
+    Spectrum waves = spectrum_of(chain.hologram, chain.look, window, band, chain.options.scratch, progress, chain.team);
     propagate(waves, {lens.z, lens.x - plane.center_x, lens.y - plane.center_y, 0.5 * (plane.size_x() + inner),
                       0.5 * (plane.size_y() + inner), fade, fade});
     return waves;
@@ -142,9 +145,10 @@ Wave on_tilted_plane(const Spectrum& waves, const Camera& camera, const Grid& ho
 }
 
 // The wave on the film. A perfect lens images the plane in focus: the wave in the opening is propagated back to that
-// plane through empty space. A thin lens bends the light towards a film behind it, with aberrations.
-Focused wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid& hologram,
-                      const PlaneWaveCameraOptions& options) {
+// plane through empty space. A thin lens bends the light towards a film behind it, with aberrations. In a team the
+// first process has it.
+std::optional<Focused> wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid& hologram,
+                                     const PlaneWaveCameraOptions& options, Team* team) {
     const double wavelength = at_lens.wavelength, R = camera.eye.z;
     const double m = focus_ratio(camera, hologram.center_x, hologram.center_y), b = options.film_distance;
     const double focal_length = b > 0 ? 1 / (1 / (m * R) + 1 / b) : 0;
@@ -169,7 +173,7 @@ Focused wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid&
     const double area = 0.25 * std::numbers::pi * camera.pupil * camera.pupil *
                         (1 - light_left_out(followed, sines.x.span(), sines.y.span(), cell));
     Spectrum behind = [&] {
-        Wave lens = wave_of(at_lens, width, height, options.scratch);
+        Wave lens = wave_of(at_lens, width, height, options.scratch, team);
         circular_aperture(lens, camera.eye.x, camera.eye.y, camera.pupil, PupilEdge(followed, wavelength));
         if (b > 0)
             thin_lens(lens, camera.eye.x, camera.eye.y, edge_margin * camera.pupil, focal_length);
@@ -179,7 +183,7 @@ Focused wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid&
         const Grid& plane = lens.grid().plane;
         const Band whole{lens.carrier_x - 0.5 / plane.pitch_x, lens.carrier_x + 0.5 / plane.pitch_x,
                          lens.carrier_y - 0.5 / plane.pitch_y, lens.carrier_y + 0.5 / plane.pitch_y};
-        return spectrum_of(lens, plane, whole, options.scratch);
+        return spectrum_of(lens, plane, whole, options.scratch, {}, team);
     }();
     // The distance to propagate, and the magnification of the picture there.
     const double distance = b > 0 ? b : -m * R, larger = std::abs(distance) / R;
@@ -191,9 +195,14 @@ Focused wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid&
     const Vec3 origin = in_focus(camera, hologram.center_x, hologram.center_y);
     if (is_tilted(camera)) {
         const Orientation axes = stand(camera);
-        return {on_tilted_plane(behind, camera, hologram, origin, axes, options.scratch), area, origin, axes};
+        if (team != nullptr) behind = gathered(std::move(behind), *team, options.scratch);
+        if (!is_first_process()) return std::nullopt;
+        return Focused{on_tilted_plane(behind, camera, hologram, origin, axes, options.scratch), area, origin, axes};
     }
-    return {wave_of(behind, width, height, options.scratch), area, origin, {}, b > 0 ? -b / (m * R) : 1};
+    Wave film = wave_of(behind, width, height, options.scratch, team);
+    if (team != nullptr) film = gathered(std::move(film), *team, options.scratch);
+    if (!is_first_process()) return std::nullopt;
+    return Focused{std::move(film), area, origin, {}, b > 0 ? -b / (m * R) : 1};
 }
 
 // Adds the picture, as radiance: see docs/notation.md, section 4.
@@ -283,6 +292,11 @@ void require_photographable(const FieldSource& hologram, std::span<const Camera>
     }
 }
 
+Team* team_of_several() {
+    Team* const all = team();
+    return all != nullptr && all->size() > 1 ? all : nullptr;
+}
+
 // Calls visit(i, wave) with the wave that makes each camera's picture.
 template <class Visit>
 void focus_all(const Chain& chain, std::span<const Camera> cameras, const Progress& progress, const Visit& visit) {
@@ -296,7 +310,9 @@ void focus_all(const Chain& chain, std::span<const Camera> cameras, const Progre
         const auto report = [&](double fraction) { return !progress || progress(part(0.5 * fraction)); };
         const Spectrum waves = wave_at_lens(chain, cameras, eyes[e], report);
         for (std::size_t i : eyes[e].members)
-            visit(i, wave_in_focus(waves, cameras[i], chain.hologram.grid().plane, chain.options));
+            if (const std::optional<Focused> focused =
+                    wave_in_focus(waves, cameras[i], chain.hologram.grid().plane, chain.options, chain.team))
+                visit(i, *focused);
         progress.report(part(1));
     }
 }
@@ -314,9 +330,10 @@ std::vector<Image> photograph_by_plane_waves(const FieldSource& hologram, std::s
         const auto report = [&](double fraction) {
             return !progress || progress((static_cast<double>(look) + fraction) / looks);
         };
-        focus_all({hologram, look, options}, cameras, report, [&](std::size_t i, const Focused& focused) {
-            expose(focused, cameras[i], Rectangle(hologram.grid().plane), 1 / looks, images[i]);
-        });
+        focus_all({hologram, look, options, team_of_several()}, cameras, report,
+                  [&](std::size_t i, const Focused& focused) {
+                      expose(focused, cameras[i], Rectangle(hologram.grid().plane), 1 / looks, images[i]);
+                  });
     }
     return images;
 }
@@ -330,9 +347,11 @@ std::vector<Array<std::complex<float>, 2>> waves_in_focus(const FieldSource& hol
         throw Error(ErrorCode::usage, "waves in focus are those of a perfect lens, which has no film distance");
     require_photographable(hologram, cameras, 0);
     std::vector<Array<std::complex<float>, 2>> waves(cameras.size());
-    focus_all({hologram, look, options}, cameras, progress, [&](std::size_t i, const Focused& focused) {
-        waves[i] = wave_at_pixels(focused, cameras[i], Rectangle(hologram.grid().plane));
-    });
+    focus_all({hologram, look, options, team_of_several()}, cameras, progress,
+              [&](std::size_t i, const Focused& focused) {
+                  waves[i] = wave_at_pixels(focused, cameras[i], Rectangle(hologram.grid().plane));
+              });
+    for (auto& wave : waves) core::share_result(wave, core::sent_array<std::complex<float>, 2>());
     return waves;
 }
 

@@ -113,10 +113,11 @@ void propagate_row(std::span<Complex> samples, const RowOfDirections& row) {
 }  // namespace
 
 void propagate(Spectrum& spectrum, const PropagationOptions& options) {
-    core::parallel_for(blocks_of(spectrum.height()), [&](std::size_t block) {
-        for (std::size_t r = block * lines_together; r < std::min((block + 1) * lines_together, spectrum.height()); ++r)
+    const core::LineRange own = spectrum.rows;
+    core::parallel_for(blocks_of(own.count), [&](std::size_t block) {
+        for (std::size_t r = block * lines_together; r < std::min((block + 1) * lines_together, own.count); ++r)
             propagate_row(spectrum.samples.view()[r].elements(),
-                          RowOfDirections(spectrum, options, static_cast<double>(r)));
+                          RowOfDirections(spectrum, options, static_cast<double>(own.first + r)));
     });
     spectrum.window.center_x += options.shift_x;
     spectrum.window.center_y += options.shift_y;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <optional>
+#include <utility>
 
 #include "hogel/core/parallel.h"
 #include "hogel/math/fft.h"
@@ -55,13 +57,17 @@ Band Band::of(const Grid& plane) {
 Wave::Wave(const FieldGrid& grid, const ScratchOptions& scratch) : grid_(grid) {
     validate(grid, ErrorCode::usage, "wave");
     samples = core::PagedArray({grid.plane.height, grid.plane.width}, scratch);
+    rows = {0, grid.plane.height};
 }
+
+Wave::Wave(const FieldGrid& grid, core::PagedArray samples_of_rows, const core::LineRange& own)
+    : samples(std::move(samples_of_rows)), rows(own), grid_(grid) {}
 
 void Wave::read(const Region& region, std::size_t look, View<Complex, 2> out) const {
     validate(region, grid_, out.shape());
     if (look != 0) throw Error(ErrorCode::usage, fmt::format("a wave has one look, but look {} was read", look));
     for (std::size_t y = 0; y < region.height; ++y)
-        std::copy_n(&samples.view()(region.y0 + y, region.x0), region.width, &out(y, 0));
+        std::copy_n(&samples.view()(region.y0 + y - rows.first, region.x0), region.width, &out(y, 0));
 }
 
 Grid padded(const Grid& plane, double size_x, double size_y) {
@@ -78,8 +84,11 @@ Grid padded(const Grid& plane, double size_x, double size_y) {
     return window;
 }
 
-Spectrum empty_spectrum(const Grid& window, double wavelength, const Band& band, double carrier_x, double carrier_y,
-                        const ScratchOptions& scratch) {
+namespace {
+
+// Without samples.
+Spectrum frame_of(const Grid& window, double wavelength, const Band& band, double carrier_x, double carrier_y,
+                  std::size_t& columns) {
     Spectrum result;
     result.window = window;
     result.wavelength = wavelength;
@@ -87,35 +96,49 @@ Spectrum empty_spectrum(const Grid& window, double wavelength, const Band& band,
     const auto [first_row, last_row] = steps(-band.high_y, -band.low_y, window.size_y(), window.height, -carrier_y);
     result.first_column = first_column;
     result.first_row = first_row;
-    result.samples = core::PagedArray(
-        {static_cast<std::size_t>(last_row - first_row + 1), static_cast<std::size_t>(last_column - first_column + 1)},
-        scratch);
+    result.all_rows = static_cast<std::size_t>(last_row - first_row + 1);
+    columns = static_cast<std::size_t>(last_column - first_column + 1);
+    return result;
+}
+
+}  // namespace
+
+Spectrum empty_spectrum(const Grid& window, double wavelength, const Band& band, double carrier_x, double carrier_y,
+                        const ScratchOptions& scratch) {
+    std::size_t columns = 0;
+    Spectrum result = frame_of(window, wavelength, band, carrier_x, carrier_y, columns);
+    result.samples = core::PagedArray({result.all_rows, columns}, scratch);
+    result.rows = {0, result.all_rows};
     return result;
 }
 
 namespace {
 
 Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& window, const Band& band,
-                     double carrier_x, double carrier_y, const ScratchOptions& scratch, const Progress& progress) {
+                     double carrier_x, double carrier_y, const ScratchOptions& scratch, const Progress& progress,
+                     Team* team) {
     const Grid& plane = source.grid().plane;
     if (window.width < plane.width || window.height < plane.height || (window.width - plane.width) % 2 != 0 ||
         (window.height - plane.height) % 2 != 0 || window.pitch_x != plane.pitch_x || window.pitch_y != plane.pitch_y)
         throw Error(ErrorCode::usage,
                     fmt::format("a window of {}x{} samples cannot hold a field of {}x{} in its middle", window.width,
                                 window.height, plane.width, plane.height));
-    Spectrum result = empty_spectrum(window, source.grid().wavelength, band, carrier_x, carrier_y, scratch);
+    std::size_t columns = 0;
+    Spectrum result = frame_of(window, source.grid().wavelength, band, carrier_x, carrier_y, columns);
     result.window.center_x = plane.center_x;
     result.window.center_y = plane.center_y;
     const std::ptrdiff_t first_column = result.first_column, first_row = result.first_row;
-    const std::size_t columns = result.width(), rows = result.height();
+    const std::size_t rows = result.height();
 
     // Transforms the rows and keeps the band's columns.
-    core::PagedArray half({plane.height, columns}, scratch);
+    const std::size_t together = source.alignment() * std::max<std::size_t>(lines_together / source.alignment(), 1);
+    core::SharedPlane kept(std::max(plane.height, rows), columns, together, lines_together, scratch, team);
+    kept.begin_rows(plane.height);
+    const core::LineRange own = kept.own_rows(plane.height), across = kept.own_columns();
     const math::Fft1 along(window.width), down(window.height);
     const std::vector<Complex> centre_x =
         centring(first_column, columns, window.width, -1, window.pitch_x * window.pitch_y);
-    const std::size_t together = source.alignment() * std::max<std::size_t>(lines_together / source.alignment(), 1);
-    const std::size_t row_blocks = blocks_of(plane.height, together), all_blocks = row_blocks + blocks_of(columns);
+    const std::size_t row_blocks = blocks_of(own.count, together), all_blocks = row_blocks + blocks_of(across.count);
     std::mutex reporting;
     std::size_t done = 0;
     const auto report = [&] {
@@ -124,7 +147,7 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
     };
     const std::size_t left = (window.width - plane.width) / 2, above = (window.height - plane.height) / 2;
     core::parallel_for(row_blocks, [&](std::size_t block) {
-        const std::size_t y0 = block * together, height = std::min(together, plane.height - y0);
+        const std::size_t y0 = own.first + block * together, height = std::min(together, own.end() - y0);
         Array<Complex, 2> lines({height, plane.width});
         source.read({0, y0, plane.width, height}, look, lines);
         Array<Complex, 1> line({window.width});
@@ -132,81 +155,115 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
             std::ranges::fill(line.elements(), Complex(0));
             std::copy_n(&lines(y, 0), plane.width, &line(left));
             along.forward(line.data());
-            Complex* kept = &half.view()(y0 + y, 0);
-            take_frequencies(line.data(), window.width, first_column, columns, kept);
-            narrow_band::multiply(kept, centre_x.data(), std::span(kept, columns));
+            Complex* row = kept.row(y0 + y);
+            take_frequencies(line.data(), window.width, first_column, columns, row);
+            narrow_band::multiply(row, centre_x.data(), std::span(row, columns));
         }
         report();
     });
 
     // Transforms the columns and keeps the band's rows.
+    kept.to_columns(plane.height);
     const std::vector<Complex> centre_y = centring(first_row, rows, window.height, -1, 1);
-    core::parallel_for(blocks_of(columns), [&](std::size_t block) {
-        const std::size_t x0 = block * lines_together, width = std::min(lines_together, columns - x0);
+    core::parallel_for(blocks_of(across.count), [&](std::size_t block) {
+        const std::size_t x0 = across.first + block * lines_together,
+                          width = std::min(lines_together, across.end() - x0);
         Array<Complex, 2> lines({width, stride_of(window.height)});
         for (std::size_t y = 0; y < plane.height; ++y)
-            for (std::size_t i = 0; i < width; ++i) lines(i, above + y) = half.view()(y, x0 + i);
+            for (std::size_t i = 0; i < width; ++i) lines(i, above + y) = kept.at(y, x0 + i);
         for (std::size_t i = 0; i < width; ++i) down.forward(&lines(i, 0));
         for (std::size_t r = 0; r < rows; ++r) {
             const std::size_t at = wrapped(first_row + static_cast<std::ptrdiff_t>(r), window.height);
-            for (std::size_t i = 0; i < width; ++i) result.samples.view()(r, x0 + i) = times(lines(i, at), centre_y[r]);
+            for (std::size_t i = 0; i < width; ++i) kept.at(r, x0 + i) = times(lines(i, at), centre_y[r]);
         }
         report();
     });
+    kept.to_rows(rows);
+    result.rows = kept.own_rows(rows);
+    result.samples = kept.take_rows(rows);
     return result;
 }
 
 }  // namespace
 
 Spectrum spectrum_of(const FieldSource& field, std::size_t look, const Grid& window, const Band& band,
-                     const ScratchOptions& scratch, const Progress& progress) {
-    return transformed(field, look, window, band, 0, 0, scratch, progress);
+                     const ScratchOptions& scratch, const Progress& progress, Team* team) {
+    return transformed(field, look, window, band, 0, 0, scratch, progress, team);
 }
 
 Spectrum spectrum_of(const Wave& wave, const Grid& window, const Band& band, const ScratchOptions& scratch,
-                     const Progress& progress) {
-    return transformed(wave, 0, window, band, wave.carrier_x, wave.carrier_y, scratch, progress);
+                     const Progress& progress, Team* team) {
+    return transformed(wave, 0, window, band, wave.carrier_x, wave.carrier_y, scratch, progress, team);
 }
 
-Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch) {
+Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch,
+             Team* team) {
     const Grid& window = spectrum.window;
     const std::size_t columns = spectrum.width(), rows = spectrum.height();
     if (width < columns || height < rows)
         throw Error(ErrorCode::usage,
                     fmt::format("{}x{} samples are too few for {}x{} frequencies", width, height, columns, rows));
+    std::optional<core::SharedPlane> kept;
+    core::LineRange across{0, columns}, own{0, height};
+    if (team != nullptr) {
+        kept.emplace(std::max(rows, height), columns, lines_together, lines_together, scratch, team);
+        kept->begin_rows(rows);
+        for (std::size_t r = 0; r < spectrum.rows.count; ++r)
+            std::copy_n(&spectrum.samples.view()(r, 0), columns, kept->row(spectrum.rows.first + r));
+        kept->to_columns(rows);
+        across = kept->own_columns();
+        own = kept->own_rows(height);
+    }
     Wave wave({{width, height, window.size_x() / static_cast<double>(width),
                 window.size_y() / static_cast<double>(height), window.center_x, window.center_y},
                spectrum.wavelength},
-              scratch);
+              core::PagedArray({std::max<std::size_t>(own.count, 1), width}, scratch), own);
     wave.carrier_x = spectrum.frequency_x(static_cast<double>(columns / 2));
     wave.carrier_y = spectrum.frequency_y(static_cast<double>(rows / 2));
     const math::Fft1 along(width), down(height);
     const std::vector<Complex> centre_x =
         centring(spectrum.first_column, columns, width, 1, 1 / (window.size_x() * window.size_y()));
     const std::vector<Complex> centre_y = centring(spectrum.first_row, rows, height, 1, 1);
-    // First transforms the columns into the left part of the result, then the rows in place.
-    core::parallel_for(blocks_of(columns), [&](std::size_t block) {
-        const std::size_t x0 = block * lines_together, count = std::min(lines_together, columns - x0);
+    // First transforms the columns, alone into the left part of the result, then the rows, alone in place.
+    core::parallel_for(blocks_of(across.count), [&](std::size_t block) {
+        const std::size_t x0 = across.first + block * lines_together,
+                          count = std::min(lines_together, across.end() - x0);
         Array<Complex, 2> lines({count, stride_of(height)});
         for (std::size_t r = 0; r < rows; ++r) {
             const std::size_t at = wrapped(spectrum.first_row + static_cast<std::ptrdiff_t>(r), height);
-            for (std::size_t i = 0; i < count; ++i)
-                lines(i, at) = times(spectrum.samples.view()(r, x0 + i), times(centre_y[r], centre_x[x0 + i]));
+            const Complex* const row = kept ? &kept->at(r, x0) : &spectrum.samples.view()(r, x0);
+            for (std::size_t i = 0; i < count; ++i) lines(i, at) = times(row[i], times(centre_y[r], centre_x[x0 + i]));
         }
         for (std::size_t i = 0; i < count; ++i) down.backward(&lines(i, 0));
-        for (std::size_t y = 0; y < height; ++y)
-            for (std::size_t i = 0; i < count; ++i) wave.samples.view()(y, x0 + i) = lines(i, y);
+        for (std::size_t y = 0; y < height; ++y) {
+            Complex* const row = kept ? &kept->at(y, x0) : &wave.samples.view()(y, x0);
+            for (std::size_t i = 0; i < count; ++i) row[i] = lines(i, y);
+        }
     });
-    core::parallel_for(blocks_of(height), [&](std::size_t block) {
+    if (kept) kept->to_rows(height);
+    core::parallel_for(blocks_of(own.count), [&](std::size_t block) {
         Array<Complex, 1> line({width});
-        for (std::size_t y = block * lines_together; y < std::min((block + 1) * lines_together, height); ++y) {
+        for (std::size_t y = block * lines_together; y < std::min((block + 1) * lines_together, own.count); ++y) {
             std::ranges::fill(line.elements(), Complex(0));
-            Complex* row = &wave.samples.view()(y, 0);
-            put_frequencies(row, columns, line.data(), width, spectrum.first_column);
+            Complex* const row = &wave.samples.view()(y, 0);
+            put_frequencies(kept ? kept->row(own.first + y) : row, columns, line.data(), width, spectrum.first_column);
             along.backward(line.data());
             std::copy_n(line.data(), width, row);
         }
     });
+    return wave;
+}
+
+Spectrum gathered(Spectrum spectrum, Team& team, const ScratchOptions& scratch) {
+    spectrum.samples = core::gather_rows(team, spectrum.samples, spectrum.all_rows, lines_together, scratch);
+    spectrum.rows = {0, team.is_first() ? spectrum.all_rows : 0};
+    return spectrum;
+}
+
+Wave gathered(Wave wave, Team& team, const ScratchOptions& scratch) {
+    const std::size_t rows = wave.grid().plane.height;
+    wave.samples = core::gather_rows(team, wave.samples, rows, lines_together, scratch);
+    wave.rows = {0, team.is_first() ? rows : 0};
     return wave;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hogel/core/paged_array.h"
+#include "hogel/core/shared_plane.h"
 #include "hogel/field.h"
 
 namespace hogel::optics {
@@ -24,11 +24,13 @@ struct Spectrum {
     std::ptrdiff_t first_column = 0,
                    first_row = 0;  ///< frequency of the first sample, in steps; rows are counted downwards
     core::PagedArray samples;      ///< [row][column] of S, row 0 the highest f_y
+    std::size_t all_rows = 0;
+    core::LineRange rows;  ///< of all rows, those in `samples`: all, unless the processes of a team share the spectrum
 
     double frequency_x(double column) const { return (static_cast<double>(first_column) + column) / window.size_x(); }
     double frequency_y(double row) const { return -(static_cast<double>(first_row) + row) / window.size_y(); }
     std::size_t width() const { return samples.extent(1); }
-    std::size_t height() const { return samples.extent(0); }
+    std::size_t height() const { return all_rows; }
 };
 
 /// A wave on a plane, as a source; it may be larger than memory. The pitch may be too coarse for the carrier but not
@@ -36,10 +38,13 @@ struct Spectrum {
 class Wave final : public FieldSource {
   public:
     Wave(const FieldGrid& grid, const ScratchOptions& scratch);
+    /// Of which this process has these rows.
+    Wave(const FieldGrid& grid, core::PagedArray samples, const core::LineRange& rows);
     const FieldGrid& grid() const override { return grid_; }
     void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override;
 
     core::PagedArray samples;             ///< [y][x]
+    core::LineRange rows;                 ///< those in `samples`: all, unless the processes of a team share the wave
     double carrier_x = 0, carrier_y = 0;  ///< cycles per metre
 
   private:
@@ -52,18 +57,26 @@ Grid padded(const Grid& plane, double size_x, double size_y);
 
 /// The plane waves of a field at the frequencies in `band` that its samples represent. The field is read row by row.
 /// Memory: an array of the field's rows and the band's columns, and the result.
+/// @param team    whose processes share the work, all of which call it, and get the spectrum's rows in parts; null:
+/// none
 /// @param window  a grid of the field's pitch and centre, at least as large; see padded()
 /// Throws Error(usage) for a window that is smaller than the field or has another pitch, and for a band without
 /// frequencies.
 Spectrum spectrum_of(const FieldSource& field, std::size_t look, const Grid& window, const Band& band,
-                     const ScratchOptions& scratch = {}, const Progress& progress = {});
+                     const ScratchOptions& scratch = {}, const Progress& progress = {}, Team* team = nullptr);
 
 Spectrum spectrum_of(const Wave& wave, const Grid& window, const Band& band, const ScratchOptions& scratch = {},
-                     const Progress& progress = {});
+                     const Progress& progress = {}, Team* team = nullptr);
 
 /// The wave in the window, sampled by width × height samples: the same extent at another pitch. Its carrier is the
 /// middle of the spectrum. Throws Error(usage) for fewer samples than the spectrum has.
-Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch = {});
+/// @param team  as for spectrum_of(), of which all have parts of the spectrum
+Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch = {},
+             Team* team = nullptr);
+
+/// The whole of what the processes of a team have in parts, in the first one; in others something without samples.
+Spectrum gathered(Spectrum spectrum, Team& team, const ScratchOptions& scratch);
+Wave gathered(Wave wave, Team& team, const ScratchOptions& scratch);
 
 /// Propagation to a parallel plane; the window follows the off-axis carrier. All in metres.
 struct PropagationOptions {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/shared_order.h"
 #include "hogel/error.h"
 #include "hogel/hologram/parallax.h"
 #include "hogel/pipeline.h"
@@ -84,6 +84,7 @@ std::vector<Image> photograph_colours(const Fields& holograms, std::span<const C
                 pictures[i].pixels.data()[pixel * colours + c] = seen[i].pixels.data()[pixel];
         }
     }
+    for (Image& picture : pictures) core::share_result(picture.pixels, core::sent_array<float, 3>());
     return pictures;
 }
 

@@ -18,6 +18,7 @@
 #include "hogel/codec/format/unfolded.h"
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/team.h"
 
 namespace hogel {
 
@@ -240,7 +241,8 @@ CompressionResult compress(const LightField& light_field, const std::filesystem:
     header.tile.nt = std::min(header.tile.nt, grid.hogels_t);
     header.layer_ends.resize(parts.front().coder->layers(header.tile));
     std::optional<core::OutputFile> depth;
-    if (options.with_depth) header.depth = compress_depth(light_field, depth.emplace(path).temporary(), options);
+    if (options.with_depth && is_first_process()) depth.emplace(path);
+    if (options.with_depth) header.depth = compress_depth(light_field, depth ? depth->temporary() : path, options);
     StreamWriter writer(path, header, depth ? depth->temporary() : std::filesystem::path());
     TileCompression compression(parts, header, writer, progress);
     const Found found = code_to_target(options.target, rays, options.method, compression, writer);

@@ -37,7 +37,7 @@ std::vector<double> limited_slopes(const std::vector<double>& densities, const s
 
 std::optional<ToneCurve> tone_curve_of(const LuminanceHistogram& histogram, double decades) {
     // Only the bins of normal (not subnormal) numbers.
-    const std::span<const std::uint64_t> counts = histogram.counts().subspan(per_octave, 254 * per_octave);
+    const std::span<const std::uint64_t> counts = std::span(histogram.counts()).subspan(per_octave, 254 * per_octave);
     const auto some = [](std::uint64_t count) { return count > 0; };
     const auto highest = std::find_if(counts.rbegin(), counts.rend(), some);
     if (highest == counts.rend()) return std::nullopt;

@@ -9,7 +9,7 @@
 
 #include "hogel/codec/format/block_kernels.h"
 #include "hogel/codec/tile_coder.h"
-#include "hogel/core/parallel.h"
+#include "hogel/core/shared_order.h"
 #include "hogel/error.h"
 
 namespace hogel::codec::encode {
@@ -67,8 +67,20 @@ CodingOutcome TileCompression::code(std::span<const std::size_t> tiles, double s
         sizes_.clear();
     }
     CodingOutcome sum;
-    core::parallel_ordered<Coded>(
-        tiles.size(), in_flight(),
+    const core::Sent<Coded> sent{[](core::MessageWriter& to, const Coded& coded) {
+                                     to.put(coded.bytes);
+                                     to.put(coded.layers);
+                                     to.put(coded.outcome);
+                                 },
+                                 [](core::MessageReader& from) {
+                                     Coded coded;
+                                     coded.bytes = from.get_vector<std::uint8_t>();
+                                     coded.layers = from.get_vector<std::size_t>();
+                                     coded.outcome = from.get<CodingOutcome>();
+                                     return coded;
+                                 }};
+    core::shared_ordered<Coded>(
+        tiles.size(), in_flight(), sent,
         [&](std::size_t i) {
             return code_tile(tiles[i], step, max_bytes.empty() ? TileCoder::no_limit : max_bytes[i]);
         },
@@ -80,19 +92,25 @@ CodingOutcome TileCompression::code(std::span<const std::size_t> tiles, double s
             }
             progress_.report(static_cast<double>(i + 1) / static_cast<double>(tiles.size()));
         });
+    core::share_result(sum, {});
+    if (write) {
+        writer_.share_entries();
+        core::share_result(sizes_, core::sent_vector<std::size_t>());
+    }
     return sum;
 }
 
 CodingOutcome TileCompression::look(std::span<const std::size_t> tiles) {
     CodingOutcome sum;
-    core::parallel_ordered<CodingOutcome>(
-        tiles.size(), in_flight(),
+    core::shared_ordered<CodingOutcome>(
+        tiles.size(), in_flight(), {},
         [&](std::size_t i) {
             auto [tile, outcome] = read(tiles[i]);
             spare_.give_back(std::move(tile));
             return outcome;
         },
         [&](std::size_t, CodingOutcome& outcome) { sum.add(outcome); });
+    core::share_result(sum, {});
     return sum;
 }
 
@@ -106,8 +124,17 @@ coding::MagnitudeHistogram TileCompression::magnitudes() {
                         "another layout than stacked");
     }
     coding::MagnitudeHistogram sum;
-    core::parallel_ordered<coding::MagnitudeHistogram>(
-        tiles(), in_flight(),
+    const core::Sent<coding::MagnitudeHistogram> sent{
+        [](core::MessageWriter& to, const coding::MagnitudeHistogram& histogram) {
+            to.put(histogram.max());
+            to.put(histogram.counts());
+        },
+        [](core::MessageReader& from) {
+            const auto max = from.get<float>();
+            return coding::MagnitudeHistogram(max, from.get_vector<std::uint64_t>());
+        }};
+    core::shared_ordered<coding::MagnitudeHistogram>(
+        tiles(), in_flight(), sent,
         [&](std::size_t i) {
             auto [tile, outcome] = read(i);
             coding::MagnitudeHistogram histogram = counters[i / tiling_.count()]->magnitudes(tile);
@@ -118,6 +145,7 @@ coding::MagnitudeHistogram TileCompression::magnitudes() {
             sum.add(histogram);
             progress_.report(static_cast<double>(i + 1) / static_cast<double>(tiles()));
         });
+    core::share_result(sum, sent);
     return sum;
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "hogel/codec/format/stream_file.h"
-#include "hogel/core/parallel.h"
+#include "hogel/core/shared_order.h"
 
 namespace hogel::codec::format {
 namespace {
@@ -97,11 +97,14 @@ LightField companded(const LightField& light_field, const Companding& companding
 LuminanceHistogram luminance_histogram(const LightField& light_field, const Progress& progress) {
     const std::span<const LightField::Source> faces = light_field.faces();
     LuminanceHistogram sum;
+    const core::Sent<LuminanceHistogram> sent{
+        [](core::MessageWriter& to, const LuminanceHistogram& histogram) { to.put(histogram.counts()); },
+        [](core::MessageReader& from) { return LuminanceHistogram(from.get_vector<std::uint64_t>()); }};
     for (std::size_t face = 0; face < faces.size(); ++face) {
         const LightFieldGrid& grid = faces[face]->grid();
         const Tiling tiling(grid, faces[face]->preferred_tile());
-        core::parallel_ordered<LuminanceHistogram>(
-            tiling.count(), core::default_in_flight(),
+        core::shared_ordered<LuminanceHistogram>(
+            tiling.count(), core::default_in_flight(), sent,
             [&](std::size_t i) {
                 LightFieldTile tile(grid, tiling[i], false);
                 faces[face]->read(tile);
@@ -115,6 +118,7 @@ LuminanceHistogram luminance_histogram(const LightField& light_field, const Prog
                                 static_cast<double>(faces.size()));
             });
     }
+    core::share_result(sum, sent);
     return sum;
 }
 

@@ -10,6 +10,7 @@
 #include "hogel/codec/format/stream_header.h"
 #include "hogel/codec/format/unfolded.h"
 #include "hogel/codec/tile_coder.h"
+#include "hogel/core/shared_order.h"
 
 namespace hogel::codec::format {
 namespace {
@@ -68,19 +69,14 @@ HogelRange Tiling::operator[](std::size_t tile) const {
 }
 
 StreamWriter::StreamWriter(const std::filesystem::path& path, const StreamHeader& info, std::filesystem::path depth)
-    : output_(path),
-      spool_(path),
-      spooled_(spool_.temporary(), core::RawFile::Mode::create, path),
-      info_(info),
-      header_bytes_(header_bytes(info).size()),
-      layers_(info.layer_ends.size()),
-      depth_(std::move(depth)) {
+    : info_(info), header_bytes_(header_bytes(info).size()), layers_(info.layer_ends.size()), depth_(std::move(depth)) {
     for (const LightFieldGrid& part : coded_parts(info))
         if (!tile_fits(part, info.tile))
             throw Error(ErrorCode::usage,
                         fmt::format("{}: tiles of {}x{} hogels; expected at least 1x1, no more than the light field "
                                     "has, and at most {} samples in each",
                                     path.string(), info.tile.ns, info.tile.nt, max_tile_samples));
+    if (is_first_process()) files_.emplace(path);
 }
 
 void StreamWriter::restart() {
@@ -89,7 +85,7 @@ void StreamWriter::restart() {
 }
 
 void StreamWriter::append(std::span<const std::uint8_t> tile, std::span<const std::size_t> layers) {
-    spooled_.write(next_, tile.data(), tile.size());
+    files_->spooled.write(next_, tile.data(), tile.size());
     std::size_t begin = 0;
     for (std::size_t layer = 0; layer < layers_; ++layer) {
         const std::size_t end = layer < layers.size() ? layers[layer] : tile.size();
@@ -99,11 +95,21 @@ void StreamWriter::append(std::span<const std::uint8_t> tile, std::span<const st
     next_ += tile.size();
 }
 
+void StreamWriter::share_entries() {
+    core::share_result(entries_, core::sent_vector<StreamEntry>());
+    next_ = entries_.empty() ? 0 : entries_.back().offset + entries_.back().bytes;
+}
+
 std::uint64_t StreamWriter::overhead(std::size_t tiles) const {
     return header_bytes_ + tiles * layers_ * entry_bytes + checksum_bytes + info_.depth.bytes;
 }
 
 void StreamWriter::finish(std::uint64_t filler) {
+    if (files_) write(filler);
+    if (Team* const all = team()) all->meet();  // the file has its name
+}
+
+void StreamWriter::write(std::uint64_t filler) {
     info_.filler = filler;
     const Bytes header = header_bytes(info_);
     std::vector<StreamEntry> entries;  // layer by layer
@@ -115,7 +121,7 @@ void StreamWriter::finish(std::uint64_t filler) {
         index.put(entry.checksum);
     }
     index.put(core::checksum(index.bytes));
-    core::RawFile file(output_.temporary(), core::RawFile::Mode::create, output_.target());
+    core::RawFile file(files_->output.temporary(), core::RawFile::Mode::create, files_->output.target());
     file.write(0, header.data(), header.size());
     file.write(header.size(), index.bytes.data(), index.bytes.size());
     std::uint64_t at = header.size() + index.bytes.size();
@@ -126,7 +132,7 @@ void StreamWriter::finish(std::uint64_t filler) {
         file.write(at, bytes.data(), bytes.size());
         at += bytes.size();
     };
-    for (const StreamEntry& entry : entries) copy(spooled_, entry.offset, entry.bytes);
+    for (const StreamEntry& entry : entries) copy(files_->spooled, entry.offset, entry.bytes);
     if (info_.depth.bytes > 0) {
         constexpr std::uint64_t max_chunk = std::uint64_t{1} << 24;
         const core::RawFile depth(depth_, core::RawFile::Mode::read, depth_);
@@ -134,7 +140,7 @@ void StreamWriter::finish(std::uint64_t filler) {
             copy(depth, done, std::min(max_chunk, info_.depth.bytes - done));
     }
     file.close();
-    output_.commit();
+    files_->output.commit();
 }
 
 StreamReader::StreamReader(const std::filesystem::path& path, Content content)

@@ -50,12 +50,15 @@ struct StreamEntry {
 // them into the file layer by layer.
 class StreamWriter {
   public:
+    // In a team the first process alone has files; the others know their sizes.
     // @param depth   file with the depth stream that info.depth describes
     StreamWriter(const std::filesystem::path& path, const StreamHeader& info, std::filesystem::path depth = {});
     // Discards all tiles.
     void restart();
     // @param layers   the ends of the tile's layers; small tiles may have fewer layers than the stream
     void append(std::span<const std::uint8_t> tile, std::span<const std::size_t> layers);
+    // In a team: tells all processes of the tiles that the first one has appended.
+    void share_entries();
     // Bytes of the whole file if it were finished now.
     std::uint64_t size() const { return next_ + overhead(entries_.size() / layers_); }
     // Bytes of a file with that number of tiles (of all parts), without the tiles themselves.
@@ -64,8 +67,15 @@ class StreamWriter {
     void finish(std::uint64_t filler = 0);
 
   private:
-    core::OutputFile output_, spool_;
-    core::RawFile spooled_;  // tile by tile
+    void write(std::uint64_t filler);
+
+    struct Files {
+        explicit Files(const std::filesystem::path& path)
+            : output(path), spool(path), spooled(spool.temporary(), core::RawFile::Mode::create, path) {}
+        core::OutputFile output, spool;
+        core::RawFile spooled;  // tile by tile
+    };
+    std::optional<Files> files_;
     StreamHeader info_;
     std::size_t header_bytes_;  // without filler
     std::size_t layers_;

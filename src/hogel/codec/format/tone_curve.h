@@ -75,11 +75,12 @@ class ToneCurve {
 class LuminanceHistogram {
   public:
     LuminanceHistogram() : counts_(std::size_t{1} << (31 - ToneCurve::low_bits)) {}
+    explicit LuminanceHistogram(std::vector<std::uint64_t> counts) : counts_(std::move(counts)) {}
     void add(float luminance) {
         ++counts_[(std::bit_cast<std::uint32_t>(luminance) & 0x7FFFFFFF) >> ToneCurve::low_bits];
     }
     void add(const LuminanceHistogram& other);
-    std::span<const std::uint64_t> counts() const { return counts_; }
+    const std::vector<std::uint64_t>& counts() const { return counts_; }
 
   private:
     std::vector<std::uint64_t> counts_;

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "hogel/core/object_pool.h"
-#include "hogel/core/parallel.h"
+#include "hogel/core/shared_order.h"
 #include "hogel/hologram/eye/hogel_basis.h"
 #include "hogel/hologram/eye/project.h"
 #include "hogel/optics/film/interpolation.h"
@@ -64,6 +64,26 @@ struct EyeBand {
     std::size_t per_hogel;
 };
 
+using Contribution = std::vector<std::vector<Array<float, 3>>>;  // [eye][look][part][row][column]
+
+core::Sent<Contribution> sent_contribution() {
+    return {[](core::MessageWriter& to, const Contribution& eyes) {
+                to.put(eyes.size());
+                for (const auto& looks : eyes) {
+                    to.put(looks.size());
+                    for (const auto& look : looks) to.put(look);
+                }
+            },
+            [](core::MessageReader& from) {
+                Contribution eyes(from.get<std::size_t>());
+                for (auto& looks : eyes) {
+                    looks.resize(from.get<std::size_t>());
+                    for (auto& look : looks) look = from.get_array<float, 3>();
+                }
+                return eyes;
+            }};
+}
+
 class StereogramEyes final : public optics::EyeDrawing {
   public:
     StereogramEyes(const Hogels& hogels, const HogelRange& range, std::vector<EyeBand> eyes)
@@ -86,9 +106,9 @@ class StereogramEyes final : public optics::EyeDrawing {
             return HogelRange{range_.s0 + s, range_.t0 + t, std::min(block_across, range_.ns - s),
                               std::min(block_down, range_.nt - t)};
         };
-        using Contribution = std::vector<std::vector<Array<float, 3>>>;  // [eye][look][part][row][column]
-        core::parallel_ordered<Contribution>(
-            across * down, core::default_in_flight(), [&](std::size_t i) { return draw(block(i), first_look, looks); },
+        core::shared_ordered<Contribution>(
+            across * down, core::default_in_flight(), sent_contribution(),
+            [&](std::size_t i) { return draw(block(i), first_look, looks); },
             [&](std::size_t i, Contribution& contribution) {
                 const HogelRange hogels = block(i);
                 for (std::size_t e = 0; e < eyes_.size(); ++e)

@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "hogel/core/object_pool.h"
-#include "hogel/core/parallel.h"
+#include "hogel/core/shared_order.h"
+#include "hogel/core/shared_plane.h"
 #include "hogel/optics/expected/kernels.h"
 #include "hogel/optics/expected/spots.h"
 #include "hogel/optics/expected/tails.h"
@@ -149,6 +150,40 @@ class Photographer {
                         expose_row(eye, exposure, row, left, right, pictures[exposure.camera]);
                 });
         progress.report(1);
+    }
+
+    // Gives all processes of a team the pixels and tails that each has made of its own rows of hogels.
+    void gather(Team& team, std::span<Image> pictures) {
+        const auto rows_of = [&](std::size_t process) {
+            return core::lines_of(process, team.size(), hogels_.plane.height, 1);
+        };
+        const auto visit = [&](const core::LineRange& own, const auto& each) {
+            for (ExpectedEye& eye : eyes_)
+                for (Exposure& exposure : eye.exposures) {
+                    for (std::size_t t = own.first; t < own.end(); ++t)
+                        each(std::span(&exposure.tails(t, 0), hogels_.plane.width));
+                    Image& picture = pictures[exposure.camera];
+                    for (std::size_t row = 0; row < picture.height(); ++row) {
+                        const std::ptrdiff_t base = exposure.rows.base[row];
+                        if (exposure.rows.seen[row] > 0 && base >= static_cast<std::ptrdiff_t>(own.first) &&
+                            base < static_cast<std::ptrdiff_t>(own.end()))
+                            each(std::span(&picture.pixels(row, 0, 0), picture.width()));
+                    }
+                }
+        };
+        std::vector<float> mine;
+        visit(rows_of(team.rank()), [&](std::span<float> line) { mine.insert(mine.end(), line.begin(), line.end()); });
+        core::MessageWriter message;
+        message.put(mine);
+        const std::vector<std::string> all = core::all_of(team, message.take());
+        for (std::size_t process = 0; process < team.size(); ++process) {
+            const std::vector<float> theirs = core::MessageReader(all[process]).get_vector<float>();
+            const float* from = theirs.data();
+            visit(rows_of(process), [&](std::span<float> line) {
+                std::copy_n(from, line.size(), line.begin());
+                from += line.size();
+            });
+        }
     }
 
     // Adds the light that falls far from its hogels.
@@ -349,15 +384,20 @@ void photograph(const FieldSource& hologram, const WavePowers& waves, std::span<
             continue;
         }
         const std::size_t rows = fit >= counts.down ? counts.down : std::max(fit, around + 1) - around;
+        Team* const all = team();
+        const bool alone = all == nullptr || all->size() == 1;
+        const core::LineRange own =
+            alone ? core::LineRange{0, counts.down} : core::lines_of(all->rank(), all->size(), counts.down, 1);
         const auto fraction = [&](std::size_t row) {
             return (static_cast<double>(done) + 0.98 * static_cast<double>(some.size()) * static_cast<double>(row) /
                                                     static_cast<double>(counts.down)) /
                    static_cast<double>(eyes.size());
         };
-        for (std::size_t first = 0; first < counts.down; first += rows) {
-            const std::size_t end = std::min(counts.down, first + rows);
+        for (std::size_t first = own.first; first < own.end(); first += rows) {
+            const std::size_t end = std::min(own.end(), first + rows);
             photographer.expose(first, end, pictures, progress.part(fraction(first), fraction(end)));
         }
+        if (!alone) photographer.gather(*all, pictures);
         photographer.add_tails(pictures);
         done += some.size();
     }

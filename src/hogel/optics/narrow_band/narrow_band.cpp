@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "hogel/core/object_pool.h"
-#include "hogel/core/parallel.h"
+#include "hogel/core/shared_order.h"
 #include "hogel/optics/low_pass.h"
 #include "hogel/optics/narrow_band/kernels.h"
 #include "hogel/optics/phase_walk.h"
@@ -61,6 +61,36 @@ struct Contribution {
     Reach rows, columns;
     std::vector<Array<Complex, 2>> looks;
 };
+
+using Contributions = std::vector<std::vector<Contribution>>;  // [group][member]
+
+core::Sent<Contributions> sent_contributions() {
+    return {[](core::MessageWriter& to, const Contributions& groups) {
+                to.put(groups.size());
+                for (const auto& members : groups) {
+                    to.put(members.size());
+                    for (const Contribution& member : members) {
+                        to.put(member.rows);
+                        to.put(member.columns);
+                        to.put(member.looks.size());
+                        for (const auto& look : member.looks) to.put(look);
+                    }
+                }
+            },
+            [](core::MessageReader& from) {
+                Contributions groups(from.get<std::size_t>());
+                for (auto& members : groups) {
+                    members.resize(from.get<std::size_t>());
+                    for (Contribution& member : members) {
+                        member.rows = from.get<Reach>();
+                        member.columns = from.get<Reach>();
+                        member.looks.resize(from.get<std::size_t>());
+                        for (auto& look : member.looks) look = from.get_array<Complex, 2>();
+                    }
+                }
+                return groups;
+            }};
+}
 
 // Applies both low-passes to one tile, for a group of eyes that share the pass down the columns.
 class TilePass {
@@ -223,9 +253,8 @@ std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const 
     const std::vector<Region> regions = tiles(plane);
     // Kept from tile to tile, because the system clears new memory.
     core::ObjectPool<Array<Complex, 1>> tile_memory;
-    using Contributions = std::vector<std::vector<Contribution>>;  // [group][member]
-    core::parallel_ordered<Contributions>(
-        regions.size(), core::default_in_flight(),
+    core::shared_ordered<Contributions>(
+        regions.size(), core::default_in_flight(), sent_contributions(),
         [&](std::size_t i) {
             std::vector<TilePass> passes;
             Contributions contributions;

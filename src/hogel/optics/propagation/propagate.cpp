@@ -7,14 +7,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <iterator>
 #include <limits>
 #include <mutex>
 #include <numbers>
 #include <utility>
 #include <vector>
 
-#include "hogel/core/paged_array.h"
-#include "hogel/core/parallel.h"
+#include "hogel/core/shared_order.h"
+#include "hogel/core/shared_plane.h"
 #include "hogel/optics/lines.h"
 #include "hogel/optics/propagation/tile_plan.h"
 #include "hogel/optics/propagation/transfer.h"
@@ -42,16 +44,22 @@ class TileWork {
           progress_(progress),
           transfer_(plan),
           together_(source.alignment() * std::max<std::size_t>(lines_together / source.alignment(), 1)),
-          kept_({std::max(plan.y.field.count, plan.y.output.count), plan.x.frequencies.count}, options.scratch) {
-        blocks_ = blocks_of(plan.y.field.count, together_) + blocks_of(plan.x.frequencies.count) +
-                  blocks_of(plan.y.output.count);
+          kept_(std::max(plan.y.field.count, plan.y.output.count), plan.x.frequencies.count, together_, lines_together,
+                options.scratch),
+          field_rows_(kept_.own_rows(plan.y.field.count)),
+          columns_(kept_.own_columns()),
+          output_rows_(kept_.own_rows(plan.y.output.count)) {
+        blocks_ = blocks_of(field_rows_.count, together_) + blocks_of(columns_.count) + blocks_of(output_rows_.count);
     }
 
     // Writes the tile at `region` of the sink.
     void run(FieldSink& sink, const Region& region) {
         rows_to_frequencies();
+        kept_.to_columns(plan_.y.field.count);
         columns();
+        kept_.to_rows(plan_.y.output.count);
         frequencies_to_rows(sink, region);
+        if (Team* const all = team(); all != nullptr && all->size() > 1) share_rows(*all, sink, region);
     }
 
   private:
@@ -61,17 +69,19 @@ class TileWork {
     }
 
     void rows_to_frequencies() {
-        const std::size_t width = plan_.x.field.count, height = plan_.y.field.count;
+        const std::size_t width = plan_.x.field.count;
+        kept_.begin_rows(plan_.y.field.count);
         const LineTransform inward(plan_.x.field, plan_.x.frequencies, -1, plan_.x.field.step, plan_.x.inward);
-        core::parallel_for(blocks_of(height, together_), [&](std::size_t block) {
-            const std::size_t y0 = block * together_, rows = std::min(together_, height - y0);
+        core::parallel_for(blocks_of(field_rows_.count, together_), [&](std::size_t block) {
+            const std::size_t y0 = field_rows_.first + block * together_,
+                              rows = std::min(together_, field_rows_.end() - y0);
             Array<Complex, 2> samples({rows, width});
             source_.read({0, y0, width, rows}, options_.look, samples);
             Lines line(1, inward.buffer());
             for (std::size_t y = 0; y < rows; ++y) {
                 std::copy_n(&samples(y, 0), width, line[0].data());
                 inward(line[0]);
-                std::copy_n(line[0].data(), inward.outputs(), &kept_.view()(y0 + y, 0));
+                std::copy_n(line[0].data(), inward.outputs(), kept_.row(y0 + y));
             }
             done();
         });
@@ -81,13 +91,14 @@ class TileWork {
         const AxisPlan& y = plan_.y;
         const LineTransform inward(y.field, y.frequencies, -1, y.field.step, y.inward);
         const LineTransform outward(y.frequencies, y.output, 1, 1 / (plan_.x.period * y.period), y.outward);
-        const std::size_t columns = plan_.x.frequencies.count, blocks = blocks_of(columns);
+        const std::size_t blocks = blocks_of(columns_.count);
         std::vector<Transfer::Energy> energies(blocks);
         core::parallel_for(blocks, [&](std::size_t block) {
-            const std::size_t x0 = block * lines_together, count = std::min(lines_together, columns - x0);
+            const std::size_t x0 = columns_.first + block * lines_together,
+                              count = std::min(lines_together, columns_.end() - x0);
             Lines lines(count, std::max(inward.buffer(), outward.buffer()));
             for (std::size_t row = 0; row < y.field.count; ++row)
-                for (std::size_t i = 0; i < count; ++i) lines[i][row] = kept_.view()(row, x0 + i);
+                for (std::size_t i = 0; i < count; ++i) lines[i][row] = kept_.at(row, x0 + i);
             for (std::size_t i = 0; i < count; ++i) {
                 inward(lines[i]);
                 const std::span<Complex> frequencies = lines[i].first(y.frequencies.count);
@@ -100,14 +111,24 @@ class TileWork {
                 outward(lines[i]);
             }
             for (std::size_t row = 0; row < y.output.count; ++row)
-                for (std::size_t i = 0; i < count; ++i) kept_.view()(row, x0 + i) = lines[i][row];
+                for (std::size_t i = 0; i < count; ++i) kept_.at(row, x0 + i) = lines[i][row];
             done();
         });
         require_little_grazing_light(energies);
     }
 
-    void require_little_grazing_light(const std::vector<Transfer::Energy>& energies) const {
+    // Those of all processes are added in the order of the columns.
+    void require_little_grazing_light(std::vector<Transfer::Energy> energies) const {
         double all = 0, grazing = 0;
+        if (Team* const others = team(); others != nullptr && others->size() > 1) {
+            core::MessageWriter own;
+            own.put(energies);
+            energies.clear();
+            for (const std::string& bytes : core::all_of(*others, own.take())) {
+                core::MessageReader message(bytes);
+                std::ranges::copy(message.get_vector<Transfer::Energy>(), std::back_inserter(energies));
+            }
+        }
         for (const Transfer::Energy& energy : energies) {
             all += energy.all;
             grazing += energy.grazing;
@@ -122,12 +143,13 @@ class TileWork {
 
     void frequencies_to_rows(FieldSink& sink, const Region& region) {
         const LineTransform outward(plan_.x.frequencies, plan_.x.output, 1, 1, plan_.x.outward);
-        core::parallel_for(blocks_of(region.height), [&](std::size_t block) {
-            const std::size_t y0 = block * lines_together, rows = std::min(lines_together, region.height - y0);
+        core::parallel_for(blocks_of(output_rows_.count), [&](std::size_t block) {
+            const std::size_t y0 = output_rows_.first + block * lines_together,
+                              rows = std::min(lines_together, output_rows_.end() - y0);
             Lines line(1, outward.buffer());
             Array<Complex, 2> samples({rows, region.width});
             for (std::size_t y = 0; y < rows; ++y) {
-                std::copy_n(&kept_.view()(y0 + y, 0), outward.inputs(), line[0].data());
+                std::copy_n(kept_.row(y0 + y), outward.inputs(), line[0].data());
                 outward(line[0]);
                 std::copy_n(line[0].data(), region.width, &samples(y, 0));
             }
@@ -136,13 +158,31 @@ class TileWork {
         });
     }
 
+    // Gives all processes the rows of all, where each has the output in its memory.
+    void share_rows(Team& all, FieldSink& sink, const Region& region) {
+        const View<Complex, 2> output = sink.in_memory();
+        if (output.size() == 0) return;
+        for (std::size_t process = 0; process < all.size(); ++process) {
+            const core::LineRange rows = core::lines_of(process, all.size(), region.height, together_);
+            for (std::size_t y = rows.first; y < rows.end(); ++y) {
+                Complex* const samples = &output(region.y0 + y, region.x0);
+                const std::size_t bytes = region.width * sizeof(Complex);
+                if (process != all.rank())
+                    std::memcpy(static_cast<void*>(samples), all.receive_from(process).data(), bytes);
+                else
+                    for (std::size_t other = 0; other < all.size(); ++other)
+                        if (other != process) all.send_to(other, {reinterpret_cast<const char*>(samples), bytes});
+            }
+        }
+    }
     const FieldSource& source_;
     const TilePlan& plan_;
     const PropagateOptions& options_;
     const Progress& progress_;
     Transfer transfer_;
-    std::size_t together_;   // rows that are read together
-    core::PagedArray kept_;  // [row][frequency], first rows of the field, then of the output
+    std::size_t together_;    // rows that are read together
+    core::SharedPlane kept_;  // [row][frequency], first rows of the field, then of the output
+    core::LineRange field_rows_, columns_, output_rows_;  // of this process
     std::size_t blocks_ = 0, done_ = 0;
     std::mutex reporting_;
 };

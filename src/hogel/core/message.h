@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "hogel/array.h"
+#include "hogel/error.h"
+
+namespace hogel::core {
+
+/// Writes values one after the other into a message between processes of a team, which run the same program.
+class MessageWriter {
+  public:
+    template <class Value>
+    requires std::is_trivially_copyable_v<Value>
+    void put(const Value& value) { put(&value, 1); }
+    template <class Value>
+    void put(const std::vector<Value>& values) {
+        put(values.size());
+        put(values.data(), values.size());
+    }
+    template <class Value, std::size_t axes>
+    void put(const Array<Value, axes>& array) {
+        put(array.shape());
+        put(array.data(), array.size());
+    }
+    std::string take() { return std::move(bytes_); }
+
+  private:
+    template <class Value>
+    requires std::is_trivially_copyable_v<Value>
+    void put(const Value* values, std::size_t count) {
+        bytes_.append(reinterpret_cast<const char*>(values), count * sizeof(Value));
+    }
+
+    std::string bytes_;
+};
+
+/// Reads them in the same order. Throws Error(internal) for a message that is shorter.
+class MessageReader {
+  public:
+    explicit MessageReader(std::string_view bytes) : bytes_(bytes) {}
+
+    template <class Value>
+    requires std::is_trivially_copyable_v<Value> Value get() {
+        Value value;
+        get(&value, 1);
+        return value;
+    }
+    template <class Value>
+    std::vector<Value> get_vector() {
+        const auto count = get<std::size_t>();
+        require(count, sizeof(Value));
+        std::vector<Value> values(count);
+        get(values.data(), values.size());
+        return values;
+    }
+    template <class Value, std::size_t axes>
+    Array<Value, axes> get_array() {
+        const auto shape = get<Shape<axes>>();
+        Array<Value, axes> array(shape);
+        get(array.data(), array.size());
+        return array;
+    }
+
+  private:
+    void require(std::size_t count, std::size_t size) const {
+        if (count > bytes_.size() / size)
+            throw Error(ErrorCode::internal, "a message from another process is shorter than it says");
+    }
+    template <class Value>
+    void get(Value* values, std::size_t count) {
+        require(count, sizeof(Value));
+        if (count > 0) std::memcpy(static_cast<void*>(values), bytes_.data(), count * sizeof(Value));
+        bytes_.remove_prefix(count * sizeof(Value));
+    }
+
+    std::string_view bytes_;
+};
+
+}  // namespace hogel::core

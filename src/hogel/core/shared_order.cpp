@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/core/shared_order.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "hogel/core/shared_tiles.h"
+
+namespace hogel::core {
+namespace {
+
+// How often the first process looks whether to stop while it waits for results of others.
+constexpr std::chrono::milliseconds between_looks{20};
+
+}  // namespace
+
+// Processes ask for several tiles at once, because a request takes a tenth of the time of a small tile.
+std::size_t tiles_in_flight(std::size_t in_flight) { return 4 * in_flight; }
+
+namespace {
+
+// Results that wait for their turn in the first process, and the thread that merges them.
+class Merger {
+  public:
+    Merger(Team& team, std::uint64_t queue, std::size_t n,
+           const std::function<void(std::size_t, std::string_view)>& merge)
+        : team_(team), queue_(queue), n_(n), merge_(merge) {
+        team_.listen(queue_, [this](const std::string& bytes) {
+            if (bytes.empty()) return open();
+            MessageReader message(bytes);
+            const auto i = message.get<std::size_t>();
+            put(i, bytes.substr(sizeof i));
+        });
+        thread_ = std::jthread([this] { run(); });
+    }
+    ~Merger() {
+        end();
+        thread_.join();
+        team_.listen(queue_, {});
+    }
+    Merger(const Merger&) = delete;
+    Merger& operator=(const Merger&) = delete;
+
+    void put(std::size_t i, std::string bytes) {
+        const std::lock_guard lock(mutex_);
+        results_.emplace(i, std::move(bytes));
+        changed_.notify_all();
+    }
+
+    // Threads that wait for tiles go on, although results are missing: a process has failed.
+    void open() { team_.pass(queue_, n_); }
+
+    // Throws what merging has thrown.
+    void check() {
+        const std::lock_guard lock(mutex_);
+        if (failure_) std::rethrow_exception(failure_);
+    }
+
+    // Waits until all results are merged.
+    void finish() {
+        std::unique_lock lock(mutex_);
+        while (!changed_.wait_for(lock, between_looks, [&] { return merged_ == n_ || failure_; })) {
+            lock.unlock();
+            throw_if_stopped();
+            lock.lock();
+        }
+        if (failure_) std::rethrow_exception(failure_);
+    }
+
+  private:
+    void end() {
+        const std::lock_guard lock(mutex_);
+        over_ = true;
+        changed_.notify_all();
+    }
+
+    void run() {
+        try {
+            for (std::size_t i = 0; i < n_; ++i) {
+                std::unique_lock lock(mutex_);
+                changed_.wait(lock, [&] { return over_ || results_.contains(i); });
+                if (over_) return;
+                const std::string bytes = std::move(results_.extract(i).mapped());
+                lock.unlock();
+                merge_(i, bytes);
+                team_.pass(queue_, i + 1);
+                lock.lock();
+                merged_ = i + 1;
+                changed_.notify_all();
+            }
+        } catch (...) {
+            {
+                const std::lock_guard lock(mutex_);
+                failure_ = std::current_exception();
+                changed_.notify_all();
+            }
+            open();
+        }
+    }
+
+    Team& team_;
+    std::uint64_t queue_;
+    std::size_t n_;
+    const std::function<void(std::size_t, std::string_view)>& merge_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::map<std::size_t, std::string> results_;
+    std::size_t merged_ = 0;
+    bool over_ = false;
+    std::exception_ptr failure_;
+    std::jthread thread_;
+};
+
+}  // namespace
+
+void ordered_in_team(Team& team, std::size_t n, std::size_t in_flight,
+                     const std::function<std::string(std::size_t)>& body,
+                     const std::function<void(std::size_t, std::string_view)>& merge) {
+    const std::uint64_t number = team.next_number();
+    TileQueue queue(team, number, n, tiles_in_flight(in_flight) * team.size());
+    if (team.is_first()) {
+        Merger merger(team, number, n, merge);
+        parallel_for(n, [&](std::size_t) {
+            merger.check();
+            const std::optional<std::size_t> i = queue.next();
+            if (!i) return;
+            try {
+                merger.put(*i, body(*i));
+            } catch (...) {
+                merger.open();
+                throw;
+            }
+        });
+        return merger.finish();
+    }
+    parallel_for(n, [&](std::size_t) {
+        const std::optional<std::size_t> i = queue.next();
+        if (!i) return;
+        try {
+            MessageWriter message;
+            message.put(*i);
+            team.send(number, message.take() + body(*i));
+        } catch (...) {
+            team.send(number, "");
+            throw;
+        }
+    });
+}
+
+std::vector<std::string> all_of(Team& team, const std::string& own) {
+    for (std::size_t other = 0; other < team.size(); ++other)
+        if (other != team.rank()) team.send_to(other, own);
+    std::vector<std::string> all;
+    for (std::size_t other = 0; other < team.size(); ++other)
+        all.push_back(other == team.rank() ? own : team.receive_from(other));
+    return all;
+}
+
+}  // namespace hogel::core

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hogel/core/message.h"
+#include "hogel/core/parallel.h"
+#include "hogel/team.h"
+
+namespace hogel::core {
+
+/// How results travel between the processes of a team.
+template <class Result>
+struct Sent {
+    std::function<void(MessageWriter& message, const Result& result)> write =
+        [](MessageWriter& message, const Result& result) { message.put(result); };
+    std::function<Result(MessageReader& message)> read = [](MessageReader& message) { return message.get<Result>(); };
+};
+
+template <class Value>
+Sent<std::vector<Value>> sent_vector() {
+    return {[](MessageWriter& to, const std::vector<Value>& values) { to.put(values); },
+            [](MessageReader& from) { return from.get_vector<Value>(); }};
+}
+
+template <class Value, std::size_t axes>
+Sent<Array<Value, axes>> sent_array() {
+    return {[](MessageWriter& to, const Array<Value, axes>& array) { to.put(array); },
+            [](MessageReader& from) { return from.get_array<Value, axes>(); }};
+}
+
+/// shared_ordered() in a team, for results as bytes.
+/// @param in_flight  as of parallel_ordered(); in a team tiles_in_flight() of each process, on the average, are alive
+/// at a
+///                   time, results in the first one
+void ordered_in_team(Team& team, std::size_t n, std::size_t in_flight,
+                     const std::function<std::string(std::size_t)>& body,
+                     const std::function<void(std::size_t, std::string_view)>& merge);
+
+std::size_t tiles_in_flight(std::size_t in_flight);
+
+/// As parallel_ordered(), but where this process is one of a team, each computes the results that are handed to it, and
+/// the first merges all of them, on a thread of its own while it computes others. So a sum over tiles is the same for
+/// any number of processes. All call it in the same order, never from bodies of loops; those that are not the first
+/// return without having merged anything, and may be ahead of it.
+template <class Result>
+void shared_ordered(std::size_t n, std::size_t in_flight, const Sent<Result>& sent,
+                    const std::function<Result(std::size_t)>& body,
+                    const std::function<void(std::size_t, Result&)>& merge) {
+    Team* const all = team();
+    if (all == nullptr || all->size() == 1) return parallel_ordered<Result>(n, in_flight, body, merge);
+    ordered_in_team(
+        *all, n, in_flight,
+        [&](std::size_t i) {
+            MessageWriter message;
+            sent.write(message, body(i));
+            return message.take();
+        },
+        [&](std::size_t i, std::string_view bytes) {
+            MessageReader message(bytes);
+            Result result = sent.read(message);
+            merge(i, result);
+        });
+}
+
+/// Gives all processes of a team what the first one has.
+template <class Result>
+void share_result(Result& result, const Sent<Result>& sent) {
+    Team* const all = team();
+    if (all == nullptr || all->size() == 1) return;
+    MessageWriter message;
+    if (all->is_first()) sent.write(message, result);
+    const std::string bytes = all->share(message.take());
+    MessageReader reader(bytes);
+    if (!all->is_first()) result = sent.read(reader);
+}
+
+/// What all processes have given, in the order of their numbers, in each of them.
+std::vector<std::string> all_of(Team& team, const std::string& own);
+
+}  // namespace hogel::core

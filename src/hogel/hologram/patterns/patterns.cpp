@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/core/shared_order.h"
+#include "hogel/core/shared_tiles.h"
+#include "hogel/pattern.h"
+
+namespace hogel {
+namespace {
+
+std::string to_message(const Pattern& pattern) {
+    core::MessageWriter message;
+    message.put(pattern.values);
+    message.put(pattern.levels);
+    message.put(pattern.efficiency);
+    message.put(pattern.light_field_efficiency);
+    message.put(pattern.reference_angle);
+    message.put(pattern.iterations);
+    message.put(pattern.correlation);
+    return message.take();
+}
+
+Pattern from_message(const std::string& bytes) {
+    core::MessageReader message(bytes);
+    Pattern pattern;
+    pattern.values = message.get_array<float, 2>();
+    pattern.levels = message.get_array<std::uint8_t, 2>();
+    pattern.efficiency = message.get<double>();
+    pattern.light_field_efficiency = message.get<double>();
+    pattern.reference_angle = message.get<double>();
+    pattern.iterations = message.get<std::size_t>();
+    pattern.correlation = message.get<double>();
+    return pattern;
+}
+
+}  // namespace
+
+std::vector<Pattern> encode_patterns(std::span<const std::shared_ptr<const FieldSource>> fields,
+                                     const PatternOptions& options, const Progress& progress) {
+    const core::StopScope scope(progress);
+    const auto encode = [&](std::size_t i) {
+        return encode_pattern(*fields[i], options, progress.part(i, fields.size()));
+    };
+    std::vector<Pattern> patterns(fields.size());
+    Team* const all = team();
+    if (all == nullptr || all->size() == 1) {
+        for (std::size_t i = 0; i < fields.size(); ++i) patterns[i] = encode(i);
+        return patterns;
+    }
+    // A pattern is encoded as a whole, with all threads of a process.
+    core::TileQueue queue(*all, all->next_number(), fields.size());
+    std::vector<std::size_t> own;
+    while (const std::optional<std::size_t> i = queue.next()) {
+        patterns[*i] = encode(*i);
+        own.push_back(*i);
+    }
+    core::MessageWriter list;
+    list.put(own);
+    const std::vector<std::string> lists = core::all_of(*all, list.take());
+    for (std::size_t process = 0; process < all->size(); ++process) {
+        core::MessageReader message(lists[process]);
+        for (const std::size_t i : message.get_vector<std::size_t>()) {
+            if (process != all->rank())
+                patterns[i] = from_message(all->receive_from(process));
+            else
+                for (std::size_t other = 0; other < all->size(); ++other)
+                    if (other != process) all->send_to(other, to_message(patterns[i]));
+        }
+    }
+    return patterns;
+}
+
+}  // namespace hogel

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the library does in a team: sums in the order of tiles, and planes that are transformed in parts.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <complex>
+
+#include "hogel/core/shared_order.h"
+#include "hogel/core/shared_plane.h"
+#include "mpi/test_ranks.h"
+
+namespace hogel::mpi {
+namespace {
+
+class SharedWorkTest : public testing::TestWithParam<std::size_t> {};
+INSTANTIATE_TEST_SUITE_P(Ranks, SharedWorkTest, testing::Values(2, 3, 4, 7));
+
+TEST_P(SharedWorkTest, TheFirstMergesAllInOrder) {
+    constexpr std::size_t n = 500, in_flight = 3;
+    std::atomic<std::size_t> merged{0};
+    std::atomic<bool> too_far{false};
+    std::vector<std::atomic<int>> computed(n);
+    run_ranks(GetParam(), [&](RankTeam& team) {
+        core::ordered_in_team(
+            team, n, in_flight,
+            [&](std::size_t i) {
+                ++computed[i];
+                if (i >= merged + core::tiles_in_flight(in_flight) * GetParam()) too_far = true;
+                if (i % 50 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+                return std::string(i % 7, 'x') + std::to_string(i);
+            },
+            [&](std::size_t i, std::string_view bytes) {
+                EXPECT_TRUE(team.is_first());
+                EXPECT_EQ(i, merged);
+                EXPECT_EQ(bytes, std::string(i % 7, 'x') + std::to_string(i));
+                merged = i + 1;
+            });
+        EXPECT_EQ(team.share(team.is_first() ? "done" : ""), "done");
+        EXPECT_FALSE(team.settle({}, patience)->failed);
+    });
+    EXPECT_EQ(merged, n);
+    EXPECT_FALSE(too_far) << "results beyond those that the first process has room for";
+    for (const auto& times : computed) ASSERT_EQ(times, 1);
+}
+
+// Loops of the same team may overlap: those that are not the first begin the next while the first still merges.
+TEST_P(SharedWorkTest, ResultsThatComeEarlyWaitForTheirLoop) {
+    std::vector<std::size_t> merged;
+    run_ranks(GetParam(), [&](RankTeam& team) {
+        for (std::size_t loop = 0; loop < 5; ++loop) {
+            core::ordered_in_team(
+                team, 20, 2, [&](std::size_t i) { return std::to_string(100 * loop + i); },
+                [&](std::size_t, std::string_view bytes) {
+                    merged.push_back(std::stoul(std::string(bytes)));
+                    std::this_thread::sleep_for(std::chrono::microseconds(300));
+                });
+        }
+        EXPECT_FALSE(team.settle({}, patience)->failed);
+    });
+    ASSERT_EQ(merged.size(), 100U);
+    for (std::size_t i = 0; i < merged.size(); ++i) EXPECT_EQ(merged[i], 100 * (i / 20) + i % 20);
+}
+
+// What fails in one process, in the work or in the merging, ends all of them with its message.
+TEST_P(SharedWorkTest, AFailureEndsAll) {
+    for (const bool merging : {false, true})
+        run_ranks(GetParam(), [&](RankTeam& team) {
+            Report own;
+            std::stop_source stop;
+            team.stop_with(stop);
+            const core::StopScope scope(Progress(stop.get_token()));
+            try {
+                core::ordered_in_team(
+                    team, 400, 2,
+                    [&](std::size_t i) -> std::string {
+                        if (!merging && i == 100) throw Error(ErrorCode::bad_input, "damaged");
+                        return "x";
+                    },
+                    [&](std::size_t i, std::string_view) {
+                        if (merging && i == 100) throw Error(ErrorCode::bad_input, "damaged");
+                    });
+                team.meet();
+            } catch (const Error& error) {
+                own = {true, static_cast<int>(error.code()), error.code(), 0, error.what()};
+            }
+            const std::optional<Report> all = team.settle(own, patience);
+            ASSERT_TRUE(all && all->failed);
+            EXPECT_EQ(all->text, "damaged");
+        });
+}
+
+std::complex<float> value(std::size_t y, std::size_t x) { return {static_cast<float>(y), static_cast<float>(x)}; }
+
+TEST_P(SharedWorkTest, PlanesTurn) {
+    for (const auto& [rows, later_rows, columns] : {std::array<std::size_t, 3>{100, 60, 75}, {33, 90, 16}, {5, 2, 3}})
+        run_ranks(GetParam(), [&, rows = rows, later_rows = later_rows, columns = columns](RankTeam& team) {
+            core::SharedPlane plane(std::max(rows, later_rows), columns, 6, 16, ScratchOptions(), &team);
+            plane.begin_rows(rows);
+            const core::LineRange own = plane.own_rows(rows);
+            for (std::size_t y = own.first; y < own.end(); ++y)
+                for (std::size_t x = 0; x < columns; ++x) plane.row(y)[x] = value(y, x);
+            plane.to_columns(rows);
+            const core::LineRange across = plane.own_columns();
+            for (std::size_t x = across.first; x < across.end(); ++x) {
+                for (std::size_t y = 0; y < rows; ++y) ASSERT_EQ(plane.at(y, x), value(y, x));
+                for (std::size_t y = 0; y < later_rows; ++y) plane.at(y, x) = 2.0F * value(y, x);
+            }
+            plane.to_rows(later_rows);
+            const core::LineRange later = plane.own_rows(later_rows);
+            for (std::size_t y = later.first; y < later.end(); ++y)
+                for (std::size_t x = 0; x < columns; ++x) ASSERT_EQ(plane.row(y)[x], 2.0F * value(y, x));
+            EXPECT_FALSE(team.settle({}, patience)->failed);
+        });
+}
+
+TEST(SharedPlane, LinesAreDividedEvenlyInGroups) {
+    for (const std::size_t processes : {1, 2, 3, 7, 64})
+        for (const std::size_t lines : {1, 15, 16, 17, 1000})
+            for (const std::size_t together : {1, 10, 16}) {
+                std::size_t next = 0, most = 0;
+                for (std::size_t process = 0; process < processes; ++process) {
+                    const core::LineRange own = core::lines_of(process, processes, lines, together);
+                    EXPECT_EQ(own.first, next);
+                    EXPECT_EQ(own.first % together == 0 || own.count == 0, true);
+                    most = std::max(most, own.count);
+                    next = own.end();
+                }
+                EXPECT_EQ(next, lines);
+                EXPECT_LE(most, (lines / processes / together + 2) * together);
+            }
+}
+
+}  // namespace
+}  // namespace hogel::mpi
