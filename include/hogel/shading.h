@@ -41,7 +41,7 @@ struct ShadingInfo {
 };
 
 /// The shading models by name:
-///   auto      direct for a scene with large triangles (Scene::has_large_triangles), vertex for all others
+///   auto      direct for large triangles (Scene::has_large_triangles) or maps of gloss or relief, otherwise vertex
 ///   vertex    at the vertices, with shadow rays, and interpolated; matt. Radiance = emission + colour · (ambient + Σ E
 ///             · max(0, n·l)/π) over the lights that the vertex sees, E = intensity for a directional light and
 ///             intensity/r² for a point light. Cost: vertices × lights rays

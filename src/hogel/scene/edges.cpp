@@ -2,24 +2,28 @@
 #include "hogel/scene/edges.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <tuple>
+
+#include "hogel/scene/position_hash.h"
 
 namespace hogel::scene {
 namespace {
 
 using Index = std::uint32_t;
 
-/// For every vertex the lowest-numbered vertex at the same position.
+/// For every vertex the lowest-numbered vertex at the same position, by a table of the positions so far.
 std::vector<Index> weld(const std::vector<Vec3>& positions) {
-    std::vector<Index> order(positions.size()), welded(positions.size());
-    std::iota(order.begin(), order.end(), Index{0});
-    std::sort(order.begin(), order.end(), [&](Index i, Index j) {
-        const Vec3 &a = positions[i], &b = positions[j];
-        return std::tie(a.x, a.y, a.z, i) < std::tie(b.x, b.y, b.z, j);
-    });
-    for (std::size_t k = 0; k < order.size(); ++k)
-        welded[order[k]] = k > 0 && positions[order[k]] == positions[order[k - 1]] ? welded[order[k - 1]] : order[k];
+    constexpr Index none = ~Index{0};
+    const std::size_t size = std::bit_ceil(2 * positions.size() + 1);
+    std::vector<Index> table(size, none), welded(positions.size());
+    for (Index i = 0; i < positions.size(); ++i) {
+        std::size_t at = position_hash(positions[i]) & (size - 1);
+        while (table[at] != none && !(positions[table[at]] == positions[i])) at = (at + 1) & (size - 1);
+        if (table[at] == none) table[at] = i;
+        welded[i] = table[at];
+    }
     return welded;
 }
 

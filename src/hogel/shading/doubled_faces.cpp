@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hogel/core/parallel.h"
+#include "hogel/scene/position_hash.h"
 #include "hogel/shading/sides.h"
 
 namespace hogel::shading {
@@ -15,18 +16,6 @@ namespace {
 
 constexpr std::uint32_t none = 0xffffffff;
 constexpr std::size_t triangles_per_task = 16384;
-
-std::uint64_t mix(std::uint64_t bits) {  // the finaliser of splitmix64
-    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9;
-    bits = (bits ^ (bits >> 27)) * 0x94d049bb133111eb;
-    return bits ^ (bits >> 31);
-}
-
-// A number that depends on the position alone; −0 and 0 are one position.
-std::uint64_t hash(const Vec3& p) {
-    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };
-    return mix(mix(mix(bits(p.x)) + bits(p.y)) + bits(p.z));
-}
 
 bool same(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
@@ -39,7 +28,8 @@ class DoubledFaces {
             const std::size_t first = task * triangles_per_task;
             for (std::size_t i = first; i < std::min(count, first + triangles_per_task); ++i) {
                 const std::array<Vec3, 3> p = corners(i);
-                hashes_[i] = static_cast<std::uint32_t>((hash(p[0]) + hash(p[1]) + hash(p[2])) >> 32);
+                hashes_[i] = static_cast<std::uint32_t>(
+                    (scene::position_hash(p[0]) + scene::position_hash(p[1]) + scene::position_hash(p[2])) >> 32);
             }
         });
         table_.assign(std::bit_ceil(2 * count + 1), none);

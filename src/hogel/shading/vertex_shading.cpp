@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "hogel/core/parallel.h"
-#include "hogel/shading/illumination.h"
 #include "hogel/shading/lighting.h"
 #include "hogel/shading/triangles.h"
 #include "hogel/shading/vertex_visibility.h"
@@ -12,9 +11,9 @@
 namespace hogel::shading {
 namespace {
 
-constexpr std::size_t vertices_per_task = 4096;
+constexpr std::size_t vertices_per_task = 16;
 
-// Calls `work` with each mesh that is lit, the number of its first vertex in the scene, and a range of its vertices.
+// Calls `work` with each mesh that is lit, the number of its first vertex in the scene, and each of its vertices.
 template <class Work>
 void for_lit_vertices(const Scene& scene, const Work& work) {
     std::size_t base = 0;
@@ -22,36 +21,40 @@ void for_lit_vertices(const Scene& scene, const Work& work) {
         const std::size_t n = mesh.radiance.empty() ? mesh.positions.size() : 0;
         core::parallel_for((n + vertices_per_task - 1) / vertices_per_task, [&](std::size_t task) {
             const std::size_t first = task * vertices_per_task;
-            work(mesh, base, first, std::min(n, first + vertices_per_task));
+            for (std::size_t i = first; i < std::min(n, first + vertices_per_task); ++i) work(mesh, base, i);
         });
         base += mesh.positions.size();
     }
 }
 
-// Adds the irradiance from a light to the radiance of vertices.
-void add_irradiance(const Scene& scene, const Light& light, const std::vector<float>& visible,
-                    std::vector<Rgb>& radiance) {
-    for_lit_vertices(scene, [&](const Mesh& mesh, std::size_t base, std::size_t first, std::size_t end) {
-        for (std::size_t i = first; i < end; ++i) {
-            if (!(visible[base + i] > 0)) continue;
-            const Illumination from = illuminate(light, mesh.positions[i]);
-            const double cosine = dot(mesh.normals[i], from.to_light);
-            radiance[base + i] += static_cast<float>(from.falloff * cosine) * visible[base + i] * light.intensity;
+// Adds the irradiance of each vertex to its radiance: by shadow rays, with smooth edges where that suits.
+void add_irradiance(const Scene& scene, ShadedScene& shaded) {
+    const trace::RayCaster caster = shadow_caster(scene, shaded, "vertex");
+    if (VertexVisibility::suits(scene)) {
+        const VertexVisibility visibility(scene, shaded, caster);
+        for (std::size_t light = 0; light < scene.lights.size(); ++light) {
+            const std::vector<float> values = visibility.irradiance(light);
+            for (std::size_t i = 0; i < values.size(); ++i)
+                if (values[i] > 0) shaded.radiance[i] += values[i] * scene.lights[light].intensity;
         }
+        return;
+    }
+    const double usual = ray_offset(scene);
+    std::vector<double> offsets;
+    for (const Mesh& mesh : scene.meshes) offsets.push_back(ray_offset(mesh, usual));
+    for_lit_vertices(scene, [&](const Mesh& mesh, std::size_t base, std::size_t i) {
+        const double offset = offsets[static_cast<std::size_t>(&mesh - scene.meshes.data())];
+        shaded.radiance[base + i] = irradiance(scene, caster, offset, mesh.positions[i], mesh.normals[i]);
     });
 }
 
 void light_vertices(const Scene& scene, ShadedScene& shaded) {
-    const trace::RayCaster caster = shadow_caster(scene, shaded, "vertex");
-    VertexVisibility visibility(scene, shaded, caster);
-    for (const Light& light : scene.lights) add_irradiance(scene, light, visibility.of(light), shaded.radiance);
+    if (!scene.lights.empty()) add_irradiance(scene, shaded);
     constexpr auto reflected = static_cast<float>(std::numbers::inv_pi);
-    for_lit_vertices(scene, [&](const Mesh& mesh, std::size_t base, std::size_t first, std::size_t end) {
-        for (std::size_t i = first; i < end; ++i) {
-            Rgb& value = shaded.radiance[base + i];
-            const Rgb light = scene.ambient + reflected * value;
-            value = vertex_color(mesh, i) * light + vertex_emission(mesh.material);
-        }
+    for_lit_vertices(scene, [&](const Mesh& mesh, std::size_t base, std::size_t i) {
+        Rgb& value = shaded.radiance[base + i];
+        const Rgb light = scene.ambient + reflected * value;
+        value = vertex_color(mesh, i) * light + vertex_emission(mesh.material);
     });
 }
 

@@ -100,6 +100,18 @@ TEST(VertexVisibility, of_fine_meshes_and_away_from_edges_is_that_of_a_ray) {
     }
 }
 
+// Each of many lights is a small part of all, and stairs of it are not worth rays.
+TEST(VertexVisibility, of_many_lights_is_that_of_rays) {
+    Scene scene = floor_in_shadow(24, 0.37);
+    scene.lights.resize(5, scene.lights[0]);
+    const ShadedScene shaded = shade_scene(scene, {.model = "vertex"});
+    for (std::size_t i = 0; i < scene.meshes[0].positions.size(); ++i) {
+        const Vec3 p = scene.meshes[0].positions[i];
+        if (std::abs(p.y - 0.37 * p.x) < 1e-9) continue;
+        ASSERT_NEAR(shaded.radiance[i].r * 3.14159265f, p.y < 0.37 * p.x ? 5 : 0, 1e-5);
+    }
+}
+
 TEST(VertexVisibility, of_a_light_without_shadows_is_whole_on_fronts) {
     Scene scene = floor_in_shadow(24, 0.37);
     scene.lights[0].casts_shadows = false;

@@ -105,11 +105,26 @@ Header ply::parse_header(const std::string& file, std::string_view bytes) {
     reject_file(file, "no end_header", "a PLY file");
 }
 
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
+bool ends_line(char c) { return c == '\r' || c == '\n'; }
+
+/// Removes the part of a text up to the first character for which `is_end` holds, and returns it. The searches of
+/// std::string_view look up a list for each character, which takes longer than all other checks.
+template <class IsEnd>
+std::string_view take_until(std::string_view& text, const IsEnd& is_end) {
+    const auto end = std::ranges::find_if(text, is_end);
+    const std::string_view part = text.substr(0, static_cast<std::size_t>(end - text.begin()));
+    text.remove_prefix(part.size());
+    return part;
+}
+
+}  // namespace
+
 std::string_view ply::Words::next() {
-    rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t"), rest_.size()));
-    const std::string_view word = rest_.substr(0, rest_.find_first_of(" \t"));
-    rest_.remove_prefix(word.size());
-    return word;
+    take_until(rest_, [](char c) { return !is_blank(c); });
+    return take_until(rest_, is_blank);
 }
 
 namespace {
@@ -184,9 +199,8 @@ void check_text(const std::string& file, const Header& header, std::string_view 
     const auto next_line = [&data] {
         std::string_view line;
         do {
-            data.remove_prefix(std::min(data.find_first_not_of(" \t\r\n"), data.size()));
-            line = data.substr(0, data.find_first_of("\r\n"));
-            data.remove_prefix(line.size());
+            take_until(data, [](char c) { return !is_blank(c) && !ends_line(c); });
+            line = take_until(data, ends_line);
         } while (line.starts_with("comment"));
         return line;
     };
