@@ -30,6 +30,7 @@ LIGHTS = [(np.array(way) / np.linalg.norm(way), np.array(irradiance))
           for way, irradiance in (((-0.6, 0.75, 0.6), (2.4, 2.34, 2.24)), ((0.8, 0.1, 0.5), (0.42, 0.46, 0.54)))]
 AMBIENT = np.array([0.08, 0.08, 0.09])
 BALL = {"colour": np.array([0.8, 0.55, 0.3]), "ambient": np.array([0.1, 0.1, 0.12]), "irradiance": np.array([2.4, 2.3, 2.1]),
+        "light": np.array([-0.5, 0.6, 0.7]) / np.sqrt(1.1),
         "radius": 0.3 * SIZE}
 
 
@@ -170,7 +171,7 @@ def shadows(checks, hogel, folder, plane):
         # Where the way to the light crosses the square's plane.
         crossing = plane.seen + ((middle[2] - plane.seen[..., 2]) / way[2])[..., None] * way
         beside = np.maximum(np.abs(crossing[..., 0] - middle[0]), np.abs(crossing[..., 1] - middle[1])) - side / 2
-        clear &= np.abs(beside) > 0.06e-3
+        clear &= np.abs(beside) > 0.1e-3  # by vertices edges are as wide as four squares
         right = right + shaped(irradiance) * (way @ plane.normal) / np.pi * (beside > 0)
         states = 2 * states + (beside > 0)
     counts = "/".join(str((clear & (states == state)).sum()) for state in range(4))
@@ -189,7 +190,7 @@ def ball(checks, hogel, folder):
     met = distance < BALL["radius"]
     depth = nearest - np.sqrt(np.maximum(0, BALL["radius"] ** 2 - distance**2) / square)
     normal = (origin + depth[..., None] * direction) / BALL["radius"]
-    lit = np.maximum(0, normal @ LIGHTS[0][0]) / np.pi
+    lit = np.maximum(0, normal @ BALL["light"]) / np.pi
     right = np.where(met, shaped(BALL["colour"]) * (shaped(BALL["ambient"]) + shaped(BALL["irradiance"]) * lit),
                      shaped((0.02, 0.02, 0.03)))
     clear = np.abs(distance - BALL["radius"]) > SIZE / 1000
