@@ -67,6 +67,22 @@ void FastTiles::waves(std::span<const float> moduli, const PhaseSeries& series, 
         sixteen_rows(moduli, series, look, row, waves + 2 * row * side_);
 }
 
+bool FastTiles::has_lanes() const { return phases_.empty() && middle_is_a_byte(side_); }
+
+void FastTiles::gather_lanes(std::span<const float* const> moduli, float* gathered) const {
+    for (std::size_t block = 0; block < side_; block += rows_at_once)
+        for (std::size_t column = 0; column < side_; ++column)
+            gather_rows(moduli, block * side_ + column * rows_at_once,
+                        gathered + (block * side_ + column) * rows_at_once, side_ * rows_at_once);
+}
+
+void FastTiles::row_of_lanes(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,
+                             float* waves) const {
+    const std::size_t first =
+        shared ? row / rows_at_once * rows_at_once * side_ + row % rows_at_once : row * side_ * rows_at_once;
+    random_row(series, row, shared, moduli + first, side_, waves);
+}
+
 void FastTiles::synthesise(std::span<const float> moduli, const PhaseSeries& series, std::size_t look,
                            std::complex<float>* to, std::size_t to_row) const {
     // A buffer that is reused for each hogel: sixteen rows, then the square.

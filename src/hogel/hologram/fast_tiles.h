@@ -9,6 +9,7 @@
 #include "hogel/core/object_pool.h"
 #include "hogel/hologram/direction_phases.h"
 #include "hogel/hologram/frequency_grid.h"
+#include "hogel/hologram/hogel_tiles.h"
 #include "hogel/math/column_fft.h"
 
 namespace hogel::hologram {
@@ -35,6 +36,13 @@ class FastTiles {
 
     /// The waves that synthesise() transforms, in the layout of HogelWaves::waves().
     void waves(std::span<const float> moduli, const PhaseSeries& series, std::size_t look, float* waves) const;
+
+    /// Whether row_of_lanes() is supported: random phases of sides up to 128.
+    bool has_lanes() const;
+    /// See HogelWaves.
+    void gather_lanes(std::span<const float* const> moduli, float* gathered) const;
+    void row_of_lanes(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,
+                      float* waves) const;
 
   private:
     // Sixteen rows of waves, [column][part][row].

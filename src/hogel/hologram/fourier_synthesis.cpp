@@ -84,6 +84,24 @@ class FourierSynthesis final : public HogelSynthesis, public HogelWaves {
 
     bool independent() const override { return directions_.empty(); }
 
+    bool has_lanes() const override { return fast_ && fast_->has_lanes(); }
+    void gather_lanes(std::span<const float* const> moduli, float* gathered) const override {
+        fast_->gather_lanes(moduli, gathered);
+    }
+    SeriesOfLanes series_of_lanes(std::span<const HogelPlace> places) const override {
+        SeriesOfLanes series{};
+        for (std::size_t lane = 0; lane < places.size(); ++lane) {
+            const PhaseSeries own = phase_series(options_, places[lane].s, places[lane].t, places[lane].look);
+            series.key = own.key;
+            for (std::size_t word = 0; word < 3; ++word) series.position[word][lane] = own.position[word];
+        }
+        return series;
+    }
+    void row_of_lanes(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,
+                      float* waves) const override {
+        fast_->row_of_lanes(series, row, shared, moduli, waves);
+    }
+
   private:
     void prepare(View<const float, 2> values, bool of_roots, View<float, 2> moduli) const {
         if (fast_)

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "hogel/hologram.h"
+#include "hogel/hologram/hogel_tiles.h"
 
 namespace hogel::hologram {
 
@@ -31,6 +32,22 @@ class HogelWaves {
     virtual void powers(std::span<const float> prepared, float* powers) const = 0;
     /// Whether the phases of all waves of all hogels are random and independent.
     virtual bool independent() const = 0;
+
+    /// The number of hogels or looks that are lanes of vectors.
+    static constexpr std::size_t lanes = rows_at_once;
+    /// Whether the functions below compute waves.
+    virtual bool has_lanes() const { return false; }
+    /// The phases of some hogels or looks, at most `lanes`.
+    virtual SeriesOfLanes series_of_lanes(std::span<const HogelPlace>) const { return {}; }
+    /// Stores what hogels have prepared, at most one for each lane, as row_of_lanes() takes it: powers_size() · lanes
+    /// values.
+    virtual void gather_lanes(std::span<const float* const>, float*) const {}
+    /// One row of waves of hogels or looks side by side, [column][part][lane], with phases counted from the middle of
+    /// the hogel.
+    /// @param shared    whether all are looks of one hogel
+    /// @param prepared  of that hogel, or from gather_lanes(); aligned to a cache line
+    virtual void row_of_lanes(const SeriesOfLanes&, std::size_t /*row*/, bool /*shared*/, const float* /*prepared*/,
+                              float* /*waves*/) const {}
     static constexpr std::size_t rows_together = 16;
     static std::size_t powers_size(std::size_t samples) { return size(samples) / 2; }
     static std::size_t size(std::size_t samples) {

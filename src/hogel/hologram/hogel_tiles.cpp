@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "hogel/hologram/random_bytes.h"
+
 namespace hogel::hologram {
 
 void random_waves_plain(const PhaseSeries& series, std::size_t first_row, const float* moduli, std::size_t columns,
@@ -19,6 +21,25 @@ void random_waves_plain(const PhaseSeries& series, std::size_t first_row, const 
                 out[(x0 + x) * square_column + rows_at_once + row] = waves[x].imag();
             }
         }
+}
+
+void random_row_plain(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,
+                      std::size_t columns, float* out) {
+    const PhaseRoots& roots = phase_roots();
+    const std::size_t step = 128 - 128 / columns;
+    std::array<std::uint8_t, 16> bytes;
+    for (std::size_t lane = 0; lane < rows_at_once; ++lane) {
+        PhaseSeries own{series.key, {}};
+        for (std::size_t word = 0; word < 3; ++word)
+            own.position[word] = static_cast<std::uint32_t>(series.position[word][lane]);
+        for (std::size_t x = 0; x < columns; ++x) {
+            if (x % 16 == 0) random_bytes_plain(own, static_cast<std::uint32_t>((row * columns + x) / 16), bytes);
+            const std::size_t byte = (bytes[x % 16] + (row + x) * step) % 256;
+            const float modulus = moduli[x * rows_at_once + (shared ? 0 : lane)];
+            out[x * square_column + lane] = modulus * roots.re[byte];
+            out[x * square_column + rows_at_once + lane] = modulus * roots.im[byte];
+        }
+    }
 }
 
 void shared_waves(std::span<const float> phases, const float* moduli, float* out) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <complex>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "hogel/hologram/random_phase.h"
@@ -23,12 +25,35 @@ void random_waves_plain(const PhaseSeries& series, std::size_t first_row, const 
 void random_waves(const PhaseSeries& series, std::size_t first_row, const float* moduli, std::size_t columns,
                   float* out);
 
+/// The series of random phases of sixteen hogels or looks side by side.
+struct SeriesOfLanes {
+    std::array<std::uint32_t, 2> key;
+    alignas(64) std::uint64_t position[3][rows_at_once];  ///< [word][lane]
+};
+
+/// Whether phases from the middle of a hogel with so many samples a side are bytes, too: (m + m′)(n − 1)/2n is a whole
+/// number of 256ths of a cycle.
+constexpr bool middle_is_a_byte(std::size_t columns) { return columns % 16 == 0 && 128 % columns == 0; }
+
+/// One row of the waves of sixteen hogels or looks of such a side, with the phases of random_waves() but counted from
+/// the middle of the hogel, for which (row + x)(n − 1)/2n cycles are added. Plain and fast twins agree to rounding.
+/// @param shared  whether all lanes have the same moduli
+/// @param moduli  [column], rows_at_once apart, if shared; otherwise [column][lane]
+/// @param out     [column][part][lane]
+void random_row_plain(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,
+                      std::size_t columns, float* out);
+void random_row(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli, std::size_t columns,
+                float* out);
+
 /// out = moduli · phases. `phases` has the layout of `out`.
 void shared_waves(std::span<const float> phases, const float* moduli, float* out);
 
 /// Transposes sixteen rows [columns][part][row]: columns x, x + 1, … x + 15, x a multiple of sixteen, become rows
 /// [row][part][column] that begin at to + x/16 · to_sixteen.
 void transpose_rows(const float* from, std::size_t columns, float* to, std::size_t to_sixteen);
+
+/// to[row · to_row + i] = from[i][at + row] for sixteen rows; zero for i beyond the arrays that are given.
+void gather_rows(std::span<const float* const> from, std::size_t at, float* to, std::size_t to_row);
 
 /// Transposes the same rows of sixteen hogels, [row][columns][hogel]: hogel h becomes [columns][row] at to +
 /// h·to_hogel, for h < hogels.

@@ -8,17 +8,22 @@
 
 #include "hogel/hologram/hogel_tiles.h"
 #include "hogel/hologram/philox_lanes.h"
-#include "hogel/hologram/transpose_lanes.h"
+#include "hogel/math/transpose-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hogel::hologram {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+using math::HWY_NAMESPACE::transpose_sixteen;
 
 #if HWY_TARGET == HWY_SCALAR
 void RandomWaves(const PhaseSeries& series, const PhaseRoots&, std::size_t first_row, const float* moduli,
                  std::size_t columns, float* out) {
     random_waves_plain(series, first_row, moduli, columns, out);
+}
+void RandomRow(const SeriesOfLanes& series, const PhaseRoots&, std::size_t row, bool shared, const float* moduli,
+               std::size_t columns, float* out) {
+    random_row_plain(series, row, shared, moduli, columns, out);
 }
 #else
 using D = hn::CappedTag<float, rows_at_once>;
@@ -48,11 +53,9 @@ HWY_INLINE void Root(D d, const PhaseRoots& roots, hn::VFromD<hn::RebindToUnsign
 }
 
 template <int shift>
-HWY_INLINE void Wave(D d, const PhaseRoots& roots, hn::VFromD<hn::RebindToUnsigned<D> > words, const float* modulus,
-                     float* out) {
+HWY_INLINE void Wave(D d, const PhaseRoots& roots, hn::VFromD<hn::RebindToUnsigned<D> > words, V r, float* out) {
     V re, im;
     Root<shift>(d, roots, words, re, im);
-    const V r = hn::Load(d, modulus);
     hn::Store(hn::Mul(r, re), d, out);
     hn::Store(hn::Mul(r, im), d, out + rows_at_once);
 }
@@ -80,16 +83,69 @@ void RandomWaves(const PhaseSeries& series, const PhaseRoots& roots, std::size_t
                 const auto word = hn::ConcatEven(words, hn::BitCast(words, upper), hn::BitCast(words, lower));
                 const float* modulus = moduli + x * rows_at_once + i;
                 float* to = out + x * square_column + i;
-                Wave<0>(d, roots, word, modulus, to);
-                Wave<8>(d, roots, word, modulus + rows_at_once, to + square_column);
-                Wave<16>(d, roots, word, modulus + 2 * rows_at_once, to + 2 * square_column);
-                Wave<24>(d, roots, word, modulus + 3 * rows_at_once, to + 3 * square_column);
+                Wave<0>(d, roots, word, hn::Load(d, modulus), to);
+                Wave<8>(d, roots, word, hn::Load(d, modulus + rows_at_once), to + square_column);
+                Wave<16>(d, roots, word, hn::Load(d, modulus + 2 * rows_at_once), to + 2 * square_column);
+                Wave<24>(d, roots, word, hn::Load(d, modulus + 3 * rows_at_once), to + 3 * square_column);
             };
             four(a0, b0, 16 * draw);
             four(a1, b1, 16 * draw + 4);
             four(a2, b2, 16 * draw + 8);
             four(a3, b3, 16 * draw + 12);
         }
+}
+
+// One draw gives the phases of sixteen columns of a lane.
+template <bool shared>
+HWY_INLINE void random_row_as(const SeriesOfLanes& series, const PhaseRoots& roots, std::size_t row,
+                              const float* moduli, std::size_t columns, float* out) {
+    const D d;
+    const hn::RebindToUnsigned<D> words;
+    const hn::Repartition<std::uint64_t, decltype(words)> wide;
+    const hn::Repartition<std::uint8_t, decltype(words)> bytes;
+    const std::size_t half = hn::Lanes(wide), draws = columns / 16, step = 128 - 128 / columns;
+    for (std::size_t draw = 0; draw < draws; ++draw)
+        for (std::size_t i = 0; i < rows_at_once; i += hn::Lanes(d)) {
+            auto a0 = hn::Set(wide, row * draws + draw), b0 = a0;
+            auto a1 = hn::Load(wide, series.position[0] + i), b1 = hn::Load(wide, series.position[0] + i + half);
+            auto a2 = hn::Load(wide, series.position[1] + i), b2 = hn::Load(wide, series.position[1] + i + half);
+            auto a3 = hn::Load(wide, series.position[2] + i), b3 = hn::Load(wide, series.position[2] + i + half);
+            philox_lanes(wide, a0, a1, a2, a3, series.key);
+            philox_lanes(wide, b0, b1, b2, b3, series.key);
+            const auto four = [&](auto lower, auto upper, std::size_t x) HWY_ATTR {
+                std::uint32_t middle = 0;
+                for (std::size_t k = 0; k < 4; ++k)
+                    middle |= static_cast<std::uint32_t>((row + x + k) * step % 256) << (8 * k);
+                const auto word =
+                    hn::BitCast(words, hn::Add(hn::BitCast(bytes, hn::ConcatEven(words, hn::BitCast(words, upper),
+                                                                                 hn::BitCast(words, lower))),
+                                               hn::BitCast(bytes, hn::Set(words, middle))));
+                const auto modulus = [&](std::size_t k) HWY_ATTR {
+                    const float* from = moduli + (x + k) * rows_at_once;
+                    if constexpr (shared)
+                        return hn::Set(d, *from);
+                    else
+                        return hn::Load(d, from + i);
+                };
+                float* to = out + x * square_column + i;
+                Wave<0>(d, roots, word, modulus(0), to);
+                Wave<8>(d, roots, word, modulus(1), to + square_column);
+                Wave<16>(d, roots, word, modulus(2), to + 2 * square_column);
+                Wave<24>(d, roots, word, modulus(3), to + 3 * square_column);
+            };
+            four(a0, b0, 16 * draw);
+            four(a1, b1, 16 * draw + 4);
+            four(a2, b2, 16 * draw + 8);
+            four(a3, b3, 16 * draw + 12);
+        }
+}
+
+void RandomRow(const SeriesOfLanes& series, const PhaseRoots& roots, std::size_t row, bool shared, const float* moduli,
+               std::size_t columns, float* out) {
+    if (shared)
+        random_row_as<true>(series, roots, row, moduli, columns, out);
+    else
+        random_row_as<false>(series, roots, row, moduli, columns, out);
 }
 #endif
 
@@ -98,6 +154,12 @@ void TransposeRows(const float* from, std::size_t columns, float* to, std::size_
         for (const std::size_t part : {std::size_t{0}, rows_at_once})
             transpose_sixteen([&](std::size_t i) { return from + (x0 + i) * square_column + part; }, rows_at_once,
                               [&](std::size_t row) { return to + row * square_column + part; });
+}
+
+void GatherRows(std::span<const float* const> from, std::size_t at, float* to, std::size_t to_row) {
+    alignas(64) static constexpr float none[rows_at_once] = {};
+    transpose_sixteen([&](std::size_t i) { return i < from.size() ? from[i] + at : none; }, rows_at_once,
+                      [&](std::size_t row) { return to + row * to_row; });
 }
 
 void TransposeHogels(const float* from, std::size_t columns, std::size_t hogels, float* to, std::size_t to_hogel) {
@@ -114,7 +176,9 @@ HWY_AFTER_NAMESPACE();
 namespace hogel::hologram {
 
 HWY_EXPORT(RandomWaves);
+HWY_EXPORT(RandomRow);
 HWY_EXPORT(TransposeRows);
+HWY_EXPORT(GatherRows);
 HWY_EXPORT(TransposeHogels);
 
 void random_waves(const PhaseSeries& series, std::size_t first_row, const float* moduli, std::size_t columns,
@@ -122,8 +186,17 @@ void random_waves(const PhaseSeries& series, std::size_t first_row, const float*
     HWY_DYNAMIC_DISPATCH(RandomWaves)(series, phase_roots(), first_row, moduli, columns, out);
 }
 
+void random_row(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli, std::size_t columns,
+                float* out) {
+    HWY_DYNAMIC_DISPATCH(RandomRow)(series, phase_roots(), row, shared, moduli, columns, out);
+}
+
 void transpose_rows(const float* from, std::size_t columns, float* to, std::size_t to_sixteen) {
     HWY_DYNAMIC_DISPATCH(TransposeRows)(from, columns, to, to_sixteen);
+}
+
+void gather_rows(std::span<const float* const> from, std::size_t at, float* to, std::size_t to_row) {
+    HWY_DYNAMIC_DISPATCH(GatherRows)(from, at, to, to_row);
 }
 
 void transpose_hogels(const float* from, std::size_t columns, std::size_t hogels, float* to, std::size_t to_hogel) {

@@ -10,12 +10,16 @@
 #include <hwy/highway.h>
 
 #include "hogel/hologram/lobes.h"
-#include "hogel/hologram/transpose_lanes.h"
+#include "hogel/math/transpose-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hogel::hologram {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+#if HWY_TARGET != HWY_SCALAR
+using math::HWY_NAMESPACE::transpose_four;
+using math::HWY_NAMESPACE::transpose_sixteen;
+#endif
 
 // The mean over one lobe for a vector of hogels; `across` and `down` are the numbers of its directions.
 template <class D>

@@ -18,16 +18,14 @@ using namespace optics;
 
 namespace {
 
-using Complex = std::complex<float>;
-
 // The light of one colour in the pupil of an eye, look by look, as far as it is known.
 struct SeenColour {
     std::unique_ptr<EyeDrawing> drawing;
     std::optional<film::Film> film;
-    std::vector<Array<Complex, 2>> waves;  // [look]
+    std::vector<film::PupilWave> waves;  // [look]
 
     // The wave of the next look.
-    Array<Complex, 2> draw(std::size_t look) const {
+    film::PupilWave draw(std::size_t look) const {
         auto bands = drawing->draw(look, 1, {});
         return film->pupil_wave(bands.front().front());
     }
@@ -72,18 +70,18 @@ struct EyePhotographer::State {
     }
 
     // The bytes of the waves that may be kept.
-    bool may_keep(const Array<Complex, 2>& wave) const {
+    bool may_keep(const film::PupilWave& wave) const {
         double bytes = 0;
         for (const SeenColour& colour : seen.colours)
-            for (const auto& kept : colour.waves) bytes += static_cast<double>(sizeof(Complex) * kept.size());
-        return bytes + static_cast<double>(sizeof(Complex) * wave.size()) <= 0.5 * static_cast<double>(options.memory);
+            for (const auto& kept : colour.waves) bytes += static_cast<double>(sizeof(float) * kept.size());
+        return bytes + static_cast<double>(sizeof(float) * wave.size()) <= 0.5 * static_cast<double>(options.memory);
     }
 
     // Adds a look to a colour's intensities.
     void expose(std::size_t colour, std::size_t look, const Camera& camera, View<float, 2> intensity) {
         SeenColour& own = seen.colours[colour];
         if (look < own.waves.size()) return own.film->expose(std::span(own.waves).subspan(look, 1), camera, intensity);
-        Array<Complex, 2> wave = own.draw(look);
+        film::PupilWave wave = own.draw(look);
         own.film->expose({&wave, 1}, camera, intensity);
         if (look == own.waves.size() && may_keep(wave)) own.waves.push_back(std::move(wave));
     }

@@ -53,14 +53,25 @@ const WavePowers& powers_of(const FieldSource& hologram) {
     return *waves;
 }
 
+// The samples of the bands that are drawn, of those of narrow bands, for which memory is planned.
+double share_of_bands(const FieldSource& window, const EyeDrawing& drawing, std::span<const Eye> eyes) {
+    double drawn = 0, planned = 0;
+    for (std::size_t e = 0; e < eyes.size(); ++e) {
+        drawn += static_cast<double>(drawing.band(e).plane.samples());
+        planned += static_cast<double>(
+            narrow_band::NarrowBand(window.grid(), eyes[e].position, eyes[e].pupil).plane.samples());
+    }
+    return drawn / planned;
+}
+
 // One pass of cameras over one window: adds the window's light to their pictures.
 void photograph_window(const FieldSource& whole, const PhotographPlan::Window& part, std::span<const Camera> cameras,
-                       const std::vector<SharedEye>& eyes, LightFrom from, std::size_t looks_at_once,
+                       const std::vector<SharedEye>& eyes, const PhotographOptions& options, const PhotographPlan& plan,
                        std::span<Image> images, const Progress& progress) {
     const Window window(whole, part.region);
     std::vector<Eye> looking;
     for (const SharedEye& eye : eyes) looking.push_back({cameras[eye.members.front()].eye, eye.pupil});
-    const std::unique_ptr<EyeDrawing> drawing = draw_eyes(whole, part.region, window, looking, from);
+    const std::unique_ptr<EyeDrawing> drawing = draw_eyes(whole, part.region, window, looking, options.from);
     std::vector<film::Film> films;
     std::vector<std::vector<Array<float, 2>>> intensities(eyes.size());  // [eye][camera of the eye], summed over looks
     for (std::size_t e = 0; e < eyes.size(); ++e) {
@@ -68,6 +79,8 @@ void photograph_window(const FieldSource& whole, const PhotographPlan::Window& p
         for (std::size_t c = 0; c < eyes[e].members.size(); ++c) intensities[e].push_back(films.back().unexposed());
     }
     const std::size_t looks = window.looks();
+    const std::size_t looks_at_once =
+        plan.looks_at_once(static_cast<double>(options.memory), looks, share_of_bands(window, *drawing, looking));
     for (std::size_t first = 0; first < looks; first += looks_at_once) {
         const std::size_t count = std::min(looks_at_once, looks - first);
         const auto report = [&](double done) {
@@ -81,7 +94,7 @@ void photograph_window(const FieldSource& whole, const PhotographPlan::Window& p
         if (!is_first_process()) continue;  // the first one has the light of all
         for (std::size_t e = 0; e < eyes.size(); ++e) {
             // Waves of a pupil take less memory than the bands from which they come.
-            std::vector<Array<std::complex<float>, 2>> waves;
+            std::vector<film::PupilWave> waves;
             for (Array<std::complex<float>, 2>& band : drawn[e]) {
                 waves.push_back(films[e].pupil_wave(band));
                 band = {};
@@ -150,15 +163,14 @@ void photograph_into(const FieldSource& hologram, std::span<const Camera> camera
     const PhotographPlan plan = plan_photographs(hologram.grid(), cameras, memory);
     image::load_film(cameras, 1, hologram.provenance(), pictures);
     const double parts = static_cast<double>(plan.passes.size()) * static_cast<double>(plan.windows.size());
-    const std::size_t looks_at_once = plan.looks_at_once(memory, hologram.looks());
     std::size_t done = 0;
     for (const std::vector<std::size_t>& pass : plan.passes)
         for (const PhotographPlan::Window& window : plan.windows) {
             const bool seen = std::ranges::any_of(
                 pass, [&](std::size_t i) { return Rectangle(cameras[i].picture).meets(window.shown); });
             if (seen)
-                photograph_window(hologram, window, cameras, group_by_eye(cameras, pass), options.from, looks_at_once,
-                                  pictures, [&](double fraction) {
+                photograph_window(hologram, window, cameras, group_by_eye(cameras, pass), options, plan, pictures,
+                                  [&](double fraction) {
                                       return !progress || progress((static_cast<double>(done) + fraction) / parts);
                                   });
             ++done;

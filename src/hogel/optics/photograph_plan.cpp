@@ -141,10 +141,13 @@ std::vector<SharedEye> group_by_eye(std::span<const Camera> cameras, std::span<c
     return eyes;
 }
 
-std::size_t PhotographPlan::looks_at_once(double memory, std::size_t looks) const {
-    // More than is kept when it is freed would be cleared by the system each time (core::FreedBlocks).
-    const double spare = std::clamp(memory - bytes, 0.0, 768.0 * 1024 * 1024);
-    return 1 + static_cast<std::size_t>(std::min(spare / bytes_a_look, static_cast<double>(looks)));
+std::size_t PhotographPlan::looks_at_once(double memory, std::size_t looks, double share) const {
+    // More than is kept when it is freed would be cleared by the system each time (core::FreedBlocks), a second for
+    // each gigabyte, and further looks save little.
+    const double spare = std::clamp(memory - bytes, 0.0, 448.0 * 1024 * 1024);
+    const double most = 1 + std::floor(spare / (bytes_a_look * share)), all = static_cast<double>(looks);
+    // Equally many in each pass.
+    return static_cast<std::size_t>(std::ceil(all / std::max(1.0, std::ceil(all / most))));
 }
 
 void require_resolution(const FieldGrid& hologram, const Camera& camera, double cells) {

@@ -24,7 +24,8 @@ struct PhotographPlan {
     double bytes_a_look = 0;  ///< for each further look
 
     /// The number of looks, of `looks`, that fit into memory at a time; at least one.
-    std::size_t looks_at_once(double memory, std::size_t looks) const;
+    /// @param share  of bytes_a_look that a look needs
+    std::size_t looks_at_once(double memory, std::size_t looks, double share) const;
 
     enum class Windows { one, many };
 };

@@ -77,7 +77,7 @@ double camera_bytes_of(const FieldGrid& hologram, std::span<const Camera> camera
                        std::size_t looks) {
     const auto memory = static_cast<double>(options.memory);
     const optics::PhotographPlan camera = optics::plan_photographs(hologram, cameras, memory);
-    const auto more = static_cast<double>(camera.looks_at_once(memory, looks) - 1);
+    const auto more = static_cast<double>(camera.looks_at_once(memory, looks, 1) - 1);
     return camera.bytes + std::min(more * camera.bytes_a_look, memory);
 }
 

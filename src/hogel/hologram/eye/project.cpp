@@ -57,10 +57,7 @@ void project_plain(const HogelBasis& basis, const HogelView& view, const float* 
             Complex sum = 0;
             for (std::size_t l = 0; l < functions; ++l)
                 for (std::size_t k = 0; k < functions; ++k) sum += spread(y, l) * spread(x, k) * numbers(l, k);
-            sum *= Complex(view.phases(y, 0, x), view.phases(y, 1, x));
-            float* to = band.first + y * band.row + x;
-            to[0] += sum.real();
-            to[band.part] += sum.imag();
+            band.first[y * band.row + x] += sum * Complex(view.phases(y, 0, 2 * x), view.phases(y, 1, 2 * x + 1));
         }
 }
 

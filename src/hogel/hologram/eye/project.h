@@ -28,19 +28,21 @@ class MiddlePhases {
     std::vector<float, CacheLineAllocator<float>> factors_;
 };
 
+/// Floats of a row of phases as HogelView has them, of `nodes` nodes.
+constexpr std::size_t phase_row(std::size_t nodes) { return padded(2 * nodes); }
+
 /// What is the same for all looks of a hogel seen by an eye.
 struct HogelView {
     HogelBasis::Weights columns, rows;  ///< of the direction of the eye, along a row and down a column
-    /// What is left of the demodulation, [node down][part][node across], the last axis padded; the parts are real and
-    /// imaginary.
+    /// What is left of the demodulation, c + is, by which nodes are multiplied: [node down][2][phase_row(nodes)], for
+    /// each node across c twice, and then −s and s.
     View<const float, 3> phases;
 };
 
-/// A place in a band whose real and imaginary parts are apart: `part` floats from one to the other, `row` from a row to
-/// the next. Values are added up to padded(nodes) from `first` on.
+/// A place in a band, whose rows are `row` complex numbers apart.
 struct BandPlace {
-    float* first;
-    std::size_t part, row;
+    std::complex<float>* first;
+    std::size_t row;
 };
 
 /// Adds to a band what a hogel's waves send to an eye: E D_y C D_xᵀ Eᵀ, times the phases of the view, with C the waves,

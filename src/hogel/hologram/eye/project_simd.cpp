@@ -9,15 +9,16 @@
 #include <algorithm>
 
 #include "hogel/core/with_count.h"
+#include "hogel/hologram/eye/add_nodes-inl.h"
 #include "hogel/hologram/eye/project.h"
-#include "hogel/hologram/transpose_lanes.h"
+#include "hogel/math/transpose-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hogel::hologram::eye {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using core::HWY_NAMESPACE::with_count;
-using hologram::HWY_NAMESPACE::transpose_sixteen;
+using math::HWY_NAMESPACE::transpose_sixteen;
 
 #if HWY_TARGET == HWY_SCALAR
 void Project(const HogelBasis& basis, const HogelView& view, const float* waves, const BandPlace& band) {
@@ -140,12 +141,17 @@ void sum_all_rows(const float* in, std::size_t rows, std::size_t in_row, const f
         });
 }
 
-// Adds nodes times their phases to the band.
-HWY_INLINE void add_times_phases(V a, V b, const float* phase_re, const float* phase_im, float* to_re, float* to_im) {
+// Adds sixteen nodes, from x on, times their phases to row y of the band.
+HWY_INLINE void add_times_phases(const float* re, const float* im, const HogelView& view, std::size_t y, std::size_t x,
+                                 std::size_t nodes, const BandPlace& band) {
     const D d;
-    const V c = hn::Load(d, phase_re), s = hn::Load(d, phase_im);
-    hn::StoreU(hn::Add(hn::LoadU(d, to_re), hn::NegMulAdd(b, s, hn::Mul(a, c))), d, to_re);
-    hn::StoreU(hn::Add(hn::LoadU(d, to_im), hn::MulAdd(b, c, hn::Mul(a, s))), d, to_im);
+    HWY_ALIGN float both[2 * lanes];
+    for (std::size_t i = 0; i < lanes; i += hn::Lanes(d))
+        hn::StoreInterleaved2(hn::Load(d, re + i), hn::Load(d, im + i), d, both + 2 * i);
+    auto* to = reinterpret_cast<float*>(band.first + y * band.row + x);
+    for (std::size_t half = 0; half < 2 * lanes && 2 * x + half < 2 * nodes; half += lanes)
+        add_nodes(both + half, &view.phases(y, 0, 2 * x + half), &view.phases(y, 1, 2 * x + half),
+                  std::min(lanes, 2 * (nodes - x) - half), to + half);
 }
 
 // Adds sixteen nodes across, from x on, of `pairs` rows from y on and of as many from the other end to the band: rows
@@ -156,12 +162,13 @@ HWY_INLINE void add_pairs_of_rows(const float* in, std::size_t across, const Hog
     const D d;
     const std::size_t functions = basis.functions(), nodes = basis.nodes();
     const float* spread = basis.spread().data() + y * functions;
-    for (std::size_t i = x; i < x + lanes; i += hn::Lanes(d)) {
+    HWY_ALIGN float rows[2][pairs][2][lanes];  // [mirrored][pair][part][node]
+    for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
         V sums[2][pairs][2];  // [odd][pair][part]
         for (auto& parity : sums)
             for (auto& sum : parity) sum[0] = sum[1] = hn::Zero(d);
         const auto add = [&](std::size_t l, V(&to)[pairs][2]) HWY_ATTR {
-            const V re = hn::Load(d, in + 2 * l * across + i), im = hn::Load(d, in + (2 * l + 1) * across + i);
+            const V re = hn::Load(d, in + 2 * l * across + x + i), im = hn::Load(d, in + (2 * l + 1) * across + x + i);
             for (std::size_t p = 0; p < pairs; ++p) {
                 const V weight = hn::Set(d, spread[p * functions + l]);
                 to[p][0] = hn::MulAdd(weight, re, to[p][0]);
@@ -173,17 +180,16 @@ HWY_INLINE void add_pairs_of_rows(const float* in, std::size_t across, const Hog
             add(l + 1, sums[1]);
         }
         if (functions % 2 != 0) add(functions - 1, sums[0]);
-        for (std::size_t p = 0; p < pairs; ++p) {
-            const V even_re = sums[0][p][0], even_im = sums[0][p][1], odd_re = sums[1][p][0], odd_im = sums[1][p][1];
-            const std::size_t one = y + p, other = nodes - 1 - one;
-            float* to = band.first + one * band.row + i;
-            add_times_phases(hn::Add(even_re, odd_re), hn::Add(even_im, odd_im), &view.phases(one, 0, i),
-                             &view.phases(one, 1, i), to, to + band.part);
-            if (other == one) continue;
-            to = band.first + other * band.row + i;
-            add_times_phases(hn::Sub(even_re, odd_re), hn::Sub(even_im, odd_im), &view.phases(other, 0, i),
-                             &view.phases(other, 1, i), to, to + band.part);
-        }
+        for (std::size_t p = 0; p < pairs; ++p)
+            for (std::size_t part : {std::size_t{0}, std::size_t{1}}) {
+                hn::Store(hn::Add(sums[0][p][part], sums[1][p][part]), d, rows[0][p][part] + i);
+                hn::Store(hn::Sub(sums[0][p][part], sums[1][p][part]), d, rows[1][p][part] + i);
+            }
+    }
+    for (std::size_t p = 0; p < pairs; ++p) {
+        const std::size_t one = y + p, other = nodes - 1 - one;
+        add_times_phases(rows[0][p][0], rows[0][p][1], view, one, x, nodes, band);
+        if (other != one) add_times_phases(rows[1][p][0], rows[1][p][1], view, other, x, nodes, band);
     }
 }
 

@@ -4,15 +4,20 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <numbers>
 #include <utility>
 
 #include "hogel/core/object_pool.h"
+#include "hogel/core/parallel.h"
 #include "hogel/core/shared_order.h"
 #include "hogel/hologram/eye/hogel_basis.h"
+#include "hogel/hologram/eye/lanes.h"
+#include "hogel/hologram/eye/node_phases.h"
 #include "hogel/hologram/eye/project.h"
 #include "hogel/optics/film/interpolation.h"
 #include "hogel/optics/phase_walk.h"
+#include "hogel/team.h"
 
 namespace hogel::hologram::eye {
 namespace {
@@ -22,8 +27,16 @@ using Complex = std::complex<float>;
 // A fraction by which a pupil's band is widened, because its width varies slightly over the hologram.
 constexpr double guard = 0.1;
 
-// Hogels whose contributions are made together.
-constexpr std::size_t block_across = 32, block_down = 4;
+// Hogels across whose values are prepared together, and the side of a tile of hogels that share vectors.
+constexpr std::size_t block_across = 32, tile = 4;
+
+// Rows of tiles between which the light of hogels does not meet: nodes reach at most eight beyond either end of a
+// hogel, which has at least one.
+constexpr std::size_t strips_apart = 5;
+
+// By how much the demodulation's frequency may grow from hogel to hogel, in cycles per hogel, for lanes to share
+// weights often enough.
+constexpr double max_bend_in_lanes = 0.15;
 
 // Bands of frequencies, in cycles per hogel, where the hologram is nearest to the eye.
 struct Bands {
@@ -62,12 +75,14 @@ struct EyeBand {
     optics::narrow_band::BandGrid grid;
     std::shared_ptr<const HogelBasis> basis;
     std::size_t per_hogel;
+    double bend;                 // as in Bands
+    std::vector<double> places;  // of the nodes
 };
 
-using Contribution = std::vector<std::vector<Array<float, 3>>>;  // [eye][look][part][row][column]
+using EyeBands = std::vector<std::vector<Array<Complex, 2>>>;  // [eye][look]
 
-core::Sent<Contribution> sent_contribution() {
-    return {[](core::MessageWriter& to, const Contribution& eyes) {
+core::Sent<EyeBands> sent_bands() {
+    return {[](core::MessageWriter& to, const EyeBands& eyes) {
                 to.put(eyes.size());
                 for (const auto& looks : eyes) {
                     to.put(looks.size());
@@ -75,10 +90,10 @@ core::Sent<Contribution> sent_contribution() {
                 }
             },
             [](core::MessageReader& from) {
-                Contribution eyes(from.get<std::size_t>());
+                EyeBands eyes(from.get<std::size_t>());
                 for (auto& looks : eyes) {
                     looks.resize(from.get<std::size_t>());
-                    for (auto& look : looks) look = from.get_array<float, 3>();
+                    for (auto& look : looks) look = from.get_array<Complex, 2>();
                 }
                 return eyes;
             }};
@@ -87,87 +102,257 @@ core::Sent<Contribution> sent_contribution() {
 class StereogramEyes final : public optics::EyeDrawing {
   public:
     StereogramEyes(const Hogels& hogels, const HogelRange& range, std::vector<EyeBand> eyes)
-        : hogels_(hogels), range_(range), eyes_(std::move(eyes)), middle_(hogels.samples) {}
+        : hogels_(hogels),
+          range_(range),
+          eyes_(std::move(eyes)),
+          middle_(hogels.samples),
+          in_lanes_(hogels.waves->has_lanes()) {
+        for (const EyeBand& eye : eyes_) in_lanes_ = in_lanes_ && eye.bend <= max_bend_in_lanes;
+    }
 
     const optics::narrow_band::BandGrid& band(std::size_t eye) const override { return eyes_[eye].grid; }
 
     std::vector<std::vector<Array<Complex, 2>>> draw(std::size_t first_look, std::size_t looks,
                                                      const Progress& progress) const override {
-        std::vector<std::vector<Array<Complex, 2>>> bands(eyes_.size());
-        for (std::size_t e = 0; e < eyes_.size(); ++e)
-            for (std::size_t look = 0; look < looks; ++look) {
-                core::throw_if_stopped();  // many looks are gigabytes, which the system clears
-                bands[e].emplace_back(Shape<2>{eyes_[e].grid.plane.height, eyes_[e].grid.plane.width});
-            }
-        const std::size_t across = (range_.ns + block_across - 1) / block_across,
-                          down = (range_.nt + block_down - 1) / block_down;
-        const auto block = [&](std::size_t i) {
-            const std::size_t s = i % across * block_across, t = i / across * block_down;
-            return HogelRange{range_.s0 + s, range_.t0 + t, std::min(block_across, range_.ns - s),
-                              std::min(block_down, range_.nt - t)};
+        // The system clears their pages, half a gigabyte for many looks, on all threads.
+        EyeBands bands(eyes_.size(), std::vector<Array<Complex, 2>>(looks));
+        core::parallel_for(eyes_.size() * looks, [&](std::size_t i) {
+            const Grid& plane = eyes_[i / looks].grid.plane;
+            bands[i / looks][i % looks] = Array<Complex, 2>({plane.height, plane.width});
+        });
+        // Strips of hogels in an order in which those that follow each other do not meet.
+        std::vector<std::size_t> strips;
+        for (std::size_t first = 0; first < strips_apart; ++first)
+            for (std::size_t t = first * tile; t < range_.nt; t += strips_apart * tile) strips.push_back(t);
+        const auto report = [&](std::size_t done) {
+            progress.report(static_cast<double>(done) / static_cast<double>(strips.size()));
         };
-        core::shared_ordered<Contribution>(
-            across * down, core::default_in_flight(), sent_contribution(),
-            [&](std::size_t i) { return draw(block(i), first_look, looks); },
-            [&](std::size_t i, Contribution& contribution) {
-                const HogelRange hogels = block(i);
-                for (std::size_t e = 0; e < eyes_.size(); ++e)
-                    for (std::size_t look = 0; look < looks; ++look)
-                        add(contribution[e][look], (hogels.t0 - range_.t0) * eyes_[e].per_hogel,
-                            (hogels.s0 - range_.s0) * eyes_[e].per_hogel, bands[e][look]);
-                progress.report(static_cast<double>(i + 1) / static_cast<double>(across * down));
+        if (const Team* const all = team(); all != nullptr && all->size() > 1) {
+            core::shared_ordered<EyeBands>(
+                strips.size(), core::default_in_flight(), sent_bands(),
+                [&](std::size_t i) {
+                    auto scratch = scratch_pool_.take();
+                    draw_strip(strips[i], {first_look, looks}, *scratch);
+                    return scratch->strip;
+                },
+                [&](std::size_t i, const EyeBands& strip) {
+                    add(strip, strips[i], bands);
+                    report(i + 1);
+                });
+            return bands;
+        }
+        std::mutex mutex;
+        std::size_t done = 0;
+        for (std::size_t first = 0, end = 0; first < strips.size(); first = end) {
+            while (end < strips.size() && strips[end] % (strips_apart * tile) == strips[first] % (strips_apart * tile))
+                ++end;
+            core::parallel_for(end - first, [&](std::size_t i) {
+                auto scratch = scratch_pool_.take();
+                draw_strip(strips[first + i], {first_look, looks}, *scratch);
+                add(scratch->strip, strips[first + i], bands);
+                const std::lock_guard lock(mutex);
+                report(++done);
             });
+        }
         return bands;
     }
 
   private:
-    // Columns beyond the band are padding.
-    static void add(View<const float, 3> part, std::size_t row, std::size_t column, View<Complex, 2> band) {
-        const std::size_t width = std::min(part.extent(2), band.extent(1) - column);
-        for (std::size_t y = 0; y < part.extent(1); ++y)
-            for (std::size_t x = 0; x < width; ++x) band(row + y, column + x) += Complex(part(0, y, x), part(1, y, x));
+    struct Looks {
+        std::size_t first, count;
+    };
+
+    // Buffers for a block of hogels.
+    struct Scratch {
+        Array<float, 2> prepared;
+        Array<float, 1> waves, gathered, numbers;
+        std::vector<Array<float, 4>> phases;              // [eye][hogel][node down][2][phase_row]
+        std::vector<std::vector<HogelView>> views;        // [eye][hogel]
+        std::vector<std::vector<Array<float, 1>>> lines;  // [eye][weights]: [row][function][part][lane]
+        std::vector<const float*> sources;
+        EyeBands strip;
+    };
+
+    // Draws the light of a row of tiles, from row t of the hogels on, into scratch.strip: the rows of each band that it
+    // reaches.
+    void draw_strip(std::size_t t, const Looks& looks, Scratch& scratch) const {
+        const HogelRange strip{range_.s0, range_.t0 + t, range_.ns, std::min(tile, range_.nt - t)};
+        scratch.strip.resize(eyes_.size());
+        for (std::size_t e = 0; e < eyes_.size(); ++e) {
+            const EyeBand& eye = eyes_[e];
+            const Shape<2> shape{strip.nt * eye.per_hogel + 2 * eye.basis->before(), eye.grid.plane.width};
+            scratch.strip[e].resize(looks.count);
+            for (Array<Complex, 2>& own : scratch.strip[e])
+                if (own.shape() == shape)
+                    std::ranges::fill(own.elements(), Complex(0));
+                else
+                    own = Array<Complex, 2>(shape);
+        }
+        for (std::size_t s = 0; s < strip.ns; s += block_across)
+            draw({strip.s0 + s, strip.t0, std::min(block_across, strip.ns - s), strip.nt}, looks, scratch,
+                 scratch.strip);
     }
 
-    // The contribution of some hogels to all bands.
-    std::vector<std::vector<Array<float, 3>>> draw(const HogelRange& some, std::size_t first_look,
-                                                   std::size_t looks) const {
-        auto scratch = scratch_pool_.take();
-        Array<float, 2>& prepared = scratch->prepared;
+    // Adds the light of a strip to the bands.
+    void add(const EyeBands& strip, std::size_t t, EyeBands& bands) const {
+        for (std::size_t e = 0; e < eyes_.size(); ++e)
+            for (std::size_t look = 0; look < strip[e].size(); ++look) {
+                const Array<Complex, 2>& own = strip[e][look];
+                const auto* from = reinterpret_cast<const float*>(own.data());
+                auto* to = reinterpret_cast<float*>(&bands[e][look](t * eyes_[e].per_hogel, 0));
+                for (std::size_t i = 0; i < 2 * own.size(); ++i) to[i] += from[i];
+            }
+    }
+
+    // Adds the light of some hogels to all bands.
+    void draw(const HogelRange& some, const Looks& looks, Scratch& scratch, EyeBands& bands) const {
+        Array<float, 2>& prepared = scratch.prepared;
         if (prepared.shape() != Shape<2>{some.hogels(), hogels_.prepared_size})
             prepared = Array<float, 2>({some.hogels(), hogels_.prepared_size});
         hogels_.prepare(some, prepared);
-        std::vector<std::vector<Array<float, 3>>> contribution(eyes_.size());
-        std::vector<std::vector<HogelView>> views(eyes_.size());  // [eye][hogel]
-        std::vector<Array<float, 4>>& phases = scratch->phases;
-        phases.resize(eyes_.size());
+        scratch.views.resize(eyes_.size());
+        scratch.phases.resize(eyes_.size());
         for (std::size_t e = 0; e < eyes_.size(); ++e) {
             const EyeBand& eye = eyes_[e];
-            const std::size_t nodes = eye.basis->nodes(), around = 2 * eye.basis->before();
-            for (std::size_t look = 0; look < looks; ++look)
-                contribution[e].emplace_back(
-                    Shape<3>{2, some.nt * eye.per_hogel + around, (some.ns - 1) * eye.per_hogel + padded(nodes)});
-            const Shape<4> shape{some.hogels(), nodes, 2, padded(nodes)};
-            if (phases[e].shape() != shape) phases[e] = Array<float, 4>(shape);
+            const std::size_t nodes = eye.basis->nodes();
+            Array<float, 4>& phases = scratch.phases[e];
+            const Shape<4> shape{some.hogels(), nodes, 2, phase_row(nodes)};
+            if (phases.shape() != shape) phases = Array<float, 4>(shape);
+            scratch.views[e].clear();
             for (std::size_t h = 0; h < some.hogels(); ++h)
-                views[e].push_back(view(eye, some.s0 + h % some.ns, some.t0 + h / some.ns, phases[e][h]));
+                scratch.views[e].push_back(view(eye, some.s0 + h % some.ns, some.t0 + h / some.ns, phases[h]));
         }
-        Array<float, 1>& waves = scratch->waves;
-        if (waves.size() == 0) waves = Array<float, 1>({HogelWaves::size(hogels_.samples)});
-        for (std::size_t look = 0; look < looks; ++look)
+        if (in_lanes_)
+            draw_in_lanes(some, looks, scratch, bands);
+        else
+            draw_one_by_one(some, looks, scratch, bands);
+    }
+
+    // The place in a strip of an eye's band of the first node of a hogel.
+    BandPlace place(std::size_t e, const HogelRange& some, std::size_t hogel, Array<Complex, 2>& band) const {
+        const std::size_t s = some.s0 + hogel % some.ns - range_.s0, t = hogel / some.ns;
+        return {&band(t * eyes_[e].per_hogel, s * eyes_[e].per_hogel), band.extent(1)};
+    }
+
+    void draw_one_by_one(const HogelRange& some, const Looks& looks, Scratch& scratch, EyeBands& bands) const {
+        Array<float, 1>& waves = scratch.waves;
+        const std::size_t size = HogelWaves::size(hogels_.samples);
+        if (waves.size() != size) waves = Array<float, 1>({size});
+        for (std::size_t look = 0; look < looks.count; ++look)
             for (std::size_t h = 0; h < some.hogels(); ++h) {
-                const std::size_t s = h % some.ns, t = h / some.ns;
-                hogels_.waves->waves(prepared[h].elements(), {some.s0 + s, some.t0 + t, first_look + look},
-                                     waves.data());
+                hogels_.waves->waves(scratch.prepared[h].elements(),
+                                     {some.s0 + h % some.ns, some.t0 + h / some.ns, looks.first + look}, waves.data());
                 middle_.apply(waves.data());
-                for (std::size_t e = 0; e < eyes_.size(); ++e) {
-                    const EyeBand& eye = eyes_[e];
-                    Array<float, 3>& band = contribution[e][look];
-                    project(*eye.basis, views[e][h], waves.data(),
-                            {&band(0, t * eye.per_hogel, s * eye.per_hogel), band.extent(1) * band.extent(2),
-                             band.extent(2)});
-                }
+                for (std::size_t e = 0; e < eyes_.size(); ++e)
+                    project(*eyes_[e].basis, scratch.views[e][h], waves.data(), place(e, some, h, bands[e][look]));
             }
-        return contribution;
+    }
+
+    // A hogel of a block and a look, one lane.
+    struct Item {
+        std::size_t hogel, look;
+    };
+
+    // Batches are parts of tiles of hogels, in an order that depends neither on the eyes nor on the number of looks.
+    void draw_in_lanes(const HogelRange& some, const Looks& looks, Scratch& scratch, EyeBands& bands) const {
+        const std::size_t together = std::max<std::size_t>(1, HogelWaves::lanes / looks.count);
+        std::vector<std::size_t> hogels;
+        const auto flush = [&] {
+            for (std::size_t look = 0; !hogels.empty() && look < looks.count; look += HogelWaves::lanes) {
+                std::vector<Item> items;
+                for (const std::size_t hogel : hogels)
+                    for (std::size_t l = look; l < std::min(look + HogelWaves::lanes, looks.count); ++l)
+                        items.push_back({hogel, l});
+                draw_batch(some, items, looks.first, scratch, bands);
+            }
+            hogels.clear();
+        };
+        for (std::size_t t0 = 0; t0 < some.nt; t0 += tile)
+            for (std::size_t s0 = 0; s0 < some.ns; s0 += tile) {
+                for (std::size_t t = t0; t < std::min(t0 + tile, some.nt); ++t)
+                    for (std::size_t s = s0; s < std::min(s0 + tile, some.ns); ++s) {
+                        hogels.push_back(t * some.ns + s);
+                        if (hogels.size() == together) flush();
+                    }
+                flush();
+            }
+    }
+
+    // Lanes that an eye sees with the same weights.
+    struct Group {
+        HogelBasis::Weights columns, rows;
+        alignas(64) float chosen[HogelWaves::lanes];
+    };
+
+    std::vector<Group> groups_of(const std::vector<Item>& items, const std::vector<HogelView>& views) const {
+        std::vector<Group> groups;
+        for (std::size_t lane = 0; lane < items.size(); ++lane) {
+            const HogelView& view = views[items[lane].hogel];
+            auto group = std::ranges::find_if(groups, [&](const Group& other) {
+                return other.columns.frequency == view.columns.frequency && other.rows.frequency == view.rows.frequency;
+            });
+            if (group == groups.end()) group = groups.insert(groups.end(), {view.columns, view.rows, {}});
+            group->chosen[lane] = 1;
+        }
+        // Lanes that are not used may hold anything.
+        if (groups.size() == 1) std::ranges::fill(groups.front().chosen, 1.0f);
+        return groups;
+    }
+
+    void draw_batch(const HogelRange& some, const std::vector<Item>& items, std::size_t first_look, Scratch& scratch,
+                    EyeBands& bands) const {
+        constexpr std::size_t both = 2 * HogelWaves::lanes;
+        const std::size_t n = hogels_.samples;
+        std::vector<HogelPlace> places;
+        for (const Item& item : items)
+            places.push_back({some.s0 + item.hogel % some.ns, some.t0 + item.hogel / some.ns, first_look + item.look});
+        const bool shared = items.front().hogel == items.back().hogel;
+        const float* prepared = &scratch.prepared(items.front().hogel, 0);
+        if (!shared) {
+            scratch.sources.clear();
+            for (const Item& item : items) scratch.sources.push_back(&scratch.prepared(item.hogel, 0));
+            const std::size_t size = HogelWaves::powers_size(n) * HogelWaves::lanes;
+            if (scratch.gathered.size() != size) scratch.gathered = Array<float, 1>({size});
+            hogels_.waves->gather_lanes(scratch.sources, scratch.gathered.data());
+            prepared = scratch.gathered.data();
+        }
+        const SeriesOfLanes series = hogels_.waves->series_of_lanes(places);
+        if (scratch.waves.size() != n * both) scratch.waves = Array<float, 1>({n * both});
+        std::vector<std::vector<Group>> groups(eyes_.size());
+        scratch.lines.resize(eyes_.size());
+        for (std::size_t e = 0; e < eyes_.size(); ++e) {
+            groups[e] = groups_of(items, scratch.views[e]);
+            if (scratch.lines[e].size() < groups[e].size()) scratch.lines[e].resize(groups[e].size());
+            for (Array<float, 1>& lines : scratch.lines[e])
+                if (const std::size_t size = n * eyes_[e].basis->functions() * both; lines.size() != size)
+                    lines = Array<float, 1>({size});
+        }
+        for (std::size_t row = 0; row < n; ++row) {
+            hogels_.waves->row_of_lanes(series, row, shared, prepared, scratch.waves.data());
+            for (std::size_t e = 0; e < eyes_.size(); ++e) {
+                const HogelBasis& basis = *eyes_[e].basis;
+                for (std::size_t g = 0; g < groups[e].size(); ++g)
+                    sum_row(basis, groups[e][g].columns, scratch.waves.data(),
+                            &scratch.lines[e][g](row * basis.functions() * both));
+            }
+        }
+        for (std::size_t e = 0; e < eyes_.size(); ++e) {
+            const HogelBasis& basis = *eyes_[e].basis;
+            if (const std::size_t size = basis.functions() * basis.functions() * both; scratch.numbers.size() < size)
+                scratch.numbers = Array<float, 1>({size});
+            for (std::size_t g = 0; g < groups[e].size(); ++g) {
+                const Group& group = groups[e][g];
+                sum_rows(basis, group.rows, group.columns.sign * group.rows.sign, scratch.lines[e][g].data(),
+                         group.chosen, scratch.numbers.data());
+            }
+            LaneTarget targets[HogelWaves::lanes];
+            for (std::size_t lane = 0; lane < items.size(); ++lane) {
+                const Item& item = items[lane];
+                targets[lane] = {scratch.views[e][item.hogel].phases.data(),
+                                 place(e, some, item.hogel, bands[e][item.look])};
+            }
+            add_lanes(basis, scratch.numbers.data(), {targets, items.size()});
+        }
     }
 
     HogelView view(const EyeBand& eye, std::size_t s, std::size_t t, View<float, 3> phases) const {
@@ -195,56 +380,41 @@ class StereogramEyes final : public optics::EyeDrawing {
     static void set_phases(const EyeBand& eye, const Place& hogel, View<float, 3> phases) {
         const optics::ViewGeometry& geometry = eye.grid.geometry;
         const HogelBasis& basis = *eye.basis;
-        const std::size_t nodes = basis.nodes();
-        const auto cycles = [&](double right, double below) {
-            return geometry.cycles(hogel.x + right * hogel.width, hogel.y - below * hogel.height) -
-                   right * hogel.columns - below * hogel.rows;
-        };
-        const double reach = basis.place(nodes - 1), middle = cycles(0, 0);
+        const double reach = basis.place(basis.nodes() - 1);
         const double distance = geometry.distance(hogel.x, hogel.y), size = reach * std::max(hogel.width, hogel.height);
+        // r grows by −n_x n_y/r along both axes, and rows run down.
         const double bend = geometry.sine_x(hogel.x, hogel.y) * geometry.sine_y(hogel.x, hogel.y) * hogel.width *
                             hogel.height / (distance * geometry.wavelength());
-        // The next terms of the series, in cycles, and the angle up to which the root below is exact.
+        // The next terms of the series, in cycles, and the angle up to which its root is exact.
         const bool small = size * size * size / (distance * distance * geometry.wavelength()) < 2e-4 &&
                            2 * std::numbers::pi * std::abs(bend) * reach * reach < 0.1;
-        if (!small) {
-            for (std::size_t row = 0; row < nodes; ++row)
-                for (std::size_t column = 0; column < nodes; ++column) {
-                    const auto phase = optics::unit_phasor(cycles(basis.place(column), basis.place(row)));
-                    phases(row, 0, column) = static_cast<float>(phase.real());
-                    phases(row, 1, column) = static_cast<float>(phase.imag());
-                }
-            return;
-        }
-        std::vector<std::complex<float>> across(nodes);
-        for (std::size_t column = 0; column < nodes; ++column)
-            across[column] = std::complex<float>(optics::unit_phasor(cycles(basis.place(column), 0) - middle));
-        for (std::size_t row = 0; row < nodes; ++row) {
-            const std::complex<float> down(optics::unit_phasor(cycles(0, basis.place(row))));
-            const auto angle = static_cast<float>(2 * std::numbers::pi * bend * basis.place(row));
-            float *re = &phases(row, 0, 0), *im = &phases(row, 1, 0);
-            for (std::size_t column = 0; column < nodes; ++column) {
-                // r grows by −n_x n_y/r along both axes, and rows run down. e^{iθ} for a small θ:
-                const float theta = angle * static_cast<float>(basis.place(column));
-                const std::complex<float> turn(1 - 0.5f * theta * theta, theta * (1 - theta * theta / 6));
-                const std::complex<float> phase = optics::times(optics::times(across[column], down), turn);
-                re[column] = phase.real();
-                im[column] = phase.imag();
-            }
-        }
+        if (!small) return set_phases_one_by_one(eye, hogel, phases);
+        const double x = hogel.x - geometry.eye().x, y = hogel.y - geometry.eye().y, z = geometry.eye().z;
+        const double frequency = 1 / geometry.wavelength();
+        const NodeLine across{x, hogel.width, y * y + z * z, frequency, hogel.columns, distance * frequency},
+            down{y, -hogel.height, x * x + z * z, frequency, hogel.rows, 0};
+        node_phases(across, down, bend, eye.places, phases.data());
     }
 
-    // Buffers for a block of hogels.
-    struct Scratch {
-        Array<float, 2> prepared;
-        Array<float, 1> waves;
-        std::vector<Array<float, 4>> phases;  // [eye][hogel][node down][part][node across]
-    };
+    static void set_phases_one_by_one(const EyeBand& eye, const Place& hogel, View<float, 3> phases) {
+        const HogelBasis& basis = *eye.basis;
+        for (std::size_t row = 0; row < basis.nodes(); ++row)
+            for (std::size_t column = 0; column < basis.nodes(); ++column) {
+                const double right = basis.place(column), below = basis.place(row);
+                const std::complex<float> phase(optics::unit_phasor(
+                    eye.grid.geometry.cycles(hogel.x + right * hogel.width, hogel.y - below * hogel.height) -
+                    right * hogel.columns - below * hogel.rows));
+                phases(row, 0, 2 * column) = phases(row, 0, 2 * column + 1) = phase.real();
+                phases(row, 1, 2 * column) = -phase.imag();
+                phases(row, 1, 2 * column + 1) = phase.imag();
+            }
+    }
 
     Hogels hogels_;
     HogelRange range_;
     std::vector<EyeBand> eyes_;
     MiddlePhases middle_;
+    bool in_lanes_;
     mutable core::ObjectPool<Scratch> scratch_pool_;
 };
 
@@ -272,7 +442,9 @@ std::unique_ptr<optics::EyeDrawing> make_stereogram_eyes(const Hogels& hogels, c
         const double pitch = static_cast<double>(n) / static_cast<double>(per_hogel);
         const Grid plane{samples(range.ns),           samples(range.nt),    whole.plane.pitch_x * pitch,
                          whole.plane.pitch_y * pitch, whole.plane.center_x, whole.plane.center_y};
-        bands.push_back({{optics::ViewGeometry(eye.position, whole.wavelength), plane}, basis, per_hogel});
+        EyeBand& own = bands.emplace_back(
+            EyeBand{{optics::ViewGeometry(eye.position, whole.wavelength), plane}, basis, per_hogel, band.bend, {}});
+        for (std::size_t node = 0; node < basis->nodes(); ++node) own.places.push_back(basis->place(node));
     }
     return std::make_unique<StereogramEyes>(hogels, range, std::move(bands));
 }

@@ -81,6 +81,8 @@ void transform_lines(const Plan& plan, const Chirp* chirp, bool backward, float*
                      std::size_t count, std::size_t length);
 /// Transforms a long line; `to` may be `from`.
 void transform_split(const Split& split, bool backward, const float* from, float* to);
+/// Transforms sixteen lines in split layout in place, without sorting: frequency f lies in row plan.place[f].
+void transform_in_place(const Plan& plan, float* rows);
 /// x_i y_i for n complex numbers; the parts of x, or of the result, are exchanged if asked for.
 void multiply(const float* x, const float* y, float* out, std::size_t n, bool exchange_x, bool exchange_out);
 

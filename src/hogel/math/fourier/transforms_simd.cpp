@@ -24,6 +24,7 @@ void Columns(const Plan&, const Chirp*, bool, const float*, std::size_t, float*,
 void Lines(const Plan&, const Chirp*, bool, float*, std::size_t, std::size_t, std::size_t) {}
 void LongLine(const Split&, bool, const float*, float*) {}
 void Multiply(const float*, const float*, float*, std::size_t, bool, bool) {}
+void InPlace(const Plan&, float*) {}
 #else
 bool HasVectors() { return true; }
 
@@ -249,6 +250,8 @@ void LongLineAs(const Split& split, const float* from, float* to) {
     }
 }
 
+void InPlace(const Plan& plan, float* rows) { TransformInPlace(plan, rows, together); }
+
 void LongLine(const Split& split, bool backward, const float* from, float* to) {
     if (backward)
         LongLineAs<Exchanged>(split, from, to);
@@ -289,6 +292,7 @@ HWY_EXPORT(Columns);
 HWY_EXPORT(Lines);
 HWY_EXPORT(LongLine);
 HWY_EXPORT(Multiply);
+HWY_EXPORT(InPlace);
 
 bool has_vectors() { return HWY_DYNAMIC_DISPATCH(HasVectors)(); }
 
@@ -305,6 +309,8 @@ void transform_lines(const Plan& plan, const Chirp* chirp, bool backward, float*
 void transform_split(const Split& split, bool backward, const float* from, float* to) {
     HWY_DYNAMIC_DISPATCH(LongLine)(split, backward, from, to);
 }
+
+void transform_in_place(const Plan& plan, float* rows) { HWY_DYNAMIC_DISPATCH(InPlace)(plan, rows); }
 
 void multiply(const float* x, const float* y, float* out, std::size_t n, bool exchange_x, bool exchange_out) {
     HWY_DYNAMIC_DISPATCH(Multiply)(x, y, out, n, exchange_x, exchange_out);

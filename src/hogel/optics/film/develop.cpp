@@ -11,8 +11,17 @@
 
 namespace hogel::optics::film {
 
-void Film::develop(View<const float, 2> intensity, const Camera& camera, const Rectangle& shown, double weight,
+void Film::develop(View<const float, 2> blocks, const Camera& camera, const Rectangle& shown, double weight,
                    Image& image) const {
+    Array<float, 2> intensity({size_.y.count, size_.x.count});
+    core::parallel_for(blocks_of(size_.y.count), [&](std::size_t part) {
+        const std::size_t end = std::min((part + 1) * lines_together, size_.y.count);
+        for (std::size_t block = 0; block < blocks.extent(0); ++block) {
+            const std::size_t first = block * lines_together, count = std::min(lines_together, size_.x.count - first);
+            for (std::size_t y = part * lines_together; y < end; ++y)
+                std::copy_n(&blocks(block, y * lines_together), count, &intensity(y, first));
+        }
+    });
     const Grid& picture = camera.picture;
     const Vec3 eye = band_.geometry.eye();
     const double cell = resolution_cell(camera, hologram_.wavelength);

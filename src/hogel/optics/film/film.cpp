@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "hogel/core/parallel.h"
+#include "hogel/math/fft.h"
 #include "hogel/optics/film/interpolation.h"
+#include "hogel/optics/film/lanes.h"
 #include "hogel/optics/film/lens.h"
 #include "hogel/optics/film/resample.h"
 #include "hogel/optics/lines.h"
@@ -23,6 +25,12 @@ const InterpolationTable& interpolation() {
 }
 
 std::size_t across(std::ptrdiff_t reach) { return static_cast<std::size_t>(2 * reach + 1); }
+
+constexpr std::size_t padded(std::size_t lines) { return blocks_of(lines) * lines_together; }
+
+// Floats of sixteen complex numbers side by side, and of a block of sixteen rows of so many.
+constexpr std::size_t both = math::SplitFft::row;
+static_assert(both == 2 * lines_together);
 
 FilmAxis film_axis(double first, double period, const SineGrid::Range& seen, std::size_t frequencies, double cells) {
     FilmAxis axis;
@@ -86,16 +94,17 @@ FilmSize::FilmSize(const narrow_band::BandGrid& band, const FieldGrid& hologram,
 }
 
 double FilmSize::pupil_bytes() const {
-    return static_cast<double>(sizeof(Complex) * across(reach_x) * across(reach_y));
+    return static_cast<double>(sizeof(Complex) * across(reach_x) * blocks_of(across(reach_y)) * lines_together);
 }
 
 double FilmSize::work_bytes() const {
-    const std::size_t to_pupil = (lit_right - lit_left) * band_rows + sines.size_x * across(reach_y),
-                      to_film = y.count * across(reach_x);
-    return static_cast<double>(sizeof(Complex) * std::max(to_pupil, to_film)) + pupil_bytes();
+    // Both are kept for the next look, and the lens.
+    const std::size_t to_pupil = (lit_right - lit_left) * (band_rows + padded(across(reach_y))),
+                      to_film = padded(x.count) * padded(across(reach_y));
+    return static_cast<double>(sizeof(Complex) * (to_pupil + to_film)) + 2 * pupil_bytes();
 }
 
-double FilmSize::intensity_bytes() const { return static_cast<double>(sizeof(float) * x.count * y.count); }
+double FilmSize::intensity_bytes() const { return static_cast<double>(sizeof(float) * padded(x.count) * y.count); }
 
 Film::Film(const narrow_band::BandGrid& band, const FieldGrid& hologram, double pupil, double blur)
     : band_(band),
@@ -104,20 +113,46 @@ Film::Film(const narrow_band::BandGrid& band, const FieldGrid& hologram, double 
       along_(size_.sines.size_x),
       down_(size_.sines.size_y),
       film_along_(size_.x.size),
-      film_down_(size_.y.size) {}
+      film_down_(size_.y.size),
+      scratch_(std::make_unique<core::ObjectPool<Scratch>>()) {
+    for (std::ptrdiff_t k = -size_.reach_x; k <= size_.reach_x; ++k)
+        frequencies_x_.push_back(along_.place(wrapped(k, along_.size())));
+    for (std::ptrdiff_t k = -size_.reach_y; k <= size_.reach_y; ++k)
+        frequencies_y_.push_back(down_.place(wrapped(k, down_.size())));
+    for (std::size_t i = 0; i < size_.x.count; ++i) film_x_.push_back(film_along_.place(size_.x.first + i));
+    for (std::size_t j = 0; j < size_.y.count; ++j) film_y_.push_back(film_down_.place(size_.y.first + j));
+}
 
-Array<Complex, 2> Film::pupil_wave(View<const Complex, 2> band) const {
-    const Grid& plane = band_.plane;
-    const SineGrid& sines = size_.sines;
-    const InterpolationTable& table = interpolation();
+PupilWave Film::pupil_wave(View<const Complex, 2> band) const {
     // Two passes, each along one axis: first to uniform n_x on the band's rows, then down the columns, on which n_x is
     // constant, to uniform n_y. The intermediate result is transposed, so that both passes run along memory.
-    const std::size_t lit_columns = size_.lit_right - size_.lit_left, lit_rows = size_.lit_high - size_.lit_low;
-    Array<Complex, 2> columns({lit_columns, plane.height});
-    std::vector<char> is_lit(plane.height);
+    auto scratch = scratch_->take();
+    std::vector<char> is_lit(band.extent(0));
+    resample_rows(band, is_lit, *scratch);
+    transform_columns(is_lit, *scratch);
+    const std::size_t lit = size_.lit_right - size_.lit_left, width = across(size_.reach_x);
+    PupilWave wave({blocks_of(across(size_.reach_y)), width * both});
+    core::parallel_for(wave.extent(0), [&](std::size_t block) {
+        thread_local Array<float, 1> lines;
+        if (lines.size() < along_.size() * both) lines = Array<float, 1>({along_.size() * both});
+        std::fill_n(lines.data(), size_.lit_left * both, 0.0f);
+        std::copy_n(&scratch->half(block, 0), lit * both, &lines(size_.lit_left * both));
+        std::fill_n(lines.data() + size_.lit_right * both, (along_.size() - size_.lit_right) * both, 0.0f);
+        along_.transform(lines.data());
+        for (std::size_t k = 0; k < width; ++k)
+            std::copy_n(&lines(frequencies_x_[k] * both), both, &wave(block, k * both));
+    });
+    return wave;
+}
+
+void Film::resample_rows(View<const Complex, 2> band, std::vector<char>& is_lit, Scratch& scratch) const {
+    const Grid& plane = band_.plane;
+    const SineGrid& sines = size_.sines;
+    const std::size_t lit_columns = size_.lit_right - size_.lit_left;
+    Array<Complex, 2>& columns = scratch.columns;
+    if (columns.size() == 0) columns = Array<Complex, 2>({lit_columns, plane.height});
     const Vec3 eye = band_.geometry.eye();
-    const double left = sines.first_x + static_cast<double>(size_.lit_left) * sines.step,
-                 low = sines.first_y + static_cast<double>(size_.lit_low) * sines.step;
+    const double left = sines.first_x + static_cast<double>(size_.lit_left) * sines.step;
     core::parallel_for(blocks_of(plane.height), [&](std::size_t block) {
         const std::size_t first = block * lines_together, count = std::min(lines_together, plane.height - first);
         // Most rows are dark where the lines of a hologram are photographed apart.
@@ -126,124 +161,147 @@ Array<Complex, 2> Film::pupil_wave(View<const Complex, 2> band) const {
             is_lit[r] = !std::ranges::all_of(band[r].elements(), [](Complex value) { return value == Complex(0); });
             all_dark = all_dark && !is_lit[r];
         }
-        if (all_dark) return;
-        Array<Complex, 2> lines({count, stride_of(lit_columns)});
+        if (all_dark) {
+            for (std::size_t i = 0; i < lit_columns; ++i) std::fill_n(&columns(i, first), count, Complex(0));
+            return;
+        }
+        thread_local Array<Complex, 2> lines;
+        const Shape<2> shape{lines_together, stride_of(lit_columns)};
+        if (lines.shape() != shape) lines = Array<Complex, 2>(shape);
         for (std::size_t r = 0; r < count; ++r) {
             // On a row the point of sine n_x lies at x = c_x + n_x/√(1 − n_x²) · √((y − c_y)² + c_z²).
             const double reach = std::hypot(plane.y(static_cast<double>(first + r)) - eye.y, eye.z);
             resample_tangents({&band(first + r, 0), plane.width},
-                              {left, sines.step, 1, reach / plane.pitch_x, plane.column(eye.x)}, table,
+                              {left, sines.step, 1, reach / plane.pitch_x, plane.column(eye.x)}, interpolation(),
                               {&lines(r, 0), lit_columns});
         }
         for (std::size_t i = 0; i < lit_columns; ++i)
             for (std::size_t r = 0; r < count; ++r) columns(i, first + r) = lines(r, i);
     });
+}
+
+void Film::transform_columns(const std::vector<char>& is_lit, Scratch& scratch) const {
+    const Grid& plane = band_.plane;
+    const SineGrid& sines = size_.sines;
+    const std::size_t lit_columns = size_.lit_right - size_.lit_left, lit_rows = size_.lit_high - size_.lit_low;
+    const Vec3 eye = band_.geometry.eye();
+    const double left = sines.first_x + static_cast<double>(size_.lit_left) * sines.step,
+                 low = sines.first_y + static_cast<double>(size_.lit_low) * sines.step;
     const std::vector<LitRows> lit = lit_rows_of(is_lit);
+    Array<float, 2>& half = scratch.half;
+    if (half.size() == 0) half = Array<float, 2>({blocks_of(across(size_.reach_y)), lit_columns * both});
     // Transforms each column and keeps only the frequencies within the pupil.
-    Array<Complex, 2> half({across(size_.reach_y), sines.size_x});
     core::parallel_for(blocks_of(lit_columns), [&](std::size_t block) {
         const std::size_t first = block * lines_together, count = std::min(lines_together, lit_columns - first);
-        Array<Complex, 2> lines({count, stride_of(sines.size_y)});
+        thread_local Array<Complex, 2> lines;
+        thread_local Array<float, 1> together;
+        const Shape<2> shape{lines_together, stride_of(lit_rows)};
+        if (lines.shape() != shape) lines = Array<Complex, 2>(shape);
+        if (together.size() < sines.size_y * both) together = Array<float, 1>({sines.size_y * both});
         for (std::size_t c = 0; c < count; ++c) {
             const double nx = left + static_cast<double>(first + c) * sines.step;
             const double row_of_eye = plane.row(eye.y), rows_per_tangent = -eye.z / plane.pitch_y;
+            // The sine of the row at the tangent v is v √(1 − n_x²)/√(1 + v²).
+            const auto place = [&](double row) {
+                const double tangent = (row - row_of_eye) / rows_per_tangent;
+                const double sine = tangent * std::sqrt(1 - nx * nx) / std::hypot(1.0, tangent);
+                return std::clamp((sine - low) / sines.step, 0.0, static_cast<double>(lit_rows));
+            };
+            std::fill_n(&lines(c, 0), lit_rows, Complex(0));
             for (const LitRows& rows : lit) {
-                // The sine of the row at the tangent v is v √(1 − n_x²)/√(1 + v²).
-                const auto place = [&](double row) {
-                    const double tangent = (row - row_of_eye) / rows_per_tangent;
-                    const double sine = tangent * std::sqrt(1 - nx * nx) / std::hypot(1.0, tangent);
-                    return std::clamp((sine - low) / sines.step, 0.0, static_cast<double>(lit_rows));
-                };
                 const bool all = rows.begin < 0 && rows.end > static_cast<double>(plane.height);
                 const std::size_t from = all ? 0 : static_cast<std::size_t>(place(rows.end)),
                                   to = all ? lit_rows : static_cast<std::size_t>(std::ceil(place(rows.begin)));
-                resample_tangents({&columns(first + c, 0), plane.height},
+                resample_tangents({&scratch.columns(first + c, 0), plane.height},
                                   {low + static_cast<double>(from) * sines.step, sines.step, 1 - nx * nx,
                                    rows_per_tangent, row_of_eye},
-                                  table, {&lines(c, size_.lit_low + from), to - from});
+                                  interpolation(), {&lines(c, from), to - from});
             }
-            down_.forward(&lines(c, 0));
         }
-        for (std::ptrdiff_t k = -size_.reach_y; k <= size_.reach_y; ++k)
-            for (std::size_t c = 0; c < count; ++c)
-                half(k + size_.reach_y, size_.lit_left + first + c) = lines(c, wrapped(k, sines.size_y));
+        std::fill_n(together.data(), size_.lit_low * both, 0.0f);
+        side_by_side(reinterpret_cast<const float*>(lines.data()), lines.extent(1), lit_rows, count,
+                     &together(size_.lit_low * both));
+        std::fill_n(together.data() + size_.lit_high * both, (sines.size_y - size_.lit_high) * both, 0.0f);
+        down_.transform(together.data());
+        turn_rows(together.data(), frequencies_y_, count, &half(0, first * both), half.extent(1));
     });
-    Array<Complex, 2> wave({across(size_.reach_y), across(size_.reach_x)});
-    core::parallel_for(wave.extent(0), [&](std::size_t row) {
-        Array<Complex, 1> line({sines.size_x});
-        std::ranges::copy(half[row].elements(), line.data());
-        along_.forward(line.data());
-        for (std::ptrdiff_t k = -size_.reach_x; k <= size_.reach_x; ++k)
-            wave(row, k + size_.reach_x) = line(wrapped(k, sines.size_x));
-    });
-    return wave;
 }
 
-void Film::expose(std::span<const Array<Complex, 2>> pupil_waves, const Camera& camera,
-                  View<float, 2> intensity) const {
+void Film::expose(std::span<const PupilWave> pupil_waves, const Camera& camera, View<float, 2> intensity) const {
     const FilmLens lens(size_.sines, hologram_.wavelength, camera);
     // Between nodes the intensities are blended linearly.
-    const auto shares = [](const FilmAxis& axis, const SineGrid::Range& sines, std::size_t at, std::size_t nodes) {
-        std::vector<float> share(axis.count);
-        for (std::size_t k = 0; k < axis.count; ++k) {
-            const double sine = axis.low + static_cast<double>(k) * axis.step;
-            const double place = (sine - sines.low) / sines.span() * static_cast<double>(nodes);
-            const double held = std::clamp(place - 0.5, 0.0, static_cast<double>(nodes) - 1);
-            share[k] = static_cast<float>(std::max(0.0, 1 - std::abs(held - static_cast<double>(at))));
-        }
-        return share;
+    const auto share = [](const FilmAxis& axis, const SineGrid::Range& sines, std::size_t k, std::size_t at,
+                          std::size_t nodes) {
+        const double sine = axis.low + static_cast<double>(k) * axis.step;
+        const double place = (sine - sines.low) / sines.span() * static_cast<double>(nodes);
+        const double held = std::clamp(place - 0.5, 0.0, static_cast<double>(nodes) - 1);
+        return static_cast<float>(std::max(0.0, 1 - std::abs(held - static_cast<double>(at))));
     };
-    const std::ptrdiff_t reach_x = std::min(lens.reach_x(), size_.reach_x),
-                         reach_y = std::min(lens.reach_y(), size_.reach_y);
-    Array<Complex, 2> factors({across(reach_y), across(reach_x)});
+    const std::ptrdiff_t reach_y = std::min(lens.reach_y(), size_.reach_y);
+    Node node;
+    node.reach_x = std::min(lens.reach_x(), size_.reach_x);
+    const auto first_row = static_cast<std::size_t>(size_.reach_y - reach_y), end_row = first_row + across(reach_y);
+    node.first_block = first_row / lines_together;
+    node.lens = Array<float, 2>({blocks_of(end_row) - node.first_block, across(node.reach_x) * both});
+    node.share_x = Array<float, 1>({padded(size_.x.count)});
+    node.share_y.resize(size_.y.count);
     for (std::size_t b = 0; b < lens.nodes_y; ++b)
         for (std::size_t a = 0; a < lens.nodes_x; ++a) {
-            core::parallel_for(factors.extent(0), [&](std::size_t y) {
-                std::ranges::fill(factors[y].elements(), Complex(0));
-                lens.row(lens.node_x(a), lens.node_y(b), static_cast<std::ptrdiff_t>(y) - reach_y,
-                         [&](std::ptrdiff_t column, Complex factor) {
-                             if (std::abs(column) <= reach_x) factors(y, column + reach_x) = factor;
-                         });
+            core::parallel_for(node.lens.extent(0), [&](std::size_t block) {
+                std::ranges::fill(node.lens[block].elements(), 0.0f);
+                for (std::size_t lane = 0; lane < lines_together; ++lane) {
+                    const std::size_t y = (node.first_block + block) * lines_together + lane;
+                    if (y < first_row || y >= end_row) continue;
+                    lens.row(lens.node_x(a), lens.node_y(b), static_cast<std::ptrdiff_t>(y) - size_.reach_y,
+                             [&](std::ptrdiff_t column, Complex factor) {
+                                 if (std::abs(column) > node.reach_x) return;
+                                 const auto x = static_cast<std::size_t>(column + node.reach_x);
+                                 node.lens(block, x * both + lane) = factor.real();
+                                 node.lens(block, x * both + lines_together + lane) = factor.imag();
+                             });
+                }
             });
-            const std::vector<float> share_x = shares(size_.x, size_.sines.x, a, lens.nodes_x),
-                                     share_y = shares(size_.y, size_.sines.y, b, lens.nodes_y);
-            for (const Array<Complex, 2>& wave : pupil_waves) expose_node(wave, factors, share_x, share_y, intensity);
+            for (std::size_t i = 0; i < size_.x.count; ++i)
+                node.share_x(i) = share(size_.x, size_.sines.x, i, a, lens.nodes_x);
+            for (std::size_t j = 0; j < size_.y.count; ++j)
+                node.share_y[j] = share(size_.y, size_.sines.y, j, b, lens.nodes_y);
+            for (const PupilWave& wave : pupil_waves) expose_node(wave, node, intensity);
         }
 }
 
-void Film::expose_node(View<const Complex, 2> pupil_wave, View<const Complex, 2> lens, std::span<const float> share_x,
-                       std::span<const float> share_y, View<float, 2> intensity) const {
-    const std::size_t width = lens.extent(1), height = lens.extent(0), middle = width / 2;
-    const std::size_t left = static_cast<std::size_t>(size_.reach_x) - middle,
-                      top = static_cast<std::size_t>(size_.reach_y) - height / 2;
-    Array<Complex, 2> columns({size_.y.count, width});
-    // First the few columns of the opening, then each row, whose intensity is added at once.
-    core::parallel_for(blocks_of(width), [&](std::size_t block) {
-        const std::size_t first = block * lines_together, count = std::min(lines_together, width - first);
-        Array<Complex, 2> lines({count, stride_of(size_.y.size)});
-        for (std::size_t y = 0; y < height; ++y) {
-            const std::size_t at =
-                wrapped(static_cast<std::ptrdiff_t>(y) - static_cast<std::ptrdiff_t>(height / 2), size_.y.size);
-            const Complex *wave = &pupil_wave(top + y, left + first), *factor = &lens(y, first);
-            for (std::size_t c = 0; c < count; ++c) lines(c, at) = times(wave[c], factor[c]);
-        }
-        for (std::size_t c = 0; c < count; ++c) film_down_.backward(&lines(c, 0));
-        for (std::size_t j = 0; j < size_.y.count; ++j)
-            for (std::size_t c = 0; c < count; ++c) columns(j, first + c) = lines(c, size_.y.first + j);
+void Film::expose_node(const PupilWave& pupil_wave, const Node& node, View<float, 2> intensity) const {
+    const std::size_t width = across(node.reach_x), middle = width / 2, blocks = node.lens.extent(0);
+    const std::size_t left = static_cast<std::size_t>(size_.reach_x) - middle;
+    auto scratch = scratch_->take();
+    Array<float, 2>& columns = scratch->film_columns;
+    if (const Shape<2> shape{blocks_of(size_.x.count), blocks * lines_together * both}; columns.shape() != shape)
+        columns = Array<float, 2>(shape);
+    // First the few rows of the opening, then each column, whose intensity is added at once.
+    core::parallel_for(blocks, [&](std::size_t block) {
+        thread_local Array<float, 1> lines;
+        const std::size_t size = film_along_.size();
+        if (lines.size() < size * both) lines = Array<float, 1>({size * both});
+        const float* wave = &pupil_wave(node.first_block + block, left * both);
+        const float* lens = &node.lens(block, 0);
+        times_lens(wave + middle * both, lens + middle * both, middle + 1, lines.data());
+        std::fill_n(&lines((middle + 1) * both), (size - width) * both, 0.0f);
+        times_lens(wave, lens, middle, lines.data() + (size - middle) * both);
+        film_along_.transform(lines.data());
+        turn_rows(lines.data(), film_x_, lines_together, &columns(0, block * lines_together * both), columns.extent(1));
     });
-    core::parallel_for(blocks_of(size_.y.count), [&](std::size_t block) {
-        Array<Complex, 1> line({size_.x.size});
-        for (std::size_t j = block * lines_together; j < std::min((block + 1) * lines_together, size_.y.count); ++j) {
-            if (share_y[j] == 0) continue;
-            std::ranges::fill(line.elements(), Complex(0));
-            std::copy_n(&columns(j, middle), middle + 1, line.data());
-            std::copy_n(&columns(j, 0), middle, line.data() + size_.x.size - middle);
-            film_along_.backward(line.data());
-            float* row = &intensity(j, 0);
-            const Complex* seen = line.data() + size_.x.first;
-            for (std::size_t i = 0; i < size_.x.count; ++i)
-                row[i] += share_y[j] * share_x[i] * (seen[i].real() * seen[i].real() + seen[i].imag() * seen[i].imag());
-        }
+    // Row zero of the columns is the frequency −reach_y + 16 first_block.
+    const std::size_t rows = blocks * lines_together,
+                      below = static_cast<std::size_t>(size_.reach_y) - node.first_block * lines_together;
+    core::parallel_for(columns.extent(0), [&](std::size_t block) {
+        thread_local Array<float, 1> lines;
+        const std::size_t size = film_down_.size(), kept = std::min(rows - below, size - below);
+        if (lines.size() < size * both) lines = Array<float, 1>({size * both});
+        std::copy_n(&columns(block, below * both), kept * both, lines.data());
+        std::fill_n(lines.data() + kept * both, (size - below - kept) * both, 0.0f);
+        std::copy_n(&columns(block, 0), below * both, lines.data() + (size - below) * both);
+        film_down_.transform(lines.data());
+        add_intensities(lines.data(), film_y_, &node.share_x(block * lines_together), node.share_y,
+                        &intensity(block, 0));
     });
 }
 

@@ -2,12 +2,17 @@
 #pragma once
 
 #include <complex>
+#include <cstdint>
+#include <memory>
 #include <span>
+#include <vector>
 
 #include "hogel/array.h"
 #include "hogel/camera.h"
+#include "hogel/core/object_pool.h"
 #include "hogel/image.h"
-#include "hogel/math/fft.h"
+#include "hogel/math/split_fft.h"
+#include "hogel/optics/lines.h"
 #include "hogel/optics/narrow_band/band_grid.h"
 #include "hogel/optics/sine_grid.h"
 
@@ -42,6 +47,9 @@ struct FilmSize {
     double intensity_bytes() const;
 };
 
+/// The wave over a pupil, see Film::pupil_wave().
+using PupilWave = Array<float, 2>;
+
 /// From one eye's narrow band to photographs: a resampling to direction sines and one transform to the pupil; then for
 /// each focus and size of the pupil a mask with a defocus phase, and a transform back to the film (docs/notation.md
 /// section 4). The pupil covers a quarter of the band in x and in y, so its wave is small, and both transforms are
@@ -54,31 +62,53 @@ class Film {
     /// @param blur   the widest defocus_blur() of these cameras
     Film(const narrow_band::BandGrid& band, const FieldGrid& hologram, double pupil, double blur);
 
-    /// A film that is not exposed yet.
-    Array<float, 2> unexposed() const { return Array<float, 2>({size_.y.count, size_.x.count}); }
+    /// A film that is not exposed yet: blocks of sixteen columns, [column / 16][row · 16 + column mod 16].
+    Array<float, 2> unexposed() const {
+        return Array<float, 2>({blocks_of(size_.x.count), size_.y.count * lines_together});
+    }
 
-    /// The wave over the pupil, [row][column] of frequencies −reach … reach of a transform of the sines.
-    Array<std::complex<float>, 2> pupil_wave(View<const std::complex<float>, 2> band) const;
+    /// The wave over the pupil, at frequencies −reach … reach of a transform of the sines: blocks of sixteen rows,
+    /// [row / 16][column][part][row mod 16], zero beyond the last row.
+    PupilWave pupil_wave(View<const std::complex<float>, 2> band) const;
 
     /// Adds the intensities of several looks, each given by its pupil wave, on a camera's film, of the shape of
     /// unexposed(). The lens is computed once for all of them.
-    void expose(std::span<const Array<std::complex<float>, 2>> pupil_waves, const Camera& camera,
-                View<float, 2> intensity) const;
+    void expose(std::span<const PupilWave> pupil_waves, const Camera& camera, View<float, 2> intensity) const;
 
     /// Adds a camera's picture, in radiance, of the part `shown` of the hologram plane.
     /// @param weight  factor of the intensities: the reciprocal of the number of looks that they sum
-    void develop(View<const float, 2> intensity, const Camera& camera, const Rectangle& shown, double weight,
+    void develop(View<const float, 2> blocks, const Camera& camera, const Rectangle& shown, double weight,
                  Image& picture) const;
 
   private:
-    void expose_node(View<const std::complex<float>, 2> pupil_wave, View<const std::complex<float>, 2> lens,
-                     std::span<const float> share_x, std::span<const float> share_y, View<float, 2> intensity) const;
+    // Arrays that are used again for each look, because new ones would be cleared.
+    struct Scratch {
+        Array<std::complex<float>, 2> columns;  // [sine x][row of the band]
+        Array<float, 2> half;                   // [frequency y / 16][sine x that is lit][part][frequency y mod 16]
+        Array<float, 2> film_columns;           // [column of the film / 16][frequency y][part][column mod 16]
+    };
+
+    // A camera's lens for light from the middle of a part of the film, and the share of the part in the film's light.
+    struct Node {
+        Array<float, 2> lens;  // as a pupil's wave, of the rows and columns below
+        std::ptrdiff_t reach_x = 0;
+        std::size_t first_block = 0;  // of rows
+        Array<float, 1> share_x;      // filled up to a multiple of sixteen
+        std::vector<float> share_y;
+    };
+
+    void resample_rows(View<const std::complex<float>, 2> band, std::vector<char>& is_lit, Scratch& scratch) const;
+    void transform_columns(const std::vector<char>& is_lit, Scratch& scratch) const;
+    void expose_node(const PupilWave& pupil_wave, const Node& node, View<float, 2> intensity) const;
 
     narrow_band::BandGrid band_;
     FieldGrid hologram_;
     FilmSize size_;
-    math::Fft1 along_, down_;            // of the sines
-    math::Fft1 film_along_, film_down_;  // of the film
+    math::SplitFft along_, down_;            // of the sines
+    math::SplitFft film_along_, film_down_;  // of the film
+    // Where transforms leave the frequencies and the film's samples that are kept.
+    std::vector<std::uint32_t> frequencies_x_, frequencies_y_, film_x_, film_y_;
+    std::unique_ptr<core::ObjectPool<Scratch>> scratch_;
 };
 
 }  // namespace hogel::optics::film

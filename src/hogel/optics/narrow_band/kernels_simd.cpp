@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hogel/optics/narrow_band/kernels.h"
+#include "hogel/optics/unit_phasors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hogel::optics::narrow_band {
@@ -125,18 +126,9 @@ void MakePathPhases(const PathPhases& paths, std::span<std::complex<float>> out)
                                   hn::Set(dd, paths.first));
         const auto cycles =
             hn::MulSub(hn::Sqrt(hn::MulAdd(x, x, hn::Set(dd, paths.square))), frequency, hn::Set(dd, paths.off));
-        // Half of the angle, −π/2 … π/2, by the series of its sine and cosine, and doubled.
-        const auto half = hn::Mul(hn::DemoteTo(df, hn::Sub(cycles, hn::Round(cycles))), hn::Set(df, 3.14159265f));
-        const auto square = hn::Mul(half, half);
-        auto sine = hn::Set(df, -1.0f / 39916800), cosine = hn::Set(df, 1.0f / 479001600);
-        for (float c : {1.0f / 362880, -1.0f / 5040, 1.0f / 120, -1.0f / 6, 1.0f})
-            sine = hn::MulAdd(sine, square, hn::Set(df, c));
-        for (float c : {-1.0f / 3628800, 1.0f / 40320, -1.0f / 720, 1.0f / 24, -0.5f, 1.0f})
-            cosine = hn::MulAdd(cosine, square, hn::Set(df, c));
-        sine = hn::Mul(sine, half);
-        const auto twice = hn::Add(sine, sine);
-        hn::StoreInterleaved2(hn::NegMulAdd(twice, sine, hn::Set(df, 1.0f)), hn::Mul(twice, cosine), df,
-                              reinterpret_cast<float*>(&out[i]));
+        hn::Vec<decltype(df)> cosine, sine;
+        optics::HWY_NAMESPACE::unit_phasors(dd, cycles, cosine, sine);
+        hn::StoreInterleaved2(cosine, sine, df, reinterpret_cast<float*>(&out[i]));
     }
     PathPhases rest = paths;
     rest.first += static_cast<double>(i) * paths.pitch;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The transpose of sixteen rows of sixteen numbers, for files that are compiled once for every SIMD target. To be
 // included after hwy/highway.h.
-#if defined(HOGEL_HOLOGRAM_TRANSPOSE_LANES) == defined(HWY_TARGET_TOGGLE)
-#ifdef HOGEL_HOLOGRAM_TRANSPOSE_LANES
-#undef HOGEL_HOLOGRAM_TRANSPOSE_LANES
+#if defined(HOGEL_MATH_TRANSPOSE) == defined(HWY_TARGET_TOGGLE)
+#ifdef HOGEL_MATH_TRANSPOSE
+#undef HOGEL_MATH_TRANSPOSE
 #else
-#define HOGEL_HOLOGRAM_TRANSPOSE_LANES
+#define HOGEL_MATH_TRANSPOSE
 #endif
 
 #include <hwy/highway.h>
@@ -13,7 +13,7 @@
 #include <cstddef>
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::hologram {
+namespace hogel::math {
 namespace HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
@@ -86,6 +86,6 @@ HWY_INLINE void transpose_sixteen(const From& from, std::size_t columns, const T
 #endif
 
 }  // namespace HWY_NAMESPACE
-}  // namespace hogel::hologram
+}  // namespace hogel::math
 HWY_AFTER_NAMESPACE();
 #endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/hologram/eye/lanes.h"
+
+#include <complex>
+
+namespace hogel::hologram::eye {
+
+void sum_row_plain(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line) {
+    for (std::size_t k = 0; k < basis.functions(); ++k)
+        for (std::size_t i = 0; i < 2 * lanes; ++i) {
+            float sum = 0;
+            for (std::size_t column = 0; column < basis.samples(); ++column)
+                sum += columns.first[k * columns.stride + column] * waves[column * 2 * lanes + i];
+            line[k * 2 * lanes + i] = sum;
+        }
+}
+
+void sum_rows_plain(const HogelBasis& basis, const HogelBasis::Weights& rows, float sign, const float* lines,
+                    const float* chosen, float* numbers) {
+    const std::size_t functions = basis.functions(), line = functions * 2 * lanes;
+    for (std::size_t l = 0; l < functions; ++l)
+        for (std::size_t i = 0; i < line; ++i) {
+            float sum = 0;
+            for (std::size_t row = 0; row < basis.samples(); ++row)
+                sum += rows.first[l * rows.stride + row] * lines[row * line + i];
+            if (chosen[i % lanes] != 0) numbers[l * line + i] = sign * sum;
+        }
+}
+
+void add_lanes_plain(const HogelBasis& basis, const float* numbers, std::span<const LaneTarget> targets) {
+    using Complex = std::complex<float>;
+    const auto turn = [](std::size_t function) { return function % 2 == 0 ? Complex(1) : Complex(0, 1); };
+    const std::size_t functions = basis.functions(), nodes = basis.nodes();
+    const View<const float, 2> spread = basis.spread();
+    for (std::size_t lane = 0; lane < targets.size(); ++lane) {
+        const LaneTarget& target = targets[lane];
+        for (std::size_t y = 0; y < nodes; ++y)
+            for (std::size_t x = 0; x < nodes; ++x) {
+                Complex sum = 0;
+                for (std::size_t l = 0; l < functions; ++l)
+                    for (std::size_t k = 0; k < functions; ++k) {
+                        const float* number = numbers + (l * functions + k) * 2 * lanes + lane;
+                        sum += spread(y, l) * spread(x, k) * turn(k) * turn(l) * Complex(number[0], number[lanes]);
+                    }
+                const float* phase = target.phases + 2 * y * phase_row(nodes) + 2 * x;
+                target.band.first[y * target.band.row + x] += sum * Complex(phase[0], phase[phase_row(nodes) + 1]);
+            }
+    }
+}
+
+}  // namespace hogel::hologram::eye

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "hogel/hologram/eye/project.h"
+
+namespace hogel::hologram::eye {
+
+/// The projection of project() for sixteen hogels or looks side by side, the lanes of vectors: nothing is transposed
+/// before the end, and no lane is empty. Lanes do not mix, so that the light of each is the same in any company.
+/// Plain and fast twins agree to rounding.
+
+/// Sums a row of waves over its columns: line[function][part][lane] = Σ_column D_k waves[column][part][lane].
+void sum_row_plain(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line);
+void sum_row(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line);
+
+/// Sums all rows: numbers[down][across][part][lane] = sign · Σ_row D_l lines[row][function][part][lane].
+/// @param chosen  for each lane, whether it is stored (1) or left as it is (0)
+void sum_rows_plain(const HogelBasis& basis, const HogelBasis::Weights& rows, float sign, const float* lines,
+                    const float* chosen, float* numbers);
+void sum_rows(const HogelBasis& basis, const HogelBasis::Weights& rows, float sign, const float* lines,
+              const float* chosen, float* numbers);
+
+/// The place of a lane in its band and what is left of the demodulation, as in HogelView.
+struct LaneTarget {
+    const float* phases;
+    BandPlace band;
+};
+
+/// Adds the light of lanes to their bands, one lane after the other in each row: E numbers Eᵀ, times their phases, with
+/// E = basis.spread() with a factor i for odd functions.
+void add_lanes_plain(const HogelBasis& basis, const float* numbers, std::span<const LaneTarget> targets);
+void add_lanes(const HogelBasis& basis, const float* numbers, std::span<const LaneTarget> targets);
+
+}  // namespace hogel::hologram::eye

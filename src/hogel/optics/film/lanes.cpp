@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/optics/film/lanes.h"
+
+#include <algorithm>
+
+namespace hogel::optics::film {
+namespace {
+
+constexpr std::size_t together = math::SplitFft::together, row = math::SplitFft::row;
+
+}  // namespace
+
+void times_lens_plain(const float* wave, const float* lens, std::size_t rows, float* to) {
+    for (std::size_t i = 0; i < rows; ++i, wave += row, lens += row, to += row)
+        for (std::size_t lane = 0; lane < together; ++lane) {
+            const float a = wave[lane], b = wave[together + lane], c = lens[lane], s = lens[together + lane];
+            to[lane] = a * s + b * c;
+            to[together + lane] = a * c - b * s;
+        }
+}
+
+void turn_rows_plain(const float* rows, std::span<const std::uint32_t> places, std::size_t lanes, float* to,
+                     std::size_t block) {
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+        for (std::size_t part : {std::size_t{0}, together})
+            for (std::size_t i = 0; i < (places.size() + together - 1) / together * together; ++i)
+                to[i / together * block + lane * row + part + i % together] =
+                    i < places.size() ? rows[places[i] * row + part + lane] : 0;
+}
+
+void add_intensities_plain(const float* rows, std::span<const std::uint32_t> places, const float* across,
+                           std::span<const float> down, float* out) {
+    for (std::size_t i = 0; i < places.size(); ++i)
+        for (std::size_t lane = 0; lane < together; ++lane) {
+            const float *value = rows + places[i] * row + lane, re = value[0], im = value[together];
+            out[i * together + lane] += down[i] * across[lane] * (re * re + im * im);
+        }
+}
+
+void side_by_side_plain(const float* lines, std::size_t stride, std::size_t length, std::size_t count, float* to) {
+    for (std::size_t i = 0; i < length; ++i)
+        for (std::size_t lane = 0; lane < together; ++lane)
+            for (std::size_t part : {0, 1})
+                to[i * row + part * together + lane] = lane < count ? lines[2 * (lane * stride + i) + part] : 0;
+}
+
+}  // namespace hogel::optics::film

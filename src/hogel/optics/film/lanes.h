@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "hogel/math/split_fft.h"
+
+namespace hogel::optics::film {
+
+/// The inner loops between the transforms of sixteen lines side by side, whose rows are sixteen complex numbers
+/// [part][lane] as in math::SplitFft. Plain and fast twins agree to rounding. All arrays are aligned to cache lines.
+
+/// to[i] = wave[i] · lens[i] for rows of sixteen, with the parts of the result exchanged.
+void times_lens_plain(const float* wave, const float* lens, std::size_t rows, float* to);
+void times_lens(const float* wave, const float* lens, std::size_t rows, float* to);
+
+/// Turns rows into lines: value `lane` of row places[i] becomes value i mod 16 of row `lane` of block i/16, for lanes
+/// below `lanes`; values of the last block beyond the places are zero.
+/// @param to     the first row of the first block
+/// @param block  floats from one block to the next
+void turn_rows_plain(const float* rows, std::span<const std::uint32_t> places, std::size_t lanes, float* to,
+                     std::size_t block);
+void turn_rows(const float* rows, std::span<const std::uint32_t> places, std::size_t lanes, float* to,
+               std::size_t block);
+
+/// out[i][lane] += down[i] across[lane] |row places[i]|²
+void add_intensities_plain(const float* rows, std::span<const std::uint32_t> places, const float* across,
+                           std::span<const float> down, float* out);
+void add_intensities(const float* rows, std::span<const std::uint32_t> places, const float* across,
+                     std::span<const float> down, float* out);
+
+/// Sixteen lines of complex numbers that begin `stride` numbers apart, side by side.
+void side_by_side_plain(const float* lines, std::size_t stride, std::size_t length, std::size_t count, float* to);
+void side_by_side(const float* lines, std::size_t stride, std::size_t length, std::size_t count, float* to);
+
+}  // namespace hogel::optics::film

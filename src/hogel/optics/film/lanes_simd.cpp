@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// The vector twins of lanes.cpp, compiled for every SIMD target and chosen when first called.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "hogel/optics/film/lanes_simd.cpp"
+#include <hwy/foreach_target.h>
+// Must be included after foreach_target.h:
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+#include "hogel/math/transpose-inl.h"
+#include "hogel/optics/film/lanes.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace hogel::optics::film {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using math::HWY_NAMESPACE::transpose_sixteen;
+
+constexpr std::size_t together = math::SplitFft::together, row = math::SplitFft::row;
+using D = hn::CappedTag<float, together>;
+
+alignas(64) constexpr float dark[row] = {};
+
+void TimesLens(const float* wave, const float* lens, std::size_t rows, float* to) {
+    const D d;
+    for (std::size_t i = 0; i < rows; ++i, wave += row, lens += row, to += row)
+        for (std::size_t lane = 0; lane < together; lane += hn::Lanes(d)) {
+            const auto a = hn::Load(d, wave + lane), b = hn::Load(d, wave + together + lane);
+            const auto c = hn::Load(d, lens + lane), s = hn::Load(d, lens + together + lane);
+            hn::Store(hn::MulAdd(b, c, hn::Mul(a, s)), d, to + lane);
+            hn::Store(hn::NegMulAdd(b, s, hn::Mul(a, c)), d, to + together + lane);
+        }
+}
+
+void TurnRows(const float* rows, std::span<const std::uint32_t> places, std::size_t lanes, float* to,
+              std::size_t block) {
+    for (std::size_t first = 0; first < places.size(); first += together, to += block)
+        for (std::size_t part : {std::size_t{0}, together})
+            transpose_sixteen(
+                [&](std::size_t i) {
+                    return first + i < places.size() ? rows + std::size_t{places[first + i]} * row + part : dark;
+                },
+                lanes, [&](std::size_t lane) { return to + lane * row + part; });
+}
+
+void AddIntensities(const float* rows, std::span<const std::uint32_t> places, const float* across,
+                    std::span<const float> down, float* out) {
+    const D d;
+    for (std::size_t lane = 0; lane < together; lane += hn::Lanes(d)) {
+        const auto share = hn::Load(d, across + lane);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const float* value = rows + std::size_t{places[i]} * row + lane;
+            const auto re = hn::Load(d, value), im = hn::Load(d, value + together);
+            float* sum = out + i * together + lane;
+            const auto weight = hn::Mul(share, hn::Set(d, down[i]));
+            hn::Store(hn::MulAdd(weight, hn::MulAdd(im, im, hn::Mul(re, re)), hn::Load(d, sum)), d, sum);
+        }
+    }
+}
+
+void SideBySide(const float* lines, std::size_t stride, std::size_t length, std::size_t count, float* to) {
+    // Eight numbers, sixteen floats, of each line at a time.
+    std::size_t i = 0;
+    for (; i + 8 <= length; i += 8)
+        transpose_sixteen([&](std::size_t lane) { return lane < count ? lines + 2 * (lane * stride + i) : dark; },
+                          together, [&](std::size_t j) { return to + i * row + j * together; });
+    if (i < length) side_by_side_plain(lines + 2 * i, stride, length - i, count, to + i * row);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hogel::optics::film
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hogel::optics::film {
+
+HWY_EXPORT(TimesLens);
+HWY_EXPORT(TurnRows);
+HWY_EXPORT(AddIntensities);
+HWY_EXPORT(SideBySide);
+
+void times_lens(const float* wave, const float* lens, std::size_t rows, float* to) {
+    HWY_DYNAMIC_DISPATCH(TimesLens)(wave, lens, rows, to);
+}
+void turn_rows(const float* rows, std::span<const std::uint32_t> places, std::size_t lanes, float* to,
+               std::size_t block) {
+    HWY_DYNAMIC_DISPATCH(TurnRows)(rows, places, lanes, to, block);
+}
+void add_intensities(const float* rows, std::span<const std::uint32_t> places, const float* across,
+                     std::span<const float> down, float* out) {
+    HWY_DYNAMIC_DISPATCH(AddIntensities)(rows, places, across, down, out);
+}
+void side_by_side(const float* lines, std::size_t stride, std::size_t length, std::size_t count, float* to) {
+    HWY_DYNAMIC_DISPATCH(SideBySide)(lines, stride, length, count, to);
+}
+
+}  // namespace hogel::optics::film
+#endif
