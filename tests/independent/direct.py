@@ -24,7 +24,7 @@ from common.pictures import read_exr
 
 MAX_ERROR = 0.03
 SIDE = 0.6e-3
-LIGHTS = (((-0.5, 0.6, 0.7), 2.2), ((0.8, 0.1, 0.6), 0.55))  # the way to each, its irradiance in red
+LIGHTS = (((-0.6, 0.75, 0.6), 2.4), ((0.8, 0.1, 0.5), 0.42))  # the way to each, its irradiance in red
 AMBIENT = 0.08
 
 
@@ -36,7 +36,8 @@ def write_card(path, depth, slope):
     scene.write_ply(path)
     normal = np.cross(right, up)
     normal /= np.linalg.norm(normal)
-    return AMBIENT + sum(irradiance * (np.array(way) @ normal) / np.linalg.norm(way) for way, irradiance in LIGHTS) / np.pi
+    lit = sum(irradiance * max(0, np.array(way) @ normal) / np.linalg.norm(way) for way, irradiance in LIGHTS)
+    return AMBIENT + lit / np.pi
 
 
 def main():
