@@ -223,7 +223,7 @@ std::optional<Team::Tiles> RankTeam::take_tiles(const Request& request) {
 void RankTeam::answer_requests() {
     for (auto each = requests_.begin(); each != requests_.end();) {
         const std::optional<Tiles> tiles = take_tiles(*each);
-        if (tiles) link_.send(each->from, Kind::answer, pack(tiles->first, tiles->count));
+        if (tiles) link_.send(each->from, Kind::answer, pack(each->queue, tiles->first, tiles->count));
         each = tiles ? requests_.erase(each) : std::next(each);
     }
 }
@@ -236,6 +236,17 @@ void RankTeam::pass(std::uint64_t queue, std::uint64_t done) {
     passed_.notify_all();
 }
 
+// Called with the lock of what was asked.
+void RankTeam::ask(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead) {
+    if (asked_.insert(queue).second) link_.send(0, Kind::ask, pack(queue, tiles, ahead));
+}
+
+void RankTeam::expect_tiles(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead) {
+    if (link_.rank() == 0) return;
+    const std::lock_guard asking(asking_);
+    ask(queue, tiles, ahead);
+}
+
 Team::Tiles RankTeam::next_tiles(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead) {
     Tiles given;
     if (link_.rank() == 0) {
@@ -245,14 +256,15 @@ Team::Tiles RankTeam::next_tiles(std::uint64_t queue, std::uint64_t tiles, std::
         given = *some;
     } else {
         const std::lock_guard asking(asking_);
-        link_.send(0, Kind::ask, pack(queue, tiles, ahead));
-        for (;;) {
-            if (const auto message = link_.receive(Kind::answer)) {
-                given = {number_at(message->bytes, 0), number_at(message->bytes, 1)};
-                break;
-            }
-            std::this_thread::sleep_for(between_answers);
+        ask(queue, tiles, ahead);
+        while (!answers_.contains(queue)) {
+            if (const auto message = link_.receive(Kind::answer))
+                answers_[number_at(message->bytes, 0)] = {number_at(message->bytes, 1), number_at(message->bytes, 2)};
+            else
+                std::this_thread::sleep_for(between_answers);
         }
+        given = answers_.extract(queue).mapped();
+        asked_.erase(queue);
     }
     if (stopping_) throw Error(ErrorCode::cancelled, "stopped on request");
     return given;

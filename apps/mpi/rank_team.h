@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -41,6 +42,7 @@ class RankTeam final : public Team {
     std::size_t rank() const override { return link_.rank(); }
     std::size_t size() const override { return link_.size(); }
     Tiles next_tiles(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead = UINT64_MAX) override;
+    void expect_tiles(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead) override;
     void pass(std::uint64_t queue, std::uint64_t done) override;
     std::uint64_t sum(std::uint64_t number) override;
     std::string share(const std::string& of_first) override;
@@ -72,6 +74,7 @@ class RankTeam final : public Team {
     void stop_here();
     std::optional<Tiles> take_tiles(const Request& request);
     void answer_requests();
+    void ask(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead);
 
     Link& link_;
     std::mutex mutex_;  // of the members up to the listeners
@@ -84,8 +87,10 @@ class RankTeam final : public Team {
     std::stop_source stop_;
     bool stop_sent_ = false;
     std::atomic<bool> stopping_ = false;
-    std::optional<Report> failure_;  // once known
-    std::mutex asking_;
+    std::optional<Report> failure_;           // once known
+    std::mutex asking_;                       // of the next two
+    std::set<std::uint64_t> asked_;           // queues of whose tiles the first process was asked
+    std::map<std::uint64_t, Tiles> answers_;  // that came and were not waited for
     std::mutex listening_;
     std::map<std::uint64_t, std::function<void(const std::string&)>> listeners_;  // null: ended
     std::map<std::uint64_t, std::list<std::string>> early_;  // what came before a channel's listener

@@ -35,6 +35,8 @@ class HOGEL_API Team {
     /// with the first call for their number. Called from any thread. Throws Error(cancelled) if a process has failed.
     /// @param ahead  how many tiles beyond those that pass() has been told of are handed out; the call waits for more
     virtual Tiles next_tiles(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead = UINT64_MAX) = 0;
+    /// Says that next_tiles() of the same arguments will be called soon, so that its answer may be under way by then.
+    virtual void expect_tiles(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead) = 0;
     /// In the first process: the first `done` tiles of a queue need no more memory.
     virtual void pass(std::uint64_t queue, std::uint64_t done) = 0;
 

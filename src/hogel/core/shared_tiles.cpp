@@ -15,7 +15,8 @@ std::optional<std::size_t> TileQueue::next() {
         last_ = over_ ? tiles_ : std::min<std::size_t>(here_.first + here_.count, tiles_);
     }
     if (over_) return std::nullopt;
-    --here_.count;
+    // While the last tile is worked on, the next ones are under way.
+    if (--here_.count == 0) team_.expect_tiles(queue_, tiles_, ahead_);
     return here_.first++;
 }
 

@@ -22,6 +22,7 @@ class ThirdOfATeam final : public Team, public SharedSink {
         next_ += 6;
         return given;
     }
+    void expect_tiles(std::uint64_t, std::uint64_t, std::uint64_t) override {}
     void pass(std::uint64_t, std::uint64_t) override {}
     std::uint64_t sum(std::uint64_t number) override { return number; }
     std::string share(const std::string& text) override { return text; }
