@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mpi/mpi_link.h"
 
+#include <fmt/format.h>
 #include <sched.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -79,6 +81,9 @@ void MpiLink::forget_what_has_left() {
 }
 
 void MpiLink::send(std::size_t to, Kind kind, std::string bytes) {
+    if (bytes.size() > std::numeric_limits<int>::max())
+        throw Error(ErrorCode::internal,
+                    fmt::format("a message of {} bytes between ranks is longer than MPI sends at once", bytes.size()));
     const std::lock_guard lock(mutex_);
     forget_what_has_left();
     Sent& sent = sent_.emplace_back();

@@ -282,7 +282,7 @@ void RankTeam::listen(std::uint64_t channel, std::function<void(const std::strin
     listeners_[channel] = std::move(take);
 }
 
-void RankTeam::send_to(std::size_t process, const std::string& bytes) { link_.send(process, Kind::direct, bytes); }
+void RankTeam::send_to(std::size_t process, std::string bytes) { link_.send(process, Kind::direct, std::move(bytes)); }
 
 std::string RankTeam::receive_from(std::size_t process) {
     for (;;) {

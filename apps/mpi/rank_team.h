@@ -48,7 +48,7 @@ class RankTeam final : public Team {
     std::string share(const std::string& of_first) override;
     void send(std::uint64_t channel, const std::string& bytes) override;
     void listen(std::uint64_t channel, std::function<void(const std::string& bytes)> take) override;
-    void send_to(std::size_t process, const std::string& bytes) override;
+    void send_to(std::size_t process, std::string bytes) override;
     std::string receive_from(std::size_t process) override;
 
     /// A stop of any process is requested from the sources of all.

@@ -51,6 +51,9 @@ def main():
             runs.append(("hologram", samples, seconds, size("waves.h5")))
             seconds = spent(hogel, "photo", "waves.h5", "-o", "photo.exr", "--resolution", "128", folder=folder)
             runs.append(("photo", samples, seconds, size("photo.exr")))
+            seconds = spent(hogel, "photo", "rays.h5", "-o", "photo.exr", "--resolution", "128", "--wave", "--camera", "narrow",
+                            "--looks", "1", "--wavelength", "532nm", "--pitch", PITCH, folder=folder)
+            runs.append(("streamed photo", samples, seconds, size("photo.exr")))
             seconds = spent(hogel, "propagate", "waves.h5", "-o", "there.h5", "--distance", "2mm", folder=folder)
             runs.append(("propagate", samples, seconds, size("there.h5")))
     json.dump({"processor": processor(),

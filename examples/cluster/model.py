@@ -39,10 +39,11 @@ class Model:
         samples = (o.side / o.pitch)**2
         field = o.colours * samples * COMPLEX_HALF
         per_sample = lambda stage, n: self.rates[stage][0] + self.rates[stage][1] * n
-        # Of each tile the narrow camera sends the part of its band, with the low-pass's margin on each side.
-        cell = o.wavelength * o.distance / o.pupil
-        factor = max(1, math.floor(cell / (o.pitch * 1.1 * 2)))
-        band = (512 / factor + 4) * (384 / factor + 4) * NUMBERS
+        # Of each tile the narrow camera sends its part of the band, with the low-pass's 4.5 samples on each side. The band
+        # passes a quarter of its sampling rate.
+        half_band = 0.5 * o.pupil / (o.wavelength * o.distance)
+        factor = max(1, math.floor(0.25 / (1.1 * half_band * o.pitch)))
+        band = (512 / factor + 9) * (384 / factor + 9) * NUMBERS
         light = o.colours * samples / TILE * band
         lines = 2 * o.colours * samples * NUMBERS  # to columns and back
         return {
@@ -51,9 +52,20 @@ class Model:
                          rays * STREAM_BITS / 8),
             "hologram": (o.colours * per_sample("hologram", samples), o.colours * rays / 3 * HALF + field, 0, 0),
             "photo": (o.colours * per_sample("photo", samples), field, light, light),
-            # Padded and with more samples a line, the transforms take n log n: the rate is that of the largest run.
-            "propagate": (o.colours * per_sample("propagate", samples) * 1.3, 2 * field, lines, lines / max(o.nodes)),
+            # The hologram is not stored, but computed as the camera reads it.
+            "streamed photo": (o.colours * per_sample("streamed photo", samples), rays * HALF, light, light),
+            # n log n, of lines longer than those of the largest run.
+            "propagate": (o.colours * per_sample("propagate", samples) * math.log(samples) / math.log(1e8), 2 * field, lines, 0),
         }
+
+
+    def operations(self, o):
+        """Floating-point operations a hogel, of the stages whose transforms are most of their work."""
+        n, samples = o.hogel / o.pitch, (o.hogel / o.pitch)**2
+        line = 5 * math.log2(o.side / o.pitch)
+        return {"hologram": o.colours * 10 * samples * math.log2(n), "photo": o.colours * samples * (8 + 4 * 9),
+                "streamed photo": o.colours * samples * (10 * math.log2(n) + 8 + 4 * 9),
+                "propagate": o.colours * samples * (4 * line + 30)}
 
 
 def seconds(stage, nodes, o):
@@ -93,9 +105,11 @@ def main():
     model = Model(measured)
     stages = model.stages(o)
     hogels = (o.side / o.hogel)**2
-    print("| stage | processor time a hogel | disk a hogel | messages a hogel |\n|---|---|---|---|")
+    operations = model.operations(o)
+    print("| a hogel takes | processor time | operations | disk | messages |\n|---|---|---|---|---|")
     for name, (work, disk, messages, _) in stages.items():
-        print(f"| {name} | {1e3 * work / hogels:.3g} ms | {disk / hogels / 1e3:.4g} kB | {messages / hogels / 1e3:.3g} kB |")
+        counted = f"{operations[name] / 1e6:.3g} million" if name in operations else ""
+        print(f"| {name} | {1e3 * work / hogels:.3g} ms | {counted} | {disk / hogels / 1e3:.4g} kB | {messages / hogels / 1e3:.4g} kB |")
     print("\n| nodes | " + " | ".join(stages) + " | render, hologram and photo | price |\n|" + "---|" * (len(stages) + 3))
     for nodes in o.nodes:
         row, total = [], 0

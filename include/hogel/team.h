@@ -55,7 +55,7 @@ class HOGEL_API Team {
     virtual void listen(std::uint64_t channel, std::function<void(const std::string& bytes)> take) = 0;
 
     /// Sends bytes to any other process, in order, without waiting.
-    virtual void send_to(std::size_t process, const std::string& bytes) = 0;
+    virtual void send_to(std::size_t process, std::string bytes) = 0;
     /// Waits for the next bytes that a process has sent so. For one thread. Throws Error(cancelled) if a process has
     /// failed.
     virtual std::string receive_from(std::size_t process) = 0;

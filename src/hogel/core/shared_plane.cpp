@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include "hogel/error.h"
 
@@ -13,7 +14,7 @@ namespace {
 using Complex = std::complex<float>;
 
 // Of a message between processes, so that what is under way takes little memory.
-constexpr std::size_t max_message = std::size_t{16} << 20;
+constexpr std::size_t max_message = std::size_t{1} << 20;
 
 // A rectangle of a plane, and the row and column that are the first of an array.
 struct Part {
@@ -101,7 +102,7 @@ void SharedPlane::turn(std::size_t rows, bool columns) {
                 const std::size_t count = std::min(sent_at_once, sent.rows.end() - sending);
                 bytes = pack(sending, count);
                 sending += count;
-                if (to != rank_) team_->send_to(to, bytes);
+                if (to != rank_) team_->send_to(to, std::move(bytes));
             }
             if (getting < got.rows.end()) {
                 const std::size_t count = std::min(got_at_once, got.rows.end() - getting);

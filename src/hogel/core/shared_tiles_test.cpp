@@ -28,7 +28,7 @@ class ThirdOfATeam final : public Team, public SharedSink {
     std::string share(const std::string& text) override { return text; }
     void send(std::uint64_t, const std::string&) override {}
     void listen(std::uint64_t, std::function<void(const std::string&)>) override {}
-    void send_to(std::size_t, const std::string&) override {}
+    void send_to(std::size_t, std::string) override {}
     std::string receive_from(std::size_t) override { return {}; }
     std::unique_ptr<TileQueue> share_tiles(std::size_t tiles) override {
         return std::make_unique<TileQueue>(*this, 9, tiles);
