@@ -227,8 +227,11 @@ def killed(run):
         time.sleep(chance.uniform(0.1, 0.5 + seconds) if kills < KILLS else 0)
         ranks = children(process.pid) if kills < KILLS else []
         if ranks:
-            os.kill(chance.choice(ranks), signal.SIGKILL)
-            kills += 1
+            try:
+                os.kill(chance.choice(ranks), signal.SIGKILL)
+                kills += 1
+            except ProcessLookupError:  # it has just ended
+                pass
         _, error = process.communicate(timeout=300)
         # A rank may be killed after the file has got its name.
         if process.returncode == 0 or (run.folder / "x.h5").exists():
