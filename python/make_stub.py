@@ -23,6 +23,7 @@ CHANGES = [
     (r"^(?:from|import) .*\n", ""),
     (r"^ +__entries.*\n", ""),
     (r"^ +__hash__: ClassVar\[None\].*\n", ""),
+    (r"^ +__(eq|repr|reduce)__: ClassVar\[function\].*\n", ""),
     (r"__eq__\(self, arg0: \w+\)", "__eq__(self, arg0: object)"),
     (r"\*args, \*\*kwargs", "*args: Any, **kwargs: Any"),
     (r"__members__: ClassVar\[dict\] = \.\.\.  # read-only", "__members__: ClassVar[Dict[str, Any]]"),

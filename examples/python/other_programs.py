@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What others' libraries make of hogel's files and arrays: h5py reads a light field, scipy propagates a hologram as odak
-does, xarray names its axes (where it is installed), Pillow, OpenCV or imageio read and write its views. Writes
-refocused.png (a hologram in focus at three depths, by scipy) and views.png."""
+# %% [markdown]
+# # Beside other programs
+#
+# h5py reads hogel's files, xarray names the axes of its arrays, OpenCV, imageio or Pillow change its views, and scipy
+# propagates its holograms as odak does.
+
+# %%
 import h5py
 import hogel
 import numpy as np
@@ -11,7 +15,10 @@ from hogel import deg, mm, nm
 scene = hogel.Scene.load("chandelier")
 scene.render(hogels=96, directions=16, size=4.8 * mm, fov=12 * deg, focal_plane=-300 * mm).save("views.h5")
 
+# %% [markdown]
 # h5py: a dataset [c][t][s][v][u], which is read by slices there too.
+
+# %%
 with h5py.File("views.h5") as file:
     names = [name for name, item in file.items() if isinstance(item, h5py.Dataset)]
     values = file[names[0]]
@@ -20,26 +27,23 @@ with h5py.File("views.h5") as file:
 light_field = hogel.LightField.open("views.h5")
 assert np.array_equal(middle.astype(np.float32), light_field.part(v=8, u=8))
 
-# xarray: the same with names and coordinates.
+# %% [markdown]
+# xarray: the same with names and coordinates, so that a direction is asked for by its tangent.
+
+# %%
 try:
     import xarray
 
-    grid = light_field.grid
-    named = xarray.DataArray(
-        np.asarray(light_field),
-        dims=light_field.dims,
-        coords={
-            "t": [grid.t(j) for j in range(grid.hogels_t)],
-            "s": [grid.s(i) for i in range(grid.hogels_s)],
-            "v": [grid.v(k) for k in range(grid.directions_v)],
-            "u": [grid.u(k) for k in range(grid.directions_u)],
-        },
-    )
+    named = xarray.DataArray(np.asarray(light_field), dims=light_field.dims, coords=light_field.coords)
     print(f"xarray: {named.sel(u=0, v=0, method='nearest').shape} looks straight on")
 except ImportError:
     print("xarray is not installed")
 
-# Views: pictures of a camera array, changed by another program, and a light field again.
+# %% [markdown]
+# Views: pictures of a camera array, changed by another program, and a light field again. The stripes are on the pictures, so
+# they are on the plane of the hologram.
+
+# %%
 light_field.export("views", force=True)
 try:
     import cv2
@@ -47,8 +51,9 @@ try:
     read, write = (lambda name: cv2.imread(name)[..., ::-1]), (lambda name, p: cv2.imwrite(name, p[..., ::-1]))
 except ImportError:
     try:
-        from imageio.v2 import imread as read
-        from imageio.v2 import imwrite as write
+        import imageio
+
+        read, write = imageio.imread, imageio.imwrite
     except ImportError:
         from PIL import Image
 
@@ -63,8 +68,12 @@ striped = hogel.import_views("views", size=4.8 * mm)
 print(striped)
 tiles = [np.moveaxis(striped.part(v=8, u=u), 0, -1) for u in (0, 8, 15)]
 hogel.Picture(np.concatenate(tiles, axis=1)).save("views.png")
+# views.png: a chandelier with stripes across it from the left, the middle and the right
 
+# %% [markdown]
 # scipy: the angular spectrum of a hologram, as odak has it, against hogel's.
+
+# %%
 parallel = scene.render(hogels=128, directions=24, size=4 * mm, fov=12 * deg)
 field = parallel.hologram(wavelength=532 * nm, pitch="2.5um").load()[0]
 samples, plane = np.asarray(field), field.grid
@@ -90,6 +99,10 @@ again = np.linalg.norm(np.asarray(back.propagate(depth)) - samples) / np.linalg.
 print(f"there by scipy and back by hogel: {again:.1e}, of which light that left the window is a part")
 assert again < 0.2
 
+# %% [markdown]
+# The hologram in focus at three depths, by scipy alone.
+
+# %%
 stack = []
 for depth in (-1 * mm, 0.2 * mm, 2 * mm):
     light = np.abs(angular_spectrum(samples, -depth)) ** 2
@@ -97,3 +110,4 @@ for depth in (-1 * mm, 0.2 * mm, 2 * mm):
     rows, columns = (length // side for length in light.shape)
     stack.append(light[: rows * side, : columns * side].reshape(rows, side, columns, side).mean(axis=(1, 3)))
 hogel.Picture(np.concatenate(stack, axis=1)).save("refocused.png")
+# refocused.png: a chandelier in focus at three depths

@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A scene from arrays, as trimesh, meshio and Blender lend them, seen by eyes that move: a knot of NumPy's, coloured by
-where it is, rendered, photographed from eight eyes; a film of them where ffmpeg is installed. Writes knot.png and, with
-ffmpeg, knot.gif."""
+# %% [markdown]
+# # A scene from arrays
+#
+# `Scene.mesh()` takes vertices [n][3] and triangles [m][3], as trimesh (`mesh.vertices`, `mesh.faces`), meshio
+# (`mesh.points`, `mesh.cells_dict["triangle"]`) and Blender (`foreach_get`) lend them. Here NumPy winds a tube around a knot.
+
+# %%
 import hogel
 import numpy as np
 from hogel import deg, mm
@@ -26,11 +30,19 @@ triangles = np.concatenate([np.stack([here, there, corner], -1).reshape(-1, 3), 
 hue = np.repeat(angle, ring)
 colours = 0.5 + 0.45 * np.stack([np.cos(hue), np.cos(hue - 2.1), np.cos(hue + 2.1)], axis=1)
 
+# %% [markdown]
+# The knot casts shadows on itself. It is placed and lit as a file would be.
+
+# %%
 knot = hogel.Scene.mesh(vertices, triangles, normals=spokes.reshape(-1, 3), colors=colours, name="knot")
 print(knot)
 light_field = knot.render(hogels=200, directions=32, size=10 * mm, fov=20 * deg, shading="shadowed").load()
 print(light_field)
 
+# %% [markdown]
+# Eight eyes in a row, and a film of them where ffmpeg is installed.
+
+# %%
 eyes = [(x * mm, 8 * mm, 250 * mm) for x in np.linspace(-38, 38, 8)]
 frames = [light_field.photograph(eye=eye, resolution=200, pupil=4 * mm) for eye in eyes]
 rows = [np.concatenate([np.asarray(frame) for frame in frames[k : k + 4]], axis=1) for k in (0, 4)]
@@ -39,3 +51,5 @@ try:
     hogel.film("knot.gif", frames + frames[-2:0:-1], frame_rate=10)
 except hogel.NotBuiltInError:
     print("ffmpeg is not installed: no film")
+# knot.png: a knot in the colours of the rainbow from eight directions
+# knot.gif: the knot as an eye sees it that moves from side to side

@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A phase pattern that shows a picture 20 mm behind it, found by gradients: forwards by propagate(), backwards by its
-adjoint, with a few lines of Adam in NumPy. Where torch is installed, hogel.autograd does the same inside torch. Writes
-phase.png (the target, what the first and the last phase show, and the phase)."""
+# %% [markdown]
+# # A phase found by gradients
+#
+# A pattern of phases that shows a picture 20 mm behind it. Light goes forwards by `propagate()`, errors come back by its
+# adjoint, `propagate_adjoint()`: that is all a gradient needs.
+
+# %%
 import hogel
 import numpy as np
 from hogel import mm, nm, um
@@ -15,7 +19,10 @@ target[48:208, 48:208] = np.sqrt(np.clip(shown / np.quantile(shown, 0.995), 0, 1
 weight = np.zeros((side, side), np.float32)
 weight[40:216, 40:216] = 1  # what falls beside the picture does not count
 
+# %% [markdown]
+# The error of the amplitudes, and its derivative by each phase.
 
+# %%
 def amplitudes(phase):
     wave = hogel.Field.from_array(np.exp(1j * phase).astype(np.complex64), pitch=pitch, wavelength=wavelength)
     return wave, wave.propagate(distance)
@@ -33,8 +40,12 @@ def gradient(phase):
     slope = np.imag(np.conj(np.asarray(wave)) * np.asarray(back.propagate_adjoint(distance)))
     return (error**2).sum() / (weight * size**2).sum(), slope
 
+# %% [markdown]
+# Adam, in a few lines.
 
-phase = np.random.default_rng(1).uniform(-np.pi, np.pi, (side, side))
+# %%
+first = np.random.default_rng(1).uniform(-np.pi, np.pi, (side, side))
+phase = first.copy()
 before = np.abs(np.asarray(amplitudes(phase)[1]))
 mean, square = np.zeros_like(phase), np.zeros_like(phase)
 for step in range(1, 121):
@@ -44,6 +55,44 @@ for step in range(1, 121):
     if step == 1 or step % 40 == 0:
         print(f"step {step}: error {100 * loss:.2f} % of the light")
 assert loss < 0.03, loss
+
+# %% [markdown]
+# Where torch is installed, `hogel.autograd.propagate()` does the same inside torch: any loss, any optimiser. Its gradient at
+# the first phase is the one above.
+
+# %%
+try:
+    import torch
+
+    import hogel.autograd
+
+    def loss_of(phase):
+        far = hogel.autograd.propagate(torch.exp(1j * phase), pitch=pitch, wavelength=wavelength, distance=distance).abs()
+        where, wanted = torch.from_numpy(weight), torch.from_numpy(target)
+        scale = ((where * far * wanted).sum() / (where * wanted**2).sum()).detach()
+        return (where * (far - scale * wanted) ** 2).sum()
+
+    tensor = torch.from_numpy(first.astype(np.float32)).requires_grad_()
+    loss_of(tensor).backward()
+    ours = 2 * gradient(first)[1]
+    apart = np.linalg.norm(tensor.grad.numpy() - ours) / np.linalg.norm(ours)
+    assert apart < 1e-3, apart
+    optimiser = torch.optim.Adam([tensor], lr=0.12)
+    begin = float(loss_of(tensor))
+    for step in range(20):
+        optimiser.zero_grad()
+        value = loss_of(tensor)
+        value.backward()
+        optimiser.step()
+    assert value < 0.2 * begin
+    print(f"torch: the gradient differs by {apart:.1e}; 20 steps of its Adam take the error to {float(value) / begin:.2f} of what it was")
+except ImportError:
+    print("torch is not installed")
+
+# %% [markdown]
+# The target, what the first and the last phase show, and the phase.
+
+# %%
 after = np.abs(np.asarray(amplitudes(phase)[1]))
 
 
@@ -54,3 +103,4 @@ def bright(values):
 
 panels = [target**2, bright(before), bright(after), (np.mod(phase, 2 * np.pi) / (2 * np.pi)) ** 2.2]
 hogel.Picture(np.concatenate(panels, axis=1)).save("phase.png", exposure=1)
+# phase.png: a pumpkin; noise; the same pumpkin in noise around it; the phase

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The pattern of a light modulator as an array of bytes, as programs that drive one take it (slmsuite's slm.write(), or
-OpenCV's window on a second screen). A class of NumPy stands for the modulator here and shows what it would: writes
-pattern.png, and shown.png, what an eye 300 mm away sees for three encodings."""
+# %% [markdown]
+# # Patterns for a light modulator
+#
+# Programs that drive a modulator take an array of bytes: slmsuite's `slm.write()`, or OpenCV's window on a second screen.
+
+# %%
 import hogel
 import numpy as np
 from hogel import deg, mm, nm, um
@@ -9,7 +12,10 @@ from hogel import deg, mm, nm, um
 light_field = hogel.Scene.load("tower").render(hogels=(75, 60), directions=20, size=4.8 * mm, fov=3 * deg)
 hologram = light_field.hologram(wavelength=532 * nm, pitch=8 * um).load()
 
+# %% [markdown]
+# A class of NumPy stands for the modulator, with the contract of slmsuite's classes, and shows what an eye would see on it.
 
+# %%
 class Modulator:
     """What slmsuite's classes have: a shape (rows, columns), bits, and write() of an array of grey levels."""
 
@@ -25,7 +31,10 @@ class Modulator:
         field = hogel.Field.from_array(wave, pitch=self.pitch, wavelength=wavelength)
         return hogel.Hologram(field).photograph(eye=(0, 0, 300 * mm), pupil=9 * mm, resolution=200)
 
+# %% [markdown]
+# Three encodings of the same hologram: its phase alone, pairs of phases, and a phase found by descent.
 
+# %%
 modulator = Modulator()
 shown = []
 for encoding in ("phase", "double-phase", "gradient"):
@@ -36,3 +45,5 @@ for encoding in ("phase", "double-phase", "gradient"):
     print(pattern)
 hogel.Picture(np.concatenate(shown, axis=1)).save("shown.png", exposure=1)
 pattern.save("pattern.png")
+# shown.png: a tower as an eye sees it by three encodings: the phase alone, double phases, and the phase by descent
+# pattern.png: the levels of the last pattern

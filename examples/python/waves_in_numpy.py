@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fields are arrays: a wave behind two slits, propagated by hogel and by a few lines of NumPy. Writes slits.png, the
-intensity along a line at growing distances."""
+# %% [markdown]
+# # Waves are arrays
+#
+# A wave of green light behind two slits. `Field.from_array()` takes any array of NumPy as it is, without a copy.
+
+# %%
 import hogel
 import numpy as np
 from hogel import mm, nm, um
@@ -10,7 +14,11 @@ x = (np.arange(512) - 255.5) * pitch
 slits = (np.abs(np.abs(x) - 60 * um) < 15 * um) & (np.abs(x[:, None]) < 300 * um)
 field = hogel.Field.from_array(slits.astype(np.complex64), pitch=pitch, wavelength=wavelength)
 
+# %% [markdown]
+# hogel propagates by sums of plane waves at whatever samples are asked for; a few lines of NumPy do the same where the
+# samples stay where they are.
 
+# %%
 def angular_spectrum(samples, distance):
     """The same by Fourier transforms of samples that are padded to four times their side."""
     frequency = np.fft.fftfreq(4 * len(samples), pitch)
@@ -25,5 +33,12 @@ error = np.linalg.norm(np.asarray(near) - other) / np.linalg.norm(other)
 print(f"{near}: differs from NumPy's by {error:.1e}")
 assert error < 1e-2
 
+# %% [markdown]
+# The intensity along a line at growing distances: first two shadows, then fringes.
+
+# %%
 rows = [np.abs(field.propagate(z * mm, output_samples=(512, 1))[0]) ** 2 for z in np.linspace(0.05, 20, 48)]
-hogel.Picture(np.repeat(rows, 4, axis=0)).save("slits.png")
+light = np.sqrt(np.repeat(rows, 5, axis=0))  # darker fringes are seen too
+colour = np.stack([light * shade for shade in (0.35, 1.0, 0.55)], axis=-1)
+hogel.Picture(colour).save("slits.png")
+# slits.png: two bands of light behind the slits that spread and make fringes, from 0.05 mm at the top to 20 mm at the bottom

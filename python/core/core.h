@@ -23,6 +23,10 @@ void add_errors(py::module_& module);
 void add_units(py::module_& module);
 void add_grids(py::module_& module);
 void add_scenes(py::module_& module);
+void add_surfaces(py::module_& module);
+void add_shading(py::module_& module);
+void add_lighting(py::module_& module);
+void add_renderers(py::module_& module);
 void add_light_fields(py::module_& module);
 void add_light_field_files(py::module_& module);
 void add_compression(py::module_& module);
@@ -34,6 +38,7 @@ void add_patterns(py::module_& module);
 void add_elsewhere(py::module_& module);
 void add_views(py::module_& module);
 void add_plans(py::module_& module);
+void add_file_parts(py::module_& module);
 
 /// Runs work on a thread of its own, without the lock of the interpreter, and waits for it. The calling thread looks
 /// for signals every 50 ms, so that Ctrl-C stops the work, which then leaves nothing half-written, and raises

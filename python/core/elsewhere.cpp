@@ -17,7 +17,9 @@ void add_external_fields(py::module_& module) {
     py::enum_<ExternalField::Values>(field, "Values")
         .value("complex", ExternalField::Values::complex)
         .value("amplitude", ExternalField::Values::amplitude)
-        .value("phase", ExternalField::Values::phase);
+        .value("phase", ExternalField::Values::phase)
+        .value("real_imaginary", ExternalField::Values::real_imaginary)
+        .value("amplitude_phase", ExternalField::Values::amplitude_phase);
     field.def(py::init<>())
         .def_readwrite("pitch_x", &ExternalField::pitch_x)
         .def_readwrite("pitch_y", &ExternalField::pitch_y)
@@ -62,6 +64,11 @@ void add_focus(py::module_& module) {
         .def_readonly("brightest", &FocusPlane::brightest)
         .def_readonly("cell", &FocusPlane::cell);
     py::class_<FocusSearch>(module, "FocusSearch")
+        .def_property_readonly(
+            "cells",
+            [](const FocusSearch&) { return std::vector(FocusSearch::cells.begin(), FocusSearch::cells.end()); })
+        .def_property_readonly("edges", [](const FocusSearch&) { return FocusSearch::edges; })
+        .def_readonly("light_depth_of_focus", &FocusSearch::light_depth_of_focus)
         .def_readonly("depths", &FocusSearch::depths)
         .def_readonly("contrasts", &FocusSearch::contrasts)
         .def_readonly("depth_of_focus", &FocusSearch::depth_of_focus)
@@ -96,10 +103,17 @@ void add_orders(py::module_& module) {
         .value("at", OrderSelection::Which::at);
     selection.def(py::init<>())
         .def_readwrite("without_mean", &OrderSelection::without_mean)
-        .def("set_reference_source",
-             [](OrderSelection& s, double x, double y, double z) {
-                 s.reference_source = Vec3{x, y, z};
-             })
+        .def_property(
+            "reference_source",
+            [](const OrderSelection& s) {
+                return s.reference_source ? std::optional(std::array{s.reference_source->x, s.reference_source->y,
+                                                                     s.reference_source->z})
+                                          : std::nullopt;
+            },
+            [](OrderSelection& s, const std::optional<std::array<double, 3>>& at) {
+                s.reference_source.reset();
+                if (at) s.reference_source = Vec3{(*at)[0], (*at)[1], (*at)[2]};
+            })
         .def_readwrite("which", &OrderSelection::which)
         .def_readwrite("frequency_x", &OrderSelection::frequency_x)
         .def_readwrite("frequency_y", &OrderSelection::frequency_y)

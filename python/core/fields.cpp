@@ -46,6 +46,33 @@ class ArrayField final : public FieldSource {
     Provenance provenance_;
 };
 
+// A field whose rectangles a function of Python computes: function(x0, y0, width, height) -> [y][x]. Only one thread at
+// a time is in it.
+class FunctionField final : public FieldSource {
+  public:
+    FunctionField(const FieldGrid& grid, const py::object& function, const py::object& metadata)
+        : grid_(grid), function_(share(function)), provenance_{metadata_of(metadata), {}} {
+        validate(grid, ErrorCode::usage, "field");
+    }
+    const FieldGrid& grid() const override { return grid_; }
+    const Provenance& provenance() const override { return provenance_; }
+    void read(const Region& region, std::size_t, View<Complex, 2> out) const override {
+        validate(region, grid_, out.shape());
+        const py::gil_scoped_acquire acquire;
+        const py::object made = (*function_)(region.x0, region.y0, region.width, region.height);
+        const auto values = py::array_t<Complex, py::array::c_style | py::array::forcecast>::ensure(made);
+        if (!values) throw py::error_already_set();
+        if (shape_of<2>(values, "samples") != out.shape())
+            throw Error(ErrorCode::usage, "samples: the function returned an array of another shape");
+        std::copy_n(values.data(), out.size(), out.data());
+    }
+
+  private:
+    FieldGrid grid_;
+    std::shared_ptr<const py::object> function_;
+    Provenance provenance_;
+};
+
 // A rectangle of the samples of a field, as a field of its own.
 class Cut final : public FieldSource {
   public:
@@ -148,6 +175,7 @@ void add_fields(py::module_& module) {
     py::class_<FieldSource, std::shared_ptr<FieldSource>>(module, "FieldSource")
         .def_property_readonly("grid", &FieldSource::grid)
         .def_property_readonly("looks", &FieldSource::looks)
+        .def_property_readonly("alignment", &FieldSource::alignment)
         .def_property_readonly("metadata", [](const FieldSource& f) { return f.provenance().entries; })
         .def_property_readonly("provenance", [](const FieldSource& f) { return to_metadata(f.provenance()); })
         .def_property_readonly("camera", [](const FieldSource& f) { return f.provenance().camera; });
@@ -157,6 +185,25 @@ void add_fields(py::module_& module) {
             return std::make_shared<const ArrayField>(grid, samples, metadata);
         },
         arg("grid"), arg("samples"), arg("metadata"));
+    module.def(
+        "field_of_function",
+        [](const FieldGrid& grid, const py::object& function, const py::object& metadata) -> Source {
+            return std::make_shared<const FunctionField>(grid, function, metadata);
+        },
+        arg("grid"), arg("function"), arg("metadata"));
+    module.def(
+        "write_npy",
+        [](const std::filesystem::path& path, const py::array_t<Complex, py::array::c_style>& samples) {
+            const View<const Complex, 2> view(samples.data(), shape_of<2>(samples, "samples"));
+            run(py::none(), [&](const Progress&) { write_npy(path, view); });
+        },
+        arg("path"), arg("samples"));
+    module.def(
+        "part",
+        [](const Grid& grid, std::size_t x0, std::size_t y0, std::size_t width, std::size_t height) {
+            return part(grid, Region{x0, y0, width, height});
+        },
+        arg("grid"), arg("x0"), arg("y0"), arg("width"), arg("height"));
     module.def("samples_in_memory", &samples_in_memory, arg("field"));
     module.def(
         "read_region",

@@ -38,6 +38,21 @@ void add_directions(py::module_& module) {
         .value("bottom", Face::bottom);
     module.def(
         "face_name", [](Face face) { return std::string(face_name(face)); }, arg("face"));
+    using Vector = std::array<double, 3>;
+    module.def(
+        "to_face",
+        [](Face face, const Vector& p) {
+            const Vec3 q = to_face(face, {p[0], p[1], p[2]});
+            return Vector{q.x, q.y, q.z};
+        },
+        arg("face"), arg("vector"));
+    module.def(
+        "from_face",
+        [](Face face, const Vector& q) {
+            const Vec3 p = from_face(face, {q[0], q[1], q[2]});
+            return Vector{p.x, p.y, p.z};
+        },
+        arg("face"), arg("vector"));
     add_range<Perspective>(module, "Perspective")
         .def(py::init([](double half_u, double half_v, double center_u, double center_v, Face face) {
                  return Perspective{{half_u, half_v, center_u, center_v}, face};
@@ -105,6 +120,26 @@ void add_light_field_grid(py::module_& module) {
         .def_property_readonly("is_perspective", &LightFieldGrid::is_perspective)
         .def_property_readonly("has_frequencies", &LightFieldGrid::has_frequencies)
         .def_property_readonly("face", &LightFieldGrid::face)
+        .def_property_readonly("half_u", &LightFieldGrid::half_u)
+        .def_property_readonly("half_v", &LightFieldGrid::half_v)
+        .def_property_readonly("center_u", &LightFieldGrid::center_u)
+        .def_property_readonly("center_v", &LightFieldGrid::center_v)
+        .def_property_readonly(
+            "focal_plane",
+            [](const LightFieldGrid& g) { return g.focal_plane() ? std::optional(*g.focal_plane()) : std::nullopt; })
+        .def(
+            "direction_of",
+            [](const LightFieldGrid& g, double U, double V) {
+                const Vec3 d = g.direction_of(U, V);
+                return py::make_tuple(d.x, d.y, d.z);
+            },
+            arg("U"), arg("V"))
+        .def(
+            "covers",
+            [](const LightFieldGrid& g, const std::array<double, 3>& d) {
+                return g.covers({d[0], d[1], d[2]});
+            },
+            arg("direction"))
         .def_property_readonly("step_u", &LightFieldGrid::step_u)
         .def_property_readonly("step_v", &LightFieldGrid::step_v)
         .def_property_readonly("directions", &LightFieldGrid::directions)
@@ -136,6 +171,25 @@ void add_light_field_grid(py::module_& module) {
         arg("grid"));
     module.def("hemicube", &hemicube, arg("grid"), arg("across") = std::numbers::pi, arg("down") = std::numbers::pi);
     module.def("same_hogels", &same_hogels, arg("a"), arg("b"));
+    module.def(
+        "require_perspective",
+        [](const LightFieldGrid& grid, const std::string& what) { require_perspective(grid, ErrorCode::usage, what); },
+        arg("grid"), arg("what"));
+    module.def(
+        "require_common_directions",
+        [](const LightFieldGrid& grid, const std::string& what) {
+            require_common_directions(grid, ErrorCode::usage, what);
+        },
+        arg("grid"), arg("what"));
+    module.def(
+        "require_faces", [](const std::vector<LightFieldGrid>& faces) { require_faces(faces); }, arg("faces"));
+    module.def(
+        "default_tile",
+        [](const LightFieldGrid& grid) {
+            const HogelRange tile = default_tile(grid);
+            return py::make_tuple(tile.ns, tile.nt);
+        },
+        arg("grid"));
     module.def("common_directions", &common_directions, arg("grid"));
     module.def(
         "finer",
@@ -160,6 +214,7 @@ void add_planes(py::module_& module) {
         .def("y", &Grid::y, arg("row"))
         .def("column", &Grid::column, arg("x"))
         .def("row", &Grid::row, arg("y"))
+        .def_property_readonly("samples", &Grid::samples)
         .def_property_readonly("size_x", &Grid::size_x)
         .def_property_readonly("size_y", &Grid::size_y)
         .def_property_readonly("shape", [](const Grid& g) { return py::make_tuple(g.height, g.width); })
@@ -232,6 +287,7 @@ void add_cameras(py::module_& module) {
     module.def("enough_looks", &enough_looks, arg("camera"));
     module.def("resolution_cell", &resolution_cell, arg("camera"), arg("wavelength"));
     module.def("parse_camera", &parse_camera, arg("text"));
+    module.def("describe", &describe, arg("camera"));
 }
 
 }  // namespace

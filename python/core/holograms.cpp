@@ -68,6 +68,16 @@ void add_methods(py::module_& module) {
         },
         arg("method"), arg("scene"), arg("grid"), arg("channel"), arg("seed"), arg("spacing"), arg("planes"),
         arg("report"));
+    const auto pairs_of = [](const std::vector<Channel>& channels) {
+        std::vector<std::pair<double, std::size_t>> pairs;
+        for (const Channel& c : channels) pairs.emplace_back(c.wavelength, c.index);
+        return pairs;
+    };
+    module.def(
+        "mono", [pairs_of](double wavelength) { return pairs_of(mono(wavelength)); }, arg("wavelength"));
+    module.def(
+        "rgb", [pairs_of](double red, double green, double blue) { return pairs_of(rgb(red, green, blue)); },
+        arg("red"), arg("green"), arg("blue"));
     module.def("line_pitch", &line_pitch, arg("method"));
     module.def("needs_depth", &needs_depth, arg("method"));
 }
@@ -100,6 +110,33 @@ void add_holograms(py::module_& module) {
             require_holograms(light_field.grids(), request, cameras);
         },
         arg("light_field"), arg("request"), arg("cameras") = std::vector<Camera>());
+    const auto options_of = [](const LightField& light_field, const HologramRequest& request, std::size_t number) {
+        if (number >= request.channels.size())
+            throw Error(ErrorCode::usage, "number: " + std::to_string(number) + " of " +
+                                              std::to_string(request.channels.size()) + " wavelengths was asked for");
+        return request.options(request.channels[number], light_field.grids());
+    };
+    module.def(
+        "hologram_grid",
+        [options_of](const LightField& light_field, const HologramRequest& request, std::size_t number) {
+            return hologram_grid(light_field.grids(), options_of(light_field, request, number));
+        },
+        arg("light_field"), arg("request"), arg("number") = 0);
+    module.def(
+        "make_hologram",
+        [options_of](const LightField& light_field, const HologramRequest& request, std::size_t number) {
+            const HologramOptions options = options_of(light_field, request, number);
+            return run_for(py::none(), [&](const Progress&) { return make_hologram(light_field, options); });
+        },
+        arg("light_field"), arg("request"), arg("number") = 0);
+    module.def(
+        "make_hologram_of_coefficients",
+        [options_of](const LightField& coefficients, const HologramRequest& request, std::size_t number) {
+            const HologramOptions options = options_of(coefficients, request, number);
+            return run_for(py::none(),
+                           [&](const Progress&) { return make_hologram_of_coefficients(coefficients, options); });
+        },
+        arg("coefficients"), arg("request"), arg("number") = 0);
     module.def("warning_about", &warning_about, arg("light_field"), arg("request"),
                py::call_guard<py::gil_scoped_release>());
     module.def(
@@ -132,6 +169,7 @@ void add_holograms(py::module_& module) {
             run(report, [&](const Progress& p) { write_holograms(path, holograms, options, p); });
         },
         arg("path"), arg("holograms"), arg("half"), arg("metadata"), arg("resume"), arg("report"));
+    module.def("require_fields_name", &require_fields_name, arg("path"));
     module.def(
         "write_fields",
         [](const std::filesystem::path& path, const Fields& fields, const py::object& metadata,

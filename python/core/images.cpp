@@ -6,6 +6,7 @@
 
 #include "arrays.h"
 #include "core.h"
+#include "hogel/screen.h"
 
 namespace hogel::python {
 namespace {
@@ -70,6 +71,16 @@ void add_images(py::module_& module) {
             return py::bytes(reinterpret_cast<const char*>(png.data()), png.size());
         },
         arg("image"), arg("exposure"));
+    module.def(
+        "encode_jpeg",
+        [](const Image& image, double exposure, int quality) {
+            const std::vector<unsigned char> jpeg = [&] {
+                const py::gil_scoped_release release;
+                return encode_jpeg(image, exposure, quality);
+            }();
+            return py::bytes(reinterpret_cast<const char*>(jpeg.data()), jpeg.size());
+        },
+        arg("image"), arg("exposure"), arg("quality") = 90);
     module.def(
         "decode_image",
         [](const py::bytes& bytes, const std::string& name) {

@@ -42,14 +42,23 @@ void add_methods(py::module_& module) {
         .def_readwrite("transform", &CodingMethod::transform)
         .def_readwrite("table", &CodingMethod::table)
         .def_readwrite("symbols", &CodingMethod::symbols);
-    py::class_<Sqnr>(module, "Sqnr").def(py::init<double>(), arg("decibels"));
+    py::class_<Sqnr>(module, "Sqnr")
+        .def(py::init<double>(), arg("decibels"))
+        .def_readwrite("decibels", &Sqnr::decibels);
     py::class_<PixelsPerBit>(module, "PixelsPerBit")
         .def(py::init([](double rate, RateRule rule, std::optional<double> overhead) {
                  return PixelsPerBit{rate, rule, overhead};
              }),
-             arg("rate"), arg("rule") = RateRule::search, arg("overhead") = py::none());
-    py::class_<Step>(module, "Step").def(py::init<double>(), arg("radiance"));
-    py::class_<MaxError>(module, "MaxError").def(py::init<double>(), arg("radiance"));
+             arg("rate"), arg("rule") = RateRule::search, arg("overhead") = py::none())
+        .def_readwrite("rate", &PixelsPerBit::rate)
+        .def_readwrite("rule", &PixelsPerBit::rule)
+        .def_readwrite("overhead", &PixelsPerBit::overhead);
+    py::class_<Step>(module, "Step")
+        .def(py::init<double>(), arg("radiance"))
+        .def_readwrite("radiance", &Step::radiance);
+    py::class_<MaxError>(module, "MaxError")
+        .def(py::init<double>(), arg("radiance"))
+        .def_readwrite("radiance", &MaxError::radiance);
     py::class_<Lossless>(module, "Lossless").def(py::init<>());
 }
 
@@ -69,6 +78,14 @@ void add_light_field_files(py::module_& module) {
         },
         arg("path"), arg("memory") = StreamOptions().memory, arg("layers") = 0);
     module.def("is_stream", &is_stream, arg("path"));
+    module.def(
+        "open_coefficients",
+        [](const std::filesystem::path& path) {
+            return run_for(py::none(), [&](const Progress&) { return open_coefficients(path); });
+        },
+        arg("path"));
+    module.def("require_folder_name", &require_folder_name, arg("path"));
+    module.def("write_text", &write_text, arg("file"), arg("text"));
     module.def(
         "write_light_field",
         [](const std::filesystem::path& path, const LightField& light_field, bool single, bool with_depth,
@@ -107,11 +124,18 @@ void add_compression(py::module_& module) {
         .def(py::init<>())
         .def_readwrite("method", &CompressionOptions::method)
         .def_readwrite("target", &CompressionOptions::target)
-        .def("set_tile",
-             [](CompressionOptions& o, std::size_t columns, std::size_t rows) {
-                 o.tile = HogelRange{0, 0, columns, rows};
-             })
-        .def("set_metadata", [](CompressionOptions& o, const py::object& m) { o.metadata = metadata_of(m); })
+        .def_property(
+            "tile",
+            [](const CompressionOptions& o) {
+                return o.tile ? std::optional(std::pair(o.tile->ns, o.tile->nt)) : std::nullopt;
+            },
+            [](CompressionOptions& o, const std::optional<std::pair<std::size_t, std::size_t>>& columns_and_rows) {
+                o.tile.reset();
+                if (columns_and_rows) o.tile = HogelRange{0, 0, columns_and_rows->first, columns_and_rows->second};
+            })
+        .def_property(
+            "metadata", [](const CompressionOptions& o) { return o.metadata; },
+            [](CompressionOptions& o, const py::object& m) { o.metadata = metadata_of(m); })
         .def_readwrite("layout", &CompressionOptions::layout)
         .def_readwrite("with_depth", &CompressionOptions::with_depth)
         .def_readwrite("depth_error", &CompressionOptions::depth_error)

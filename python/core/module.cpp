@@ -12,6 +12,7 @@ PYBIND11_MODULE(_core, module) {
     add_images(module);
     add_scenes(module);
     add_light_fields(module);
+    add_renderers(module);
     add_light_field_files(module);
     add_compression(module);
     add_fields(module);
@@ -21,4 +22,5 @@ PYBIND11_MODULE(_core, module) {
     add_elsewhere(module);
     add_views(module);
     add_plans(module);
+    add_file_parts(module);
 }

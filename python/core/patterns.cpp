@@ -23,7 +23,9 @@ void add_phase_codes(py::module_& module) {
         .def_readwrite("range", &PhaseCode::range)
         .def_readwrite("offset", &PhaseCode::offset)
         .def_readwrite("inverted", &PhaseCode::inverted)
-        .def_readwrite("closed", &PhaseCode::closed);
+        .def_readwrite("closed", &PhaseCode::closed)
+        .def("phase", &PhaseCode::phase, arg("level"), arg("levels"))
+        .def("level", &PhaseCode::level, arg("phase"), arg("levels"));
     module.def("phase_codes", [] { return phase_codes().names(); });
     module.def("parse_phase_code", &parse_phase_code, arg("text"));
 }
@@ -107,6 +109,7 @@ void add_patterns(py::module_& module) {
                  return options;
              }),
              arg("modulator"))
+        .def_readwrite("modulator", &PatternOptions::modulator)
         .def_readwrite("encoding", &PatternOptions::encoding)
         .def_readwrite("reference_angle", &PatternOptions::reference_angle)
         .def_readwrite("clip", &PatternOptions::clip)

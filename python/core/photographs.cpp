@@ -8,6 +8,8 @@
 
 namespace hogel::python {
 
+using Source = std::shared_ptr<const FieldSource>;
+
 void add_photographs(py::module_& module) {
     using py::arg;
     py::enum_<LightFrom>(module, "LightFrom")
@@ -26,6 +28,12 @@ void add_photographs(py::module_& module) {
              }),
              arg("memory") = ScratchOptions().memory, arg("folder") = std::filesystem::path(),
              arg("film_distance") = 0.0)
+        .def_property(
+            "memory", [](const PlaneWaveCameraOptions& o) { return o.scratch.memory; },
+            [](PlaneWaveCameraOptions& o, std::size_t bytes) { o.scratch.memory = bytes; })
+        .def_property(
+            "folder", [](const PlaneWaveCameraOptions& o) { return o.scratch.folder; },
+            [](PlaneWaveCameraOptions& o, const std::filesystem::path& folder) { o.scratch.folder = folder; })
         .def_readwrite("film_distance", &PlaneWaveCameraOptions::film_distance);
     module.def(
         "photograph_colours",
@@ -43,6 +51,56 @@ void add_photographs(py::module_& module) {
             });
         },
         arg("light_field"), arg("cameras"), arg("pupil_samples"), arg("report"));
+    module.def(
+        "photograph",
+        [](const Source& hologram, const std::vector<Camera>& cameras, const PhotographOptions& options,
+           const py::object& report) {
+            return run_for(report, [&](const Progress& p) { return photograph(*hologram, cameras, options, p); });
+        },
+        arg("hologram"), arg("cameras"), arg("options"), arg("report"));
+    module.def(
+        "photograph_by_plane_waves",
+        [](const Source& hologram, const std::vector<Camera>& cameras, const PlaneWaveCameraOptions& options,
+           const py::object& report) {
+            return run_for(
+                report, [&](const Progress& p) { return photograph_by_plane_waves(*hologram, cameras, options, p); });
+        },
+        arg("hologram"), arg("cameras"), arg("options"), arg("report"));
+    module.def(
+        "require_photographs",
+        [](const FieldGrid& hologram, const std::vector<Camera>& cameras, const PhotographOptions& options) {
+            require_photographs(hologram, cameras, options);
+        },
+        arg("hologram"), arg("cameras"), arg("options"));
+    py::class_<RayPhotographer>(module, "RayPhotographer")
+        .def(py::init([](const LightField& light_field, std::size_t memory, const py::object& report) {
+                 return run_for(report, [&](const Progress& p) {
+                     return std::make_unique<RayPhotographer>(light_field, RayPhotographerOptions{memory}, p);
+                 });
+             }),
+             arg("light_field"), arg("memory") = RayPhotographerOptions().memory, arg("report") = py::none())
+        .def(
+            "photograph",
+            [](RayPhotographer& photographer, const Camera& camera, std::size_t pupil_samples,
+               const py::object& report) {
+                return run_for(report, [&](const Progress& p) {
+                    return photographer.photograph(camera, RayPhotographOptions{pupil_samples}, p);
+                });
+            },
+            arg("camera"), arg("pupil_samples") = RayPhotographOptions().pupil_samples, arg("report") = py::none());
+    py::class_<EyePhotographer>(module, "EyePhotographer")
+        .def(py::init([](const Fields& holograms, const PhotographOptions& options, const py::object& report) {
+                 return run_for(report, [&](const Progress& p) {
+                     return std::make_unique<EyePhotographer>(holograms, options, p);
+                 });
+             }),
+             arg("holograms"), arg("options") = PhotographOptions(), arg("report") = py::none())
+        .def(
+            "photograph",
+            [](EyePhotographer& photographer, const Camera& camera, const py::object& report) {
+                return run_for(report, [&](const Progress& p) { return photographer.photograph(camera, {}, p); });
+            },
+            arg("camera"), arg("report") = py::none());
     module.def(
         "waves_in_focus",
         [](const std::shared_ptr<const FieldSource>& hologram, std::size_t look, const std::vector<Camera>& cameras,

@@ -84,6 +84,32 @@ void add_plans(py::module_& module) {
     module.def("require_resources", &require_resources, arg("plan"), arg("what"), arg("file"));
     module.def("with_history", &with_history, arg("now"), arg("before"));
     module.def(
+        "to_metadata",
+        [](const Metadata& entries, const std::optional<Camera>& camera) {
+            return to_metadata({entries, camera});
+        },
+        arg("entries"), arg("camera"));
+    module.def(
+        "to_provenance",
+        [](const Metadata& metadata) {
+            const Provenance provenance = to_provenance(metadata);
+            return std::pair(provenance.entries, provenance.camera);
+        },
+        arg("metadata"));
+    module.def(
+        "background_entry",
+        [](const std::array<float, 3>& background) {
+            return background_entry({background[0], background[1], background[2]});
+        },
+        arg("background"));
+    module.def(
+        "background_of",
+        [](const Metadata& entries) {
+            const Rgb background = background_of({entries, {}});
+            return std::array{background.r, background.g, background.b};
+        },
+        arg("entries"));
+    module.def(
         "describe_input",
         [](const std::string& name, const std::optional<Scene>& scene) {
             return scene ? describe_input(name, *scene) : describe_input(name);

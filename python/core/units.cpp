@@ -38,6 +38,9 @@ void add_units(py::module_& module) {
         },
         arg("kind"), arg("name"), arg("known"));
     module.def(
+        "throw_known", [](const std::string& kind, const std::string& name) { throw_known(kind, name); }, arg("kind"),
+        arg("name"));
+    module.def(
         "nearest_word",
         [](const std::string& word, const std::vector<std::string>& words) { return nearest_word(word, words); },
         arg("word"), arg("words"));

@@ -51,6 +51,7 @@ void add_view_options(py::module_& module) {
         .def_readonly("scale", &ImportedViews::scale)
         .def_readonly("parallax", &ImportedViews::parallax)
         .def_readonly("estimated", &ImportedViews::estimated)
+        .def_readonly("spool_bytes", &ImportedViews::spool_bytes)
         .def_readonly("summary", &ImportedViews::summary)
         .def_readonly("assumed", &ImportedViews::assumed)
         .def_readonly("notes", &ImportedViews::notes);
@@ -62,7 +63,9 @@ void add_view_options(py::module_& module) {
         .def_readwrite("transfer", &ViewExportOptions::transfer)
         .def_readwrite("exposure", &ViewExportOptions::exposure)
         .def_readwrite("memory", &ViewExportOptions::memory)
-        .def("set_metadata", [](ViewExportOptions& o, const py::object& m) { o.metadata = metadata_of(m); });
+        .def_property(
+            "metadata", [](const ViewExportOptions& o) { return o.metadata; },
+            [](ViewExportOptions& o, const py::object& m) { o.metadata = metadata_of(m); });
     py::class_<ExportedViews>(module, "ExportedViews")
         .def_readonly("columns", &ExportedViews::columns)
         .def_readonly("rows", &ExportedViews::rows)

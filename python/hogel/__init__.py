@@ -15,6 +15,7 @@ options of the command line (docs/command-line.md), which `python -m hogel` runs
 from __future__ import annotations
 
 import os as _os
+from collections.abc import Iterable as _Iterable
 from typing import Union as _Union
 
 from . import _core, _progress
@@ -34,6 +35,7 @@ from ._core import (
     parts,
     thread_count,
 )
+from ._options import add_manners as _add_manners
 from .camera import camera
 from .errors import BadInputError, CancelledError, CannotWriteError, Error, InternalError, NotBuiltInError, UsageError
 from .face import Face
@@ -49,6 +51,7 @@ from .scene import Scene, add_renderer
 from .views import export_views, film, import_views, is_view_set, view_layouts, views_of, write_cameras
 from .units import angle, cm, deg, length, m, mm, nm, rad, um
 
+_add_manners()
 
 __all__ = [
     "BadInputError",
@@ -93,6 +96,7 @@ __all__ = [
     "import_views",
     "info",
     "is_view_set",
+    "join",
     "length",
     "light",
     "m",
@@ -121,53 +125,105 @@ defaults: dict[str, object] = dict(_core.defaults)
 
 
 def scenes() -> dict[str, str]:
-    """The built-in scenes: names, and a line about each."""
+    """The built-in scenes: names, and a line about each.
+
+    >>> import hogel
+    >>> "pumpkin" in hogel.scenes()
+    True
+    """
     return dict(_core.scenes())
 
 
 def renderers() -> list[str]:
-    """The names of the renderers, of `algorithm`."""
+    """The names of the renderers, of `algorithm`.
+
+    >>> import hogel
+    >>> "epi" in hogel.renderers()
+    True
+    """
     return _core.renderers()
 
 
 def shading_models() -> list[str]:
-    """The names of the shading models, of `shading`."""
+    """The names of the shading models, of `shading`.
+
+    >>> import hogel
+    >>> "direct" in hogel.shading_models()
+    True
+    """
     return _core.shading_models()
 
 
 def hologram_methods() -> list[str]:
-    """The names of the methods by which a light field becomes fringes, of `method`."""
+    """The names of the methods by which a light field becomes fringes, of `method`.
+
+    >>> import hogel
+    >>> "fourier" in hogel.hologram_methods()
+    True
+    """
     return _core.hologram_methods()
 
 
 def scene_hologram_methods() -> dict[str, str]:
-    """The methods of Scene.hologram(), which need no light field: names, and a line about each."""
+    """The methods of Scene.hologram(), which need no light field: names, and a line about each.
+
+    >>> import hogel
+    >>> "points" in hogel.scene_hologram_methods()
+    True
+    """
     return {name: text for name, text, _, _ in _core.scene_hologram_methods()}
 
 
 def encodings() -> list[str]:
-    """The names of the ways to show a field by a modulator, of `encoding`."""
+    """The names of the ways to show a field by a modulator, of `encoding`.
+
+    >>> import hogel
+    >>> "double-phase" in hogel.encodings()
+    True
+    """
     return _core.encodings()
 
 
 def modulators() -> list[str]:
-    """The names of common modulators, of `device`."""
+    """The names of common modulators, of `device`.
+
+    >>> import hogel
+    >>> "leto" in hogel.modulators()
+    True
+    """
     return _core.modulators()
 
 
 def coders() -> list[str]:
-    """The names of the coders of compressed light fields, of `coder`."""
+    """The names of the coders of compressed light fields, of `coder`.
+
+    >>> import hogel
+    >>> "hogel" in hogel.coders()
+    True
+    """
     return _core.coders()
 
 
 def show_progress(shown: _Union[bool, None]) -> None:
     """Whether long work shows a bar: True, False, or None, in terminals and notebooks alone. Each call can say otherwise
-    with progress=True, False, or a function of the fraction done, which stops the work by returning False."""
+    with progress=True, False, or a function of the fraction done, which stops the work by returning False.
+
+    >>> import hogel
+    >>> hogel.show_progress(False)  # from now on no bars
+    >>> hogel.show_progress(None)
+    """
     _progress.default = shown
 
 
 def open(path: _Union[str, "_os.PathLike[str]"]) -> _Union[LightField, Hologram, Picture, Scene]:
-    """The light field, hologram, picture or scene of a file, whichever it holds."""
+    """The light field, hologram, picture or scene of a file, whichever it holds.
+
+    >>> import hogel, numpy as np, os, tempfile
+    >>> path = os.path.join(tempfile.mkdtemp(), "grey.png")
+    >>> hogel.Picture(np.full((2, 3, 1), 0.5)).save(path)
+    >>> hogel.open(path)
+    Picture(3x2 pixels, 1 channel)
+    """
     kinds = _core.FileKind
     kind = kinds.light_field if _os.path.isdir(path) else _core.file_kind(_os.fspath(path))
     if kind == kinds.light_field:
@@ -180,7 +236,15 @@ def open(path: _Union[str, "_os.PathLike[str]"]) -> _Union[LightField, Hologram,
 
 
 def info(path: _Union[str, "_os.PathLike[str]"]) -> dict[str, object]:
-    """What `hogel info` says of a file: facts and what made it as texts, and numbers."""
+    """What `hogel info` says of a file: facts and what made it as texts, and numbers.
+
+    >>> import hogel, os, tempfile
+    >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
+    >>> path = os.path.join(tempfile.mkdtemp(), "lf.h5")
+    >>> lf.save(path)
+    >>> hogel.info(path)["hogels_s"]
+    8.0
+    """
     _, text, numbers = _core.summarize(_os.fspath(path))
     return {**dict(text), **dict(numbers)}
 
@@ -189,7 +253,16 @@ def compare(
     a: _Union[str, "_os.PathLike[str]"], b: _Union[str, "_os.PathLike[str]"], *, exposure: _Union[float, None] = None
 ) -> dict[str, float]:
     """How much two files of one kind differ, as `hogel compare` says: pictures, light fields or holograms, of which `a` is
-    the truth."""
+    the truth.
+
+    >>> import hogel, os, tempfile
+    >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
+    >>> folder = tempfile.mkdtemp()
+    >>> for name in "a.h5", "b.hgl":
+    ...     lf.save(os.path.join(folder, name))
+    >>> hogel.compare(os.path.join(folder, "a.h5"), os.path.join(folder, "b.hgl"))["sqnr"] > 35
+    True
+    """
     truth, other = open(a), open(b)
     if isinstance(truth, Picture) and isinstance(other, Picture):
         factor = min(1.0, truth.exposure("auto")) if exposure is None else float(exposure)
@@ -201,8 +274,34 @@ def compare(
     raise BadInputError(f"{a} and {b} are not files of one kind")
 
 
+def join(
+    path: _Union[str, "_os.PathLike[str]"], parts: _Iterable[_Union[str, "_os.PathLike[str]"]], *, progress: _progress.Progress = None
+) -> None:
+    """Makes a light field or hologram file of its parts, as save(part=...) and `--part` of the command line write them. It has
+    the bytes of a file that was written whole.
+
+    >>> import hogel, os, tempfile
+    >>> folder = tempfile.mkdtemp()
+    >>> lf = hogel.Scene.load("pumpkin").render(hogels=4, directions=4)
+    >>> parts = [os.path.join(folder, f"part{number}") for number in (1, 2)]
+    >>> for number, name in enumerate(parts, 1):
+    ...     lf.save(name, part=(number, 2))
+    >>> hogel.join(os.path.join(folder, "whole.h5"), parts)
+    """
+    name = _os.fspath(path)
+    _core.require_writable(name)
+    _core.require_hdf5(name)
+    with _progress.reporting(progress, "joining") as report:
+        _core.join_parts(name, [_os.fspath(part) for part in parts], report)
+
+
 def program() -> str:
-    """The path of the command-line program that belongs to this module."""
+    """The path of the command-line program that belongs to this module.
+
+    >>> import hogel
+    >>> hogel.program().endswith("hogel")
+    True
+    """
     from .__main__ import find
 
     return find()

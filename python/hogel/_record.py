@@ -16,7 +16,7 @@ _RENDER = (
     + _SCENE + " region hemicube focal-plane frequencies interpolate"
 )
 _HOLOGRAM = "wavelength pitch line-pitch method phase lobes basis tolerance"
-_FIELD = "values phase-code imaginary phases zero variable conjugate"
+_FIELD = "values phase-code imaginary phases zero variable conjugate order aperture reference-source reconstruct focal"
 _ORDERS = {
     "render": "scene depth float sqnr " + _RENDER,
     "compress": "input sqnr ppb rule overhead step max-error lossless coder transform table symbols hemicube no-depth "
@@ -28,7 +28,7 @@ _ORDERS = {
     + _HOLOGRAM + " " + _RENDER + " " + _FIELD,
     "propagate": "input distance display output-pitch output-samples offset-x offset-y pitch wavelength " + _FIELD,
     "slm": "input encoding reference clip window iterations device pixels pixel-pitch levels phase-code pitch wavelength "
-    + _FIELD,
+    + _FIELD.replace("phase-code", "input-phase-code"),
     "print": "input strips order exposure",
     "bake": "scene rays bounces tessellate size " + _SCENE,
     "export": "input layout exposure frame-rate",

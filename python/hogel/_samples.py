@@ -12,11 +12,19 @@ from .errors import UsageError
 Path = Union[str, "os.PathLike[str]"]
 
 
+class _Lent:
+    """Memory that was lent by DLPack, which NumPy takes for read-only, because DLPack does not say whether it is."""
+
+    def __init__(self, values: "np.ndarray[Any, Any]") -> None:
+        facts = values.__array_interface__
+        self.values, self.__array_interface__ = values, {**facts, "data": (facts["data"][0], False)}
+
+
 def array_of(values: Any, kind: Any) -> "np.ndarray[Any, Any]":
     """An array of NumPy of anything that lends its memory, by DLPack too (torch, cupy, jax); copied only to change the
     type of its numbers."""
     if not isinstance(values, np.ndarray) and hasattr(values, "__dlpack__"):
-        values = np.from_dlpack(values)
+        values = np.asarray(_Lent(np.from_dlpack(values)))
     return np.require(values, dtype=kind, requirements="A")
 
 

@@ -22,6 +22,7 @@ def save_light_field(
     depth: bool,
     sqnr: Optional[float],
     resume: bool,
+    part: Optional[tuple[int, int]],
     metadata: Any,
     progress: Progress,
 ) -> None:
@@ -36,22 +37,23 @@ def save_light_field(
     if rendered or (imported and depth):
         acted["depth"] = _record.words(depth)
     if os.path.splitext(name)[1] == ".hgl":
-        if single or resume:
-            raise UsageError(f"{'float' if single else 'resume'}: belongs to HDF5 files; {name} is a compressed one")
+        if single or resume or part:
+            raise UsageError(f"{'float' if single else 'resume' if resume else 'part'}: belongs to HDF5 files; {name} is a compressed one")
         options = _core.CompressionOptions()
         ratio = _core.defaults["sqnr"] if sqnr is None else sqnr
         options.target = _core.Sqnr(ratio)
         options.with_depth = depth
         acted["sqnr"] = _record.number(ratio)
         entries = _record.entries(command, acted) if command in ("render", "import") else _record.by_function("LightField.save")
-        options.set_metadata(entries if metadata is None else metadata)
+        options.metadata = entries if metadata is None else metadata
         prepared = light_field._prepared(2, depth, progress)
         with reporting(progress, "compressing") as report:
             _core.compress(prepared, name, options, report)
         return
     if sqnr is not None:
         raise UsageError(f"sqnr: belongs to compressed files, whose names end in .hgl, not to {name}")
-    _core.require_hdf5(name)
+    if part is None:
+        _core.require_hdf5(name)
     if stored:
         # Exact coders keep their precision.
         exact = _core.read_stream_info(light_field.where)["coder"] in ("lossless", "bounded")
@@ -69,6 +71,12 @@ def save_light_field(
             _core.write_views(name, light_field._light_field, single, depth, metadata, report)
             return
         identity = None
+        if part is not None:
+            if resume:
+                raise UsageError("part, resume: only one of them can be asked for")
+            whole = _core.FilePart(int(part[0]), int(part[1]), light_field._identity or "")
+            _core.write_light_field_part(name, light_field._light_field, single, depth, metadata, whole, report)
+            return
         if resume:
             identity = light_field._identity or (_core.describe_input(light_field.where) if made is not None else None)
             if identity is None:

@@ -34,6 +34,14 @@ def _moved(samples: Any, pitch: float, wavelength: float, distance: float, adjoi
 
 
 def propagate(samples: Any, *, pitch: units.Length, wavelength: units.Length, distance: units.Length) -> Any:
-    """The field [y][x] at a distance along +z, a tensor of complex numbers that torch can differentiate."""
+    """The field [y][x] at a distance along +z, a tensor of complex numbers that torch can differentiate.
+
+    >>> import hogel.autograd, torch
+    >>> phase = torch.zeros(16, 16, requires_grad=True)
+    >>> far = hogel.autograd.propagate(torch.exp(1j * phase), pitch="4um", wavelength="532nm", distance="1mm")
+    >>> far.abs().square().sum().backward()
+    >>> phase.grad.shape
+    torch.Size([16, 16])
+    """
     lengths = units.length(pitch, "pitch"), units.length(wavelength, "wavelength"), units.length(distance, "distance")
     return _Propagate.apply(samples, *lengths)

@@ -41,7 +41,14 @@ def compress(
 ) -> dict[str, Any]:
     """Writes a compressed light field, .hgl, as `hogel compress` does. One of sqnr (decibels), ppb (rays a bit), step,
     max_error (radiance) and lossless=True says how well; without one it is 40 dB. Returns bytes, sqnr, pixels_per_bit,
-    step, passes, depth_bytes and depth_error of the file."""
+    step, passes, depth_bytes and depth_error of the file.
+
+    >>> import hogel, os, tempfile
+    >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
+    >>> made = lf.compress(os.path.join(tempfile.mkdtemp(), "lf.hgl"), sqnr=35)
+    >>> made["sqnr"] > 34, made["bytes"] > 0
+    (True, True)
+    """
     name = os.fspath(path)
     _core.require_writable(name)
     _core.require_name(name, "hgl")
@@ -67,7 +74,7 @@ def compress(
         raise UsageError("tone, tone_decades: none or histogram were expected, and decades with histogram alone")
     options.chrominance = chrominance
     if tile is not None:
-        options.set_tile(*units.counts(tile, "tile"))
+        options.tile = units.counts(tile, "tile")
     if metadata is None:
         if self._made is None or "input" not in self._made:
             metadata = _record.by_function("LightField.compress")
@@ -78,7 +85,7 @@ def compress(
             if self.has_depth:
                 acted["no-depth"] = _record.words(no_depth)
             metadata = _record.entries("compress", {**self._made, **acted})
-    options.set_metadata(metadata)
+    options.metadata = metadata
     prepared = self._prepared(2, options.with_depth, progress)
     with reporting(progress, "compressing") as report:
         return _core.compress(prepared, name, options, report)

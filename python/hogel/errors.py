@@ -12,7 +12,12 @@ from __future__ import annotations
 
 
 class Error(Exception):
-    """A failure that hogel reports, in one line: what, where, what was expected."""
+    """A failure that hogel reports, in one line: what, where, what was expected.
+
+    >>> import hogel
+    >>> issubclass(hogel.BadInputError, hogel.Error), hogel.BadInputError.status
+    (True, 3)
+    """
 
     name = "internal"  #: of the exit status of the command line
     status = 70  #: the exit status of the command line

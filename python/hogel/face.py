@@ -14,7 +14,13 @@ from .errors import UsageError
 
 
 class Face(Samples):
-    """The samples of one face of a light field, or their depths: an array that is read when it is indexed."""
+    """The samples of one face of a light field, or their depths: an array that is read when it is indexed.
+
+    >>> import hogel, numpy as np
+    >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
+    >>> lf.faces[0]
+    Face(front, (1, 6, 8, 4, 5))
+    """
 
     def __init__(self, light_field: _core.LightField, index: int, depth: bool) -> None:
         self._light_field, self._index, self._of_depth = light_field, index, depth
@@ -42,7 +48,13 @@ class Face(Samples):
         return find(self._light_field, self._index)
 
     def read(self, key: Any = (), progress: Progress = None) -> "np.ndarray[Any, Any]":
-        """The elements that slices and whole numbers take. Of a file only the tiles that hold them are read."""
+        """The elements that slices and whole numbers take. Of a file only the tiles that hold them are read.
+
+        >>> import hogel, numpy as np
+        >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
+        >>> lf.faces[0].read((0, slice(2, 4), 0, 0, 0)).shape
+        (2,)
+        """
         axes = axes_of(key, self.shape)
         memory = self._memory()
         if memory is not None:

@@ -2,7 +2,7 @@
 """Complex fields on a plane."""
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, Optional
 
 import numpy as np
@@ -29,6 +29,8 @@ class Field(Samples):
     """
 
     dtype = np.dtype(np.complex64)
+    #: The names of the axes.
+    dims = ("y", "x")
 
     def __init__(self, source: _core.FieldSource, where: str, look: int = 0) -> None:
         self._source, self.where, self._look = source, where, look
@@ -44,7 +46,13 @@ class Field(Samples):
         metadata: Any = None,
     ) -> "Field":
         """The field of an array [y][x], around x = y = 0 or with `grid` anywhere. An array of complex64 is not copied,
-        whatever its strides; do not change it while the field is in use."""
+        whatever its strides; do not change it while the field is in use.
+
+        >>> import hogel, numpy as np
+        >>> wave = hogel.Field.from_array(np.ones((32, 64), np.complex64), pitch="2um", wavelength="633nm")
+        >>> wave.shape, np.asarray(wave).dtype
+        ((32, 64), dtype('complex64'))
+        """
         values = array_of(samples, np.complex64)
         if values.ndim != 2:
             raise UsageError(f"samples: an array [y][x] was expected, not one of {values.ndim} axes")
@@ -56,10 +64,54 @@ class Field(Samples):
         sampling = _core.FieldGrid(grid, units.length(wavelength, "wavelength"))
         return cls(_core.field_of_array(sampling, values, metadata), "in memory")
 
+    @classmethod
+    def from_function(
+        cls,
+        function: Callable[..., Any],
+        *,
+        wavelength: units.Length,
+        samples: Optional[units.Counts] = None,
+        pitch: Optional[units.Length] = None,
+        grid: Optional[_core.Grid] = None,
+        metadata: Any = None,
+    ) -> "Field":
+        """The field of a function of one's own, which computes it when it is read: function(x, y) gets the positions of
+        samples (metres) as arrays [1][x] and [y][1] and returns complex values that can be broadcast to [y][x]. `samples`
+        across and down, `pitch` apart, around x = y = 0; or any `grid`.
+
+        >>> import hogel, numpy as np
+        >>> tilted = hogel.Field.from_function(lambda x, y: np.exp(2e5j * x), samples=(64, 32), pitch="2um", wavelength="633nm")
+        >>> tilted
+        Field(64x32 samples 2 um apart, 0.128 mm x 64 um, 633 nm, computed when read)
+        >>> tilted[0, :3].shape
+        (3,)
+        """
+        if grid is None:
+            if samples is None or pitch is None:
+                raise UsageError("samples, pitch: a field needs the number and the distance of its samples")
+            columns, rows = units.counts(samples, "samples")
+            step = units.length(pitch, "pitch")
+            grid = _core.Grid(columns, rows, step, step)
+        plane = grid
+
+        def region(x0: int, y0: int, width: int, height: int) -> Any:
+            x = np.array([plane.x(i) for i in range(x0, x0 + width)])[None, :]
+            y = np.array([plane.y(j) for j in range(y0, y0 + height)])[:, None]
+            return np.broadcast_to(np.asarray(function(x, y), np.complex64), (height, width))
+
+        sampling = _core.FieldGrid(plane, units.length(wavelength, "wavelength"))
+        return cls(_core.field_of_function(sampling, region, metadata), "computed when read")
+
     @property
     def grid(self) -> _core.Grid:
         """The positions of the samples."""
         return self._source.grid.plane
+
+    @property
+    def coords(self) -> dict[str, "np.ndarray[Any, Any]"]:
+        """The coordinates of the axes y and x, metres, as xarray takes them."""
+        g = self.grid
+        return {"y": np.array([g.y(j) for j in range(g.height)]), "x": np.array([g.x(i) for i in range(g.width)])}
 
     @property
     def wavelength(self) -> float:
@@ -82,7 +134,13 @@ class Field(Samples):
         return dict(self._source.metadata)
 
     def read(self, key: Any = (), progress: Progress = None) -> "np.ndarray[Any, Any]":
-        """The samples that slices and whole numbers take; no others are read or computed than those between them."""
+        """The samples that slices and whole numbers take; no others are read or computed than those between them.
+
+        >>> import hogel, numpy as np
+        >>> wave = hogel.Field.from_array(np.ones((32, 64), np.complex64), pitch="2um", wavelength="633nm")
+        >>> wave.read((slice(0, 8), 3)).shape
+        (8,)
+        """
         axes = axes_of(key, self.shape)
         memory = _core.samples_in_memory(self._source)
         if memory is not None:
@@ -95,13 +153,25 @@ class Field(Samples):
         return arranged(values[:: y.step, :: x.step], axes)
 
     def look(self, number: int) -> "Field":
-        """The field of one look, completely in memory."""
+        """The field of one look, completely in memory.
+
+        >>> import hogel, numpy as np
+        >>> wave = hogel.Field.from_array(np.ones((32, 64), np.complex64), pitch="2um", wavelength="633nm")
+        >>> wave.look(0).shape
+        (32, 64)
+        """
         if not 0 <= number < self.looks:
             raise IndexError(f"look {number}: there are {self.looks}")
         return Field(_core.load_field(self._source, number, None), "in memory")
 
     def load(self, *, progress: Progress = None) -> "Field":
-        """The same field in memory."""
+        """The same field in memory.
+
+        >>> import hogel, numpy as np
+        >>> wave = hogel.Field.from_array(np.ones((32, 64), np.complex64), pitch="2um", wavelength="633nm")
+        >>> wave.propagate("1mm").load().where
+        'in memory'
+        """
         with reporting(progress, "reading") as report:
             return Field(_core.load_field(self._source, self._look, report), "in memory")
 
@@ -117,7 +187,13 @@ class Field(Samples):
         progress: Progress = None,
     ) -> "Field":
         """The field on a parallel plane, farther along +z, towards the viewer, or backwards if negative: its plane waves,
-        exactly, at the samples of the field or at others."""
+        exactly, at the samples of the field or at others.
+
+        >>> import hogel, numpy as np
+        >>> wave = hogel.Field.from_array(np.ones((32, 64), np.complex64), pitch="2um", wavelength="633nm")
+        >>> wave.propagate("1mm", output_samples=(16, 8), output_pitch="4um")
+        Field(16x8 samples 4 um apart, 64 um x 32 um, 633 nm, in memory)
+        """
         output = self._output(output_pitch, output_samples, offset_x, offset_y)
         far = units.length(distance, "distance")
         with reporting(progress, "propagating") as report:
@@ -172,7 +248,16 @@ class Field(Samples):
         progress: Progress = None,
     ) -> _core.FocusSearch:
         """Where an unknown field is in focus: `planes` of the result, the clearest first, each with its depth behind the
-        hologram, prominence, brightest and cell; and the contrasts at all depths. `between`: two depths to search between."""
+        hologram, prominence, brightest and cell; and the contrasts at all depths. `between`: two depths to search between.
+
+        >>> import hogel, numpy as np
+        >>> points = np.zeros((128, 128), np.complex64)
+        >>> points[32::32, 32::32] = 1
+        >>> far = hogel.Field.from_array(points, pitch="4um", wavelength="532nm").propagate("3mm")
+        >>> found = far.focus(between=("1mm", "5mm"))
+        >>> round(found.planes[0].depth * 1e3, 1)
+        3.0
+        """
         first, last = (0.0, 0.0) if between is None else units.lengths(between, "between")
         if between is not None and first == last:
             raise UsageError("between: two different depths were expected")
@@ -180,12 +265,24 @@ class Field(Samples):
             return _core.find_focus(self._source, first, last, planes, max_side, report)
 
     def fourier_image(self, focal_length: units.Length, *, progress: Progress = None) -> "Field":
-        """The field in the back focal plane of a lens in whose front focal plane this one lies."""
+        """The field in the back focal plane of a lens in whose front focal plane this one lies.
+
+        >>> import hogel, numpy as np
+        >>> wave = hogel.Field.from_array(np.ones((32, 64), np.complex64), pitch="2um", wavelength="633nm")
+        >>> wave.fourier_image("100mm").shape
+        (32, 64)
+        """
         with reporting(progress, "propagating") as report:
             return Field(_core.fourier_image(self._source, units.length(focal_length, "focal_length"), report), "in memory")
 
     def fresnel_image(self, distance: units.Length, *, progress: Progress = None) -> "Field":
-        """The field at a distance by one Fourier transform, Fresnel's approximation."""
+        """The field at a distance by one Fourier transform, Fresnel's approximation.
+
+        >>> import hogel, numpy as np
+        >>> wave = hogel.Field.from_array(np.ones((32, 64), np.complex64), pitch="2um", wavelength="633nm")
+        >>> wave.fresnel_image("100mm").shape
+        (32, 64)
+        """
         with reporting(progress, "propagating") as report:
             return Field(_core.fresnel_image(self._source, units.length(distance, "distance"), report), "in memory")
 
@@ -202,19 +299,32 @@ class Field(Samples):
         """The order of a recorded or encoded hologram that is the object's, moved to frequency zero: "right" or "left", the
         one with the most light at positive or negative frequencies, "center", or `at` a frequency x, y (cycles a sample).
         `aperture`: the radius that is cut out, cycles a sample; without one half the way to frequency zero. The mean is
-        subtracted first, and the samples are multiplied by the wave of a reference source at a point x, y, z."""
+        subtracted first, and the samples are multiplied by the wave of a reference source at a point x, y, z.
+
+        >>> import hogel, numpy as np
+        >>> fringes = 1 + np.cos(np.pi / 2 * np.arange(64.0)) * np.ones((64, 1))
+        >>> recorded = hogel.Field.from_array(fringes.astype(np.complex64), pitch="4um", wavelength="532nm")
+        >>> recorded.select_order("right").shape
+        (64, 64)
+        """
         how = _core.OrderSelection()
         how.which = choice(_core.OrderSelection.Which, "at" if at is not None else order, "order")
         if at is not None:
             how.frequency_x, how.frequency_y = (float(part) for part in at)
         how.radius, how.without_mean = aperture, without_mean
         if reference_source is not None:
-            how.set_reference_source(*units.point(reference_source, "reference_source"))
+            how.reference_source = units.point(reference_source, "reference_source")
         with reporting(progress, "cutting the order out") as report:
             return Field(_core.select_order(self._source, how, report)[0], "in memory")
 
     def intensity(self) -> Picture:
-        """The picture of |F|²."""
+        """The picture of |F|².
+
+        >>> import hogel, numpy as np
+        >>> wave = hogel.Field.from_array(np.ones((32, 64), np.complex64), pitch="2um", wavelength="633nm")
+        >>> wave.intensity()
+        Picture(64x32 pixels, 1 channel)
+        """
         values = np.asarray(self)
         return Picture(values.real**2 + values.imag**2)
 

@@ -13,7 +13,7 @@ from ._progress import Progress, reporting
 from ._samples import Path
 from .camera import camera as camera_of
 from .camera import camera_record
-from .elsewhere import description, external_fields
+from .elsewhere import description, external_fields, external_record, reconstructed
 from .errors import BadInputError, UsageError
 from .field import Field
 from .pattern import Pattern, modulator_of, pattern_of
@@ -58,18 +58,47 @@ class Hologram:
         zero: Optional[float] = None,
         variable: str = "",
         conjugate: bool = False,
+        order: Optional[str] = None,
+        aperture: float = 0,
+        reference_source: Union[str, Sequence[units.Length], None] = None,
+        reconstruct: str = "none",
+        focal: Optional[units.Length] = None,
     ) -> "Hologram":
         """Opens a hologram (.h5), or the field of another program: .npy, .npz, .mat, .ohc, .exr, or pictures of amplitudes,
-        phases, or real and imaginary parts. Pitch and wavelength are for files that do not say them; values is "amplitude" or
-        "phase"; the rest are the options of `hogel photo` of these names (docs/holograms-from-elsewhere.md)."""
+        phases, or real and imaginary parts. The options are those of `hogel photo` of these names
+        (docs/holograms-from-elsewhere.md).
+
+        pitch, wavelength  metres, for files that do not say them
+        values             what real numbers are: amplitude, phase, intensity, real-imaginary or amplitude-phase
+        phase_code         how numbers stand for phases
+        imaginary, phases  a second picture; zero: the level of 0 in pictures of parts
+        variable           the array of a file that has several
+        conjugate          its waves go as e^(+iwt)
+        order, aperture    the diffraction order that is the object's: "0", "+1", "-1" or "FX,FY", cycles a sample, and the
+                           radius that is cut out around it; reference_source: a point x, y, z
+        reconstruct        "fourier" or "fresnel": what makes the image, of the length `focal`
+
+        >>> import hogel, numpy as np, os, tempfile
+        >>> path = os.path.join(tempfile.mkdtemp(), "wave.npy")
+        >>> np.save(path, np.ones((8, 16), np.complex64))
+        >>> hogel.Hologram.open(path, pitch="2um", wavelength="532nm")[0].shape
+        (8, 16)
+        """
         name = os.fspath(path)
         described = values is not None or phase_code is not None or imaginary is not None or phases is not None
         if not described and not _core.is_external_field(name):
             if pitch is not None or wavelength is not None:
                 raise UsageError(f"pitch, wavelength: {name} has its own")
-            return cls(_core.open_hologram(name), name, made={"input": name})
+            fields, acted = reconstructed(list(_core.open_hologram(name)), None, order, aperture, reference_source, reconstruct, focal)
+            return cls(fields, name, made={"input": name, **acted})
         what = description(values, phase_code, imaginary, phases, zero, variable, conjugate)
-        return cls(external_fields(name, pitch, wavelength, what), name)
+        fields = external_fields(name, pitch, wavelength, what)
+        record = external_record(
+            name, what, pitch=pitch, wavelength=wavelength, values=values, phase_code=phase_code, imaginary=imaginary,
+            phases=phases, variable=variable,
+        )
+        fields, acted = reconstructed(fields, values, order, aperture, reference_source, reconstruct, focal)
+        return cls(fields, name, made={**record, **acted})
 
     def __len__(self) -> int:
         return len(self._sources)
@@ -95,17 +124,43 @@ class Hologram:
         """What made the hologram."""
         return self[0].metadata
 
+    @property
+    def is_opened(self) -> bool:
+        """Whether it was opened, rather than computed of a light field or a scene or propagated."""
+        return self._made is not None and "input" in self._made and not {"method", "distance"} & self._made.keys()
+
     def save(
-        self, path: Path, *, half: bool = False, resume: bool = False, metadata: Any = None, progress: Progress = None
+        self,
+        path: Path,
+        *,
+        half: bool = False,
+        resume: bool = False,
+        part: Optional[tuple[int, int]] = None,
+        metadata: Any = None,
+        progress: Progress = None,
     ) -> None:
         """Writes .h5, with single floats or with half=True half floats, or fields for other programs: .npy, .npz, .mat,
         .exr. The file appears under its name when it is complete. With resume=True an interrupted call leaves what is
-        done, and the same call continues it."""
+        done, and the same call continues it. With part=(2, 8) the second of eight parts of a file that hogel.join() makes of
+        them is written, for as many processes.
+
+        >>> import hogel, os, tempfile
+        >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
+        >>> path = os.path.join(tempfile.mkdtemp(), "holo.h5")
+        >>> lf.hologram(wavelength="532nm").save(path)
+        >>> len(hogel.Hologram.open(path))
+        1
+        """
         name = os.fspath(path)
         _core.require_writable(name)
         if metadata is None:
             metadata = self._entries(half)
         with reporting(progress, "hologram") as report:
+            if part is not None:
+                if resume:
+                    raise UsageError("part, resume: only one of them can be asked for")
+                _core.write_holograms_part(name, self._sources, half, metadata, self._part(part), report)
+                return
             if os.path.splitext(name)[1] in (".npy", ".npz", ".mat", ".exr"):
                 if half or resume:
                     raise UsageError(f"{'half' if half else 'resume'}: belongs to HDF5 files, not to {name}")
@@ -120,6 +175,13 @@ class Hologram:
                     raise UsageError("resume: what is made of arrays or functions cannot be resumed")
             _core.write_holograms(name, self._sources, half, metadata, identity, report)
 
+    def _part(self, part: tuple[int, int]) -> _core.FilePart:
+        """A part of a file, which knows its input by its name and size, or a scene by its checksum."""
+        source = self._identity or ""
+        if self._made is not None and not source and os.path.isfile(self._made["input"]):
+            source = f"{self._made['input']}, {os.path.getsize(self._made['input'])} bytes"
+        return _core.FilePart(int(part[0]), int(part[1]), source)
+
     def _entries(self, half: bool) -> list[tuple[str, str]]:
         """What its file says made it."""
         if self._made is None:
@@ -132,20 +194,38 @@ class Hologram:
         return _record.by_function("Hologram.save")
 
     def plan(self, *, half: bool = False) -> _core.Plan:
-        """The memory (bytes), disk space and time (seconds) that save() takes, without the cost of the light field."""
+        """The memory (bytes), disk space and time (seconds) that save() takes, without the cost of the light field.
+
+        >>> import hogel, os, tempfile
+        >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
+        >>> lf.hologram(wavelength="532nm").plan().disk > 0
+        True
+        """
         if self._known is None:
             raise UsageError("plan: of holograms that are computed when they are read")
         light_field, wanted = self._known
         return _core.plan_holograms(light_field, wanted, half)
 
     def load(self, *, progress: Progress = None) -> "Hologram":
-        """The same hologram in memory, its first look."""
+        """The same hologram in memory, its first look.
+
+        >>> import hogel, os, tempfile
+        >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
+        >>> lf.hologram(wavelength="532nm").load().where
+        'in memory'
+        """
         return Hologram([field.load(progress=progress) for field in self])
 
     def propagate(self, distance: units.Length, **options: Any) -> "Hologram":
-        """All fields on a parallel plane: Field.propagate()."""
+        """All fields on a parallel plane: Field.propagate().
+
+        >>> import hogel, os, tempfile
+        >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
+        >>> lf.hologram(wavelength="532nm").propagate("1mm", output_samples=64)
+        Hologram(64x64 samples 1.5625 um apart, 0.1 mm x 0.1 mm, 532 nm, in memory)
+        """
         made = Hologram([field.propagate(distance, **options) for field in self])
-        if self._made is not None and list(self._made) == ["input"]:
+        if self._made is not None and self.is_opened:
             plane = made.grid
             made._made = {
                 **self._made,
@@ -175,6 +255,12 @@ class Hologram:
         camera        how waves are photographed: auto, eye, narrow or full
         expected      the mean of infinitely many looks, of a hologram that is computed when it is read
         diffuser      "vertical": a diffuser before a hologram with horizontal parallax only
+
+
+        >>> import hogel, os, tempfile
+        >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
+        >>> lf.hologram().photograph(eye="10,0,300mm", pupil="20mm", resolution=24)
+        Picture(24x24 pixels, 3 channels)
         """
         if len(self) not in (1, 3):
             raise UsageError(f"photograph: a photograph takes one or three wavelengths, not {len(self)}")
@@ -244,7 +330,14 @@ class Hologram:
         return pattern_of(self, encoding, modulator, reference, clip, window, iterations, phase_code, device, pixels, pixel_pitch, progress)
 
     def compare(self, other: "Hologram", *, progress: Progress = None) -> dict[str, float]:
-        """sqnr and psnr (decibels) and max_error of another hologram of this sampling."""
+        """sqnr and psnr (decibels) and max_error of another hologram of this sampling.
+
+        >>> import hogel, os, tempfile
+        >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
+        >>> holo = lf.hologram(wavelength="532nm")
+        >>> holo.compare(holo.load())["max_error"]
+        0.0
+        """
         with reporting(progress, "comparing") as report:
             sqnr, psnr, max_error = _core.compare_fields(self._sources, other._sources, report)
         return {"sqnr": sqnr, "psnr": psnr, "max_error": max_error}

@@ -52,7 +52,15 @@ class LightField(Samples):
     @classmethod
     def open(cls, path: Path, *, layers: Optional[int] = None, progress: Progress = None) -> "LightField":
         """Opens a light field (.h5, .hgl), or imports a set of views as it is (import_views() has options). Samples are
-        read when they are needed. `layers`: of a compressed one, the first layers alone, coarser."""
+        read when they are needed. `layers`: of a compressed one, the first layers alone, coarser.
+
+        >>> import hogel, os, tempfile
+        >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
+        >>> path = os.path.join(tempfile.mkdtemp(), "lf.h5")
+        >>> lf.save(path)
+        >>> hogel.LightField.open(path)[:, 2, 2].shape
+        (3, 8, 8)
+        """
         name = os.fspath(path)
         if layers is not None:
             return cls(_core.open_stream(name, layers=int(layers)), name, {"input": name, "layers": str(layers)})
@@ -74,7 +82,13 @@ class LightField(Samples):
     ) -> "LightField":
         """The light field of an array [c][t][s][v][u] of radiances, or [t][s][v][u] of one channel, and optionally of one
         [t][s][v][u] of depths. Arrays of single floats are not copied, whatever their strides; do not change them while the
-        light field is in use. What `grid` does not say, size, fov, toward and focal_plane do as those of Scene.render()."""
+        light field is in use. What `grid` does not say, size, fov, toward and focal_plane do as those of Scene.render().
+
+        >>> import hogel, numpy as np
+        >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
+        >>> lf.shape
+        (1, 6, 8, 4, 5)
+        """
         from .requests import request
 
         values = array_of(radiance, np.float32)
@@ -116,7 +130,13 @@ class LightField(Samples):
     def of_grid(
         cls, function: Callable[..., Any], grid: _core.LightFieldGrid, *, depth: bool = False, metadata: Any = None
     ) -> "LightField":
-        """from_function() of a sampling that is known already."""
+        """from_function() of a sampling that is known already.
+
+        >>> import hogel, numpy as np
+        >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
+        >>> hogel.LightField.of_grid(lambda s, t, u, v: 0.5 + 0 * s, lf.grid).shape
+        (1, 6, 8, 4, 5)
+        """
         channels = grid.channels
         offset = grid.view.depth if isinstance(grid.view, _core.FocalPlane) else None
         u = np.array([grid.u(k) for k in range(grid.directions_u)])[None, None, None, :]
@@ -141,6 +161,13 @@ class LightField(Samples):
     def grid(self) -> _core.LightFieldGrid:
         """The sampling of the front."""
         return self._light_field.grid
+
+    @property
+    def coords(self) -> dict[str, "np.ndarray[Any, Any]"]:
+        """The coordinates of the axes t, s (metres), v and u (tangents, or sines of frequencies), as xarray takes them."""
+        g = self.grid
+        lengths = {"t": (g.t, g.hogels_t), "s": (g.s, g.hogels_s), "v": (g.v, g.directions_v), "u": (g.u, g.directions_u)}
+        return {name: np.array([at(index) for index in range(length)]) for name, (at, length) in lengths.items()}
 
     @property
     def faces(self) -> list[Face]:
@@ -179,7 +206,13 @@ class LightField(Samples):
 
     def read(self, key: Any = (), progress: Progress = None) -> "np.ndarray[Any, Any]":
         """The elements that slices and whole numbers take, by NumPy's rules. Of a file only the tiles that hold them are
-        read."""
+        read.
+
+        >>> import hogel, numpy as np
+        >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
+        >>> lf.read((0, slice(2, 4), slice(None, None, 2), 1, 1)).shape
+        (2, 4)
+        """
         return self.faces[0].read(key, progress)
 
     def part(self, **indices: Any) -> "np.ndarray[Any, Any]":
@@ -197,27 +230,59 @@ class LightField(Samples):
         return self.read(tuple(indices.get(name, slice(None)) for name in self.dims))
 
     def load(self, *, depth: Optional[bool] = None, progress: Progress = None) -> "LightField":
-        """The same light field in memory; with its depth where it has one, unless depth=False."""
+        """The same light field in memory; with its depth where it has one, unless depth=False.
+
+        >>> import hogel, os, tempfile
+        >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
+        >>> np.asarray(lf.load()).shape
+        (3, 8, 8, 8, 8)
+        """
         with reporting(progress, "reading") as report:
             with_depth = self.has_depth if depth is None else depth
             return LightField(_core.load(self._light_field, with_depth, report), "in memory", self._made)
 
     def stream(self, sink: Callable[..., Any], *, face: int = 0, depth: bool = False, progress: Progress = None) -> None:
         """Calls sink(s, t, radiance, depth) with every tile, one at a time in any order: the first column and row of its
-        hogels, an array [c][t][s][v][u], and one [t][s][v][u] or None. Memory: a few tiles."""
+        hogels, an array [c][t][s][v][u], and one [t][s][v][u] or None. Memory: a few tiles.
+
+        >>> import hogel, numpy as np
+        >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
+        >>> seen = []
+        >>> lf.stream(lambda s, t, radiance, depth: seen.append(radiance.size))
+        >>> sum(seen) == lf.size
+        True
+        """
         with reporting(progress, "reading") as report:
             _core.stream(self._light_field, face, sink, depth, report)
 
     def with_common_directions(self) -> "LightField":
-        """The same light field with the same directions at all hogels, which holograms need."""
+        """The same light field with the same directions at all hogels, which holograms need.
+
+        >>> import hogel, numpy as np
+        >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
+        >>> lf.with_common_directions().grid == lf.grid
+        True
+        """
         return LightField(_core.with_common_directions(self._light_field), self.where, self._made)
 
     def every_nth_hogel(self, n: int) -> "LightField":
-        """Every n-th hogel across and down, for a first look at a large light field: n is odd."""
+        """Every n-th hogel across and down, for a first look at a large light field: n is odd.
+
+        >>> import hogel, numpy as np
+        >>> lf = hogel.LightField.from_array(np.ones((1, 9, 9, 4, 4), np.float32), size="9mm", fov="16deg")
+        >>> lf.every_nth_hogel(3).shape
+        (1, 3, 3, 4, 4)
+        """
         return LightField(_core.every_nth_hogel(self._light_field, n), self.where)
 
     def compare(self, other: "LightField", *, progress: Progress = None) -> dict[str, float]:
-        """sqnr and psnr (decibels) and max_error of another light field of this sampling."""
+        """sqnr and psnr (decibels) and max_error of another light field of this sampling.
+
+        >>> import hogel, numpy as np
+        >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
+        >>> lf.compare(lf)["max_error"]
+        0.0
+        """
         with reporting(progress, "comparing") as report:
             sqnr, psnr, max_error = _core.compare(self._light_field, other._light_field, report)
         return {"sqnr": sqnr, "psnr": psnr, "max_error": max_error}
@@ -238,16 +303,31 @@ class LightField(Samples):
         depth: bool = False,
         sqnr: Optional[float] = None,
         resume: bool = False,
+        part: Optional[tuple[int, int]] = None,
         metadata: Any = None,
         progress: Progress = None,
     ) -> None:
         """Writes the light field: .h5, with half floats or with float=True single ones, or .hgl of this signal to
         quantisation noise ratio (decibels). The file appears under its name when it is complete. With resume=True an
-        interrupted call leaves what is done, and the same call continues it."""
-        save_light_field(self, path, float, half, depth, sqnr, resume, metadata, progress)
+        interrupted call leaves what is done, and the same call continues it. With part=(2, 8) the second of eight parts of a
+        file that hogel.join() makes of them is written, for as many processes.
+
+        >>> import hogel, os, tempfile
+        >>> path = os.path.join(tempfile.mkdtemp(), "small.h5")
+        >>> hogel.Scene.load("pumpkin").render(hogels=4, directions=4).save(path)
+        >>> hogel.LightField.open(path).shape
+        (3, 4, 4, 4, 4)
+        """
+        save_light_field(self, path, float, half, depth, sqnr, resume, part, metadata, progress)
 
     def plan(self, *, depth: bool = False, float: bool = False) -> _core.Plan:
-        """The memory (bytes), disk space and time (seconds) that save() takes of a light field that is rendered."""
+        """The memory (bytes), disk space and time (seconds) that save() takes of a light field that is rendered.
+
+        >>> import hogel, os, tempfile
+        >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
+        >>> lf.plan().disk >= 8 * 8 * 8 * 8 * 3 * 2
+        True
+        """
         if self._rendering is None:
             raise UsageError("plan: of light fields that are rendered; it is what rendering takes")
         wanted, triangles = self._rendering
@@ -269,7 +349,13 @@ class LightField(Samples):
         progress: Progress = None,
     ) -> "Hologram":
         """The hologram of the light field, computed when it is read: one field for each wavelength, without any three
-        (red, green, blue). The options are those of `hogel hologram`."""
+        (red, green, blue). The options are those of `hogel hologram`.
+
+        >>> import hogel, os, tempfile
+        >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
+        >>> lf.hologram(wavelength="532nm", pitch="1.5625um")
+        Hologram(256x256 samples 1.5625 um apart, 0.4 mm x 0.4 mm, 532 nm, computed when read)
+        """
         from .hologram import Hologram
         from .method import hologram_record, hologram_request
 
@@ -298,7 +384,13 @@ class LightField(Samples):
         progress: Progress = None, **options: Any
     ) -> Any:
         """A picture by rays, through the camera that the options describe (hogel.camera()): eye, gaze, focus, pupil,
-        resolution and so on. With `cameras` a list of pictures, one for each."""
+        resolution and so on. With `cameras` a list of pictures, one for each.
+
+        >>> import hogel, os, tempfile
+        >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
+        >>> lf.photograph(eye="10,0,300mm", focus="1mm", resolution=24)
+        Picture(24x24 pixels, 3 channels)
+        """
         points = _core.defaults["pupil_samples"] if pupil_samples is None else int(pupil_samples)
         views = [camera(self.grid.width, self.grid.height, **options)] if cameras is None else list(cameras)
         with reporting(progress, "photograph") as report:
@@ -309,19 +401,38 @@ class LightField(Samples):
         return pictures[0] if cameras is None else pictures
 
     def export(self, target: Path, **options: Any) -> _core.ExportedViews:
-        """Writes the light field as a set of views, or a film of its middle row: hogel.views.export_views()."""
+        """Writes the light field as a set of views, or a film of its middle row: hogel.views.export_views().
+
+        >>> import hogel, os, tempfile
+        >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=3, size="4mm", focal_plane="-300mm")
+        >>> made = lf.export(os.path.join(tempfile.mkdtemp(), "views"))
+        >>> made.columns, made.rows, len(made.files)
+        (3, 3, 9)
+        """
         from .views import export_views
 
         return export_views(self, target, **options)
 
     def print(self, folder: Path, **options: Any) -> list[str]:
-        """Writes the pictures that a hologram printer shows: hogel.views.write_printer_images()."""
+        """Writes the pictures that a hologram printer shows: hogel.views.write_printer_images().
+
+        >>> import hogel, os, tempfile
+        >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
+        >>> len(lf.print(os.path.join(tempfile.mkdtemp(), "prints"), strips=True))
+        8
+        """
         from .views import write_printer_images
 
         return write_printer_images(self, folder, **options)
 
     def views(self) -> Picture:
-        """The picture of the middle direction, a pixel a hogel."""
+        """The picture of the middle direction, a pixel a hogel.
+
+        >>> import hogel, numpy as np
+        >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
+        >>> lf.views()
+        Picture(8x6 pixels, 1 channel)
+        """
         middle = self.part(v=self.shape[3] // 2, u=self.shape[4] // 2)
         return Picture(np.moveaxis(middle, 0, -1))
 

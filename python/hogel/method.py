@@ -12,7 +12,12 @@ from .errors import UsageError
 
 
 def channel_of(wavelength: float) -> int:
-    """The channel of a picture for light of a wavelength: 0 red, 1 green, 2 blue."""
+    """The channel of a picture for light of a wavelength: 0 red, 1 green, 2 blue.
+
+    >>> from hogel.method import channel_of
+    >>> [channel_of(length) for length in (633e-9, 532e-9, 460e-9)]
+    [0, 1, 2]
+    """
     return 0 if wavelength >= 580e-9 else 1 if wavelength >= 490e-9 else 2
 
 
@@ -56,7 +61,13 @@ def hologram_request(
     looks: int = 1,
     seed: int = 1,
 ) -> _core.HologramRequest:
-    """What `hogel hologram` asks for, by the names of its options: see LightField.hologram()."""
+    """What `hogel hologram` asks for, by the names of its options: see LightField.hologram().
+
+    >>> import hogel
+    >>> wanted = hogel.hologram_request(wavelength="633nm", method="basis", tolerance=0.1)
+    >>> wanted.method.transform, wanted.channels
+    ('cdf97', [(6.33e-07, 0)])
+    """
     wanted = _core.HologramRequest()
     if wavelength is not None:
         wanted.channels = [(value, channel_of(value)) for value in units.lengths(wavelength, "wavelength")]

@@ -17,7 +17,14 @@ if TYPE_CHECKING:
 
 class Pattern:
     """The levels of a modulator's pixels, for one wavelength or three: `np.asarray(pattern)` is [y][x][c] of bytes. Made
-    by Hologram.slm()."""
+    by Hologram.slm().
+
+    >>> import hogel, numpy as np
+    >>> wave = hogel.Field.from_array(np.ones((32, 32), np.complex64), pitch="8um", wavelength="532nm")
+    >>> pattern = hogel.Hologram(wave).slm(encoding="phase", pixels=32, pixel_pitch="8um")
+    >>> np.asarray(pattern).shape
+    (32, 32, 1)
+    """
 
     def __init__(self, levels: "np.ndarray[Any, Any]", encoding: str, modulator: _core.Modulator, parts: list[_core.Pattern]) -> None:
         self.levels, self.encoding, self.modulator, self._parts = levels, encoding, modulator, parts
@@ -43,11 +50,24 @@ class Pattern:
         return [part.reference_angle for part in self._parts]
 
     def transmission(self, number: int = 0) -> "np.ndarray[Any, Any]":
-        """The complex transmission [y][x] of the modulator for a wavelength, before a phase code other than hogel's."""
+        """The complex transmission [y][x] of the modulator for a wavelength, before a phase code other than hogel's.
+
+        >>> import hogel, numpy as np
+        >>> wave = hogel.Field.from_array(np.ones((32, 32), np.complex64), pitch="8um", wavelength="532nm")
+        >>> pattern = hogel.Hologram(wave).slm(encoding="phase", pixels=32, pixel_pitch="8um")
+        >>> float(abs(pattern.transmission()[0, 0]).round(6))
+        1.0
+        """
         return _core.transmission(self._parts[number], _core.encoding(self.encoding))
 
     def save(self, path: Union[str, "os.PathLike[str]"], *, metadata: Any = None) -> None:
-        """Writes .png or .bmp of 8 bits, the levels as they are."""
+        """Writes .png or .bmp of 8 bits, the levels as they are.
+
+        >>> import hogel, numpy as np, os, tempfile
+        >>> wave = hogel.Field.from_array(np.ones((32, 32), np.complex64), pitch="8um", wavelength="532nm")
+        >>> pattern = hogel.Hologram(wave).slm(encoding="phase", pixels=32, pixel_pitch="8um")
+        >>> pattern.save(os.path.join(tempfile.mkdtemp(), "pattern.png"))
+        """
         name = os.fspath(path)
         _core.require_writable(name)
         if metadata is None:
@@ -128,9 +148,9 @@ def pattern_of(
         parts = [_core.encode_pattern(field, options, report) for field in fields]
     pattern = Pattern(np.stack([part.levels for part in parts], axis=-1), encoding, modulator, parts)
     made = hologram._made
-    if made is None or list(made) != ["input"]:
+    if made is None or not hologram.is_opened:
         return pattern
-    acted = {**made, "encoding": encoding}
+    acted = {**_record.renamed(made, "phase-code", "input-phase-code"), "encoding": encoding}
     if _core.is_phase_only(options.encoding):
         acted["phase-code"] = phase_code if isinstance(phase_code, str) else ""
     if device is None:

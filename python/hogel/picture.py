@@ -33,7 +33,14 @@ class Picture:
 
     @classmethod
     def open(cls, path: Union[str, os.PathLike[str]]) -> "Picture":
-        """Reads a PNG, JPEG, EXR, BMP, TGA, GIF, HDR, PNM or PFM file; integers are taken as sRGB."""
+        """Reads a PNG, JPEG, EXR, BMP, TGA, GIF, HDR, PNM or PFM file; integers are taken as sRGB.
+
+        >>> import hogel, numpy as np, os, tempfile
+        >>> path = os.path.join(tempfile.mkdtemp(), "grey.png")
+        >>> hogel.Picture(np.full((2, 3, 1), 0.5)).save(path, exposure=1)
+        >>> round(float(np.asarray(hogel.Picture.open(path))[0, 0, 0]), 2)
+        0.5
+        """
         return cls(_core.read_image(os.fspath(path)))
 
     @property
@@ -70,11 +77,20 @@ class Picture:
         return self.pixels if dtype is None else self.pixels.astype(dtype, copy=False)
 
     def exposure(self, exposure: Exposure = "auto") -> float:
-        """The factor of linear values for an exposure, "auto" among them: the brightest parts become white."""
+        """The factor of linear values for an exposure, "auto" among them: the brightest parts become white.
+
+        >>> import hogel, numpy as np
+        >>> hogel.Picture(np.full((2, 3, 1), 0.5)).exposure(2)
+        2.0
+        """
         return _core.automatic_exposure(self._image) if exposure == "auto" else float(exposure)
 
     def save(self, path: Union[str, os.PathLike[str]], *, exposure: Exposure = "auto", metadata: Any = None) -> None:
-        """Writes .png (sRGB of values times the exposure) or .exr (linear). The file appears when it is complete."""
+        """Writes .png (sRGB of values times the exposure) or .exr (linear). The file appears when it is complete.
+
+        >>> import hogel, numpy as np, os, tempfile
+        >>> hogel.Picture(np.full((2, 3, 3), 0.5)).save(os.path.join(tempfile.mkdtemp(), "grey.exr"))
+        """
         name = os.fspath(path)
         _core.require_picture_name(name)
         factor = self.exposure(exposure)
@@ -89,14 +105,25 @@ class Picture:
         _core.write_image(name, self._image, factor, metadata)
 
     def png(self, exposure: Exposure = "auto") -> bytes:
-        """The bytes of a PNG file."""
+        """The bytes of a PNG file.
+
+        >>> import hogel, numpy as np
+        >>> hogel.Picture(np.full((2, 3, 1), 0.5)).png()[:4]
+        b'\x89PNG'
+        """
         return _core.encode_png(self._image, self.exposure(exposure))
 
     def _repr_png_(self) -> bytes:
         return self.png()
 
     def compare(self, other: "Picture", exposure: float = 1) -> dict[str, float]:
-        """psnr and ssim of display values, max_error and linear_psnr of another picture of this size."""
+        """psnr and ssim of display values, max_error and linear_psnr of another picture of this size.
+
+        >>> import hogel, numpy as np
+        >>> grey = hogel.Picture(np.full((16, 16, 1), 0.5))
+        >>> grey.compare(grey)["max_error"]
+        0.0
+        """
         return _core.compare_images(self._image, other._image, exposure)
 
     def __repr__(self) -> str:

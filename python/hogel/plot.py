@@ -76,7 +76,13 @@ def _middle(*lengths: int) -> list[int]:
 def light_field(
     lf: LightField, *, columns: int = 3, rows: int = 3, exposure: Union[str, float] = "auto"
 ) -> "Figure":
-    """A grid of views of a light field, from evenly spread directions: what is seen from the left is at the left."""
+    """A grid of views of a light field, from evenly spread directions: what is seen from the left is at the left.
+
+    >>> import hogel, hogel.plot as plot
+    >>> lf = hogel.Scene.load("pumpkin").render(hogels=12, directions=4, size="1mm").load()
+    >>> len(plot.light_field(lf, columns=2, rows=2).axes)
+    4
+    """
     grid = lf.grid
     across = np.linspace(0, grid.directions_u - 1, min(columns, grid.directions_u)).round().astype(int)
     down = np.linspace(0, grid.directions_v - 1, min(rows, grid.directions_v)).round().astype(int)
@@ -100,7 +106,13 @@ def epipolar(
     lf: LightField, *, t: Optional[int] = None, s: Optional[int] = None, exposure: Union[str, float] = "auto"
 ) -> "Figure":
     """The epipolar planes of a row and a column of hogels, the middle ones unless `t` and `s` say others: radiance over
-    position and direction, where points of the scene are lines whose slope is their depth."""
+    position and direction, where points of the scene are lines whose slope is their depth.
+
+    >>> import hogel, hogel.plot as plot
+    >>> lf = hogel.Scene.load("pumpkin").render(hogels=12, directions=4, size="1mm").load()
+    >>> len(plot.epipolar(lf).axes)
+    2
+    """
     grid = lf.grid
     column, row = _middle(grid.hogels_s, grid.hogels_t)
     column, row = column if s is None else s, row if t is None else t
@@ -126,7 +138,14 @@ def fringe(
     field: Union[Field, Hologram], *, number: int = 0, side: int = 512, decades: float = 5, progress: Progress = None
 ) -> "Figure":
     """The middle of a fringe, its modulus and its phase, beside its spectrum: how much light it sends in which direction.
-    `side`: of the square of samples that is looked at; `decades`: of the spectrum's intensity from black to white."""
+    `side`: of the square of samples that is looked at; `decades`: of the spectrum's intensity from black to white.
+
+    >>> import hogel, hogel.plot as plot
+    >>> lf = hogel.Scene.load("pumpkin").render(hogels=4, directions=16, size="0.2mm")
+    >>> figure = plot.fringe(lf.hologram(wavelength="532nm"), side=64)
+    >>> figure.axes[0].get_title()
+    'modulus'
+    """
     one = field[number] if isinstance(field, Hologram) else field
     grid = one.grid
     columns, rows = min(side, grid.width), min(side, grid.height)
@@ -173,7 +192,13 @@ def focal_stack(
     **camera: Any,
 ) -> "Figure":
     """Photographs in focus at several depths, of a light field by rays or of a hologram by waves. The options are those of
-    photograph()."""
+    photograph().
+
+    >>> import hogel, hogel.plot as plot
+    >>> lf = hogel.Scene.load("pumpkin").render(hogels=12, directions=4, size="1mm").load()
+    >>> len(plot.focal_stack(lf, ("-1mm", 0), resolution=16).axes)
+    2
+    """
     places = [units.length(depth, "depths") for depth in depths]
     if not places:
         raise UsageError("depths: at least one was expected")
@@ -192,7 +217,13 @@ def twins(
     hologram: Hologram, lf: LightField, *, exposure: Union[str, float] = "auto", **camera: Any
 ) -> "Figure":
     """A photograph of a hologram by waves beside its twin, that of the light field by rays through the same camera, and
-    their difference."""
+    their difference.
+
+    >>> import hogel, hogel.plot as plot
+    >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=16, size="0.4mm")
+    >>> plot.twins(lf.hologram(), lf, resolution=12, pupil="20mm").axes[0].get_title()
+    'by waves'
+    """
     waves = hologram.photograph(**camera)
     rays = lf.photograph(**camera)
     factor = _exposure_of([rays], exposure)
@@ -222,7 +253,13 @@ def rate_distortion(
 ) -> "Figure":
     """Signal to error over rays a bit of the compressed light field, which is coded at each rate. `methods`: a curve each,
     a name and options of compress(), such as {"ezw, cdf97": dict(coder="ezw", transform="cdf97")}; all coders without.
-    Rates that a coder cannot reach are left out."""
+    Rates that a coder cannot reach are left out.
+
+    >>> import hogel, hogel.plot as plot
+    >>> lf = hogel.Scene.load("pumpkin").render(hogels=32, directions=8, size="1mm")
+    >>> len(plot.rate_distortion(lf, (2, 4), methods={"hogel": {}}).axes[0].lines)
+    1
+    """
     curves = methods if methods is not None else {coder: {"coder": coder} for coder in ("hogel", "threepass", "ezw", "jpeg4d")}
     figure, ((axis,),) = _figure(1, 1, 5.2, 3.6)
     # Colours that those see apart who see few, and a mark each.

@@ -48,7 +48,12 @@ def up(value: Union[str, Sequence[float]]) -> tuple[float, float, float]:
 
 
 def light(direction: Sequence[float], colour: Colour = "white", strength: float = 2.2) -> _core.Light:
-    """A directional light that comes from `direction` (x, y, z), with its irradiance."""
+    """A directional light that comes from `direction` (x, y, z), with its irradiance.
+
+    >>> import hogel
+    >>> [round(part, 3) for part in hogel.light((0, 0, 2), "white", 1.5).intensity]
+    [1.5, 1.5, 1.5]
+    """
     size = math.hypot(*direction)
     if not (size > 0 and math.isfinite(size)):
         raise UsageError(f"light: {direction!r} is not a direction")

@@ -30,7 +30,12 @@ def request(
     front: Optional[float] = None,
     as_is: bool = False,
 ) -> _core.LightFieldRequest:
-    """What `hogel render` asks for, by the names of its options: see Scene.render()."""
+    """What `hogel render` asks for, by the names of its options: see Scene.render().
+
+    >>> import hogel
+    >>> hogel.request(hogels=(64, 48), directions=16, size="6.4mm").grid.shape
+    (3, 48, 64, 16, 16)
+    """
     defaults = _core.defaults
     columns, rows = units.counts(defaults["hogels"] if hogels is None else hogels, "hogels")
     across, down = units.counts(defaults["directions"] if directions is None else directions, "directions")

@@ -69,7 +69,12 @@ class Scene:
         progress: Progress = None,
     ) -> "Scene":
         """A built-in scene of that name (hogel.scenes()), or a mesh file, which is read at once. The rest turns, places,
-        colours and lights it, as the options of these names do; angles are about x, y and z."""
+        colours and lights it, as the options of these names do; angles are about x, y and z.
+
+        >>> import hogel
+        >>> hogel.Scene.load("sphere", colour="#804020", background="grey")
+        Scene('sphere', built in)
+        """
         pose = _core.ScenePose()
         if up is not None:
             pose.up = pose_of.up(up)
@@ -89,7 +94,7 @@ class Scene:
         if texture is not None:
             from .picture import Picture
 
-            pose.set_texture((texture if isinstance(texture, Picture) else Picture.open(texture))._image)
+            pose.texture = (texture if isinstance(texture, Picture) else Picture.open(texture))._image
         pose.lights = [pose_of.light_of(part) if isinstance(part, str) else part for part in light]
         if background is not None:
             pose.background = pose_of.linear(background, "background")
@@ -143,7 +148,13 @@ class Scene:
         """One mesh from arrays, as trimesh, meshio and Blender lend them: vertices [n][3] (metres with as_is, otherwise
         any unit), triangles [m][3] of indices, and for each vertex optionally normals, linear colors, a given radiance
         [n][3] and texture_coordinates [n][2]. Without normals smooth ones are made, sharp where faces meet at more than
-        `crease`."""
+        `crease`.
+
+        >>> import hogel, numpy as np
+        >>> corners = np.array([(-1, -1, 0), (1, -1, 0), (0, 1, 0.5)])
+        >>> hogel.Scene.mesh(corners, [(0, 1, 2)], name="sail")
+        Scene('sail', 1 triangle)
+        """
         index = np.asarray(triangles)
         if index.dtype.kind not in "iu" or (index.size and (index.min() < 0 or index.max() > 0xFFFFFFFF)):
             raise UsageError("triangles: whole numbers from 0 were expected")
@@ -180,7 +191,13 @@ class Scene:
         return None if self._scene is None else _core.triangle_count(self._scene)
 
     def placed(self, wanted: _core.LightFieldRequest, progress: Progress = None) -> _core.Scene:
-        """The scene at the hologram of a request()."""
+        """The scene at the hologram of a request().
+
+        >>> import hogel
+        >>> placed = hogel.Scene.load("sphere").placed(hogel.request(size="10mm"))
+        >>> placed.meshes[0].positions.shape[1]
+        3
+        """
         wanted.pose = self._pose
         with reporting(progress, "scene") as report:
             if self._scene is None:
@@ -269,7 +286,13 @@ class Scene:
         progress: Progress = None,
     ) -> int:
         """Lights the scene for good, with what its surfaces reflect onto each other, and writes it as a mesh, .glb, as
-        `hogel bake` does. Returns the number of triangles."""
+        `hogel bake` does. Returns the number of triangles.
+
+        >>> import hogel, os, tempfile
+        >>> path = os.path.join(tempfile.mkdtemp(), "lit.glb")
+        >>> hogel.Scene.load("sphere").bake(path, rays=4, bounces=1, size="10mm") > 0
+        True
+        """
         defaults, name = _core.defaults, os.fspath(path)
         _core.require_baked_scene_name(name)
         _core.require_writable(name)

@@ -38,21 +38,36 @@ def _number(value: object, what: str, expected: str) -> float:
 
 
 def length(value: Length, what: str = "length") -> float:
-    """A length in metres, from a number of metres or a text such as "16mm"."""
+    """A length in metres, from a number of metres or a text such as "16mm".
+
+    >>> import hogel
+    >>> hogel.length("1.5um"), hogel.length(0.25)
+    (1.5e-06, 0.25)
+    """
     if isinstance(value, str):
         return _core.parse_length(value, what)
     return _number(value, what, "a length; write metres, such as 0.016 or 16*mm, or a text such as '16mm'")
 
 
 def angle(value: Angle, what: str = "angle") -> float:
-    """An angle in radians, from a number of radians or a text such as "16deg"."""
+    """An angle in radians, from a number of radians or a text such as "16deg".
+
+    >>> import hogel
+    >>> round(hogel.angle("180deg"), 6)
+    3.141593
+    """
     if isinstance(value, str):
         return _core.parse_angle(value, what)
     return _number(value, what, "an angle; write radians, such as 16*deg, or a text such as '16deg'")
 
 
 def angles(value: Union[Angle, Sequence[Angle]], what: str) -> tuple[float, float]:
-    """Angles across and down: one for both, or two; as a text "16deg" or "20,16deg"."""
+    """Angles across and down: one for both, or two; as a text "16deg" or "20,16deg".
+
+    >>> from hogel.units import angles
+    >>> [round(part, 3) for part in angles("20,16deg", "fov")]
+    [0.349, 0.279]
+    """
     if isinstance(value, str):
         *first, last = value.split(",")
         unit = last.lstrip("+-.0123456789eE ")
@@ -65,7 +80,12 @@ def angles(value: Union[Angle, Sequence[Angle]], what: str) -> tuple[float, floa
 
 
 def lengths(value: Union[Length, Sequence[Length]], what: str) -> list[float]:
-    """Lengths: one, or several, as texts "633nm" or "633,532,460nm"."""
+    """Lengths: one, or several, as texts "633nm" or "633,532,460nm".
+
+    >>> from hogel.units import lengths
+    >>> lengths("633,532nm", "wavelength")
+    [6.33e-07, 5.32e-07]
+    """
     if isinstance(value, str):
         *first, last = value.split(",")
         unit = last.lstrip("+-.0123456789eE ")
@@ -74,7 +94,12 @@ def lengths(value: Union[Length, Sequence[Length]], what: str) -> list[float]:
 
 
 def point(value: Union[str, Sequence[Length]], what: str) -> tuple[float, float, float]:
-    """A point x, y, z: three lengths, or a text such as "-30,0,300mm"."""
+    """A point x, y, z: three lengths, or a text such as "-30,0,300mm".
+
+    >>> from hogel.units import point
+    >>> point("-30,0,300mm", "eye")
+    (-0.03, 0.0, 0.3)
+    """
     three = lengths(value, what)
     if len(three) != 3:
         raise UsageError(f"{what}: three lengths were expected, x, y and z, not {value!r}")
@@ -82,7 +107,12 @@ def point(value: Union[str, Sequence[Length]], what: str) -> tuple[float, float,
 
 
 def counts(value: Counts, what: str) -> tuple[int, int]:
-    """Columns and rows: (64, 48), or one number for both; as a text "64x48"."""
+    """Columns and rows: (64, 48), or one number for both; as a text "64x48".
+
+    >>> from hogel.units import counts
+    >>> counts("64x48", "hogels"), counts(16, "hogels")
+    ((64, 48), (16, 16))
+    """
     parts: Sequence[object]
     if isinstance(value, str):
         parts = value.split("x")
@@ -98,17 +128,32 @@ def counts(value: Counts, what: str) -> tuple[int, int]:
 
 
 def say_length(metres: float) -> str:
-    """A length with the unit that reads best."""
+    """A length with the unit that reads best.
+
+    >>> from hogel.units import say_length
+    >>> say_length(633e-9)
+    '633 nm'
+    """
     return _core.format_length(metres)
 
 
 def say_angle(radians: float) -> str:
-    """An angle in degrees."""
+    """An angle in degrees.
+
+    >>> from hogel.units import deg, say_angle
+    >>> say_angle(16 * deg)
+    '16°'
+    """
     return f"{radians / deg:.4g}°"
 
 
 def say_bytes(count: float) -> str:
-    """A number of bytes with the unit that reads best."""
+    """A number of bytes with the unit that reads best.
+
+    >>> from hogel.units import say_bytes
+    >>> say_bytes(1500)
+    '1.5 kB'
+    """
     return _core.format_bytes(float(count))
 
 

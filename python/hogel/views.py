@@ -17,12 +17,22 @@ _FILMS = (".mp4", ".gif", ".apng")
 
 
 def view_layouts() -> dict[str, str]:
-    """The names of the ways to store a set of views, of `layout`, and a line about each."""
+    """The names of the ways to store a set of views, of `layout`, and a line about each.
+
+    >>> import hogel
+    >>> "rows-columns" in hogel.view_layouts()
+    True
+    """
     return {name: text for name, text, _, _ in _core.view_layouts()}
 
 
 def is_view_set(source: Path) -> bool:
-    """Whether a folder or file is a set of views that a layout recognises."""
+    """Whether a folder or file is a set of views that a layout recognises.
+
+    >>> import hogel, tempfile
+    >>> hogel.is_view_set(tempfile.mkdtemp())
+    False
+    """
     return _core.is_view_set(os.fspath(source))
 
 
@@ -55,7 +65,15 @@ def import_views(
     progress: Progress = None,
 ) -> LightField:
     """The light field of a set of views, a folder or a file. The options are those of `hogel import`; `spool` is a folder
-    for a temporary file of sets that do not fit into memory. What was understood of the set is `views_of(light_field)`."""
+    for a temporary file of sets that do not fit into memory. What was understood of the set is `views_of(light_field)`.
+
+    >>> import hogel, os, tempfile
+    >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=3, size="4mm", focal_plane="-300mm")
+    >>> views = os.path.join(tempfile.mkdtemp(), "views")
+    >>> made = lf.export(views)
+    >>> hogel.import_views(views, size="4mm").shape
+    (3, 8, 8, 3, 3)
+    """
     name = os.fspath(source)
     how = _core.ViewOptions()
     how.layout = layout
@@ -124,7 +142,12 @@ def import_views(
 
 def views_of(light_field: LightField) -> Any:
     """What import_views() understood of the set of views that it made this light field of: layout, columns, rows, bits,
-    transfer, spacing, distance, scale, parallax, summary, assumed, notes; None for others."""
+    transfer, spacing, distance, scale, parallax, summary, assumed, notes; None for others.
+
+    >>> import hogel
+    >>> hogel.views_of(hogel.Scene.load("pumpkin").render(hogels=4, directions=4)) is None
+    True
+    """
     return light_field._views
 
 
@@ -144,7 +167,13 @@ def export_views(
 ) -> Any:
     """Writes a light field as a set of views, one for each direction: in a folder, which is made, or a file; or as a film
     of its middle row of views (.mp4, .gif, .apng). The options are those of `hogel export`. Returns columns, rows, files
-    and notes."""
+    and notes.
+
+    >>> import hogel, os, tempfile
+    >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=3, size="4mm", focal_plane="-300mm")
+    >>> hogel.export_views(lf, os.path.join(tempfile.mkdtemp(), "views.npy")).columns
+    3
+    """
     name = os.fspath(target)
     stem, ending = os.path.splitext(os.path.basename(name))
     if ending in _FILMS:
@@ -166,7 +195,7 @@ def export_views(
         if light_field._made is not None:
             acted = {"layout": layout, "exposure": _record.number(exposure)}
             metadata = _record.entries("export", {**_record.renamed(light_field._made, "source", "input"), **acted})
-    how.set_metadata(metadata)
+    how.metadata = metadata
     if known[layout]:
         _make_folder(name, force)
     else:
@@ -211,7 +240,13 @@ def film(
     metadata: Any = None,
     progress: Progress = None,
 ) -> None:
-    """Makes a film (.mp4, .gif, .apng), by the program ffmpeg, of pictures of one size, all with the same exposure."""
+    """Makes a film (.mp4, .gif, .apng), by the program ffmpeg, of pictures of one size, all with the same exposure.
+
+    >>> import hogel, numpy as np, os, tempfile
+    >>> frames = [np.full((16, 16, 3), level) for level in (0.2, 0.8)]
+    >>> if hogel._core.can_make_films():  # where ffmpeg is installed
+    ...     hogel.film(os.path.join(tempfile.mkdtemp(), "grey.gif"), frames)
+    """
     from .picture import Picture
 
     name = os.fspath(path)
@@ -244,7 +279,13 @@ def write_printer_images(
     progress: Progress = None,
 ) -> list[str]:
     """Writes the directions of every hogel as a picture, numbered in the order of printing, or with strips=True those of a
-    row of hogels side by side, as `hogel print` does. Returns the files."""
+    row of hogels side by side, as `hogel print` does. Returns the files.
+
+    >>> import hogel, os, tempfile
+    >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
+    >>> len(hogel.views.write_printer_images(lf, os.path.join(tempfile.mkdtemp(), "prints")))
+    64
+    """
     name = os.fspath(folder)
     _one_of(order, ("serpentine", "rows"), "order")
     if metadata is None:
@@ -268,7 +309,14 @@ def write_cameras(
     distance: units.Length = 0.3,
 ) -> list[str]:
     """Writes the cameras whose pictures make a light field of this sampling, transforms.json, as `hogel cameras` does.
-    Returns what a user of the cameras should know."""
+    Returns what a user of the cameras should know.
+
+    >>> import hogel, os, tempfile
+    >>> path = os.path.join(tempfile.mkdtemp(), "cameras.json")
+    >>> said = hogel.write_cameras(path, hogels=(80, 60), directions=5, size="100mm")
+    >>> os.path.exists(path)
+    True
+    """
     defaults, name = _core.defaults, os.fspath(path)
     if os.path.splitext(name)[1] != ".json":
         raise UsageError(f"{name}: cameras are written as .json")

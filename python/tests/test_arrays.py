@@ -5,6 +5,7 @@ import pickle
 import unittest
 
 import hogel
+import hogel._options
 import numpy as np
 from common import InFolder, light_field, random_array, resident
 
@@ -245,6 +246,57 @@ class OwnCode(unittest.TestCase):
         field = hogel.Field.from_array(np.ones((2, 3), np.complex64), pitch="1um", wavelength="633nm")
         for value in lf.grid, lf.grid.view, camera, field.grid, hogel.FocalPlane(-0.3, 0.1, 0.1), hogel.Frequencies(0.1, 0.1):
             self.assertEqual(pickle.loads(pickle.dumps(value)), value)
+
+    def test_options_pickle(self):
+        """Every value of the extension module that says what is wanted: with other members than the default's."""
+        core = hogel._core
+        made = {
+            "Modulator": core.Modulator(8, 6, 1e-6, 4, "own"),
+            "PatternOptions": core.PatternOptions(core.Modulator(8, 6, 1e-6)),
+            "Light": hogel.light((1, 2, 3), "yellow", 2),
+            "Sqnr": core.Sqnr(31.0),
+            "PixelsPerBit": core.PixelsPerBit(4.0, core.RateRule.planes, 0.1),
+            "Step": core.Step(0.1),
+            "MaxError": core.MaxError(0.1),
+            "FilePart": core.FilePart(2, 3, "input"),
+            "HologramRequest": hogel.hologram_request(wavelength="600nm", method="basis", tolerance=0.1, seed=7),
+            "LightFieldRequest": hogel.request(hogels=(5, 4), focal_plane=-0.3, samples=2),
+        }
+        for name in hogel._options.OPTIONS:
+            kind = getattr(core, name, None)
+            if kind is None:
+                continue
+            with self.subTest(name):
+                value = made[name] if name in made else kind()
+                members = hogel._options.members(value)
+                for member, old in members.items():
+                    if isinstance(old, float) and vars(kind)[member].fset is not None:
+                        setattr(value, member, old + 0.125)
+                again = pickle.loads(pickle.dumps(value))
+                self.assertEqual(again, value)
+                self.assertIn(name, repr(again))
+                if any(isinstance(old, float) for old in members.values()) and name not in made:
+                    self.assertNotEqual(again, kind())
+
+    def test_fields_of_functions(self):
+        calls = []
+
+        def wave(x, y):
+            calls.append((x.shape, y.shape))
+            return np.exp(1e5j * x) * (y > 0)
+
+        field = hogel.Field.from_function(wave, samples=(64, 48), pitch="2um", wavelength="633nm")
+        grid = field.grid
+        x, y = [grid.x(i) for i in range(64)], [grid.y(j) for j in range(48)]
+        expected = (np.exp(1e5j * np.array(x)) * (np.array(y)[:, None] > 0)).astype(np.complex64)
+        np.testing.assert_array_equal(field[10:20, 5], expected[10:20, 5])
+        self.assertEqual(calls, [((1, 1), (10, 1))])  # no more than was asked for
+        np.testing.assert_array_equal(np.asarray(field), expected)
+        there = field.propagate("0.2mm")
+        self.assertEqual(there.shape, (48, 64))
+        broken = hogel.Field.from_function(lambda x, y: x / {}, samples=4, pitch="2um", wavelength="633nm")
+        with self.assertRaises(TypeError):
+            np.asarray(broken)
 
 
 if __name__ == "__main__":

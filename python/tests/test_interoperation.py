@@ -101,6 +101,40 @@ class Libraries(InFolder):
         ours = np.asarray(field.propagate(distance))
         self.assertLess(np.linalg.norm(theirs - ours), 0.02 * np.linalg.norm(ours))
 
+    @needs("torch")
+    def test_dlpack_of_torch(self):
+        import torch
+
+        tensor = torch.rand(1, 4, 5, 6, 7)
+        lf = hogel.LightField.from_array(tensor, size="1mm", fov="10deg")
+        self.assertEqual(np.asarray(lf).ctypes.data, tensor.data_ptr())
+        self.assertEqual(torch.from_dlpack(lf).data_ptr(), tensor.data_ptr())
+        loaded = lf.load()
+        self.assertEqual(torch.from_dlpack(loaded).data_ptr(), np.asarray(loaded).ctypes.data)
+        samples = torch.rand(8, 9, dtype=torch.complex64)[::2, 1:]
+        field = hogel.Field.from_array(samples, pitch=2 * um, wavelength=532 * nm)
+        self.assertEqual(np.asarray(field).ctypes.data, samples.data_ptr())
+        self.assertTrue(torch.equal(torch.from_dlpack(field.load()), samples))
+
+    def test_meshes_of_other_libraries(self):
+        """What trimesh (a subclass of ndarray), meshio (a dictionary of cells) and Fortran's order lend."""
+
+        class Tracked(np.ndarray):
+            pass
+
+        corners = np.array([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], float)
+        cells = {"triangle": np.array([(0, 1, 2), (0, 2, 3)], np.int64)}
+        lent = [
+            (corners.view(Tracked), cells["triangle"].view(Tracked)),
+            (np.asfortranarray(corners, np.float32), cells["triangle"].astype(np.int32)[:, ::1]),
+            (corners[::-1][::-1], cells["triangle"].astype(np.uint32)),
+        ]
+        options = dict(hogels=8, directions=4, size="1mm", fov="10deg")
+        pictures = [np.asarray(hogel.Scene.mesh(*arrays).render(**options)) for arrays in lent]
+        self.assertGreater(pictures[0].max(), 0)
+        for picture in pictures[1:]:
+            np.testing.assert_array_equal(picture, pictures[0])
+
     @needs("h5py")
     def test_h5py_reads_and_writes(self):
         import h5py
@@ -119,8 +153,14 @@ class Libraries(InFolder):
         import xarray
 
         lf, values = light_field()
-        named = xarray.DataArray(np.asarray(lf), dims=lf.dims)
+        named = xarray.DataArray(np.asarray(lf), dims=lf.dims, coords=lf.coords)
+        self.assertEqual(named.data.ctypes.data, values.ctypes.data)
         self.assertTrue(np.array_equal(named.isel(t=2, u=1), lf.part(t=2, u=1)))
+        near = named.sel(s=lf.grid.s(3) + 1e-9, v=lf.grid.v(2), method="nearest")
+        self.assertTrue(np.array_equal(near, lf.part(s=3, v=2)))
+        field = wave(side=8)
+        there = xarray.DataArray(np.asarray(field), dims=field.dims, coords=field.coords)
+        self.assertEqual(complex(there.sel(x=field.grid.x(5), y=field.grid.y(2), method="nearest")), complex(field[2, 5]))
         again = hogel.LightField.from_array(named.data, grid=lf.grid)
         self.assertEqual(np.asarray(again).ctypes.data, np.asarray(lf).ctypes.data)
 
@@ -184,6 +224,34 @@ class OwnRenderers(unittest.TestCase):
         self.assertTrue(np.allclose(lf.part(c=0, t=0, v=0, u=0), (np.arange(6) - 2.5) * 1e-3))
         with self.assertRaisesRegex(hogel.UsageError, "hogel's"):
             hogel.add_renderer("epi", renderer)
+
+    def test_light_of_a_scene(self):
+        """A ray tracer of one's own asks for the radiance of points of triangles: that of a tilted square, as epi shows it."""
+        square = np.array([(-1, -1, -0.2), (1, -1, -0.2), (1, 1, 0.2), (-1, 1, 0.2)])
+        scene = hogel.Scene.mesh(square, [(0, 1, 2), (0, 2, 3)], colors=np.linspace(0.2, 1, 12).reshape(4, 3))
+        wanted = hogel.request(hogels=8, directions=4, size="1mm", fov="10deg")
+        shaded = hogel._core.light_scene(scene.placed(wanted), wanted, None)
+        corners, triangles = shaded.positions, shaded.triangles
+        self.assertEqual(triangles.shape, (2, 3))
+        epi = hogel._core.make_renderer("epi", shaded, wanted.grid)
+        shown = np.asarray(hogel.LightField(epi, "rendered when read"))
+        grid = wanted.grid
+        tried = 0
+        for number in range(2):
+            a, b, c = corners[triangles[number]]
+            for j, i, l, k in np.ndindex(8, 8, 4, 4):
+                # The ray x = s + U zeta, y = t + V zeta, zeta = -z meets the triangle at a + p (b - a) + q (c - a).
+                start, along = np.array([grid.s(i), grid.t(j), 0]), np.array([grid.u(k), grid.v(l), -1])
+                p, q, _ = np.linalg.solve(np.stack([b - a, c - a, -along], axis=1), start - a)
+                if min(p, q, 1 - p - q) < 0.02:
+                    continue
+                light = hogel._core.radiance_at(shaded, [number], [[1 - p - q, p, q]], [-along / np.linalg.norm(along)], [0])
+                np.testing.assert_allclose(light[0], shown[:, j, i, l, k], atol=2e-3)
+                np.testing.assert_array_equal(hogel._core.opacity_at(shaded, [number], [[1 - p - q, p, q]], [(0, 0, 1)], [0]), 1)
+                tried += 1
+        self.assertGreater(tried, 50)
+        with self.assertRaisesRegex(hogel.UsageError, "number 7"):
+            hogel._core.radiance_at(shaded, [7], [[1, 0, 0]], [(0, 0, 1)], [0])
 
 
 class Films(InFolder):

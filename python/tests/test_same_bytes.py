@@ -7,6 +7,7 @@ import unittest
 from pathlib import Path
 
 import hogel
+import numpy as np
 from common import InFolder, command_line
 from hogel import deg, mm, nm
 
@@ -27,6 +28,8 @@ TESTED = {
     "hologram": "test_hologram",
     "import": "test_import",
     "info": "test_info",
+    "join": "test_join",
+    "make": "test_make",
     "photo": "test_photo",
     "print": "test_print",
     "propagate": "test_propagate",
@@ -35,10 +38,8 @@ TESTED = {
     "slm": "test_slm",
 }
 NOT_TESTED = {
-    "help": "prints help",
-    "join": "joins what jobs of the command line wrote",
-    "make": "is render, hologram and photo one after the other, and a page about them",
-    "view": "serves pictures to a browser, and writes no file",
+    "help": "prints help, and writes no file",
+    "view": "serves pictures to a browser, and writes no file; those of rays and waves are photograph()'s",
 }
 
 
@@ -271,6 +272,83 @@ class SameBytes(InFolder):
         command_line("cameras", "-o", "c.json", "--size", "2m", "--distance", "10m", "--hogels", "80x60", "--directions", "5x1")
         hogel.write_cameras("p.json", size="2m", distance="10m", hogels=(80, 60), directions=(5, 1))
         self.assert_same("c.json", "p.json")
+
+    def test_fields_of_other_programs(self):
+        noise = np.random.default_rng(1).normal(size=(2, 48, 64)).astype(np.float32)
+        np.save("wave.npy", noise[0] + 1j * noise[1])
+        np.save("phase.npy", noise[0])
+        levels = (127.5 + 40 * noise[0]).clip(0, 255).astype(np.uint8)[..., None]
+        hogel._core.write_raw_pixels("levels.png", np.ascontiguousarray(levels), None)
+        sampling = (["--pitch", "4um", "--wavelength", "532nm"], dict(pitch="4um", wavelength=532 * nm))
+        cases = [
+            ("wave.npy", [], {}),
+            ("wave.npy", ["--conjugate"], dict(conjugate=True)),
+            ("phase.npy", ["--values", "phase"], dict(values="phase")),
+            ("levels.png", ["--phase-code", "slmsuite"], dict(phase_code="slmsuite")),
+            ("levels.png", ["--values", "intensity", "--order", "+1", "--aperture", "0.1"],
+             dict(values="intensity", order="+1", aperture=0.1)),
+            ("wave.npy", ["--reconstruct", "fourier", "--focal", "100mm"], dict(reconstruct="fourier", focal="100mm")),
+        ]
+        for number, (name, words, options) in enumerate(cases):
+            with self.subTest(f"{name} {' '.join(words)}"):
+                command_line("propagate", name, "-o", f"c{number}.h5", "--distance", "2mm", *sampling[0], *words)
+                opened = hogel.Hologram.open(name, **sampling[1], **options)
+                opened.propagate("2mm").save(f"p{number}.h5")
+                self.assert_same(f"c{number}.h5", f"p{number}.h5")
+                if "--reconstruct" in words:
+                    continue
+                view = ["--eye", "0,0,20mm", "--pupil", "1mm", "--resolution", "20"]
+                command_line("photo", name, "-o", f"c{number}.png", *view, *sampling[0], *words)
+                self.assert_same_picture(f"c{number}.png", opened.photograph(eye="0,0,20mm", pupil="1mm", resolution=20))
+                coded = [{"--phase-code": "--input-phase-code"}.get(word, word) for word in words]
+                command_line("slm", name, "-o", f"s{number}.png", "--encoding", "phase", "--pixels", "64x48", "--pixel-pitch", "4um",
+                             *sampling[0], *coded)
+                opened.slm(encoding="phase", pixels=(64, 48), pixel_pitch="4um").save(f"q{number}.png")
+                self.assert_same(f"s{number}.png", f"q{number}.png")
+
+    def test_join(self):
+        for number in (1, 2, 3):
+            command_line("render", "pumpkin", "-o", "lf.h5", *SMALL, "--part", f"{number}/3")
+            self.rendered().save(f"p{number}", part=(number, 3))
+            self.assert_same(f"lf.part-{number}-of-3", f"p{number}")
+        command_line("join", *(f"lf.part-{number}-of-3" for number in (1, 2, 3)), "-o", "c.h5")
+        hogel.join("p.h5", ["p2", "p1", "p3"])
+        self.assert_same("c.h5", "p.h5")
+        self.rendered().save("whole.h5")
+        self.assert_same("whole.h5", "p.h5")
+        for number in (1, 2):
+            command_line("hologram", "whole.h5", "-o", "holo.h5", "--part", f"{number}/2")
+            hogel.LightField.open("whole.h5").hologram().save(f"h{number}", part=(number, 2))
+            self.assert_same(f"holo.part-{number}-of-2", f"h{number}")
+        with self.assertRaisesRegex(hogel.BadInputError, "part"):
+            hogel.join("x.h5", ["p1", "p2"])
+
+    def test_make(self):
+        """`make` is these calls one after the other, and a page about them: what they say made them alone is its own."""
+        command_line("make", "pumpkin", "-o", "c", *SMALL, "--keep-light-field", "--store-hologram", "--looks", "2", "--resolution", "40")
+
+        def entries(command, made, like):
+            """What our record says, as far as the file of `make` says it too, and in its name."""
+            known = hogel.open(like).metadata
+            ours = hogel._record.entries(command, made)
+            said = {key for key in known if key.startswith("option ")}
+            self.assertGreater(len(said), 1)
+            self.assertEqual(said - {key for key, _ in ours}, set())
+            return [(key, "hogel make" if key == "command" else text) for key, text in ours if key in known]
+
+        lf = self.rendered()
+        lf.save("p.h5", metadata=entries("render", lf._made, "c/lightfield.h5"))
+        self.assert_same("c/lightfield.h5", "p.h5")
+        opened = hogel.LightField.open("c/lightfield.h5")
+        holo = opened.hologram(looks=2)
+        holo.save("holo.h5", metadata=entries("hologram", holo._made, "c/hologram.h5"))
+        self.assert_same("c/hologram.h5", "holo.h5")
+        names = [f"c/photo_{eye}_{focus}" for focus in ("near", "far") for eye in ("left", "high", "right")]
+        for ending, of in ("", holo), ("_geometric", opened):
+            pictures = [hogel.Picture.open(f"{name}{ending}.exr") for name in names]
+            made = of.photograph(cameras=[picture.camera for picture in pictures])
+            for theirs, ours in zip(pictures, made):
+                self.assertTrue(np.array_equal(theirs, np.asarray(ours).astype(np.float16)))  # .exr has halves
 
     def test_compare(self):
         command_line("render", "pumpkin", "-o", "a.h5", *SMALL)
