@@ -128,9 +128,9 @@ void Loader::run(const std::stop_token& end) {
             viewer_.say("", 1);
         } catch (const Error& error) {
             if (error.code() == ErrorCode::cancelled) continue;  // for a newer task
-            give_up(error.what());
+            give_up(error.what(), task->file);
         } catch (const std::exception& error) {
-            give_up(error.what());
+            give_up(error.what(), task->file);
         }
     }
 }
@@ -150,8 +150,11 @@ void Loader::do_task(const Task& task) {
     dropped_.forget_earlier();
 }
 
-// What was shown before stays.
-void Loader::give_up(const std::string& why) {
+// What was shown before stays. People know a dropped file by its name, not by its place.
+void Loader::give_up(std::string why, const std::filesystem::path& file) {
+    const std::string place = file.parent_path().string() + "/";
+    for (std::size_t at = 0; !file.empty() && (at = why.find(place, at)) != std::string::npos;)
+        why.erase(at, place.size());
     if (shown_ && now_ != shown_) {
         shown_->number = now_->number;
         now_ = shown_;

@@ -2,7 +2,7 @@
 // How fast the page of `hogel view` is, both ends on this machine: pictures a second and the time from input to picture while
 // something is dragged, and the time to the first picture.
 //
-// usage: node speed.mjs HOGEL INPUT [SECONDS]     writes a row of docs/view.md
+// usage: node speed.mjs HOGEL INPUT [SECONDS [BY [OPTIONS OF hogel view ...]]]     BY: rays or waves; writes a row of docs/view.md
 // The processor time that a picture takes at both ends says, on a machine that has other work too, what a free one could do.
 import {readFileSync, readdirSync} from "node:fs";
 import {ended, launch, ready, serve} from "./server.mjs";
@@ -16,15 +16,19 @@ function below(root) {
   return [...parents].filter(([pid]) => descends(pid)).reduce((sum, [, words]) => sum + time(words), 0);
 }
 
-const [hogel, input, seconds = "5"] = process.argv.slice(2);
+const [hogel, input, seconds = "5", by = "rays", ...options] = process.argv.slice(2);
 const browser = await launch();
-const server = await serve(hogel, input);
+const server = await serve(hogel, input, ...options);
 const page = await browser.newPage({viewport: {width: 1280, height: 800}});
 const opened = Date.now();
 await page.goto(server.address);
 await page.waitForFunction(() => document.getElementById("timing").textContent !== "", null, {timeout: 60000});
 const first = Date.now() - opened;
 await ready(page);
+if (by === "waves") {  // whose first picture prepares them
+  await page.selectOption("#by", "waves");
+  await page.waitForFunction(() => document.getElementById("timing").textContent.includes("look 1 of 1"), null, {timeout: 120000});
+}
 
 const before = {all: below(process.pid), server: time(stat(server.pid))};
 

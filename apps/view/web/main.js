@@ -123,6 +123,7 @@ function say(text) {
 }
 
 function problem(text) {
+  if (text) say("");
   by("problem").hidden = !text;
   by("problem-text").textContent = text;
 }
@@ -133,8 +134,9 @@ function state(message) {
   const linked = !field.ready;
   for (const name of ["scene", "stream", "hogel_bytes"]) delete field[name];
   field = {...field, ...message};
-  by("name").textContent = field.name;
-  document.title = `${field.name} – hogel view`;
+  by("name").textContent = field.name.split("/").filter(Boolean).at(-1) ?? "hogel view";
+  by("name").title = field.name;
+  document.title = `${by("name").textContent} – hogel view`;
   by("cover").hidden = !field.work;
   by("cover-text").textContent = field.work ? `${field.work[0].toUpperCase()}${field.work.slice(1)}, ${Math.round(100 * field.fraction)} %` : "";
   by("bar").value = field.fraction;
@@ -301,7 +303,7 @@ const to = {
   },
   copyLink() { copy(location.origin + address()); },
   full() { document.fullscreenElement ? document.exitFullscreen() : by("stage").requestFullscreen?.(); },
-  help() { by("keys").showModal(); },
+  help() { by("keys").showModal(); by("keys").scrollTop = 0; },
 };
 
 async function copy(text) {
