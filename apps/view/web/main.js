@@ -15,7 +15,8 @@ const inMotion = {samples: 4, pixels: 512, quality: 80}, atRest = {samples: 16, 
 const pause = 140;  // milliseconds without a change that are rest
 
 const view = new View();
-let field = {center_u: 0, center_v: 0, tan_half_u: 0.1, tan_half_v: 0.1, ready: false};  // the server's last state
+const nothing = {center_u: 0, center_v: 0, tan_half_u: 0.1, tan_half_v: 0.1, ready: false};
+let field = nothing;  // the server's last state
 let lost = false, number = 0, wanted = 0, drawn = null, resting = 0, hovering = 0;
 const asked = new Map();  // number of a request → when it was made necessary
 
@@ -132,8 +133,7 @@ function state(message) {
   const first = message.ready && (!field.ready || message.opened !== field.opened), another = message.generation !== field.generation;
   // A link is of what is opened with the page; another file is looked at from its front.
   const linked = !field.ready;
-  for (const name of ["scene", "stream", "hogel_bytes"]) delete field[name];
-  field = {...field, ...message};
+  field = {...nothing, ...message};
   by("name").textContent = field.name.split("/").filter(Boolean).at(-1) ?? "hogel view";
   by("name").title = field.name;
   document.title = `${by("name").textContent} – hogel view`;
