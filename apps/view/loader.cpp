@@ -41,6 +41,7 @@ LightField with_fewer_samples(const std::shared_ptr<const ShadedScene>& lit, Lig
 Loader::Loader(Settings settings, Viewer& viewer)
     : viewer_(viewer), now_(std::make_shared<State>(std::move(settings))), coarse_samples_(first_look_samples) {
     open_input(*now_);
+    shown_ = now_;
     describe();
 }
 
@@ -67,7 +68,7 @@ void Loader::start(std::function<void()> failed) {
     thread_ = std::jthread([this, failed = std::move(failed)](const std::stop_token& end) {
         try {
             show_input(false);
-            shown_ = now_;
+            is_shown_ = true;
             viewer_.say("", 1);
         } catch (...) {
             const std::lock_guard lock(mutex_);
@@ -138,7 +139,9 @@ void Loader::run(const std::stop_token& end) {
 void Loader::do_task(const Task& task) {
     if (task.file.empty()) {
         now_->settings = now_->settings.with(task.options);
-        return show_input(task.moving);
+        show_input(task.moving);
+        is_shown_ = true;
+        return;
     }
     auto another = std::make_shared<State>(now_->settings.of(task.file, task.file.filename()));
     another->number = now_->number + 1;
@@ -146,6 +149,7 @@ void Loader::do_task(const Task& task) {
     now_ = std::move(another);
     show_input(false);
     shown_ = now_;
+    is_shown_ = true;
     const std::lock_guard lock(mutex_);
     dropped_.forget_earlier();
 }
@@ -155,10 +159,15 @@ void Loader::give_up(std::string why, const std::filesystem::path& file) {
     const std::string place = file.parent_path().string() + "/";
     for (std::size_t at = 0; !file.empty() && (at = why.find(place, at)) != std::string::npos;)
         why.erase(at, place.size());
-    if (shown_ && now_ != shown_) {
+    if (now_ != shown_) {
         shown_->number = now_->number;
         now_ = shown_;
         describe();
+    }
+    // A file that came before the first input was shown stopped the work on that.
+    if (!is_shown_ && !file.empty()) {
+        const std::lock_guard lock(mutex_);
+        if (!waiting_) waiting_.emplace();
     }
     viewer_.complain(why);
     viewer_.say("", 1);

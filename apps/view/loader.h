@@ -90,7 +90,8 @@ class Loader final : public Changes {
 
     // Used by the thread alone, once it runs.
     Viewer& viewer_;
-    std::shared_ptr<State> now_, shown_;  // what is prepared, and what was shown last
+    std::shared_ptr<State> now_, shown_;  // what is prepared, and what was shown last, at first the first input
+    bool is_shown_ = false;               // whether there is anything to see
     double coarse_samples_;               // of a light field that is rendered in a moment
 
     std::mutex mutex_;
