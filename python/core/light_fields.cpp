@@ -35,6 +35,15 @@ class ArraySource final : public LightFieldSource {
     }
     void read(LightFieldTile& tile) const override {
         const HogelRange& range = tile.range;
+        // Hogels of a row that lie one after the other are copied at once.
+        if (radiance_.is_dense() && !(depth_ && tile.depth.size() > 0)) {
+            const std::size_t row = range.ns * grid_.directions();
+            for (std::size_t c = 0; c < grid_.channels; ++c)
+                for (std::size_t t = 0; t < range.nt; ++t)
+                    std::copy_n(reinterpret_cast<const float*>(radiance_.at(c, range.t0 + t, range.s0, 0, 0)), row,
+                                &tile.radiance(c, t, 0, 0, 0));
+            return;
+        }
         for (std::size_t t = 0; t < range.nt; ++t)
             for (std::size_t s = 0; s < range.ns; ++s)
                 for (std::size_t v = 0; v < grid_.directions_v; ++v) {
