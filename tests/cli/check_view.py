@@ -399,8 +399,9 @@ def check_stream():
     server.stop(signal.SIGTERM)
 
 
-def check_drops(server):
+def check_drops():
     """Files from the page are opened; what is broken, too large or from elsewhere is not, and what was there stays."""
+    server = Server("--hogels", "40", "--directions", "16")
     own = {"Origin": f"http://{server.host}"}
     page = WebSocket(server)
     mesh = b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n" \
@@ -426,6 +427,7 @@ def check_drops(server):
     expect(server.get("/drop?name=x.h5", "POST", pathlib.Path(INPUT).read_bytes(), **own)[0] == 200, "a light field")
     next_state(page, lambda each: each["name"] == "x.h5" and each["hogels_s"] == 24 and not each["work"])
     expect(server.get(f"/picture?{VIEW}")[0] == 200, "a picture of a light field that was dropped")
+    server.stop(signal.SIGTERM)
 
 
 def check_token():
@@ -455,7 +457,7 @@ def main():
     check_web_socket(server)
     check_newest_wins(server)
     check_focus(server)
-    check_drops(Server("--hogels", "40", "--directions", "16"))
+    check_drops()
     check_scene()
     check_stream()
     check_token()
