@@ -28,7 +28,7 @@ class HologramSubject final : public Subject {
     /// samples by frequency, four decades of it, frequency zero in the middle, x to the right and y upwards.
     Photograph inside(const View& view, const Spot& spot, const Inside& inside, const Progress& progress) override;
     FocusSearch find_focus(const Progress& progress) override;
-    /// Of the first wavelength, in up to 1024 × 1024 samples in the middle.
+    /// Counts those of the first wavelength, in up to 1024 × 1024 samples in the middle.
     LevelCounts count_levels(const std::string& encoding, const Progress& progress) override;
 
   protected:

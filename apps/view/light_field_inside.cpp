@@ -129,7 +129,7 @@ double coverage_of(const LightFieldTile& tile, std::size_t s, const LightFieldGr
     return static_cast<double>(met) / static_cast<double>(grid.directions());
 }
 
-// Of up to `side` rows of hogels, and of as many hogels of each.
+// Looks at up to `side` rows of hogels, and at as many hogels of each.
 Image coverage(const LightField& light_field, std::size_t side, const Progress& progress) {
     const LightFieldGrid& grid = light_field.grid();
     const std::size_t columns = std::min(side, grid.hogels_s), rows = std::min(side, grid.hogels_t);

@@ -177,7 +177,7 @@ void Loader::describe() {
     nlohmann::ordered_json facts{{"name", now_->settings.name()},
                                  {"photo", now_->settings.photo_command()},
                                  {"opened", now_->number},
-                                 {"largest_file", static_cast<double>(memory())}};
+                                 {"max_file_bytes", static_cast<double>(memory())}};
     if (now_->made && now_->box) facts["scene"] = facts_of_scene(now_->settings, advice(), now_->model->is_file());
     if (now_->stream) {
         facts["stream"] = facts_of_stream(*now_->stream);

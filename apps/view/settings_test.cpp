@@ -13,7 +13,7 @@
 namespace hogel::view {
 namespace {
 
-// Of "hogel view WORDS...".
+// The settings of "hogel view WORDS...".
 Settings settings_of(std::vector<std::string> words, const std::string& input) {
     words.insert(words.begin(), {"hogel-view", "view"});
     static std::vector<std::vector<char*>> kept;

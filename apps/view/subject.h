@@ -86,7 +86,7 @@ class Subject {
   protected:
     /// Receives the mean of so many looks.
     using ShownLooks = std::function<void(const Image&, std::size_t)>;
-    /// Of `view.by` also the original, and the difference from it.
+    /// A picture by rays; where `view.by` says so, that of the original, or the difference from it.
     virtual Image by_rays(const View& view, const Progress& progress) = 0;
     /// The first looks of the hologram, each of which is shown; `looks` 0: all.
     virtual void by_waves(const View& view, std::size_t looks, const ShownLooks& shown, const Progress& progress) = 0;

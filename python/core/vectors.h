@@ -32,7 +32,7 @@ void add_colour(Class& to, const char* name, Rgb Struct::*member) {
         name, [member](const Struct& s) { return colour_of(s.*member); },
         [member](Struct& s, const Colour& c) { s.*member = rgb_of(c); });
 }
-/// Of an optional one, likewise; None: there is none.
+/// A property of type std::optional<Vec3>; None: there is none.
 template <class Class, class Struct>
 void add_vector(Class& to, const char* name, std::optional<Vec3> Struct::*member) {
     to.def_property(

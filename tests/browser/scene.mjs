@@ -4,7 +4,7 @@
 // usage: node scene.mjs HOGEL [FOLDER]    FOLDER: where screenshots go
 //
 // Needs what view.mjs needs; exit status 77 says that it is missing.
-import {ended, launch, ready, serve} from "./server.mjs";
+import {atEveryWidth, ended, launch, ready, serve} from "./server.mjs";
 import {execFileSync, execSync} from "node:child_process";
 import {mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
@@ -121,14 +121,10 @@ async function scenes(browser) {
   await page.locator("#inside").scrollIntoViewIfNeeded();
   await shot(page, "inside_coverage");
 
-  for (const scheme of ["light", "dark"])
-    for (const [width, height] of [[390, 844], [820, 1180], [1440, 900]]) {
-      await page.emulateMedia({colorScheme: scheme, reducedMotion: "reduce"});
-      await page.setViewportSize({width, height});
-      await page.waitForTimeout(700);
-      expect(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `at ${width} pixels the page is wider than the screen`);
-      await shot(page, `scene_${scheme}_${width}`);
-    }
+  await atEveryWidth(page, async (fits, scheme, width) => {
+    expect(fits, `at ${width} pixels the page is wider than the screen`);
+    await shot(page, `scene_${scheme}_${width}`);
+  });
   await page.close();
   await ended(server);
 }

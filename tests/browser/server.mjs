@@ -33,3 +33,15 @@ export async function ready(page) {
   await page.waitForFunction(() => document.getElementById("timing").textContent !== "", null, {timeout: 60000});
   await page.waitForFunction(() => document.getElementById("cover").hidden, null, {timeout: 120000});
 }
+
+// Shows the page in both themes at the widths of a phone, a tablet and a desktop, and calls `look` at each: whether the page
+// fits into the width, the theme and the width.
+export async function atEveryWidth(page, look) {
+  for (const scheme of ["light", "dark"])
+    for (const [width, height] of [[390, 844], [820, 1180], [1440, 900]]) {
+      await page.emulateMedia({colorScheme: scheme, reducedMotion: "reduce"});
+      await page.setViewportSize({width, height});
+      await page.waitForTimeout(700);
+      await look(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), scheme, width);
+    }
+}

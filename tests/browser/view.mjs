@@ -5,7 +5,7 @@
 //
 // Needs playwright-core (npm install playwright-core; NODE_PATH names its folder) and Debian's chromium. Exit status 77 says that
 // one of them is missing.
-import {ended, launch, ready, serve} from "./server.mjs";
+import {atEveryWidth, ended, launch, ready, serve} from "./server.mjs";
 import {execFileSync} from "node:child_process";
 import {mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
@@ -213,14 +213,10 @@ async function run() {
   const nameless = await page.evaluate(() => [...document.querySelectorAll("button, input, select, canvas, progress")]
     .filter(each => !(each.textContent.trim() || each.labels?.length || each.getAttribute("aria-label"))).map(each => each.id));
   expect(nameless.length === 0, `without a name: ${nameless}`);
-  for (const scheme of ["light", "dark"])
-    for (const [width, height] of [[390, 844], [820, 1180], [1440, 900]]) {
-      await page.emulateMedia({colorScheme: scheme, reducedMotion: "reduce"});
-      await page.setViewportSize({width, height});
-      await page.waitForTimeout(700);
-      expect(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `at ${width} pixels the page is wider than the screen`);
-      if (shots) await page.screenshot({path: path.join(shots, `view_${scheme}_${width}.png`)});
-    }
+  await atEveryWidth(page, async (fits, scheme, width) => {
+    expect(fits, `at ${width} pixels the page is wider than the screen`);
+    if (shots) await page.screenshot({path: path.join(shots, `view_${scheme}_${width}.png`)});
+  });
   if (shots) {
     await page.keyboard.press("?");
     await page.screenshot({path: path.join(shots, "view_keys.png")});

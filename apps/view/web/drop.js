@@ -6,7 +6,7 @@ const order = [".gltf", ".obj", ".dae", ".3ds", ".fbx"];
 const rank = name => { const at = order.findIndex(end => name.toLowerCase().endsWith(end)); return at < 0 ? order.length : at; };
 
 export class Drop {
-  // on: {largest() bytes, address(name, more), began(text), ended(text), failed(text)}
+  // on: {maxBytes(), address(name, more), began(text), ended(text), failed(text)}
   constructor(by, on) {
     Object.assign(this, {by, on});
     const files = event => [...(event.dataTransfer?.types ?? [])].includes("Files");
@@ -28,8 +28,8 @@ export class Drop {
   async open(files) {
     if (!files.length) return this.on.failed("Only files can be opened");
     files.sort((a, b) => rank(b.name) - rank(a.name) || a.size - b.size);  // the one that is opened comes last
-    const large = files.find(file => file.size > this.on.largest());
-    if (large) return this.on.failed(`${large.name} has ${(large.size / 1e9).toPrecision(3)} GB; --memory allows ${(this.on.largest() / 1e9).toPrecision(3)}. Open it with hogel view`);
+    const large = files.find(file => file.size > this.on.maxBytes());
+    if (large) return this.on.failed(`${large.name} has ${(large.size / 1e9).toPrecision(3)} GB; --memory allows ${(this.on.maxBytes() / 1e9).toPrecision(3)}. Open it with hogel view`);
     try {
       for (const file of files) {
         this.on.began(`Sending ${file.name}`);

@@ -334,7 +334,7 @@ const scene = new SceneControls(by, (words, moving) => {
 }, 250);
 
 new Drop(by, {
-  largest: () => field.largest_file ?? 0,
+  maxBytes: () => field.max_file_bytes ?? 0,
   address(name, more) {
     const token = new URLSearchParams(location.search).get("token");
     return "/drop?" + query({name, ...(more ? {more: "yes"} : {}), ...(token ? {token} : {})});

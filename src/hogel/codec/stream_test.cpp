@@ -323,7 +323,7 @@ TEST(Stream, the_default_error_of_depth_is_that_of_the_steepest_ray) {
     // With a fixed focal plane the hogels at the edge have the steepest: those at 75 µm see up to 0.5 + 75 µm/1 mm.
     grid.view = FocalPlane{grid.range(), 1e-3};
     EXPECT_DOUBLE_EQ(default_depth_error(grid, 1), 50e-6 / 32000 / 0.575);
-    // Of sines the steepest ray is (0.75, 0.5); (0.75, 0.75) belongs to none.
+    // The steepest ray has the sines (0.75, 0.5); (0.75, 0.75) belongs to none.
     grid.directions_u = grid.directions_v = 7;
     grid.view = Frequencies{{0.875, 0.875}};
     EXPECT_NEAR(default_depth_error(grid, 1), 50e-6 / 32000 / (0.75 / std::sqrt(1 - 0.5625 - 0.25)), 1e-15);

@@ -13,7 +13,7 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// Of a message between processes, so that what is under way takes little memory.
+// Bytes of a message between processes, few so that what is under way takes little memory.
 constexpr std::size_t max_message = std::size_t{1} << 20;
 
 // A rectangle of a plane, and the row and column that are the first of an array.

@@ -12,6 +12,7 @@
 #include "hogel/pipeline.h"
 #include "hogel/pipeline/scene_placing.h"
 #include "hogel/render/cache_spacing.h"
+#include "hogel/scene/fit_scale.h"
 #include "hogel/shading/radiance_cache.h"
 #include "hogel/units.h"
 
@@ -121,8 +122,7 @@ bool has_large_triangles(const Scene& scene, double hologram_width) {
 /// or high. What stands further in front is behind the eye, or nowhere near it.
 double front_within_reach(const Bounds& box, const Fit& fit) {
     const Vec3 size = box.high - box.low;
-    const double scale = fit.fill * std::min(fit.width / size.x, fit.height / size.y);
-    return std::min(fit.front, std::min(fit.width, fit.height) / (scale * size.z));
+    return std::min(fit.front, std::min(fit.width, fit.height) / (scene::fit_scale(size, fit) * size.z));
 }
 
 void fit_within_reach(Scene& scene, Fit fit) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include "hogel/error.h"
+#include "hogel/scene/fit_scale.h"
 #include "hogel/scenes.h"
 
 namespace hogel {
@@ -16,10 +16,8 @@ void fit_scene(Scene& scene, const Fit& fit) {
                                 fit.height, fit.fill));
     const auto [low, high] = bounds(scene);
     const Vec3 size = high - low;
-    constexpr double inf = std::numeric_limits<double>::infinity();
-    const double scale =
-        fit.fill * std::min(size.x > 0 ? fit.width / size.x : inf, size.y > 0 ? fit.height / size.y : inf);
-    if (!(scale < inf))
+    const double scale = scene::fit_scale(size, fit);
+    if (!std::isfinite(scale))
         throw Error(ErrorCode::bad_input,
                     fmt::format("scene '{}': no width and no height; expected a visible size", scene.name));
     const Vec3 anchor{0.5 * low.x + 0.5 * high.x, 0.5 * low.y + 0.5 * high.y, high.z - fit.front * size.z};

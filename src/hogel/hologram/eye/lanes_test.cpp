@@ -168,7 +168,7 @@ TEST_P(EyeLanes, have_the_random_phases_of_single_hogels) {
         for (const bool shared : {false, true}) {
             Array<float, 1> fast({n * n * both}), plain({n * both});
             for (std::size_t row = 0; row < n; ++row) {
-                // Of one hogel, columns lie sixteen rows apart.
+                // Columns of one hogel lie sixteen rows apart.
                 const float* own = moduli.data() + row * n * lanes;
                 random_row(series, row, shared, own, n, &fast(row * n * both));
                 random_row_plain(series, row, shared, own, n, plain.data());
