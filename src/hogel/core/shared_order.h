@@ -13,6 +13,12 @@
 
 namespace hogel::core {
 
+/// The team of this process, or null if no other process is in it, so that there is nobody to share work with.
+inline Team* team_of_several() {
+    Team* const all = team();
+    return all != nullptr && all->size() > 1 ? all : nullptr;
+}
+
 /// How results travel between the processes of a team.
 template <class Result>
 struct Sent {
@@ -34,13 +40,14 @@ Sent<Array<Value, axes>> sent_array() {
 }
 
 /// shared_ordered() in a team, for results as bytes.
-/// @param in_flight  as of parallel_ordered(); in a team tiles_in_flight() of each process, on the average, are alive
-/// at a
-///                   time, results in the first one
+/// @param in_flight  as of parallel_ordered(); in a team tiles_in_flight() of each process, on the average, are alive,
+///                   results in the first one
 void ordered_in_team(Team& team, std::size_t n, std::size_t in_flight,
                      const std::function<std::string(std::size_t)>& body,
                      const std::function<void(std::size_t, std::string_view)>& merge);
 
+/// How many tiles of each process of a team are alive on the average.
+/// @param in_flight  as of parallel_ordered()
 std::size_t tiles_in_flight(std::size_t in_flight);
 
 /// As parallel_ordered(), but where this process is one of a team, each computes the results that are handed to it, and
@@ -51,8 +58,8 @@ template <class Result>
 void shared_ordered(std::size_t n, std::size_t in_flight, const Sent<Result>& sent,
                     const std::function<Result(std::size_t)>& body,
                     const std::function<void(std::size_t, Result&)>& merge) {
-    Team* const all = team();
-    if (all == nullptr || all->size() == 1) return parallel_ordered<Result>(n, in_flight, body, merge);
+    Team* const all = team_of_several();
+    if (all == nullptr) return parallel_ordered<Result>(n, in_flight, body, merge);
     ordered_in_team(
         *all, n, in_flight,
         [&](std::size_t i) {
@@ -70,8 +77,8 @@ void shared_ordered(std::size_t n, std::size_t in_flight, const Sent<Result>& se
 /// Gives all processes of a team what the first one has.
 template <class Result>
 void share_result(Result& result, const Sent<Result>& sent) {
-    Team* const all = team();
-    if (all == nullptr || all->size() == 1) return;
+    Team* const all = team_of_several();
+    if (all == nullptr) return;
     MessageWriter message;
     if (all->is_first()) sent.write(message, result);
     const std::string bytes = all->share(message.take());

@@ -15,8 +15,8 @@ void write_scene_holograms(const SceneHologramMethod& method, const ShadedScene&
     const auto make = [&](std::size_t i) {
         return method.make(scene, grids[i], options[i], progress.part(i, grids.size()));
     };
-    Team* const all = team();
-    if (all == nullptr || all->size() == 1) {
+    Team* const all = core::team_of_several();
+    if (all == nullptr) {
         for (std::size_t i = 0; i < grids.size(); ++i) copy(make(i), *sinks[i]);
         return;
     }

@@ -121,7 +121,7 @@ void photograph_into(const LightField& light_field, std::span<const Camera> came
     std::vector<FaceBlock> list;
     for (std::size_t face = 0; face < faces.size(); ++face)
         for (const Block& block : lightfield::blocks(grids[face])) list.push_back({face, block});
-    if (Team* const all = team(); all != nullptr && all->size() > 1)
+    if (Team* const all = core::team_of_several())
         return photograph_together(*all, light_field, cameras, std::max<std::size_t>(options.pupil_samples, 1), list,
                                    pictures, progress);
     expose(faces, list, thread_count(), exposures, progress);

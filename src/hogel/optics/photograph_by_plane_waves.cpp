@@ -292,11 +292,6 @@ void require_photographable(const FieldSource& hologram, std::span<const Camera>
     }
 }
 
-Team* team_of_several() {
-    Team* const all = team();
-    return all != nullptr && all->size() > 1 ? all : nullptr;
-}
-
 // Calls visit(i, wave) with the wave that makes each camera's picture.
 template <class Visit>
 void focus_all(const Chain& chain, std::span<const Camera> cameras, const Progress& progress, const Visit& visit) {
@@ -330,7 +325,7 @@ std::vector<Image> photograph_by_plane_waves(const FieldSource& hologram, std::s
         const auto report = [&](double fraction) {
             return !progress || progress((static_cast<double>(look) + fraction) / looks);
         };
-        focus_all({hologram, look, options, team_of_several()}, cameras, report,
+        focus_all({hologram, look, options, core::team_of_several()}, cameras, report,
                   [&](std::size_t i, const Focused& focused) {
                       expose(focused, cameras[i], Rectangle(hologram.grid().plane), 1 / looks, images[i]);
                   });
@@ -347,7 +342,7 @@ std::vector<Array<std::complex<float>, 2>> waves_in_focus(const FieldSource& hol
         throw Error(ErrorCode::usage, "waves in focus are those of a perfect lens, which has no film distance");
     require_photographable(hologram, cameras, 0);
     std::vector<Array<std::complex<float>, 2>> waves(cameras.size());
-    focus_all({hologram, look, options, team_of_several()}, cameras, progress,
+    focus_all({hologram, look, options, core::team_of_several()}, cameras, progress,
               [&](std::size_t i, const Focused& focused) {
                   waves[i] = wave_at_pixels(focused, cameras[i], Rectangle(hologram.grid().plane));
               });

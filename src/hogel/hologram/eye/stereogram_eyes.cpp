@@ -17,7 +17,6 @@
 #include "hogel/hologram/eye/project.h"
 #include "hogel/optics/film/interpolation.h"
 #include "hogel/optics/phase_walk.h"
-#include "hogel/team.h"
 
 namespace hogel::hologram::eye {
 namespace {
@@ -127,7 +126,7 @@ class StereogramEyes final : public optics::EyeDrawing {
         const auto report = [&](std::size_t done) {
             progress.report(static_cast<double>(done) / static_cast<double>(strips.size()));
         };
-        if (const Team* const all = team(); all != nullptr && all->size() > 1) {
+        if (core::team_of_several() != nullptr) {
             core::shared_ordered<EyeBands>(
                 strips.size(), core::default_in_flight(), sent_bands(),
                 [&](std::size_t i) {

@@ -40,8 +40,8 @@ std::vector<Pattern> encode_patterns(std::span<const std::shared_ptr<const Field
         return encode_pattern(*fields[i], options, progress.part(i, fields.size()));
     };
     std::vector<Pattern> patterns(fields.size());
-    Team* const all = team();
-    if (all == nullptr || all->size() == 1) {
+    Team* const all = core::team_of_several();
+    if (all == nullptr) {
         for (std::size_t i = 0; i < fields.size(); ++i) patterns[i] = encode(i);
         return patterns;
     }

@@ -384,10 +384,9 @@ void photograph(const FieldSource& hologram, const WavePowers& waves, std::span<
             continue;
         }
         const std::size_t rows = fit >= counts.down ? counts.down : std::max(fit, around + 1) - around;
-        Team* const all = team();
-        const bool alone = all == nullptr || all->size() == 1;
+        Team* const all = core::team_of_several();
         const core::LineRange own =
-            alone ? core::LineRange{0, counts.down} : core::lines_of(all->rank(), all->size(), counts.down, 1);
+            all == nullptr ? core::LineRange{0, counts.down} : core::lines_of(all->rank(), all->size(), counts.down, 1);
         const auto fraction = [&](std::size_t row) {
             return (static_cast<double>(done) + 0.98 * static_cast<double>(some.size()) * static_cast<double>(row) /
                                                     static_cast<double>(counts.down)) /
@@ -397,7 +396,7 @@ void photograph(const FieldSource& hologram, const WavePowers& waves, std::span<
             const std::size_t end = std::min(own.end(), first + rows);
             photographer.expose(first, end, pictures, progress.part(fraction(first), fraction(end)));
         }
-        if (!alone) photographer.gather(*all, pictures);
+        if (all != nullptr) photographer.gather(*all, pictures);
         photographer.add_tails(pictures);
         done += some.size();
     }

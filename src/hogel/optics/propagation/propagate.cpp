@@ -59,7 +59,7 @@ class TileWork {
         columns();
         kept_.to_rows(plan_.y.output.count);
         frequencies_to_rows(sink, region);
-        if (Team* const all = team(); all != nullptr && all->size() > 1) share_rows(*all, sink, region);
+        if (Team* const all = core::team_of_several()) share_rows(*all, sink, region);
     }
 
   private:
@@ -120,7 +120,7 @@ class TileWork {
     // Those of all processes are added in the order of the columns.
     void require_little_grazing_light(std::vector<Transfer::Energy> energies) const {
         double all = 0, grazing = 0;
-        if (Team* const others = team(); others != nullptr && others->size() > 1) {
+        if (Team* const others = core::team_of_several()) {
             core::MessageWriter own;
             own.put(energies);
             energies.clear();
