@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "hogel/core/lru_cache.h"
+#include "hogel/core/object_pool.h"
 
 namespace hogel {
 namespace {
@@ -46,15 +47,23 @@ class CachedTiles final : public LightFieldSource {
         return recent_.get(std::pair(s0, t0), [&] {
             const HogelRange range{s0, t0, std::min(size_.ns, grid().hogels_s - s0),
                                    std::min(size_.nt, grid().hogels_t - t0)};
-            auto tile = std::make_shared<LightFieldTile>(grid(), range, with_depth_);
-            source_->read(*tile);
-            return tile;
+            // The tile goes back to the pool with its last user.
+            const std::shared_ptr<Memory::Lease> memory(new Memory::Lease(memory_.take()));
+            LightFieldTile& tile = **memory;
+            if (tile.range.ns != range.ns || tile.range.nt != range.nt)
+                tile = LightFieldTile(grid(), range, with_depth_);
+            tile.range = range;
+            source_->read(tile);
+            return std::shared_ptr<const LightFieldTile>(memory, &tile);
         });
     }
 
     LightField::Source source_;
     bool with_depth_;
     HogelRange size_;
+    // Kept from tile to tile, because the system clears new memory.
+    using Memory = core::ObjectPool<LightFieldTile>;
+    mutable Memory memory_;
     mutable core::LruCache<std::pair<std::size_t, std::size_t>, LightFieldTile> recent_;
 };
 

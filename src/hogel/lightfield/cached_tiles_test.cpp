@@ -94,5 +94,41 @@ TEST(KeepTiles, forgets_what_failed) {
     expect_all_in_tiles(kept.front(), 3, 4, false);
 }
 
+// Passes a light field on and counts the tiles that are not new memory, which is zero.
+class Used final : public LightFieldSource {
+  public:
+    explicit Used(std::size_t& used) : used_(used), inner_(asked_) {}
+    const LightFieldGrid& grid() const override { return inner_.grid(); }
+    bool has_depth() const override { return true; }
+    HogelRange preferred_tile() const override { return inner_.preferred_tile(); }
+    void read(LightFieldTile& tile) const override {
+        used_ += std::ranges::any_of(tile.radiance.elements(), [](float value) { return value != 0; }) ? 1 : 0;
+        inner_.read(tile);
+    }
+
+  private:
+    std::size_t& used_;
+    std::atomic<std::size_t> asked_ = 0;
+    Numbered inner_;
+};
+
+TEST(KeepTiles, uses_the_memory_of_forgotten_tiles_again) {
+    std::size_t used = 0;
+    const auto kept = cached_tiles(std::make_unique<Used>(used), 2 * tile_bytes, true);
+    std::atomic<std::size_t> asked = 0;
+    const Numbered truth(asked);
+    for (std::size_t t = 0; t < 9; ++t) {
+        const HogelRange range{3, t, 5, 1};
+        LightFieldTile tile(grid, range, true), expected(grid, range, true);
+        kept.front().read(tile);
+        truth.read(expected);
+        EXPECT_TRUE(std::ranges::equal(tile.radiance.elements(), expected.radiance.elements())) << t;
+        EXPECT_TRUE(std::ranges::equal(tile.depth.elements(), expected.depth.elements())) << t;
+    }
+    // Two of five tiles are kept: the third and the fourth take the place of the first ones. The fifth is of half the
+    // height.
+    EXPECT_EQ(used, 2u);
+}
+
 }  // namespace
 }  // namespace hogel::lightfield
