@@ -5,6 +5,7 @@
 
 #include "hogel/core/lru_cache.h"
 #include "hogel/core/object_pool.h"
+#include "hogel/core/shared_order.h"
 
 namespace hogel {
 namespace {
@@ -28,7 +29,8 @@ class CachedTiles final : public LightFieldSource {
         const std::size_t tiles = (end_s - first_s) * (end_t - first_t);
         // A range that consists of whole rows or whole preferred tiles suits the source. The cache must hold the tiles
         // of two reads, because two threads may read different rows.
-        const bool suits = r.ns == grid().hogels_s || (r.ns % size_.ns == 0 && r.nt % size_.nt == 0);
+        const bool suits = r.ns == grid().hogels_s || (r.ns % size_.ns == 0 && r.nt % size_.nt == 0) ||
+                           (r.ns >= wide && core::team_of_several() != nullptr);
         if (suits || 2 * tiles > recent_.capacity() || (tile.depth.size() > 0 && !with_depth_)) {
             source_->read(tile);
             return;
@@ -38,6 +40,10 @@ class CachedTiles final : public LightFieldSource {
     }
 
   private:
+    // Ranges of so many hogels across are read as they are in a team, of which each process would otherwise render
+    // whole rows for the ranges that are handed to it.
+    static constexpr std::size_t wide = 8;
+
     double tile_bytes() const {
         const std::size_t values = grid().channels + (with_depth_ ? 1 : 0);
         return static_cast<double>(size_.hogels() * grid().directions() * values * sizeof(float));

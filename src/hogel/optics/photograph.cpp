@@ -31,6 +31,10 @@ class Window final : public FieldSource {
         : whole_(whole), region_(region), grid_{part(whole.grid().plane, region), whole.grid().wavelength} {}
     const FieldGrid& grid() const override { return grid_; }
     std::size_t looks() const override { return whole_.looks(); }
+    std::size_t alignment() const override {
+        const std::size_t whole = whole_.alignment();
+        return region_.x0 % whole == 0 && region_.y0 % whole == 0 ? whole : 1;
+    }
     const Provenance& provenance() const override { return whole_.provenance(); }
     void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override {
         validate(region, grid_, out.shape());

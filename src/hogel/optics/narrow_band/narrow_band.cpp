@@ -56,9 +56,14 @@ bool share_columns(const NarrowBand& a, const NarrowBand& b, const Grid& plane) 
     return worst / a.geometry.wavelength() < 0.5 * guard * passed;
 }
 
-// The contribution of one tile to one eye's band, for all looks.
+// The contribution of one block to one eye's band, for all looks.
 struct Contribution {
-    Reach rows, columns;
+    Contribution() = default;
+    Contribution(Reach down, Reach across, std::size_t count) : rows(down), columns(across) {
+        for (std::size_t look = 0; look < count; ++look)
+            looks.emplace_back(Shape<2>{rows.end - rows.first, columns.end - columns.first});
+    }
+    Reach rows{}, columns{};
     std::vector<Array<Complex, 2>> looks;
 };
 
@@ -110,26 +115,28 @@ class TilePass {
         prepare_line_taps();
     }
 
-    // Appends one look; contributions are in the order of the group.
-    void add(View<const Complex, 2> tile, std::vector<Contribution>& contributions) const {
+    // Adds one look to the contributions of the tile's block, which are in the order of the group.
+    void add(const Complex* tile, std::size_t stride, std::size_t look,
+             std::vector<Contribution>& contributions) const {
         const std::size_t rows = rows_.end - rows_.first, columns = columns_.end - columns_.first;
-        for (Contribution& contribution : contributions) contribution.looks.emplace_back(Shape<2>{rows, columns});
         Array<Complex, 2> down({rows, region_.width});
         decimated_columns(
-            tile.data(),
-            {region_.width, region_.width, lead_.factor,
+            tile,
+            {region_.width, stride, lead_.factor,
              lead_.first_tap(rows_.first) - static_cast<std::ptrdiff_t>(region_.y0), lead_.taps, demodulation_},
             down.data(), region_.width, rows);
         // Padding before and after the line, so that every kernel fits completely.
-        std::vector<Complex> line(before_ + region_.width + after_);
+        std::vector<Complex> line(before_ + region_.width + after_), band(columns);
         for (std::size_t m = 0; m < rows; ++m)
             for (std::size_t e = 0; e < group_.size(); ++e) {
                 multiply(&down(m, 0), phases_[e].view()[m].data(), std::span(line).subspan(before_, region_.width));
-                decimated_line(line.data(), lead_.factor, line_taps_, contributions[e].looks.back()[m].elements());
+                decimated_line(line.data(), lead_.factor, line_taps_, band);
+                Contribution& all = contributions[e];
+                Complex* const to =
+                    &all.looks[look](rows_.first - all.rows.first + m, columns_.first - all.columns.first);
+                for (std::size_t n = 0; n < columns; ++n) to[n] += band[n];
             }
     }
-
-    Contribution empty_contribution() const { return {rows_, columns_, {}}; }
 
   private:
     // e^{ik|x−c|} without the phase already removed, at every hologram column and band row of the tile.
@@ -166,14 +173,87 @@ class TilePass {
     std::size_t before_ = 0, after_ = 0;
 };
 
-std::vector<Region> tiles(const Grid& plane) {
+// Row by row.
+std::vector<Region> tiles_of(const Region& block) {
     constexpr std::size_t width = NarrowBand::tile_width, height = NarrowBand::tile_height;
     std::vector<Region> list;
-    for (std::size_t y = 0; y < plane.height; y += height)
-        for (std::size_t x = 0; x < plane.width; x += width)
-            list.push_back({x, y, std::min(width, plane.width - x), std::min(height, plane.height - y)});
+    for (std::size_t y = 0; y < block.height; y += height)
+        for (std::size_t x = 0; x < block.width; x += width)
+            list.push_back(
+                {block.x0 + x, block.y0 + y, std::min(width, block.width - x), std::min(height, block.height - y)});
     return list;
 }
+
+// Blocks of tiles that a thread reads together, because a hologram that is synthesised on demand makes all of each
+// hogel of which a sample is read. Enough of them for many threads, about equally large; of single tiles where there
+// are several looks, for which a source may keep what the looks of a region have in common. They do not depend on the
+// source's tiles.
+std::vector<Region> blocks_of(const FieldSource& hologram) {
+    constexpr double min_blocks = 64, max_side = 8;
+    const Grid& plane = hologram.grid().plane;
+    const std::size_t across = (plane.width + NarrowBand::tile_width - 1) / NarrowBand::tile_width,
+                      down = (plane.height + NarrowBand::tile_height - 1) / NarrowBand::tile_height;
+    const double most = hologram.looks() > 1 ? 1.0 : max_side;
+    const auto side = static_cast<std::size_t>(
+        std::clamp(std::floor(std::sqrt(static_cast<double>(across * down) / min_blocks)), 1.0, most));
+    // Where block i of tiles begins.
+    const auto begin = [&](std::size_t i, std::size_t tiles, std::size_t tile, std::size_t end) {
+        const std::size_t blocks = (tiles + side - 1) / side;
+        return std::min(end, i * tiles / blocks * tile);
+    };
+    std::vector<Region> list;
+    for (std::size_t j = 0; j * side < down; ++j)
+        for (std::size_t i = 0; i * side < across; ++i) {
+            const std::size_t x = begin(i, across, NarrowBand::tile_width, plane.width),
+                              y = begin(j, down, NarrowBand::tile_height, plane.height);
+            list.push_back({x, y, begin(i + 1, across, NarrowBand::tile_width, plane.width) - x,
+                            begin(j + 1, down, NarrowBand::tile_height, plane.height) - y});
+        }
+    return list;
+}
+
+// Reads a block's rows from above to below, whole hogels at a time, and keeps those that the next tiles need.
+class BlockReader {
+  public:
+    BlockReader(const FieldSource& hologram, const Region& block, Array<Complex, 1>& memory)
+        : hologram_(hologram), block_(block), memory_(memory) {
+        const std::size_t alignment = hologram.alignment();
+        if (alignment <= NarrowBand::tile_height) alignment_ = alignment;
+        const std::size_t rows = std::min(block.height, NarrowBand::tile_height + alignment_);
+        if (memory.size() < rows * block.width) memory = Array<Complex, 1>({rows * block.width});
+    }
+
+    // The first sample of a tile, whose rows are stride() apart. Tiles are asked for row by row, or one alone for each
+    // look.
+    const Complex* read(const Region& tile, std::size_t look) {
+        if (look != look_) end_ = block_.y0;
+        look_ = look;
+        const std::size_t end = tile.y0 + tile.height;
+        if (end_ < end) {
+            const std::size_t kept = end_ > tile.y0 ? end_ - tile.y0 : 0;
+            if (kept > 0) {
+                const Complex* from = memory_.data() + (tile.y0 - first_) * block_.width;
+                std::copy_n(from, kept * block_.width, memory_.data());
+            }
+            first_ = tile.y0;
+            const std::size_t from = first_ + kept;
+            end_ = std::min((end + alignment_ - 1) / alignment_ * alignment_, block_.y0 + block_.height);
+            hologram_.read({block_.x0, from, block_.width, end_ - from}, look,
+                           {memory_.data() + kept * block_.width, {end_ - from, block_.width}});
+        }
+        return memory_.data() + (tile.y0 - first_) * block_.width + (tile.x0 - block_.x0);
+    }
+
+    std::size_t stride() const { return block_.width; }
+
+  private:
+    const FieldSource& hologram_;
+    Region block_;
+    Array<Complex, 1>& memory_;
+    std::size_t alignment_ = 1;
+    std::size_t look_ = SIZE_MAX;
+    std::size_t first_ = 0, end_ = 0;  // rows of the hologram in memory
+};
 
 }  // namespace
 
@@ -250,25 +330,31 @@ std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const 
             bands[eye].emplace_back(Shape<2>{eyes[eye].plane.height, eyes[eye].plane.width});
         }
 
-    const std::vector<Region> regions = tiles(plane);
-    // Kept from tile to tile, because the system clears new memory.
-    core::ObjectPool<Array<Complex, 1>> tile_memory;
+    const std::vector<Region> blocks = blocks_of(hologram);
+    // Kept from block to block, because the system clears new memory.
+    core::ObjectPool<Array<Complex, 1>> block_memory;
     core::shared_ordered<Contributions>(
-        regions.size(), core::default_in_flight(), sent_contributions(),
+        blocks.size(), core::default_in_flight(), sent_contributions(),
         [&](std::size_t i) {
-            std::vector<TilePass> passes;
+            const Region& block = blocks[i];
             Contributions contributions;
             for (const auto& group : groups) {
-                passes.emplace_back(plane, eyes, group, regions[i]);
-                contributions.emplace_back(group.size(), passes.back().empty_contribution());
+                const NarrowBand& lead = eyes[group.front()];
+                contributions.emplace_back(
+                    group.size(), Contribution(reach(lead, lead.plane.height, block.y0, block.y0 + block.height),
+                                               reach(lead, lead.plane.width, block.x0, block.x0 + block.width), looks));
             }
-            auto memory = tile_memory.take();
-            if (memory->size() < regions[i].samples()) *memory = Array<Complex, 1>({regions[i].samples()});
-            const View<Complex, 2> tile(memory->data(), {regions[i].height, regions[i].width});
-            for (std::size_t look = 0; look < looks; ++look) {
-                core::throw_if_stopped();
-                hologram.read(regions[i], first_look + look, tile);
-                for (std::size_t g = 0; g < groups.size(); ++g) passes[g].add(tile, contributions[g]);
+            auto memory = block_memory.take();
+            BlockReader reader(hologram, block, *memory);
+            for (const Region& tile : tiles_of(block)) {
+                std::vector<TilePass> passes;
+                for (const auto& group : groups) passes.emplace_back(plane, eyes, group, tile);
+                for (std::size_t look = 0; look < looks; ++look) {
+                    core::throw_if_stopped();
+                    const Complex* const samples = reader.read(tile, first_look + look);
+                    for (std::size_t g = 0; g < groups.size(); ++g)
+                        passes[g].add(samples, reader.stride(), look, contributions[g]);
+                }
             }
             return contributions;
         },
@@ -285,7 +371,7 @@ std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const 
                                 band(m, n) += part.looks[look](m - part.rows.first, n - part.columns.first);
                     }
                 }
-            progress.report(static_cast<double>(i + 1) / static_cast<double>(regions.size()));
+            progress.report(static_cast<double>(i + 1) / static_cast<double>(blocks.size()));
         });
     return bands;
 }
