@@ -11,7 +11,7 @@ import math
 import pathlib
 
 HALF, COMPLEX_HALF = 2, 4       # bytes
-TILE = 512 * 384                # samples that the narrow camera reads together
+BLOCK = 8 * 512, 8 * 384        # samples of which the narrow camera adds the light before it is sent
 NUMBERS = 8                     # bytes of a complex number in a message or a plane
 STREAM_BITS = 0.05              # of a sample in a stream at 35 dB, as measured
 
@@ -39,12 +39,12 @@ class Model:
         samples = (o.side / o.pitch)**2
         field = o.colours * samples * COMPLEX_HALF
         per_sample = lambda stage, n: self.rates[stage][0] + self.rates[stage][1] * n
-        # Of each tile the narrow camera sends its part of the band, with the low-pass's 4.5 samples on each side. The band
+        # Of each block the narrow camera sends its part of the band, with the low-pass's 4.5 samples on each side. The band
         # passes a quarter of its sampling rate.
         half_band = 0.5 * o.pupil / (o.wavelength * o.distance)
         factor = max(1, math.floor(0.25 / (1.1 * half_band * o.pitch)))
-        band = (512 / factor + 9) * (384 / factor + 9) * NUMBERS
-        light = o.colours * samples / TILE * band
+        band = (BLOCK[0] / factor + 9) * (BLOCK[1] / factor + 9) * NUMBERS
+        light = o.colours * samples / (BLOCK[0] * BLOCK[1]) * band
         lines = 2 * o.colours * samples * NUMBERS  # to columns and back
         return {
             "render": (per_sample("render", rays), rays * HALF, 0, 0),
@@ -52,8 +52,8 @@ class Model:
                          rays * STREAM_BITS / 8),
             "hologram": (o.colours * per_sample("hologram", samples), o.colours * rays / 3 * HALF + field, 0, 0),
             "photo": (o.colours * per_sample("photo", samples), field, light, light),
-            # The hologram is not stored, but computed as the camera reads it.
-            "streamed photo": (o.colours * per_sample("streamed photo", samples), rays * HALF, light, light),
+            # Nothing is stored: the scene is rendered and its hologram computed as the camera reads it.
+            "streamed photo": (o.colours * per_sample("streamed photo", samples), 0, light, light),
             # n log n, of lines longer than those of the largest run.
             "propagate": (o.colours * per_sample("propagate", samples) * math.log(samples) / math.log(1e8), 2 * field, lines, 0),
         }
@@ -80,7 +80,7 @@ def options():
     number = lambda name, value, text: parser.add_argument(name, type=float, default=value, help=f"{text} [{value:g}]")
     number("--side", 1, "of the hologram, m")
     number("--pitch", 1e-6, "of its samples, m")
-    number("--hogel", 0.25e-3, "side of a hogel, m")
+    number("--hogel", 0.256e-3, "side of a hogel, m")
     number("--directions", 256, "across and down")
     number("--colours", 3, "wavelengths")
     number("--wavelength", 532e-9, "m")

@@ -5,7 +5,6 @@
 
 #include "hogel/core/lru_cache.h"
 #include "hogel/core/object_pool.h"
-#include "hogel/core/shared_order.h"
 
 namespace hogel {
 namespace {
@@ -27,10 +26,9 @@ class CachedTiles final : public LightFieldSource {
         const std::size_t first_s = r.s0 / size_.ns, end_s = (r.s0 + r.ns - 1) / size_.ns + 1;
         const std::size_t first_t = r.t0 / size_.nt, end_t = (r.t0 + r.nt - 1) / size_.nt + 1;
         const std::size_t tiles = (end_s - first_s) * (end_t - first_t);
-        // A range that consists of whole rows or whole preferred tiles suits the source. The cache must hold the tiles
-        // of two reads, because two threads may read different rows.
-        const bool suits = r.ns == grid().hogels_s || (r.ns % size_.ns == 0 && r.nt % size_.nt == 0) ||
-                           (r.ns >= wide && core::team_of_several() != nullptr);
+        // A range that consists of whole rows or whole preferred tiles suits the source, and one of many hogels across
+        // nearly. The cache must hold the tiles of two reads, because two threads may read different rows.
+        const bool suits = r.ns == grid().hogels_s || r.ns >= wide || (r.ns % size_.ns == 0 && r.nt % size_.nt == 0);
         if (suits || 2 * tiles > recent_.capacity() || (tile.depth.size() > 0 && !with_depth_)) {
             source_->read(tile);
             return;
@@ -40,8 +38,8 @@ class CachedTiles final : public LightFieldSource {
     }
 
   private:
-    // Ranges of so many hogels across are read as they are in a team, of which each process would otherwise render
-    // whole rows for the ranges that are handed to it.
+    // What whole rows save for so many hogels is less than what a process renders for nothing that reads few ranges of
+    // a row, as each of a team does, or that returns to a row when the cache has forgotten it.
     static constexpr std::size_t wide = 8;
 
     double tile_bytes() const {

@@ -52,8 +52,8 @@ struct Band {
 };
 
 std::vector<Band> bands(std::span<const Camera> cameras, std::size_t processes) {
-    // Enough of each picture for processes to end together, though bands of few rows share many hogels.
-    constexpr std::size_t for_each_process = 6, min_rows = 8;
+    // Enough of each picture for processes to end together, but few, because neighbouring bands show the same hogels.
+    constexpr std::size_t for_each_process = 3, min_rows = 8;
     std::vector<Band> list;
     for (std::size_t c = 0; c < cameras.size(); ++c) {
         const std::size_t height = cameras[c].picture.height;

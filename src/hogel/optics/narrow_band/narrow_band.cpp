@@ -11,6 +11,7 @@
 #include "hogel/optics/low_pass.h"
 #include "hogel/optics/narrow_band/kernels.h"
 #include "hogel/optics/phase_walk.h"
+#include "hogel/team.h"
 #include "hogel/units.h"
 
 namespace hogel::optics::narrow_band {
@@ -324,7 +325,7 @@ std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const 
     }
 
     std::vector<std::vector<Array<Complex, 2>>> bands(eyes.size());
-    for (std::size_t eye = 0; eye < eyes.size(); ++eye)
+    for (std::size_t eye = 0; is_first_process() && eye < eyes.size(); ++eye)
         for (std::size_t look = 0; look < looks; ++look) {
             core::throw_if_stopped();  // many looks are gigabytes, which the system clears
             bands[eye].emplace_back(Shape<2>{eyes[eye].plane.height, eyes[eye].plane.width});

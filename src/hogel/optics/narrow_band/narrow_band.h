@@ -33,7 +33,7 @@ struct NarrowBand : BandGrid {
 
 /// Computes the narrow bands of several eyes from looks [first_look, first_look + looks) of a hologram in one pass over
 /// it. Returns bands[eye][look][row][column], the demodulated and low-passed field, which does not depend on the number
-/// of threads. In a team the first process has them; those of others are zero. Memory: the result,
+/// of threads. In a team the first process alone has them. Memory: the result,
 /// and per thread a strip of the hologram of at most eight tiles across and two down.
 std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const FieldSource& hologram,
                                                                           std::span<const NarrowBand> eyes,

@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Measures each stage by 1 rank of 2 threads and by 2 ranks of 1 thread, in turns, files and the start of MPI included, and
+prints the table of docs/cluster.md. Figures count on an idle machine of two processors alone.
+
+usage: efficiency.py HOGEL HOGEL_MPI MPIRUN [--stages NAME,NAME] [--rounds N] [--small] [--require]
+       --small: sizes for a try of this program; --require: an error unless each stage reaches its limit in one of three tries,
+       and status 77 where there are fewer than two processors
+"""
+import argparse
+import os
+import pathlib
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+ENVIRONMENT = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+LIMIT = 0.95
+# Stages of which docs/cluster.md says less, and why; with a tenth for other work on the machine.
+LIMITS = {"photo by rays": 0.75, "photo, looks expected": 0.85, "photo, camera full": 0.8, "hologram": 0.85, "propagate": 0.6, "slm": 0.75,
+          "make": 0.6}
+
+# name: inputs, command
+FULL = {
+    "render": ((), "render church --hogels 192x192 --directions 64x64 --samples 2x2 -o out.h5"),
+    "compress": (("rays",), "compress rays.h5 --step 0.01 -o out.hgl"),
+    "decompress": (("packed",), "decompress packed.hgl -o out.h5"),
+    "hologram": (("rays",), "hologram rays.h5 --wavelength 532nm --pitch 1.25um --half -o out.h5"),
+    "photo by rays": (("rays",), "photo rays.h5 --resolution 512 --pupil-samples 4096 -o out.exr"),
+    "photo, camera narrow": (("waves",), "photo waves.h5 --resolution 256 -o out.exr"),
+    "photo, camera narrow, streamed": (("rays",), "photo rays.h5 --wave --camera narrow --looks 1 --wavelength 532nm "
+                                       "--pitch 1.25um --resolution 256 -o out.exr"),
+    "photo, camera eye": (("rays",), "photo rays.h5 --wave --camera eye --looks 8 --resolution 256 -o out.exr"),
+    "photo, looks expected": (("rays",), "photo rays.h5 --wave --looks expected --resolution 768 -o out.exr"),
+    "photo, camera full": (("field",), "photo field.h5 --camera full --resolution 256 -o out.exr"),
+    "propagate": (("field",), "propagate field.h5 --distance 5mm -o out.h5"),
+    "slm": (("colours",), "slm colours.h5 --pixels 2400x2000 --pixel-pitch 8um --encoding gradient --iterations 20 -o out.png"),
+    "make": ((), "make pumpkin --hogels 192x192 --size 12mm -o out"),
+}
+INPUTS = {
+    "rays": "render pumpkin --hogels 160x160 --directions 64x64 --size 20mm -o rays.h5",
+    "packed": "compress rays.h5 --step 0.01 -o packed.hgl",
+    "waves": "hologram rays.h5 --wavelength rgb --pitch 1.25um --half -o waves.h5",
+    "field": "hologram rays.h5 --wavelength 532nm --pitch 1.9um --half -o field.h5",
+    "slow": "render pumpkin --hogels 160x160 --directions 64x64 --size 19.2mm --fov 2.5deg -o slow.h5",
+    "colours": "hologram slow.h5 --wavelength rgb --pitch 8um -o colours.h5",
+}
+NEEDS = {"packed": ("rays",), "waves": ("rays",), "field": ("rays",), "colours": ("slow",)}
+
+
+def smaller(command):
+    for large, small in (("192x192", "16x16"), ("160x160", "24x24"), ("20mm", "3mm"), ("19.2mm", "4.608mm"), ("12mm", "2mm"),
+                         ("512", "48"), ("4096", "16"), ("2400x2000", "600x500")):
+        command = command.replace(large, small)
+    return command
+
+
+class Bench:
+    def __init__(self, options, folder):
+        self.hogel, self.hogel_mpi, self.mpirun = (os.path.abspath(each) for each in (options.hogel, options.hogel_mpi, options.mpirun))
+        self.sized = smaller if options.small else str
+        self.folder, self.made = folder, set()
+
+    def prepare(self, name):
+        for needed in NEEDS.get(name, ()):
+            self.prepare(needed)
+        if name not in self.made:
+            self.call([self.hogel, *self.sized(INPUTS[name]).split()])
+            self.made.add(name)
+
+    def call(self, command):
+        before, began = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
+        done = subprocess.run(command, cwd=self.folder, env=ENVIRONMENT, capture_output=True, text=True)
+        took, after = time.monotonic() - began, resource.getrusage(resource.RUSAGE_CHILDREN)
+        if done.returncode != 0:
+            sys.exit(f"{' '.join(command)}: {done.stderr}")
+        return took, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+    def ranks(self, ranks, command):
+        for old in self.folder.glob("out*"):
+            subprocess.run(["rm", "-r", str(old)], check=True)
+        return self.call([self.mpirun, "--oversubscribe", "--bind-to", "none", "-n", str(ranks), self.hogel_mpi,
+                          *command.split(), "--threads", str(2 // ranks)])
+
+    # Elapsed and processor seconds of both, medians, and the median of the ratios of neighbours.
+    def compare(self, command, rounds):
+        runs = {1: [], 2: []}
+        for turn in range(rounds):
+            for ranks in ((1, 2), (2, 1))[turn % 2]:
+                runs[ranks].append(self.ranks(ranks, command))
+        middle = lambda ranks, which: statistics.median(run[which] for run in runs[ranks])
+        ratio = statistics.median(one[0] / two[0] for one, two in zip(runs[1], runs[2]))
+        return middle(1, 0), middle(1, 1), middle(2, 0), middle(2, 1), ratio
+
+
+def main():
+    parser = argparse.ArgumentParser(usage=__doc__)
+    for name in ("hogel", "hogel_mpi", "mpirun"):
+        parser.add_argument(name)
+    parser.add_argument("--stages", default=",".join(name.replace(",", "") for name in FULL))
+    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--small", action="store_true")
+    parser.add_argument("--require", action="store_true")
+    options = parser.parse_args()
+    if options.require and len(os.sched_getaffinity(0)) < 2:
+        sys.exit(77)
+    wanted, low = options.stages.split(","), []
+    with tempfile.TemporaryDirectory(prefix="hogel_efficiency_") as folder:
+        bench = Bench(options, pathlib.Path(folder))
+        start = bench.compare("--version", options.rounds)
+        print(f"start alone: {start[0]:.2f} s and {start[2]:.2f} s\n", flush=True)
+        print("| stage | 1 rank × 2 threads: elapsed, processor time | 2 ranks × 1 thread | ratio |\n|---|---|---|---|", flush=True)
+        for name, (inputs, command) in FULL.items():
+            if name.replace(",", "") not in wanted:
+                continue
+            for each in inputs:
+                bench.prepare(each)
+            limit = LIMITS.get(name, LIMIT) if options.require else 0
+            for _ in range(3):  # other work may disturb one
+                one, one_work, two, two_work, ratio = bench.compare(bench.sized(command), options.rounds)
+                print(f"| {name} | {one:.1f} s, {one_work:.1f} s | {two:.1f} s, {two_work:.1f} s | {ratio:.2f} |", flush=True)
+                if ratio >= limit:
+                    break
+            else:
+                low.append(name)
+    if options.require and low:
+        sys.exit("below what docs/cluster.md says: " + "; ".join(low))
+
+
+if __name__ == "__main__":
+    main()
