@@ -6,6 +6,7 @@
 #include <pybind11/complex.h>
 #include <pybind11/numpy.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "core.h"
@@ -69,10 +70,13 @@ class Strided {
             address += static_cast<std::ptrdiff_t>(indices[axis]) * strides_[axis];
         return address;
     }
-    /// Copies a row of elements along the last axis.
-    void copy_row(const char* from, T* to) const {
+    /// Copies elements along the last axis.
+    void copy_row(const char* from, std::size_t count, T* to) const {
         const std::ptrdiff_t step = strides_[Rank - 1];
-        for (std::size_t i = 0; i < shape_[Rank - 1]; ++i, from += step) to[i] = *reinterpret_cast<const T*>(from);
+        if (step == sizeof(T))
+            std::copy_n(reinterpret_cast<const T*>(from), count, to);
+        else
+            for (std::size_t i = 0; i < count; ++i, from += step) to[i] = *reinterpret_cast<const T*>(from);
     }
     /// The array itself.
     const py::object& object() const { return *owner_; }

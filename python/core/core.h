@@ -40,7 +40,7 @@ void add_views(py::module_& module);
 void add_plans(py::module_& module);
 void add_file_parts(py::module_& module);
 
-/// Runs work on a thread of its own, without the lock of the interpreter, and waits for it. The calling thread looks
+/// Runs work on another thread, without the lock of the interpreter, and waits for it. The calling thread looks
 /// for signals every 50 ms, so that Ctrl-C stops the work, which then leaves nothing half-written, and raises
 /// KeyboardInterrupt. `report`, unless it is None, is called with the fraction done on the calling thread; it stops the
 /// work by returning False or raising an exception. Exceptions of the work are thrown here.

@@ -31,12 +31,8 @@ class ArrayField final : public FieldSource {
     const Provenance& provenance() const override { return provenance_; }
     void read(const Region& region, std::size_t, View<Complex, 2> out) const override {
         validate(region, grid_, out.shape());
-        const std::ptrdiff_t step = samples_.stride(1);
-        for (std::size_t y = 0; y < region.height; ++y) {
-            const char* from = samples_.at(region.y0 + y, region.x0);
-            for (std::size_t x = 0; x < region.width; ++x, from += step)
-                out(y, x) = *reinterpret_cast<const Complex*>(from);
-        }
+        for (std::size_t y = 0; y < region.height; ++y)
+            samples_.copy_row(samples_.at(region.y0 + y, region.x0), region.width, &out(y, 0));
     }
     const py::object& samples() const { return samples_.object(); }
 

@@ -48,10 +48,11 @@ class ArraySource final : public LightFieldSource {
             for (std::size_t s = 0; s < range.ns; ++s)
                 for (std::size_t v = 0; v < grid_.directions_v; ++v) {
                     for (std::size_t c = 0; c < grid_.channels; ++c)
-                        radiance_.copy_row(radiance_.at(c, range.t0 + t, range.s0 + s, v, 0),
+                        radiance_.copy_row(radiance_.at(c, range.t0 + t, range.s0 + s, v, 0), grid_.directions_u,
                                            &tile.radiance(c, t, s, v, 0));
                     if (depth_ && tile.depth.size() > 0)
-                        depth_->copy_row(depth_->at(range.t0 + t, range.s0 + s, v, 0), &tile.depth(t, s, v, 0));
+                        depth_->copy_row(depth_->at(range.t0 + t, range.s0 + s, v, 0), grid_.directions_u,
+                                         &tile.depth(t, s, v, 0));
                 }
     }
     const py::object& radiance() const { return radiance_.object(); }
@@ -123,6 +124,7 @@ class FunctionSink final : public LightFieldSink {
 struct Axis {
     std::size_t begin = 0, count = 0, step = 1;
     std::size_t at(std::size_t i) const { return begin + i * step; }
+    bool is_whole(std::size_t length) const { return count == length && step == 1; }
 };
 
 // A rectangle of hogels of a source, so that copy() streams what a slice needs and no more.
@@ -152,34 +154,50 @@ class Part final : public LightFieldSource {
     LightFieldGrid grid_;
 };
 
-// Keeps the elements that a slice takes of each tile. Axes t and s count from the first hogel of the part.
+// Keeps the elements that a slice takes of each tile. Axes t and s count from the first hogel of the part. Hogels of a
+// row that are taken whole are copied at once.
 class Picker final : public LightFieldSink {
   public:
-    Picker(const std::array<Axis, 5>& axes, float* to, bool depth) : axes_(axes), to_(to), depth_(depth) {}
+    Picker(const std::array<Axis, 5>& axes, const LightFieldGrid& grid, float* to, bool depth)
+        : axes_(axes),
+          to_(to),
+          depth_(depth),
+          takes_rows_(axes[2].step == 1 && axes[3].is_whole(grid.directions_v) && axes[4].is_whole(grid.directions_u)) {
+    }
     bool wants_depth() const override { return depth_; }
     void write(const LightFieldTile& tile) override {
         const auto& [c, t, s, v, u] = axes_;
-        for (std::size_t j = 0; j < t.count; ++j) {
-            const std::size_t row = j * t.step - tile.range.t0;  // wraps around where it is before the tile
-            if (row >= tile.range.nt) continue;
-            for (std::size_t i = 0; i < s.count; ++i) {
-                const std::size_t column = i * s.step - tile.range.s0;
-                if (column >= tile.range.ns) continue;
-                for (std::size_t channel = 0; channel < c.count; ++channel)
+        const std::size_t hogel = v.count * u.count;
+        for (std::size_t channel = 0; channel < c.count; ++channel)
+            for (std::size_t j = 0; j < t.count; ++j) {
+                const std::size_t row = j * t.step - tile.range.t0;  // wraps around where it is before the tile
+                if (row >= tile.range.nt) continue;
+                float* const out = to_ + (channel * t.count + j) * s.count * hogel;
+                if (takes_rows_) {
+                    std::copy_n(sample(tile, c.at(channel), row, 0, 0), tile.range.ns * hogel,
+                                out + tile.range.s0 * hogel);
+                    continue;
+                }
+                for (std::size_t i = 0; i < s.count; ++i) {
+                    const std::size_t column = i * s.step - tile.range.s0;
+                    if (column >= tile.range.ns) continue;
                     for (std::size_t l = 0; l < v.count; ++l) {
-                        float* out = to_ + (((channel * t.count + j) * s.count + i) * v.count + l) * u.count;
-                        const float* from = depth_ ? &tile.depth(row, column, v.at(l), 0)
-                                                   : &tile.radiance(c.at(channel), row, column, v.at(l), 0);
-                        for (std::size_t k = 0; k < u.count; ++k) out[k] = from[u.at(k)];
+                        const float* from = sample(tile, c.at(channel), row, column, v.at(l));
+                        for (std::size_t k = 0; k < u.count; ++k) out[i * hogel + l * u.count + k] = from[u.at(k)];
                     }
+                }
             }
-        }
     }
 
   private:
+    // The directions of a hogel from this row of them on.
+    const float* sample(const LightFieldTile& tile, std::size_t c, std::size_t t, std::size_t s, std::size_t v) const {
+        return depth_ ? &tile.depth(t, s, v, 0) : &tile.radiance(c, t, s, v, 0);
+    }
+
     const std::array<Axis, 5>& axes_;
     float* to_;
-    bool depth_;
+    bool depth_, takes_rows_;
 };
 
 // The elements of one face that slices with positive steps take, as an array with all five axes, of depth with one
@@ -188,24 +206,23 @@ py::array read_slices(const LightField& light_field, std::size_t face, const std
                       bool depth, const py::object& report) {
     const LightFieldSource& source = *light_field.faces()[face];
     std::array<Axis, 5> axes;
-    std::vector<py::ssize_t> shape(5);
+    Shape<5> shape;
     bool empty = false;
     for (std::size_t axis = 0; axis < 5; ++axis) {
         axes[axis] = {slices[3 * axis], slices[3 * axis + 1], slices[3 * axis + 2]};
-        shape[axis] = static_cast<py::ssize_t>(axes[axis].count);
+        shape[axis] = axes[axis].count;
         empty = empty || axes[axis].count == 0;
     }
-    py::array_t<float> result(shape);
-    if (empty) return result;
+    Array<float, 5> result(shape);
+    if (empty) return array_of(std::move(result));
     const Axis &t = axes[1], &s = axes[2];
     const HogelRange range{s.begin, t.begin, (s.count - 1) * s.step + 1, (t.count - 1) * t.step + 1};
-    float* const to = result.mutable_data();
     run(report, [&](const Progress& progress) {
         const Part part(source, range);
-        Picker picker(axes, to, depth);
+        Picker picker(axes, source.grid(), result.data(), depth);
         copy(part, picker, progress);
     });
-    return result;
+    return array_of(std::move(result));
 }
 
 LightField make_from_array(const LightFieldGrid& grid, const py::array& radiance, const std::optional<py::array>& depth,

@@ -13,6 +13,11 @@ import numpy as np
 SOURCES = Path(os.environ.get("HOGEL_SOURCES", Path(__file__).resolve().parents[2]))
 
 
+#: Whether the address sanitizer watches, which holds released memory back and takes time.
+SANITIZED = "libasan" in Path("/proc/self/maps").read_text()
+unless_sanitized = unittest.skipIf(SANITIZED, "the address sanitizer takes memory and time of its own")
+
+
 class InFolder(unittest.TestCase):
     """Tests that write files; after each no temporary file may be left."""
 
