@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 import hogel
-from common import InFolder, light_field
+from common import InFolder, light_field, unless_sanitized
 
 LOOK = """
 import hogel
@@ -21,6 +21,7 @@ print([line.split()[1] for line in open("/proc/self/status") if line.startswith(
 """
 
 
+@unless_sanitized
 @unittest.skipUnless(importlib.util.find_spec("h5py"), "h5py is not installed")
 class Large(InFolder):
     def test_memory(self):
