@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light fields in files: HDF5, compressed ones, sets of views.
+#include "arrays.h"
 #include "core.h"
 #include "hogel/files.h"
 #include "hogel/pipeline.h"
+#include "hogel/stream_rates.h"
 
 namespace hogel::python {
 namespace {
@@ -99,6 +101,12 @@ void add_light_field_files(py::module_& module) {
         },
         arg("path"), arg("light_field"), arg("single"), arg("with_depth"), arg("metadata"), arg("resume"),
         arg("report"));
+    module.def(
+        "bytes_of_hogels",
+        [](const std::filesystem::path& path, std::size_t layers, const py::object& report) {
+            return array_of(run_for(report, [&](const Progress& p) { return bytes_of_hogels(path, layers, p); }));
+        },
+        arg("path"), arg("layers") = 0, arg("report") = py::none());
     module.def("every_nth_hogel", &every_nth_hogel, arg("light_field"), arg("n"));
     module.def(
         "read_stream_info",

@@ -2,6 +2,7 @@
 // What work needs, before it begins.
 #include "core.h"
 #include "hogel/pipeline.h"
+#include "hogel/scene_model.h"
 
 namespace hogel::python {
 namespace {
@@ -81,6 +82,17 @@ void add_plans(py::module_& module) {
             return plan_bake(scene, options);
         },
         arg("scene"), arg("rays"), arg("bounces"), arg("tessellation"));
+    py::class_<Advice>(module, "Advice")
+        .def_readonly("parameter", &Advice::parameter)
+        .def_readonly("text", &Advice::text)
+        .def_readonly("enough", &Advice::enough)
+        .def_readonly("refused", &Advice::refused);
+    module.def(
+        "advise",
+        [](const Scene& placed, const LightFieldRequest& light_field, const HologramRequest& hologram) {
+            return advise(bounds(placed), light_field, hologram);
+        },
+        arg("placed"), arg("light_field"), arg("hologram"));
     module.def("require_resources", &require_resources, arg("plan"), arg("what"), arg("file"));
     module.def("with_history", &with_history, arg("now"), arg("before"));
     module.def(

@@ -4,6 +4,8 @@
 // Points and colours are tuples of three numbers.
 
 #include <array>
+#include <optional>
+#include <type_traits>
 
 #include "core.h"
 #include "hogel/geometry.h"
@@ -18,36 +20,38 @@ inline Point point_of(const Vec3& v) { return {v.x, v.y, v.z}; }
 inline Rgb rgb_of(const Colour& c) { return {c[0], c[1], c[2]}; }
 inline Colour colour_of(const Rgb& c) { return {c.r, c.g, c.b}; }
 
-/// A property of type Vec3 as a tuple of three numbers.
-template <class Class, class Struct>
-void add_vector(Class& to, const char* name, Vec3 Struct::*member) {
-    to.def_property(
-        name, [member](const Struct& s) { return point_of(s.*member); },
-        [member](Struct& s, const Point& p) { s.*member = vector_of(p); });
+inline std::optional<Point> point_of(const std::optional<Vec3>& v) {
+    return v ? std::optional(point_of(*v)) : std::nullopt;
 }
-/// A property of type Rgb, likewise.
-template <class Class, class Struct>
-void add_colour(Class& to, const char* name, Rgb Struct::*member) {
-    to.def_property(
-        name, [member](const Struct& s) { return colour_of(s.*member); },
-        [member](Struct& s, const Colour& c) { s.*member = rgb_of(c); });
+inline std::optional<Vec3> vector_of(const std::optional<Point>& p) {
+    return p ? std::optional(vector_of(*p)) : std::nullopt;
 }
-/// A property of type std::optional<Vec3>; None: there is none.
-template <class Class, class Struct>
-void add_vector(Class& to, const char* name, std::optional<Vec3> Struct::*member) {
-    to.def_property(
-        name, [member](const Struct& s) { return s.*member ? std::optional(point_of(*(s.*member))) : std::nullopt; },
-        [member](Struct& s, const std::optional<Point>& p) {
-            s.*member = p ? std::optional(vector_of(*p)) : std::nullopt;
-        });
+inline std::optional<Colour> colour_of(const std::optional<Rgb>& c) {
+    return c ? std::optional(colour_of(*c)) : std::nullopt;
 }
-template <class Class, class Struct>
-void add_colour(Class& to, const char* name, std::optional<Rgb> Struct::*member) {
+inline std::optional<Rgb> rgb_of(const std::optional<Colour>& c) {
+    return c ? std::optional(rgb_of(*c)) : std::nullopt;
+}
+
+/// A property whose type Python knows by another: `to_python` of it, and `to_cpp` back.
+template <class Class, class Struct, class Value, class ToPython, class ToCpp>
+void add_converted(Class& to, const char* name, Value Struct::*member, ToPython to_python, ToCpp to_cpp) {
+    using Python = std::invoke_result_t<ToPython, const Value&>;
     to.def_property(
-        name, [member](const Struct& s) { return s.*member ? std::optional(colour_of(*(s.*member))) : std::nullopt; },
-        [member](Struct& s, const std::optional<Colour>& c) {
-            s.*member = c ? std::optional(rgb_of(*c)) : std::nullopt;
-        });
+        name, [=](const Struct& s) { return to_python(s.*member); },
+        [=](Struct& s, const Python& value) { s.*member = to_cpp(value); });
+}
+/// A property of type Vec3, or std::optional<Vec3> (None: there is none), as a tuple of three numbers.
+template <class Class, class Struct, class Value>
+void add_vector(Class& to, const char* name, Value Struct::*member) {
+    add_converted(
+        to, name, member, [](const Value& v) { return point_of(v); }, [](const auto& p) { return vector_of(p); });
+}
+/// A property of type Rgb, or std::optional<Rgb>, likewise.
+template <class Class, class Struct, class Value>
+void add_colour(Class& to, const char* name, Value Struct::*member) {
+    add_converted(
+        to, name, member, [](const Value& c) { return colour_of(c); }, [](const auto& c) { return rgb_of(c); });
 }
 
 }  // namespace hogel::python
