@@ -38,6 +38,7 @@ from ._core import (
 from ._options import add_manners as _add_manners
 from .camera import camera
 from .errors import BadInputError, CancelledError, CannotWriteError, Error, InternalError, NotBuiltInError, UsageError
+from .exports import export_views, film, views_of
 from .face import Face
 from .field import Field
 from .hologram import Hologram
@@ -48,7 +49,7 @@ from .picture import Picture
 from .pose import light
 from .requests import request
 from .scene import Scene, add_renderer
-from .views import export_views, film, import_views, is_view_set, view_layouts, views_of, write_cameras
+from .views import import_views, is_view_set, view_layouts, write_cameras
 from .units import angle, cm, deg, length, m, mm, nm, rad, um
 
 _add_manners()

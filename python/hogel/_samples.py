@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Union
+from collections.abc import Sequence
+from typing import Any, Optional, Union
 
 import numpy as np
 
@@ -34,6 +35,12 @@ def choice(kind: Any, name: str, what: str) -> Any:
     if name not in members:
         raise UsageError(f"{what}: {' or '.join(members)} were expected, not '{name}'")
     return members[name]
+
+
+def one_of(value: Optional[str], known: Sequence[str], what: str) -> Optional[str]:
+    if value is not None and value not in known:
+        raise UsageError(f"{what}: {' or '.join(known)} were expected, not '{value}'")
+    return value
 
 
 class Samples:

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Optional
+from typing import Any, Optional
 
 from . import _core, _record
 from ._progress import Progress, reporting
+from ._rays import Rays
 from ._samples import Path
 from .errors import UsageError
 
-if TYPE_CHECKING:
-    from .light_field import LightField
-
 
 def save_light_field(
-    light_field: "LightField",
+    light_field: Rays,
     path: Path,
     single: bool,
     half: bool,

@@ -327,7 +327,11 @@ class Hologram:
         ((64, 64, 1), dtype('uint8'))
         """
         modulator = modulator_of(device, pixels, pixel_pitch, levels)
-        return pattern_of(self, encoding, modulator, reference, clip, window, iterations, phase_code, device, pixels, pixel_pitch, progress)
+        made = self._made if self.is_opened else None
+        return pattern_of(
+            self._sources, made, encoding, modulator, reference, clip, window, iterations, phase_code, device, pixels, pixel_pitch,
+            progress,
+        )
 
     def compare(self, other: "Hologram", *, progress: Progress = None) -> dict[str, float]:
         """sqnr and psnr (decibels) and max_error of another hologram of this sampling.

@@ -4,25 +4,26 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, Optional, Union
+from typing import Any, Optional, Union
 
 import numpy as np
 
-from . import _core, units
-from . import _record
+from . import _core, _record, units
 from ._progress import Progress, reporting
-from ._samples import Path, Samples, array_of
+from ._rays import Rays
+from ._samples import Path, array_of
 from ._saving import save_light_field
 from .camera import camera, camera_record
 from .compression import compress
 from .errors import UsageError
-from .face import Face
+from .exports import export_views, write_printer_images
+from .hologram import Hologram
+from .method import hologram_record, hologram_request
 from .picture import Picture
+from .requests import request
 
-if TYPE_CHECKING:
-    from .hologram import Hologram
 
-class LightField(Samples):
+class LightField(Rays):
     """A light field L[c][t][s][v][u]: channels, rows and columns of hogels, rows and columns of directions; row 0 at the
     top, column 0 at the left (docs/files.md). Made by Scene.render(), open(), from_array() and from_function().
 
@@ -36,16 +37,6 @@ class LightField(Samples):
     >>> lf[2:4, :, 1, 1].shape
     (1, 2, 8)
     """
-
-    #: The names of the axes.
-    dims = ("c", "t", "s", "v", "u")
-
-    def __init__(self, light_field: _core.LightField, where: str, made: Optional[_record.Record] = None) -> None:
-        # `made`: the options of the command line that made or opened it, where there are any.
-        self._light_field, self.where, self._made = light_field, where, made
-        self._rendering: Any = None  # request and triangles of one that is rendered when it is read
-        self._views: Any = None  # what is known of a set of views
-        self._identity: Optional[str] = None  # of its input, for work that can be resumed
 
     compress = compress
 
@@ -89,8 +80,6 @@ class LightField(Samples):
         >>> lf.shape
         (1, 6, 8, 4, 5)
         """
-        from .requests import request
-
         values = array_of(radiance, np.float32)
         if values.ndim == 4:
             values = values[None]
@@ -120,8 +109,6 @@ class LightField(Samples):
         >>> stripes[0, 0, 0, 0, :].tolist()
         [0.5, 0.5, 0.5, 1.0, 1.0, 0.5, 0.5, 0.5]
         """
-        from .requests import request
-
         grid = request(**options).grid
         grid.channels = channels
         return cls.of_grid(function, grid, depth=depth, metadata=metadata)
@@ -157,78 +144,6 @@ class LightField(Samples):
 
         return cls(_core.light_field_of_function(grid, tile, depth, metadata), "computed when read")
 
-    @property
-    def grid(self) -> _core.LightFieldGrid:
-        """The sampling of the front."""
-        return self._light_field.grid
-
-    @property
-    def coords(self) -> dict[str, "np.ndarray[Any, Any]"]:
-        """The coordinates of the axes t, s (metres), v and u (tangents, or sines of frequencies), as xarray takes them."""
-        g = self.grid
-        lengths = {"t": (g.t, g.hogels_t), "s": (g.s, g.hogels_s), "v": (g.v, g.directions_v), "u": (g.u, g.directions_u)}
-        return {name: np.array([at(index) for index in range(length)]) for name, (at, length) in lengths.items()}
-
-    @property
-    def faces(self) -> list[Face]:
-        """All faces, the front first: one, or the three or five of a hemisquare or hemicube."""
-        return [Face(self._light_field, index, False) for index in range(self._light_field.faces)]
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """Of the front: (channels, rows of hogels, columns, rows of directions, columns)."""
-        return self.grid.shape
-
-    @property
-    def nbytes(self) -> int:
-        """Bytes of all samples as single floats."""
-        return 4 * int(self._light_field.samples())
-
-    @property
-    def has_depth(self) -> bool:
-        """Whether the depth of every ray is known."""
-        return self._light_field.has_depth()
-
-    @property
-    def depth(self) -> Face:
-        """The depths of the front, [t][s][v][u]: an array that is read when it is indexed."""
-        return self.faces[0].depth
-
-    @property
-    def metadata(self) -> dict[str, str]:
-        """What made the light field."""
-        return dict(self._light_field.metadata)
-
-    def __getitem__(self, key: Any) -> "np.ndarray[Any, Any]":
-        if isinstance(key, tuple) and len(key) == 4 and not any(part is Ellipsis for part in key):
-            key = (slice(None), *key)
-        return self.read(key)
-
-    def read(self, key: Any = (), progress: Progress = None) -> "np.ndarray[Any, Any]":
-        """The elements that slices and whole numbers take, by NumPy's rules. Of a file only the tiles that hold them are
-        read.
-
-        >>> import hogel, numpy as np
-        >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
-        >>> lf.read((0, slice(2, 4), slice(None, None, 2), 1, 1)).shape
-        (2, 4)
-        """
-        return self.faces[0].read(key, progress)
-
-    def part(self, **indices: Any) -> "np.ndarray[Any, Any]":
-        """The elements that slices and whole numbers take of the axes c, t, s, v and u by their names; all of the others:
-        lf.part(t=slice(10, 20), v=4, u=4).
-
-        >>> import hogel, numpy as np
-        >>> lf = hogel.LightField.from_array(np.ones((3, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
-        >>> lf.part(t=slice(2, 4), v=1, u=1).shape
-        (3, 2, 8)
-        """
-        unknown = set(indices) - set(self.dims)
-        if unknown:
-            raise UsageError(f"part: {', '.join(sorted(unknown))}: the axes are c, t, s, v and u")
-        return self.read(tuple(indices.get(name, slice(None)) for name in self.dims))
-
     def load(self, *, depth: Optional[bool] = None, progress: Progress = None) -> "LightField":
         """The same light field in memory; with its depth where it has one, unless depth=False.
 
@@ -240,20 +155,6 @@ class LightField(Samples):
         with reporting(progress, "reading") as report:
             with_depth = self.has_depth if depth is None else depth
             return LightField(_core.load(self._light_field, with_depth, report), "in memory", self._made)
-
-    def stream(self, sink: Callable[..., Any], *, face: int = 0, depth: bool = False, progress: Progress = None) -> None:
-        """Calls sink(s, t, radiance, depth) with every tile, one at a time in any order: the first column and row of its
-        hogels, an array [c][t][s][v][u], and one [t][s][v][u] or None. Memory: a few tiles.
-
-        >>> import hogel, numpy as np
-        >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
-        >>> seen = []
-        >>> lf.stream(lambda s, t, radiance, depth: seen.append(radiance.size))
-        >>> sum(seen) == lf.size
-        True
-        """
-        with reporting(progress, "reading") as report:
-            _core.stream(self._light_field, face, sink, depth, report)
 
     def with_common_directions(self) -> "LightField":
         """The same light field with the same directions at all hogels, which holograms need.
@@ -286,13 +187,6 @@ class LightField(Samples):
         with reporting(progress, "comparing") as report:
             sqnr, psnr, max_error = _core.compare(self._light_field, other._light_field, report)
         return {"sqnr": sqnr, "psnr": psnr, "max_error": max_error}
-
-    def _prepared(self, times: int, depth: bool, progress: Progress) -> _core.LightField:
-        """For readers that read it several times; what is rendered when it is read is then rendered once."""
-        if self.where not in ("rendered when read", "computed when read"):
-            return self._light_field
-        with reporting(progress, "rendering") as report:
-            return _core.prepare_for_reading(self._light_field, times, depth, report)
 
     def save(
         self,
@@ -347,7 +241,7 @@ class LightField(Samples):
         looks: int = 1,
         seed: int = 1,
         progress: Progress = None,
-    ) -> "Hologram":
+    ) -> Hologram:
         """The hologram of the light field, computed when it is read: one field for each wavelength, without any three
         (red, green, blue). The options are those of `hogel hologram`.
 
@@ -356,9 +250,6 @@ class LightField(Samples):
         >>> lf.hologram(wavelength="532nm", pitch="1.5625um")
         Hologram(256x256 samples 1.5625 um apart, 0.4 mm x 0.4 mm, 532 nm, computed when read)
         """
-        from .hologram import Hologram
-        from .method import hologram_record, hologram_request
-
         wanted = hologram_request(wavelength, pitch, method, phase, lobes, basis, tolerance, line_pitch, looks, seed)
         common = self._for_holograms(wanted, basis is None)
         _core.require_holograms(common, wanted)
@@ -401,7 +292,7 @@ class LightField(Samples):
         return pictures[0] if cameras is None else pictures
 
     def export(self, target: Path, **options: Any) -> _core.ExportedViews:
-        """Writes the light field as a set of views, or a film of its middle row: hogel.views.export_views().
+        """Writes the light field as a set of views, or a film of its middle row: hogel.export_views().
 
         >>> import hogel, os, tempfile
         >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=3, size="4mm", focal_plane="-300mm")
@@ -409,57 +300,14 @@ class LightField(Samples):
         >>> made.columns, made.rows, len(made.files)
         (3, 3, 9)
         """
-        from .views import export_views
-
         return export_views(self, target, **options)
 
     def print(self, folder: Path, **options: Any) -> list[str]:
-        """Writes the pictures that a hologram printer shows: hogel.views.write_printer_images().
+        """Writes the pictures that a hologram printer shows: hogel.exports.write_printer_images().
 
         >>> import hogel, os, tempfile
         >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
         >>> len(lf.print(os.path.join(tempfile.mkdtemp(), "prints"), strips=True))
         8
         """
-        from .views import write_printer_images
-
         return write_printer_images(self, folder, **options)
-
-    def views(self) -> Picture:
-        """The picture of the middle direction, a pixel a hogel.
-
-        >>> import hogel, numpy as np
-        >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
-        >>> lf.views()
-        Picture(8x6 pixels, 1 channel)
-        """
-        middle = self.part(v=self.shape[3] // 2, u=self.shape[4] // 2)
-        return Picture(np.moveaxis(middle, 0, -1))
-
-    def _repr_png_(self) -> bytes:
-        return self.views().png()
-
-    def __repr__(self) -> str:
-        g = self.grid
-        channels = f"{g.channels} channel{'' if g.channels == 1 else 's'}"
-        sides = "" if self._light_field.faces == 1 else f" and {self._light_field.faces - 1} sides"
-        size = f"{units.say_length(g.width)} x {units.say_length(g.height)}"
-        return (
-            f"LightField({g.hogels_s}x{g.hogels_t} hogels of {g.directions_u}x{g.directions_v} directions{sides}, {channels}, "
-            f"{size}, {_say_view(g)}, {units.say_bytes(self.nbytes)}, {self.where})"
-        )
-
-
-def _say_view(grid: _core.LightFieldGrid) -> str:
-    import math
-
-    def angle(half: float, center: float) -> str:
-        if grid.has_frequencies:
-            return units.say_angle(2 * math.asin(min(1.0, half)))
-        return units.say_angle(math.atan(center + half) - math.atan(center - half))
-
-    across, down = angle(grid.view.half_u, grid.view.center_u), angle(grid.view.half_v, grid.view.center_v)
-    text = across if across == down else f"{across} x {down}"
-    if isinstance(grid.view, _core.FocalPlane):
-        text += f" through the plane {units.say_length(grid.view.depth)} behind"
-    return text

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Optional, Union
+from typing import Any, Optional, Union
 
 import numpy as np
 
 from . import _core, _record, units
 from ._progress import Progress, reporting
 from .errors import UsageError
-
-if TYPE_CHECKING:
-    from .hologram import Hologram
 
 
 class Pattern:
@@ -115,7 +112,8 @@ def modulator_of(
 
 
 def pattern_of(
-    hologram: "Hologram",
+    fields: list[_core.FieldSource],
+    made: Optional[_record.Record],
     encoding: str,
     modulator: _core.Modulator,
     reference: units.Angle,
@@ -128,8 +126,7 @@ def pattern_of(
     pixel_pitch: Optional[units.Length],
     progress: Progress,
 ) -> Pattern:
-    """See Hologram.slm()."""
-    fields = hologram._sources
+    """See Hologram.slm(). `made`: the options of the command line that opened the fields, if they were opened."""
     if len(fields) not in (1, 3):
         raise UsageError(f"slm: a pattern takes one or three wavelengths, not {len(fields)}")
     options = _core.PatternOptions(modulator)
@@ -147,8 +144,7 @@ def pattern_of(
     with reporting(progress, "pattern") as report:
         parts = [_core.encode_pattern(field, options, report) for field in fields]
     pattern = Pattern(np.stack([part.levels for part in parts], axis=-1), encoding, modulator, parts)
-    made = hologram._made
-    if made is None or not hologram.is_opened:
+    if made is None:
         return pattern
     acted = {**_record.renamed(made, "phase-code", "input-phase-code"), "encoding": encoding}
     if _core.is_phase_only(options.encoding):

@@ -11,9 +11,11 @@ import numpy as np
 from . import _core, _record, units
 from . import pose as pose_of
 from ._progress import Progress, reporting
-from .errors import UsageError
+from .errors import BadInputError, UsageError
+from .hologram import Hologram
 from .light_field import LightField
 from .requests import render_record, request
+from .scene_hologram import scene_hologram
 
 #: Renderers of one's own, by name: see add_renderer().
 own_renderers: dict[str, Callable[..., Any]] = {}
@@ -125,8 +127,6 @@ class Scene:
         if text in (known for known, _ in _core.scenes()):
             return cls(text, None, pose, made)
         if _core.input_kind(text) != _core.InputKind.scene:
-            from .errors import BadInputError
-
             raise BadInputError(f"{text}: is not a scene")
         with reporting(progress, "scene") as report:
             return cls(text, _core.import_scene(text, float(point_size), report), pose, made)
@@ -204,6 +204,21 @@ class Scene:
                 return _core.load_scene(self.name, wanted, report)
             return _core.prepare_scene(self._scene, wanted)
 
+    def advise(
+        self, hologram: Optional[_core.HologramRequest] = None, *, progress: Progress = None, **options: Any
+    ) -> list[_core.Advice]:
+        """What of the scene a light field with these options of render(), and holograms by hologram_request(), cannot show:
+        for each parameter that is in the way its name, a sentence, what would be enough (metres, or a number across), and
+        whether such holograms are refused.
+
+        >>> import hogel
+        >>> coarse = hogel.hologram_request(pitch="8um")
+        >>> [(advice.parameter, advice.refused) for advice in hogel.Scene.load("sphere").advise(coarse, size="10mm")][0]
+        ('pitch', True)
+        """
+        wanted = request(**options)
+        return _core.advise(self.placed(wanted, progress), wanted, _core.HologramRequest() if hologram is None else hologram)
+
     def render(self, *, progress: Progress = None, **options: Any) -> LightField:
         """The light field of the scene, rendered when it is read: by save(), np.asarray(), slices or load().
 
@@ -261,7 +276,7 @@ class Scene:
         seed: int = 1,
         progress: Progress = None,
         **options: Any,
-    ) -> Any:
+    ) -> Hologram:
         """The hologram of the scene without a light field, by a method of hogel.scene_hologram_methods(); the size is that
         of the options of render(). It is computed at once, in memory.
 
@@ -269,9 +284,14 @@ class Scene:
         >>> hogel.Scene.load("pumpkin").hologram(method="points", wavelength="633nm", size="0.2mm", hogels=4, spacing="20um")
         Hologram(128x128 samples 1.5625 um apart, 0.2 mm x 0.2 mm, 633 nm, in memory)
         """
-        from .scene_hologram import scene_hologram
+        def place(wanted: _core.LightFieldRequest) -> _core.Scene:
+            return self.placed(wanted, progress)
 
-        return scene_hologram(self, method, wavelength, pitch, spacing, planes, seed, options, progress)
+        def record_of(placed: _core.Scene) -> _record.Record:
+            return self._acted(placed, options)
+
+        known = None if self._made is None else record_of
+        return scene_hologram(place, known, method, wavelength, pitch, spacing, planes, seed, options, progress)
 
     def bake(
         self,

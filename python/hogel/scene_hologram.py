@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any, Optional
 
 from . import _core, _record, units
 from ._progress import Progress, reporting
@@ -12,12 +13,10 @@ from .hologram import Hologram
 from .method import channel_of
 from .requests import render_record, request
 
-if TYPE_CHECKING:
-    from .scene import Scene
-
 
 def scene_hologram(
-    scene: "Scene",
+    place: Callable[[_core.LightFieldRequest], _core.Scene],
+    record_of: Optional[Callable[[_core.Scene], _record.Record]],
     method: str,
     wavelength: Any,
     pitch: Any,
@@ -27,7 +26,8 @@ def scene_hologram(
     options: dict[str, Any],
     progress: Progress,
 ) -> Hologram:
-    """See Scene.hologram()."""
+    """See Scene.hologram(): of the scene that place(request) makes, and whose options of the command line record_of(placed)
+    says, if they are known."""
     known = {name: (uses_spacing, uses_planes) for name, _, uses_spacing, uses_planes in _core.scene_hologram_methods()}
     if method not in known:
         _core.throw_unknown("method", method, list(known))
@@ -47,7 +47,7 @@ def scene_hologram(
     if not (width >= step and height >= step):
         raise UsageError("size, pitch: the hologram must hold samples")
     plane = _core.Grid(math.floor(width / step + 0.5), math.floor(height / step + 0.5), step, step)
-    placed = scene.placed(wanted, progress)
+    placed = place(wanted)
     with reporting(progress, "lighting") as report:
         shaded = _core.light_scene(placed, wanted, report)
     fields = []
@@ -56,10 +56,10 @@ def scene_hologram(
             grid = _core.FieldGrid(plane, wave)
             fields.append(_core.make_scene_hologram(method, shaded, grid, channel_of(wave), seed, apart, number, report))
     made = Hologram(fields)
-    if scene._made is not None:
+    if record_of is not None:
         rendering = render_record(wanted, placed, shaded, **options)
         acted = {name: rendering[name] for name in ("hogels", "size", "shading", "shadow-map") if name in rendering}
-        acted.update(scene._acted(placed, options))
+        acted.update(record_of(placed))
         acted.pop("background", None)  # what no surface sends out is not seen
         acted.update(
             wavelength="rgb" if wavelength is None else _record.length(wavelength),

@@ -1,20 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sets of views, as other programs store light fields, pictures for printers, and films."""
+"""Sets of views, as other programs store light fields."""
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Sequence
 from typing import Any, Optional, Union
 
 from . import _core, _record, units
 from ._progress import Progress, reporting
-from ._samples import Path
-from .errors import CannotWriteError, UsageError
+from ._samples import Path, one_of
+from .errors import UsageError
 from .light_field import LightField
-
-_FILMS = (".mp4", ".gif", ".apng")
-
 
 def view_layouts() -> dict[str, str]:
     """The names of the ways to store a set of views, of `layout`, and a line about each.
@@ -34,12 +30,6 @@ def is_view_set(source: Path) -> bool:
     False
     """
     return _core.is_view_set(os.fspath(source))
-
-
-def _one_of(value: Optional[str], known: Sequence[str], what: str) -> Optional[str]:
-    if value is not None and value not in known:
-        raise UsageError(f"{what}: {' or '.join(known)} were expected, not '{value}'")
-    return value
 
 
 def import_views(
@@ -92,11 +82,11 @@ def import_views(
         how.columns, how.rows = units.counts(views, "views")
     if middle is not None:
         how.middle_columns, how.middle_rows = units.counts(middle, "middle")
-    if _one_of(column, ("first", "second"), "column") is not None:
+    if one_of(column, ("first", "second"), "column") is not None:
         how.column_first = column == "first"
-    _one_of(mirror, ("none", "columns", "rows", "both"), "mirror")
+    one_of(mirror, ("none", "columns", "rows", "both"), "mirror")
     how.mirror_columns, how.mirror_rows = mirror in ("columns", "both"), mirror in ("rows", "both")
-    if _one_of(projection, ("cameras", "orthographic"), "projection") is not None:
+    if one_of(projection, ("cameras", "orthographic"), "projection") is not None:
         how.orthographic = projection == "orthographic"
     if transfer is not None:
         how.transfer = _core.transfer_named(transfer)
@@ -138,165 +128,6 @@ def import_views(
     made = LightField(found.light_field, name, acted)
     made._views = found
     return made
-
-
-def views_of(light_field: LightField) -> Any:
-    """What import_views() understood of the set of views that it made this light field of: layout, columns, rows, bits,
-    transfer, spacing, distance, scale, parallax, summary, assumed, notes; None for others.
-
-    >>> import hogel
-    >>> hogel.views_of(hogel.Scene.load("pumpkin").render(hogels=4, directions=4)) is None
-    True
-    """
-    return light_field._views
-
-
-def export_views(
-    light_field: LightField,
-    target: Path,
-    *,
-    layout: Optional[str] = None,
-    pictures: str = "",
-    bits: int = 0,
-    transfer: Optional[str] = None,
-    exposure: float = 1,
-    frame_rate: float = 24,
-    force: bool = False,
-    metadata: Any = None,
-    progress: Progress = None,
-) -> Any:
-    """Writes a light field as a set of views, one for each direction: in a folder, which is made, or a file; or as a film
-    of its middle row of views (.mp4, .gif, .apng). The options are those of `hogel export`. Returns columns, rows, files
-    and notes.
-
-    >>> import hogel, os, tempfile
-    >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=3, size="4mm", focal_plane="-300mm")
-    >>> hogel.export_views(lf, os.path.join(tempfile.mkdtemp(), "views.npy")).columns
-    3
-    """
-    name = os.fspath(target)
-    stem, ending = os.path.splitext(os.path.basename(name))
-    if ending in _FILMS:
-        return _export_film(light_field, name, exposure, frame_rate, metadata, progress)
-    how = _core.ViewExportOptions()
-    if layout is None:
-        quilt = bool(ending) and "_qs" in stem
-        layout = {".npy": "npy", ".mat": "mat"}.get(ending, "quilt" if quilt else "rows-columns")
-    known = {row[0]: row[2] for row in _core.view_layouts()}
-    if layout not in known:
-        _core.throw_unknown("layout", layout, list(known))
-    how.layout = layout
-    how.format = pictures or (ending[1:] if layout == "quilt" else "")
-    how.bits, how.exposure = bits, exposure
-    if transfer is not None:
-        how.transfer = _core.transfer_named(transfer)
-    if metadata is None:
-        metadata = _record.by_function("LightField.export")
-        if light_field._made is not None:
-            acted = {"layout": layout, "exposure": _record.number(exposure)}
-            metadata = _record.entries("export", {**_record.renamed(light_field._made, "source", "input"), **acted})
-    how.metadata = metadata
-    if known[layout]:
-        _make_folder(name, force)
-    else:
-        _core.require_writable(name)
-    with reporting(progress, "exporting") as report:
-        return _core.export_views(light_field._light_field, name, how, report)
-
-
-def _make_folder(name: str, force: bool) -> None:
-    if os.path.isdir(name) and os.listdir(name) and not force:
-        raise CannotWriteError(f"{name}: holds files already; force=True writes beside and over them")
-    try:
-        os.makedirs(name, exist_ok=True)
-    except OSError as error:
-        raise CannotWriteError(f"{name}: {error.strerror}") from None
-
-
-def _export_film(light_field: LightField, name: str, exposure: float, frame_rate: float, metadata: Any, progress: Progress) -> Any:
-    _core.require_writable(name)
-    how = _core.ViewExportOptions()
-    how.layout, how.format, how.bits, how.exposure = "rows-columns", "png", 8, exposure
-    how.transfer = _core.Transfer.srgb
-    with tempfile.TemporaryDirectory(dir=os.path.dirname(os.path.abspath(name)), prefix=".hogel-") as folder:
-        with reporting(progress, "exporting") as report:
-            made = _core.export_views(light_field._light_field, folder, how, report)
-        with reporting(progress, "film") as report:
-            _core.make_film(name, folder, f"{made.rows // 2:03}_%03d.png", frame_rate, _comment(metadata), report)
-    return made
-
-
-def _comment(metadata: Any) -> str:
-    entries = metadata.items() if isinstance(metadata, dict) else metadata or _record.by_function("film")
-    return "\n".join(f"{key}: {text}" for key, text in entries)
-
-
-def film(
-    path: Path,
-    pictures: Sequence[Any],
-    *,
-    frame_rate: Optional[float] = None,
-    exposure: Union[str, float] = "auto",
-    metadata: Any = None,
-    progress: Progress = None,
-) -> None:
-    """Makes a film (.mp4, .gif, .apng), by the program ffmpeg, of pictures of one size, all with the same exposure.
-
-    >>> import hogel, numpy as np, os, tempfile
-    >>> frames = [np.full((16, 16, 3), level) for level in (0.2, 0.8)]
-    >>> if hogel._core.can_make_films():  # where ffmpeg is installed
-    ...     hogel.film(os.path.join(tempfile.mkdtemp(), "grey.gif"), frames)
-    """
-    from .picture import Picture
-
-    name = os.fspath(path)
-    if os.path.splitext(name)[1] not in _FILMS:
-        raise UsageError(f"{name}: films end in {', '.join(_FILMS)}")
-    frames = [frame if isinstance(frame, Picture) else Picture(frame) for frame in pictures]
-    if not frames:
-        raise UsageError("film: at least one picture was expected")
-    if len({(frame.width, frame.height) for frame in frames}) > 1:
-        raise UsageError("film: pictures of one size were expected")
-    _core.require_writable(name)
-    factor = min(frame.exposure("auto") for frame in frames) if exposure == "auto" else float(exposure)
-    with tempfile.TemporaryDirectory(dir=os.path.dirname(os.path.abspath(name)), prefix=".hogel-") as folder:
-        for number, frame in enumerate(frames):
-            frame.save(os.path.join(folder, f"{number:06}.png"), exposure=factor)
-        rate = _core.defaults["frame_rate"] if frame_rate is None else float(frame_rate)
-        with reporting(progress, "film") as report:
-            _core.make_film(name, folder, "%06d.png", rate, _comment(metadata), report)
-
-
-def write_printer_images(
-    light_field: LightField,
-    folder: Path,
-    *,
-    strips: bool = False,
-    order: str = "serpentine",
-    exposure: float = 1,
-    force: bool = False,
-    metadata: Any = None,
-    progress: Progress = None,
-) -> list[str]:
-    """Writes the directions of every hogel as a picture, numbered in the order of printing, or with strips=True those of a
-    row of hogels side by side, as `hogel print` does. Returns the files.
-
-    >>> import hogel, os, tempfile
-    >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
-    >>> len(hogel.views.write_printer_images(lf, os.path.join(tempfile.mkdtemp(), "prints")))
-    64
-    """
-    name = os.fspath(folder)
-    _one_of(order, ("serpentine", "rows"), "order")
-    if metadata is None:
-        metadata = _record.by_function("LightField.print")
-        if light_field._made is not None:
-            acted = {"strips": _record.words(strips), "order": order, "exposure": _record.number(exposure)}
-            metadata = _record.entries("print", {**light_field._made, **acted})
-    _make_folder(name, force)
-    with reporting(progress, "pictures") as report:
-        made = _core.write_printer_images(name, light_field._light_field, strips, order == "serpentine", exposure, metadata, report)
-    return [os.fspath(file) for file in made]
 
 
 def write_cameras(

@@ -35,7 +35,7 @@ class Docstrings(unittest.TestCase):
     def public(self):
         """Names and objects: functions, classes, methods and properties that users call."""
         spaces = {"": [(name, getattr(hogel, name)) for name in hogel.__all__]}
-        for module in ("plot", "autograd", "views", "units"):
+        for module in ("plot", "autograd", "exports", "views", "units"):
             if all(map(importlib.util.find_spec, NEEDS.get(module, ()))):
                 inside = importlib.import_module(f"hogel.{module}")
                 mine = [(name, value) for name, value in vars(inside).items() if getattr(value, "__module__", "") == inside.__name__]
@@ -45,7 +45,8 @@ class Docstrings(unittest.TestCase):
                 if not (inspect.isclass(value) or inspect.isfunction(value)) or value.__module__ == "hogel._core":
                     continue
                 yield space + name, value
-                for member, inside in vars(value).items() if inspect.isclass(value) else ():
+                for member in dir(value) if inspect.isclass(value) else ():
+                    inside = inspect.getattr_static(value, member)
                     if not member.startswith("_") and (inspect.isfunction(inside) or isinstance(inside, (property, classmethod))):
                         yield f"{space}{name}.{member}", inside if isinstance(inside, property) else getattr(value, member)
 
