@@ -115,6 +115,8 @@ PhotographOptions photograph_options(const std::string& camera, bool expected) {
 std::string say_camera(const Session& session, std::span<const LightFieldGrid> faces, const HologramRequest& request,
                        std::span<const Camera> cameras, const PhotographOptions& options) {
     const LightChoice choice = choose_light(faces, request, cameras, options);
+    if (options.preview && choice.from != LightFrom::hogels)
+        throw Error(ErrorCode::usage, fmt::format("--preview: {}; leave it out", choice.reason));
     if (options.from == LightFrom::hogels && choice.from != LightFrom::hogels)
         throw Error(ErrorCode::usage, fmt::format("--camera eye: {}; --camera narrow would do", choice.reason));
     std::string name = choice.from == LightFrom::hogels ? "eye" : "narrow";

@@ -29,7 +29,7 @@ struct Options {
     std::string exposure = "auto", display = "intensity";
     std::string camera = "auto";
     std::string diffuser = "none";
-    bool geometric = false, wave = false;
+    bool geometric = false, wave = false, preview = false;
 
     double film_distance = 0;
 
@@ -41,6 +41,7 @@ struct Options {
                 film_distance};
         PhotographOptions options = photograph_options(camera, parse_looks(looks).expected);
         options.vertical_diffuser = has_diffuser();
+        options.preview = preview;
         return options;
     }
     bool has_diffuser() const { return diffuser == "vertical"; }
@@ -167,6 +168,11 @@ void require_sense(const Options& options, InputKind kind, bool geometric) {
         throw Error(
             ErrorCode::usage,
             fmt::format("--looks expected: needs the hogels, not samples; leave out --camera {}", options.camera));
+    if (options.preview && (geometric || expected || kind == InputKind::hologram || options.camera == "narrow" ||
+                            options.camera == "full"))
+        throw Error(ErrorCode::usage,
+                    "--preview: leaves out waves of the hogels of a light field or a scene; give --wave, a number of "
+                    "looks and --camera eye");
     if (options.has_diffuser() && kind != InputKind::hologram)
         throw Error(ErrorCode::usage,
                     "--diffuser vertical: stands before a hologram file; make one with 'hogel hologram "
@@ -202,6 +208,7 @@ void record_photograph(RunRecord& record, const Options& options, InputKind kind
     record.acted({geometric ? "pupil-samples" : "camera"});
     if (kind == InputKind::hologram && options.camera != "full") record.acted({"diffuser"});
     if (!geometric && options.camera == "full") record.acted({"film-distance"});
+    if (options.preview) record.acted({"preview"});
 }
 
 // Writes the pictures and reports them.
@@ -268,6 +275,8 @@ void add_photo_options(Command& command, Options& options) {
                    "\nlog: four decades of it from black to white"
                    "\nphase: its phase beside that of light through the middle of the lens, from -pi to pi");
     add_wave_camera_option(command, options.camera, {"auto", "eye", "narrow", "full"});
+    command.flag("--preview", options.preview,
+                 "Without waves that pass far from the lens: a quick look, for the camera eye");
     command.length("--film-distance", options.film_distance,
                    "From a thin lens to its film, for the full camera, with its aberrations; 0mm: a perfect lens");
     command.choice("--diffuser", options.diffuser, {"none", "vertical"}, "none|vertical",

@@ -142,7 +142,7 @@ Image HologramSubject::by_rays(const View&, const Progress&) {
 void HologramSubject::by_waves(const View& view, std::size_t looks, const ShownLooks& shown, const Progress& progress) {
     const Camera camera = this->camera(view);
     for (const auto& field : fields_) require_light_towards(field->grid(), camera);
-    waves_->photograph(camera, looks, shown, progress);
+    waves_->photograph(camera, looks, view.preview, shown, progress);
 }
 
 Reading HologramSubject::read(const View& view, const Spot& spot) const {

@@ -115,7 +115,7 @@ Image LightFieldSubject::by_rays(const View& view, const Progress& progress) {
 
 void LightFieldSubject::by_waves(const View& view, std::size_t looks, const ShownLooks& shown,
                                  const Progress& progress) {
-    waves_->photograph(camera(view), looks, shown, progress);
+    waves_->photograph(camera(view), looks, view.preview, shown, progress);
 }
 
 Reading LightFieldSubject::read(const View& view, const Spot& spot) const {

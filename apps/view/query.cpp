@@ -142,6 +142,8 @@ View parse_view(const Words& words) {
             view.by = method(text);
         else if (name == "looks")
             view.looks = whole(name, text, max_looks);
+        else if (name == "preview")
+            view.preview = choice(name, text, {"yes", "no"}) == "yes";
         else if (name == "eyes")
             view.eyes = positive_length(name, text);
         else if (name == "resolution")

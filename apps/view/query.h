@@ -32,6 +32,7 @@ struct View {
     std::size_t pupil_samples = 16;
     By by = By::rays;
     std::size_t looks = 0;  ///< of waves, whose mean is shown; 0: all of the subject
+    bool preview = false;   ///< by waves without those that pass far from the pupil, while something is dragged
     double eyes = 0;      ///< metres between two eyes, whose pictures stand side by side, the left one left; 0: one eye
     double exposure = 0;  ///< 0: the automatic one of the light field
     bool logarithmic = false;     ///< display=log

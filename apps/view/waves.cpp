@@ -12,8 +12,11 @@ namespace hogel::view {
 Waves::Waves(Make make, std::size_t looks, std::size_t memory, Progress making)
     : make_(std::move(make)), looks_(looks), memory_(memory), making_(std::move(making)) {}
 
-void Waves::photograph(const Camera& camera, std::size_t looks, const Shown& shown, const Progress& progress) {
-    if (!photographer_) photographer_.emplace(make_(), PhotographOptions{.memory = memory_}, making_);
+void Waves::photograph(const Camera& camera, std::size_t looks, bool preview, const Shown& shown,
+                       const Progress& progress) {
+    if (fields_.empty()) fields_ = make_();
+    std::optional<EyePhotographer>& photographer = photographers_[preview ? 1 : 0];
+    if (!photographer) photographer.emplace(fields_, PhotographOptions{.memory = memory_, .preview = preview}, making_);
     const std::size_t wanted = looks == 0 ? looks_ : std::min(looks, looks_);
     // The photographer has one number of looks, and stops on request: here after the last one that is wanted.
     std::stop_source enough;
@@ -26,7 +29,7 @@ void Waves::photograph(const Camera& camera, std::size_t looks, const Shown& sho
         if (complete) enough.request_stop();
     };
     try {
-        photographer_->photograph(camera, count, Progress(enough.get_token()));
+        photographer->photograph(camera, count, Progress(enough.get_token()));
     } catch (const Error& error) {
         if (!complete || error.code() != ErrorCode::cancelled) throw;
     }

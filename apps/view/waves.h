@@ -24,15 +24,19 @@ class Waves {
 
     std::size_t looks() const { return looks_; }
     /// Shows the mean of the first look, of two, … of `looks` of them (0: all): the pictures of `hogel photo --looks`.
+    /// @param preview  those of `hogel photo --preview`, which take less time
     /// Throws Error(usage) as hogel::photograph() does, and Error(cancelled); the looks that were drawn before are
     /// kept.
-    void photograph(const Camera& camera, std::size_t looks, const Shown& shown, const Progress& progress);
+    void photograph(const Camera& camera, std::size_t looks, bool preview, const Shown& shown,
+                    const Progress& progress);
 
   private:
     Make make_;
     std::size_t looks_, memory_;
     Progress making_;
-    std::optional<EyePhotographer> photographer_;
+    Fields fields_;
+    // The second one is of previews: of either kind the light of the last eye is kept.
+    std::optional<EyePhotographer> photographers_[2];
 };
 
 }  // namespace hogel::view

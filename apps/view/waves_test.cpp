@@ -54,8 +54,8 @@ View view_by(By by) {
     return view;
 }
 
-Image expected(const Camera& camera, std::size_t looks) {
-    return photograph_colours(holograms(looks), {&camera, 1}).front();
+Image expected(const Camera& camera, std::size_t looks, const PhotographOptions& options = {}) {
+    return photograph_colours(holograms(looks), {&camera, 1}, options).front();
 }
 
 bool equal(const Image& a, const Image& b) { return std::ranges::equal(a.pixels.elements(), b.pixels.elements()); }
@@ -82,10 +82,25 @@ TEST(Waves, stop_after_the_looks_that_are_wanted) {
     EXPECT_EQ(made, 0);
     for (const std::size_t wanted : {1, 2, 1, 3}) {
         std::size_t last = 0;
-        one->photograph(camera, wanted, [&](const Image&, std::size_t looks) { last = looks; }, {});
+        one->photograph(camera, wanted, false, [&](const Image&, std::size_t looks) { last = looks; }, {});
         EXPECT_EQ(last, wanted);
     }
     EXPECT_EQ(made, 1);
+}
+
+// What is dragged is a preview, which is not kept for the picture of the same eye at rest.
+TEST(Waves, are_previews_where_that_is_asked_for) {
+    const auto one = subject();
+    View view = view_by(By::waves);
+    view.looks = 1;
+    view.preview = true;
+    const Image preview = one->photograph(view, {}).picture;
+    view.preview = false;
+    const Image whole = one->photograph(view, {}).picture;
+    const Camera camera = one->camera(view);
+    EXPECT_TRUE(equal(whole, expected(camera, 1)));
+    EXPECT_TRUE(equal(preview, expected(camera, 1, {.preview = true})));
+    EXPECT_FALSE(equal(preview, whole));
 }
 
 TEST(Waves, stop_for_a_newer_view) {
@@ -97,9 +112,9 @@ TEST(Waves, stop_for_a_newer_view) {
         last = looks;
         newer.request_stop();
     };
-    EXPECT_THROW(one->photograph(camera, 0, until_first, Progress(newer.get_token())), Error);
+    EXPECT_THROW(one->photograph(camera, 0, false, until_first, Progress(newer.get_token())), Error);
     EXPECT_EQ(last, 1u);
-    one->photograph(camera, 0, [&](const Image&, std::size_t looks) { last = looks; }, {});
+    one->photograph(camera, 0, false, [&](const Image&, std::size_t looks) { last = looks; }, {});
     EXPECT_EQ(last, all_looks);
 }
 

@@ -21,7 +21,8 @@ void add_photographs(py::module_& module) {
         .def_readwrite("memory", &PhotographOptions::memory)
         .def_readwrite("from_", &PhotographOptions::from)
         .def_readwrite("expected", &PhotographOptions::expected)
-        .def_readwrite("vertical_diffuser", &PhotographOptions::vertical_diffuser);
+        .def_readwrite("vertical_diffuser", &PhotographOptions::vertical_diffuser)
+        .def_readwrite("preview", &PhotographOptions::preview);
     py::class_<PlaneWaveCameraOptions>(module, "PlaneWaveCameraOptions")
         .def(py::init([](std::size_t memory, const std::filesystem::path& folder, double film_distance) {
                  return PlaneWaveCameraOptions{{memory, folder}, film_distance};

@@ -729,6 +729,7 @@ class PhotographOptions:
     expected: bool
     from_: LightFrom
     memory: int
+    preview: bool
     vertical_diffuser: bool
     def __init__(self) -> None: ...
 

@@ -246,6 +246,7 @@ class Hologram:
         expected: bool = False,
         diffuser: str = "none",
         film_distance: units.Length = 0,
+        preview: bool = False,
         progress: Progress = None,
         **options: Any,
     ) -> Any:
@@ -255,6 +256,7 @@ class Hologram:
         camera        how waves are photographed: auto, eye, narrow or full
         expected      the mean of infinitely many looks, of a hologram that is computed when it is read
         diffuser      "vertical": a diffuser before a hologram with horizontal parallax only
+        preview       without waves that pass far from the lens: a quick look at a hologram that is computed when it is read
 
 
         >>> import hogel, os, tempfile
@@ -265,7 +267,9 @@ class Hologram:
         if len(self) not in (1, 3):
             raise UsageError(f"photograph: a photograph takes one or three wavelengths, not {len(self)}")
         views = [camera_of(self.grid.size_x, self.grid.size_y, **options)] if cameras is None else list(cameras)
-        how = _wave_camera(camera, expected, diffuser, units.length(film_distance, "film_distance"))
+        how = _wave_camera(camera, expected, diffuser, units.length(film_distance, "film_distance"), preview)
+        if preview and self._known is None:
+            raise UsageError("preview: leaves out waves of hogels; of a hologram in a file or memory only samples are known")
         for field in self:
             for view in views:
                 _core.require_light_towards(field._source.grid, view, diffuser == "vertical")
@@ -276,6 +280,7 @@ class Hologram:
             raise BadInputError("hologram: is empty; no light comes from it to the eye")
         if self._made is not None and cameras is None:
             acted = {**self._photo_record(views, camera, expected, diffuser, film_distance), **camera_record(**options)}
+            acted["preview"] = "yes" if preview else ""
             pictures[0]._made = ("photo", {name: text for name, text in {**self._made, **acted}.items() if text})
         return pictures[0] if cameras is None else pictures
 
@@ -352,7 +357,7 @@ class Hologram:
         return text.replace("Field(", "Hologram(", 1).replace(units.say_length(self.wavelengths[0]), waves, 1)
 
 
-def _wave_camera(name: str, expected: bool, diffuser: str, film_distance: float) -> Any:
+def _wave_camera(name: str, expected: bool, diffuser: str, film_distance: float, preview: bool = False) -> Any:
     if name not in ("auto", "eye", "narrow", "full"):
         raise UsageError(f"camera: auto, eye, narrow or full were expected, not '{name}'")
     if diffuser not in ("none", "vertical"):
@@ -360,10 +365,13 @@ def _wave_camera(name: str, expected: bool, diffuser: str, film_distance: float)
     if film_distance != 0 and name != "full":
         raise UsageError("film_distance: the thin lens belongs to the full camera; add camera='full'")
     if name == "full":
-        if expected or diffuser != "none":
-            raise UsageError("expected, diffuser: are not for the full camera")
+        if expected or preview or diffuser != "none":
+            raise UsageError("expected, preview, diffuser: are not for the full camera")
         return _core.PlaneWaveCameraOptions(film_distance=film_distance)
+    if preview and (expected or name == "narrow"):
+        raise UsageError("preview: is for a number of looks and the eye camera")
     options = _core.PhotographOptions()
+    options.preview = preview
     options.from_ = {"eye": _core.LightFrom.hogels, "narrow": _core.LightFrom.samples}.get(name, _core.LightFrom.cheaper)
     options.expected = expected
     options.vertical_diffuser = diffuser == "vertical"

@@ -42,7 +42,7 @@ OTHER = {
     "eye": "2,0,40mm", "gaze": "0.1,0,0mm", "focus": "2mm", "focus-tilt": "20deg", "pupil": "2mm", "f-number": "20",
     "focal-length": "30mm", "angle-of-view": "1deg", "resolution": "9", "to-eye": "2,0,40mm --frames 3", "to-focus": "3mm --frames 3",
     "frames": "3", "frame-rate": "24", "looks": "3", "exposure": "0.1", "display": "log", "camera": "full",
-    "film-distance": "30mm", "diffuser": ACTS, "geometric": None, "wave": None, "pupil-samples": "5", "values": "phase",
+    "film-distance": "30mm", "preview": ACTS, "diffuser": ACTS, "geometric": None, "wave": None, "pupil-samples": "5", "values": "phase",
     "imaginary": "imaginary.exr", "variable": "b", "conjugate": None, "phase-code": "odak", "input-phase-code": "odak",
     "phases": "imaginary.exr", "zero": "99", "aperture": "0.1", "reference-source": "0,0,-20mm",
     "reconstruct": "fourier --focal 40mm", "focal": "50mm",

@@ -33,7 +33,7 @@ function ask(moving, since) {
   const id = ++number;
   asked.set(id, since);
   for (const old of asked.keys()) if (old < id - 64) asked.delete(old);
-  const waves = byWaves(view.by), looks = moving && waves ? {looks: 1} : {};
+  const waves = byWaves(view.by), looks = moving && waves ? {looks: 1, preview: "yes"} : {};
   link.send("picture?" + query({...words(moving), ...looks, quality: moving ? inMotion.quality : waves ? speckled : atRest.quality, moving: moving ? "yes" : "no", id}));
 }
 

@@ -62,18 +62,18 @@ void FastTiles::sixteen_rows(std::span<const float> moduli, const PhaseSeries& s
         shared_waves({phases_[look].data() + 2 * row * side_, side_ * square_column}, some, waves);
 }
 
-void FastTiles::waves(std::span<const float> moduli, const PhaseSeries& series, std::size_t look, float* waves) const {
+void FastTiles::waves(std::span<const float> moduli, const PhaseSeries& series, std::size_t look, const NearRows& rows,
+                      float* waves) const {
     for (std::size_t row = 0; row < side_; row += rows_at_once)
-        sixteen_rows(moduli, series, look, row, waves + 2 * row * side_);
+        if (rows.has_any(row, rows_at_once, side_)) sixteen_rows(moduli, series, look, row, waves + 2 * row * side_);
 }
 
 bool FastTiles::has_lanes() const { return phases_.empty() && middle_is_a_byte(side_); }
 
-void FastTiles::gather_lanes(std::span<const float* const> moduli, float* gathered) const {
-    for (std::size_t block = 0; block < side_; block += rows_at_once)
-        for (std::size_t column = 0; column < side_; ++column)
-            gather_rows(moduli, block * side_ + column * rows_at_once,
-                        gathered + (block * side_ + column) * rows_at_once, side_ * rows_at_once);
+void FastTiles::gather_lanes(std::span<const float* const> moduli, std::size_t row, float* gathered) const {
+    for (std::size_t column = 0; column < side_; ++column)
+        gather_rows(moduli, row * side_ + column * rows_at_once, gathered + (row * side_ + column) * rows_at_once,
+                    side_ * rows_at_once);
 }
 
 void FastTiles::row_of_lanes(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,

@@ -10,6 +10,7 @@
 #include "hogel/hologram/direction_phases.h"
 #include "hogel/hologram/frequency_grid.h"
 #include "hogel/hologram/hogel_tiles.h"
+#include "hogel/hologram/near_rows.h"
 #include "hogel/math/column_fft.h"
 
 namespace hogel::hologram {
@@ -34,13 +35,14 @@ class FastTiles {
     void synthesise(std::span<const float> moduli, const PhaseSeries& series, std::size_t look, std::complex<float>* to,
                     std::size_t to_row) const;
 
-    /// The waves that synthesise() transforms, in the layout of HogelWaves::waves().
-    void waves(std::span<const float> moduli, const PhaseSeries& series, std::size_t look, float* waves) const;
+    /// The waves that synthesise() transforms, as HogelWaves::waves().
+    void waves(std::span<const float> moduli, const PhaseSeries& series, std::size_t look, const NearRows& rows,
+               float* waves) const;
 
     /// Whether row_of_lanes() is supported: random phases of sides up to 128.
     bool has_lanes() const;
     /// See HogelWaves.
-    void gather_lanes(std::span<const float* const> moduli, float* gathered) const;
+    void gather_lanes(std::span<const float* const> moduli, std::size_t row, float* gathered) const;
     void row_of_lanes(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,
                       float* waves) const;
 

@@ -59,13 +59,25 @@ class FourierSynthesis final : public HogelSynthesis, public HogelWaves {
 
     const HogelWaves* hogel_waves() const override { return lines_ == 0 ? this : nullptr; }
 
-    void waves(std::span<const float> moduli, const HogelPlace& place, float* waves) const override {
-        if (fast_) return fast_->waves(moduli, phase_series(options_, place.s, place.t, place.look), place.look, waves);
+    void waves(std::span<const float> moduli, const HogelPlace& place, const NearRows& rows,
+               float* waves) const override {
+        const PhaseSeries series = phase_series(options_, place.s, place.t, place.look);
+        if (fast_) return fast_->waves(moduli, series, place.look, rows, waves);
         const std::size_t n = frequencies_.columns();
-        thread_local Array<Complex, 2> plain;
-        if (plain.shape() != Shape<2>{n, n}) plain = Array<Complex, 2>({n, n});
-        spread_phases(moduli, place, plain);
-        store_waves(plain, waves);
+        thread_local std::vector<Complex> plain;
+        plain.resize(rows_together * n);
+        for (std::size_t row = 0; row < n; row += rows_together) {
+            if (!rows.has_any(row, rows_together, n)) continue;
+            const View<Complex, 2> some(plain.data(), {std::min(rows_together, n - row), n});
+            const std::size_t first = row * n;
+            if (directions_.empty())
+                spread_random_phases(series, moduli.subspan(first, some.size()), some.elements(),
+                                     static_cast<std::uint32_t>(first / 16));
+            else
+                for (std::size_t i = 0; i < some.size(); ++i)
+                    some.data()[i] = moduli[first + i] * directions_[place.look].data()[first + i];
+            store_waves(some, row, waves);
+        }
     }
 
     void powers(std::span<const float> moduli, float* powers) const override {
@@ -85,8 +97,8 @@ class FourierSynthesis final : public HogelSynthesis, public HogelWaves {
     bool independent() const override { return directions_.empty(); }
 
     bool has_lanes() const override { return fast_ && fast_->has_lanes(); }
-    void gather_lanes(std::span<const float* const> moduli, float* gathered) const override {
-        fast_->gather_lanes(moduli, gathered);
+    void gather_lanes(std::span<const float* const> moduli, std::size_t row, float* gathered) const override {
+        fast_->gather_lanes(moduli, row, gathered);
     }
     SeriesOfLanes series_of_lanes(std::span<const HogelPlace> places) const override {
         SeriesOfLanes series{};

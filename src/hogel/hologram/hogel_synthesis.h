@@ -8,6 +8,7 @@
 
 #include "hogel/hologram.h"
 #include "hogel/hologram/hogel_tiles.h"
+#include "hogel/hologram/near_rows.h"
 
 namespace hogel::hologram {
 
@@ -25,8 +26,10 @@ class HogelWaves {
     /// frequencies 0 … n−1, the parts real and imaginary, zero in rows beyond n. HogelSynthesis::synthesise() is their
     /// backward transform; their phases are counted from the first sample.
     /// @param prepared  by HogelSynthesis::prepare()
+    /// @param rows      that are needed; blocks without any of them may be left as they are
     /// @param waves     aligned to a cache line
-    virtual void waves(std::span<const float> prepared, const HogelPlace& place, float* waves) const = 0;
+    virtual void waves(std::span<const float> prepared, const HogelPlace& place, const NearRows& rows,
+                       float* waves) const = 0;
     /// |waves|² in blocks of sixteen rows [row / 16][column][row mod 16], zero in rows beyond n: powers_size() values.
     /// Only if the waves are independent.
     virtual void powers(std::span<const float> prepared, float* powers) const = 0;
@@ -39,9 +42,11 @@ class HogelWaves {
     virtual bool has_lanes() const { return false; }
     /// The phases of some hogels or looks, at most `lanes`.
     virtual SeriesOfLanes series_of_lanes(std::span<const HogelPlace>) const { return {}; }
-    /// Stores what hogels have prepared, at most one for each lane, as row_of_lanes() takes it: powers_size() · lanes
-    /// values.
-    virtual void gather_lanes(std::span<const float* const>, float*) const {}
+    /// Stores what hogels have prepared for sixteen rows, at most one hogel for each lane, as row_of_lanes() takes it:
+    /// its part of powers_size() · lanes values.
+    /// @param row       the first one, a multiple of sixteen
+    /// @param gathered  all values
+    virtual void gather_lanes(std::span<const float* const>, std::size_t /*row*/, float* /*gathered*/) const {}
     /// One row of waves of hogels or looks side by side, [column][part][lane], with phases counted from the middle of
     /// the hogel.
     /// @param shared    whether all are looks of one hogel
@@ -55,13 +60,15 @@ class HogelWaves {
     }
 };
 
-/// Stores n×n waves, [row][column] of frequencies 0 … n−1, in the layout of HogelWaves::waves().
-inline void store_waves(View<const std::complex<float>, 2> plain, float* waves) {
+/// Stores rows of waves, [row][column], in the layout of HogelWaves::waves(): at most sixteen from `first` on, a
+/// multiple of sixteen. Fewer are the last ones.
+inline void store_waves(View<const std::complex<float>, 2> plain, std::size_t first, float* waves) {
     constexpr std::size_t together = HogelWaves::rows_together;
-    const std::size_t n = plain.extent(0);
-    if (n % together != 0) std::fill_n(waves, HogelWaves::size(n), 0.0f);
-    for (std::size_t row = 0; row < n; ++row) {
-        float* to = waves + 2 * (row / together * together * n) + row % together;
+    const std::size_t n = plain.extent(1);
+    float* block = waves + 2 * first * n;
+    if (plain.extent(0) < together) std::fill_n(block, 2 * together * n, 0.0f);
+    for (std::size_t row = 0; row < plain.extent(0); ++row) {
+        float* to = block + row;
         for (std::size_t column = 0; column < n; ++column, to += 2 * together) {
             to[0] = plain(row, column).real();
             to[together] = plain(row, column).imag();

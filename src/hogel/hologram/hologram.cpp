@@ -95,7 +95,7 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
             auto scratch = scratch_pool_.take();
             prepare(hogels, scratch->rays, prepared);
         };
-        return eye::make_stereogram_eyes({grid_, columns_, waves, synthesis_->prepared_size(), prepare_hogels},
+        return eye::make_stereogram_eyes({grid_, columns_, waves, synthesis_->prepared_size(), prepare_hogels, kept_},
                                          hogels_of(part), eyes);
     }
 

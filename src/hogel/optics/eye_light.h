@@ -13,10 +13,12 @@
 
 namespace hogel::optics {
 
-/// An eye and the widest pupil, metres, through which it looks.
+/// An eye and the widest pupil, metres, through which it looks. A preview may leave out waves that pass far from the
+/// pupil.
 struct Eye {
     Vec3 position;
     double pupil = 0;
+    bool preview = false;
 };
 
 /// Draws the light of a part of a hologram towards several eyes.

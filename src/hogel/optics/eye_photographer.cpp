@@ -59,7 +59,7 @@ struct EyePhotographer::State {
         std::vector<SeenColour> colours;
         for (const auto& hologram : holograms) {
             const Grid& plane = hologram->grid().plane;
-            const Eye eye{camera.eye, camera.pupil};
+            const Eye eye{camera.eye, camera.pupil, options.preview};
             SeenColour colour;
             colour.drawing =
                 draw_eyes(*hologram, {0, 0, plane.width, plane.height}, *hologram, {&eye, 1}, options.from);
@@ -152,15 +152,17 @@ Image EyePhotographer::photograph(const Camera& camera, const Shown& shown, cons
     std::vector<Array<float, 2>> intensities;
     for (const SeenColour& colour : state.seen.colours) intensities.push_back(colour.film->unexposed());
     const std::size_t looks = state.looks();
+    Image picture;
     for (std::size_t look = 0; look < looks; ++look) {
         for (std::size_t c = 0; c < colours; ++c) {
             core::throw_if_stopped();
             state.expose(c, look, camera, intensities[c]);
         }
-        if (shown) shown(state.develop(intensities, camera, look + 1), look + 1);
+        if (shown || look + 1 == looks) picture = state.develop(intensities, camera, look + 1);
+        if (shown) shown(picture, look + 1);
         progress.report(static_cast<double>(look + 1) / static_cast<double>(looks));
     }
-    return state.develop(intensities, camera, looks);
+    return picture;
 }
 
 }  // namespace hogel

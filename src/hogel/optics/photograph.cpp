@@ -74,7 +74,7 @@ void photograph_window(const FieldSource& whole, const PhotographPlan::Window& p
                        std::span<Image> images, const Progress& progress) {
     const Window window(whole, part.region);
     std::vector<Eye> looking;
-    for (const SharedEye& eye : eyes) looking.push_back({cameras[eye.members.front()].eye, eye.pupil});
+    for (const SharedEye& eye : eyes) looking.push_back({cameras[eye.members.front()].eye, eye.pupil, options.preview});
     const std::unique_ptr<EyeDrawing> drawing = draw_eyes(whole, part.region, window, looking, options.from);
     std::vector<film::Film> films;
     std::vector<std::vector<Array<float, 2>>> intensities(eyes.size());  // [eye][camera of the eye], summed over looks

@@ -14,7 +14,7 @@ Complex turn(std::size_t function) { return function % 2 == 0 ? Complex(1) : Com
 
 }  // namespace
 
-MiddlePhases::MiddlePhases(std::size_t samples) : factors_(padded(samples) * samples * 2) {
+MiddlePhases::MiddlePhases(std::size_t samples) : samples_(samples), factors_(padded(samples) * samples * 2) {
     const auto n = static_cast<double>(samples);
     for (std::size_t row = 0; row < samples; ++row)
         for (std::size_t column = 0; column < samples; ++column) {
@@ -38,7 +38,7 @@ void project_plain(const HogelBasis& basis, const HogelView& view, const float* 
     const std::size_t n = basis.samples(), functions = basis.functions(), nodes = basis.nodes();
     Array<Complex, 2> lines({n, functions});  // D_x applied: [row][function across]
     for (std::size_t row = 0; row < n; ++row)
-        for (std::size_t column = 0; column < n; ++column) {
+        for (std::size_t column = 0; column < n && view.near.has_any(row / lanes * lanes, lanes, n); ++column) {
             const float* wave = waves + ((row / lanes * n + column) * 2) * lanes + row % lanes;
             const Complex value = Complex(wave[0], wave[lanes]);
             for (std::size_t k = 0; k < functions; ++k)

@@ -8,6 +8,7 @@
 
 #include "hogel/array.h"
 #include "hogel/hologram/eye/hogel_basis.h"
+#include "hogel/hologram/near_rows.h"
 
 namespace hogel::hologram::eye {
 
@@ -20,11 +21,13 @@ constexpr std::size_t padded(std::size_t count) { return (count + lanes - 1) / l
 class MiddlePhases {
   public:
     explicit MiddlePhases(std::size_t samples);
-    /// Multiplies waves. Plain and fast twins agree to rounding.
+    /// Multiplies waves, the fast one only blocks of sixteen rows that have some of `rows`. Plain and fast twins agree
+    /// to rounding.
     void apply_plain(float* waves) const;
-    void apply(float* waves) const;
+    void apply(float* waves, const NearRows& rows = {}) const;
 
   private:
+    std::size_t samples_;
     std::vector<float, CacheLineAllocator<float>> factors_;
 };
 
@@ -37,6 +40,8 @@ struct HogelView {
     /// What is left of the demodulation, c + is, by which nodes are multiplied: [node down][2][phase_row(nodes)], for
     /// each node across c twice, and then −s and s.
     View<const float, 3> phases;
+    /// Blocks of sixteen rows of waves without any of these are dark to the eye.
+    NearRows near = {};
 };
 
 /// A place in a band, whose rows are `row` complex numbers apart.

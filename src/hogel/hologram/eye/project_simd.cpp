@@ -209,6 +209,10 @@ void Project(const HogelBasis& basis, const HogelView& view, const float* waves,
     for (std::size_t group = 0; group < groups; ++group) {
         const std::size_t first = group * together, count = std::min(together, functions - first);
         for (std::size_t row = 0; row < n; row += lanes) {
+            if (!view.near.has_any(row, lanes, n)) {
+                std::fill_n(turned + (group * rows + row) * lanes, lanes * lanes, 0.0f);
+                continue;
+            }
             with_count<together>(
                 count, [&](auto some) { sum_columns<some()>(waves + 2 * row * n, view.columns, first, lines); });
             for (std::size_t k = count; k < together; ++k)
@@ -268,8 +272,11 @@ namespace hogel::hologram::eye {
 HWY_EXPORT(Multiply);
 HWY_EXPORT(Project);
 
-void MiddlePhases::apply(float* waves) const {
-    HWY_DYNAMIC_DISPATCH(Multiply)(factors_.data(), factors_.size(), waves);
+void MiddlePhases::apply(float* waves, const NearRows& rows) const {
+    const std::size_t block = 2 * lanes * samples_;
+    for (std::size_t row = 0; row < samples_; row += lanes)
+        if (rows.has_any(row, lanes, samples_))
+            HWY_DYNAMIC_DISPATCH(Multiply)(&factors_[row / lanes * block], block, waves + row / lanes * block);
 }
 
 void project(const HogelBasis& basis, const HogelView& view, const float* waves, const BandPlace& band) {

@@ -26,6 +26,9 @@ using Complex = std::complex<float>;
 // A fraction by which a pupil's band is widened, because its width varies slightly over the hologram.
 constexpr double guard = 0.1;
 
+// The waves to a hogel on either side of the pupil's band that a preview takes.
+constexpr double near_waves = 3;
+
 // Hogels across whose values are prepared together, and the side of a tile of hogels that share vectors.
 constexpr std::size_t block_across = 32, tile = 4;
 
@@ -76,6 +79,7 @@ struct EyeBand {
     std::size_t per_hogel;
     double bend;                 // as in Bands
     std::vector<double> places;  // of the nodes
+    double reach;                // rows of waves on either side of the eye's direction that count
 };
 
 using EyeBands = std::vector<std::vector<Array<Complex, 2>>>;  // [eye][look]
@@ -163,7 +167,8 @@ class StereogramEyes final : public optics::EyeDrawing {
 
     // Buffers for a block of hogels.
     struct Scratch {
-        Array<float, 2> prepared;
+        Array<float, 2> prepared;          // unless it is kept
+        std::vector<const float*> moduli;  // prepared, [hogel]
         Array<float, 1> waves, gathered, numbers;
         std::vector<Array<float, 4>> phases;              // [eye][hogel][node down][2][phase_row]
         std::vector<std::vector<HogelView>> views;        // [eye][hogel]
@@ -205,10 +210,7 @@ class StereogramEyes final : public optics::EyeDrawing {
 
     // Adds the light of some hogels to all bands.
     void draw(const HogelRange& some, const Looks& looks, Scratch& scratch, EyeBands& bands) const {
-        Array<float, 2>& prepared = scratch.prepared;
-        if (prepared.shape() != Shape<2>{some.hogels(), hogels_.prepared_size})
-            prepared = Array<float, 2>({some.hogels(), hogels_.prepared_size});
-        hogels_.prepare(some, prepared);
+        prepare(some, scratch);
         scratch.views.resize(eyes_.size());
         scratch.phases.resize(eyes_.size());
         for (std::size_t e = 0; e < eyes_.size(); ++e) {
@@ -227,6 +229,21 @@ class StereogramEyes final : public optics::EyeDrawing {
             draw_one_by_one(some, looks, scratch, bands);
     }
 
+    void prepare(const HogelRange& some, Scratch& scratch) const {
+        scratch.moduli.resize(some.hogels());
+        if (hogels_.kept.size() > 0) {
+            const std::size_t across = hogels_.grid.plane.width / hogels_.samples;
+            for (std::size_t h = 0; h < some.hogels(); ++h)
+                scratch.moduli[h] = &hogels_.kept((some.t0 + h / some.ns) * across + some.s0 + h % some.ns, 0);
+            return;
+        }
+        Array<float, 2>& prepared = scratch.prepared;
+        if (prepared.shape() != Shape<2>{some.hogels(), hogels_.prepared_size})
+            prepared = Array<float, 2>({some.hogels(), hogels_.prepared_size});
+        hogels_.prepare(some, prepared);
+        for (std::size_t h = 0; h < some.hogels(); ++h) scratch.moduli[h] = &prepared(h, 0);
+    }
+
     // The place in a strip of an eye's band of the first node of a hogel.
     BandPlace place(std::size_t e, const HogelRange& some, std::size_t hogel, Array<Complex, 2>& band) const {
         const std::size_t s = some.s0 + hogel % some.ns - range_.s0, t = hogel / some.ns;
@@ -239,9 +256,11 @@ class StereogramEyes final : public optics::EyeDrawing {
         if (waves.size() != size) waves = Array<float, 1>({size});
         for (std::size_t look = 0; look < looks.count; ++look)
             for (std::size_t h = 0; h < some.hogels(); ++h) {
-                hogels_.waves->waves(scratch.prepared[h].elements(),
-                                     {some.s0 + h % some.ns, some.t0 + h / some.ns, looks.first + look}, waves.data());
-                middle_.apply(waves.data());
+                const NearRows rows = eyes_.size() == 1 ? scratch.views[0][h].near : NearRows{};
+                hogels_.waves->waves({scratch.moduli[h], hogels_.prepared_size},
+                                     {some.s0 + h % some.ns, some.t0 + h / some.ns, looks.first + look}, rows,
+                                     waves.data());
+                middle_.apply(waves.data(), rows);
                 for (std::size_t e = 0; e < eyes_.size(); ++e)
                     project(*eyes_[e].basis, scratch.views[e][h], waves.data(), place(e, some, h, bands[e][look]));
             }
@@ -280,6 +299,7 @@ class StereogramEyes final : public optics::EyeDrawing {
     // Lanes that an eye sees with the same weights.
     struct Group {
         HogelBasis::Weights columns, rows;
+        NearRows near;
         alignas(64) float chosen[HogelWaves::lanes];
     };
 
@@ -290,7 +310,7 @@ class StereogramEyes final : public optics::EyeDrawing {
             auto group = std::ranges::find_if(groups, [&](const Group& other) {
                 return other.columns.frequency == view.columns.frequency && other.rows.frequency == view.rows.frequency;
             });
-            if (group == groups.end()) group = groups.insert(groups.end(), {view.columns, view.rows, {}});
+            if (group == groups.end()) group = groups.insert(groups.end(), {view.columns, view.rows, view.near, {}});
             group->chosen[lane] = 1;
         }
         // Lanes that are not used may hold anything.
@@ -306,13 +326,12 @@ class StereogramEyes final : public optics::EyeDrawing {
         for (const Item& item : items)
             places.push_back({some.s0 + item.hogel % some.ns, some.t0 + item.hogel / some.ns, first_look + item.look});
         const bool shared = items.front().hogel == items.back().hogel;
-        const float* prepared = &scratch.prepared(items.front().hogel, 0);
+        const float* prepared = scratch.moduli[items.front().hogel];
         if (!shared) {
             scratch.sources.clear();
-            for (const Item& item : items) scratch.sources.push_back(&scratch.prepared(item.hogel, 0));
+            for (const Item& item : items) scratch.sources.push_back(scratch.moduli[item.hogel]);
             const std::size_t size = HogelWaves::powers_size(n) * HogelWaves::lanes;
             if (scratch.gathered.size() != size) scratch.gathered = Array<float, 1>({size});
-            hogels_.waves->gather_lanes(scratch.sources, scratch.gathered.data());
             prepared = scratch.gathered.data();
         }
         const SeriesOfLanes series = hogels_.waves->series_of_lanes(places);
@@ -326,13 +345,30 @@ class StereogramEyes final : public optics::EyeDrawing {
                 if (const std::size_t size = n * eyes_[e].basis->functions() * both; lines.size() != size)
                     lines = Array<float, 1>({size});
         }
+        const auto counts = [&](std::size_t row) {
+            return std::ranges::any_of(groups, [&](const std::vector<Group>& eye) {
+                return std::ranges::any_of(eye, [&](const Group& group) { return group.near.has(row, n); });
+            });
+        };
+        std::size_t gathered = 0;  // rows
         for (std::size_t row = 0; row < n; ++row) {
-            hogels_.waves->row_of_lanes(series, row, shared, prepared, scratch.waves.data());
+            const bool drawn = counts(row);
+            if (drawn && !shared && row >= gathered) {
+                const std::size_t block = row / HogelWaves::rows_together * HogelWaves::rows_together;
+                hogels_.waves->gather_lanes(scratch.sources, block, scratch.gathered.data());
+                gathered = block + HogelWaves::rows_together;
+            }
+            if (drawn) hogels_.waves->row_of_lanes(series, row, shared, prepared, scratch.waves.data());
             for (std::size_t e = 0; e < eyes_.size(); ++e) {
                 const HogelBasis& basis = *eyes_[e].basis;
-                for (std::size_t g = 0; g < groups[e].size(); ++g)
-                    sum_row(basis, groups[e][g].columns, scratch.waves.data(),
-                            &scratch.lines[e][g](row * basis.functions() * both));
+                const std::size_t size = basis.functions() * both;
+                for (std::size_t g = 0; g < groups[e].size(); ++g) {
+                    float* line = &scratch.lines[e][g](row * size);
+                    if (groups[e][g].near.has(row, n))
+                        sum_row(basis, groups[e][g].columns, scratch.waves.data(), line);
+                    else
+                        std::fill_n(line, size, 0.0f);
+                }
             }
         }
         for (std::size_t e = 0; e < eyes_.size(); ++e) {
@@ -366,7 +402,16 @@ class StereogramEyes final : public optics::EyeDrawing {
         view.rows = eye.basis->weights(-geometry.sine_y(x, y) * height / wavelength);
         set_phases(eye, {x, y, width, height, view.columns.frequency, view.rows.frequency}, phases);
         view.phases = phases;
+        view.near = rows_near(view.rows.frequency, eye.reach);
         return view;
+    }
+
+    // The rows m of waves with |m + frequency| ≤ reach, modulo n.
+    NearRows rows_near(double frequency, double reach) const {
+        const auto n = static_cast<double>(hogels_.samples);
+        const double first = std::ceil(-frequency - reach), count = std::floor(reach - frequency) - first + 1;
+        if (count >= n) return {};
+        return {static_cast<std::size_t>(first - n * std::floor(first / n)), static_cast<std::size_t>(count)};
     }
 
     // A hogel: its middle, its size, and the frequencies that its weights have taken from the demodulation.
@@ -441,8 +486,12 @@ std::unique_ptr<optics::EyeDrawing> make_stereogram_eyes(const Hogels& hogels, c
         const double pitch = static_cast<double>(n) / static_cast<double>(per_hogel);
         const Grid plane{samples(range.ns),           samples(range.nt),    whole.plane.pitch_x * pitch,
                          whole.plane.pitch_y * pitch, whole.plane.center_x, whole.plane.center_y};
-        EyeBand& own = bands.emplace_back(
-            EyeBand{{optics::ViewGeometry(eye.position, whole.wavelength), plane}, basis, per_hogel, band.bend, {}});
+        EyeBand& own = bands.emplace_back(EyeBand{{optics::ViewGeometry(eye.position, whole.wavelength), plane},
+                                                  basis,
+                                                  per_hogel,
+                                                  band.bend,
+                                                  {},
+                                                  eye.preview ? half + near_waves : static_cast<double>(n)});
         for (std::size_t node = 0; node < basis->nodes(); ++node) own.places.push_back(basis->place(node));
     }
     return std::make_unique<StereogramEyes>(hogels, range, std::move(bands));

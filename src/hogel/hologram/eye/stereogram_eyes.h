@@ -18,6 +18,8 @@ struct Hogels {
     std::size_t prepared_size = 0;
     /// Computes the prepared values of a range, [hogel][prepared_size], row by row.
     std::function<void(const HogelRange&, View<float, 2>)> prepare;
+    /// The prepared values of all hogels of the grid, row by row, where they are kept; otherwise no elements.
+    View<const float, 2> kept = {};
 };
 
 /// The samples of an eye's band to a hogel, along an axis, for hogels of `samples` samples a side.
