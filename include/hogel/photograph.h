@@ -26,7 +26,7 @@ enum class LightFrom {
 
 /// Options of photograph() of holograms.
 struct PhotographOptions {
-    std::size_t memory = std::size_t{2} << 30;  ///< bytes that a photograph may use, without the pictures
+    std::size_t memory = std::size_t{4} << 30;  ///< bytes that a photograph may use, without the pictures
     LightFrom from = LightFrom::cheaper;
     /// The mean of infinitely many looks, without speckle, instead of that of the source's looks: the sum of the
     /// intensities of all waves, what ideal time multiplexing shows. For stereograms that are made on demand and whose

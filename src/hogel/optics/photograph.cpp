@@ -68,14 +68,26 @@ double share_of_bands(const FieldSource& window, const EyeDrawing& drawing, std:
     return drawn / planned;
 }
 
+// The region, extended to where the source's hogels begin, so that none is made for two reads.
+Region whole_hogels(const Region& region, const FieldSource& source) {
+    const std::size_t side = source.alignment();
+    const Grid& plane = source.grid().plane;
+    const std::size_t x0 = region.x0 / side * side, y0 = region.y0 / side * side;
+    const auto end = [&](std::size_t last, std::size_t size) {
+        return std::min((last + side - 1) / side * side, size);
+    };
+    return {x0, y0, end(region.x0 + region.width, plane.width) - x0, end(region.y0 + region.height, plane.height) - y0};
+}
+
 // One pass of cameras over one window: adds the window's light to their pictures.
 void photograph_window(const FieldSource& whole, const PhotographPlan::Window& part, std::span<const Camera> cameras,
                        const std::vector<SharedEye>& eyes, const PhotographOptions& options, const PhotographPlan& plan,
                        std::span<Image> images, const Progress& progress) {
-    const Window window(whole, part.region);
+    const Region region = whole_hogels(part.region, whole);
+    const Window window(whole, region);
     std::vector<Eye> looking;
     for (const SharedEye& eye : eyes) looking.push_back({cameras[eye.members.front()].eye, eye.pupil, options.preview});
-    const std::unique_ptr<EyeDrawing> drawing = draw_eyes(whole, part.region, window, looking, options.from);
+    const std::unique_ptr<EyeDrawing> drawing = draw_eyes(whole, region, window, looking, options.from);
     std::vector<film::Film> films;
     std::vector<std::vector<Array<float, 2>>> intensities(eyes.size());  // [eye][camera of the eye], summed over looks
     for (std::size_t e = 0; e < eyes.size(); ++e) {

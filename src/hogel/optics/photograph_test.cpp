@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -265,6 +266,39 @@ TEST(Photograph, window_by_window_is_the_same_picture) {
         EXPECT_GT(correlation(parts[c], whole[c]), 0.9998) << c;
         EXPECT_NEAR(sum(parts[c]) / sum(whole[c]), 1, 2e-3) << c;
     }
+}
+
+// A field of hogels, which must be read whole.
+class Hogels final : public FieldSource {
+  public:
+    Hogels(const Field& field, std::size_t side) : field_(field), side_(side) {}
+    const FieldGrid& grid() const override { return field_.grid(); }
+    std::size_t alignment() const override { return side_; }
+    void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override {
+        EXPECT_EQ(region.x0 % side_, 0u);
+        EXPECT_EQ(region.y0 % side_, 0u);
+        ++reads_;
+        field_.read(region, look, out);
+    }
+    std::size_t reads() const { return reads_; }
+
+  private:
+    const Field& field_;
+    std::size_t side_;
+    mutable std::atomic<std::size_t> reads_ = 0;
+};
+
+TEST(Photograph, windows_begin_where_hogels_do) {
+    const FieldGrid grid{{8192, 128, 1_um, 1_um, 0.5_mm, 0}, 633_nm};
+    const Field field = random_field(grid, 6);
+    Camera camera;
+    camera.eye = {1_mm, 0, 30_mm};
+    camera.picture = {40, 8, 200_um, 20_um, 0.5_mm, 0};
+    const PhotographOptions little{.memory = std::size_t{40} << 20};
+    ASSERT_GT(plan_photographs(grid, {&camera, 1}, double(little.memory)).windows.size(), 1u);
+    const Hogels hogels(field, 128);
+    photograph(hogels, {&camera, 1}, little);
+    EXPECT_GT(hogels.reads(), 8192u / 512);
 }
 
 TEST(Photograph, no_camera_takes_no_photograph) {
