@@ -6,130 +6,20 @@
 usage: check_view.py X.h5 H.h5 X.hgl     in a folder with that light field, 24x20 hogels of a sphere with depth, its hologram,
                                          and what it is compressed to; hogel in the PATH
 """
-import base64
-import hashlib
-import http.client
 import json
 import os
 import pathlib
 import resource
 import signal
-import socket
 import struct
 import subprocess
 import sys
 import time
 
-INPUT, HOLOGRAM, STREAM = (sys.argv[1:] + ["", "", ""])[:3]
-VIEW = "eye=5,-3,100mm&focus=2mm&pupil=3mm&resolution=90x70&pupil-samples=16"
+from view_client import VIEW, Server, WebSocket, expect, next_state
+from view_strangers import check_drops, check_refusals, check_token
 
-
-class Server:
-    def __init__(self, *options, input=INPUT):
-        self.process = subprocess.Popen(["hogel", "view", input, "--no-browser", *options], stdout=subprocess.PIPE,
-                                        stderr=subprocess.PIPE, text=True)
-        self.address = self.process.stdout.readline().strip()
-        self.port = int(self.address.split(":")[2].split("/")[0])
-        self.host = f"127.0.0.1:{self.port}"
-
-    def get(self, path, method="GET", body=None, **headers):
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=30)
-        connection.request(method, path, body, {"Host": self.host, **{k.replace("_", "-"): v for k, v in headers.items()}})
-        answer = connection.getresponse()
-        return answer.status, dict(answer.getheaders()), answer.read()
-
-    def wait(self):
-        for _ in range(300):
-            state = json.loads(self.get("/state")[2])
-            if state["ready"] and not state["work"]:
-                return state
-            time.sleep(0.1)
-        sys.exit("the light field does not come")
-
-    def raw(self, text, timeout=5):
-        """What comes back for any bytes, until the server closes or is silent."""
-        with socket.create_connection(("127.0.0.1", self.port), timeout=timeout) as connection:
-            connection.sendall(text)
-            got = b""
-            try:
-                while part := connection.recv(65536):
-                    got += part
-            except OSError:
-                pass
-            return got
-
-    def stop(self, number):
-        began = time.monotonic()
-        self.process.send_signal(number)
-        words = self.process.communicate(timeout=20)[1]
-        return self.process.returncode, time.monotonic() - began, words
-
-
-class WebSocket:
-    """The other end by RFC 6455, in as few lines as it takes."""
-
-    def __init__(self, server, path="/live", **headers):
-        self.socket = socket.create_connection(("127.0.0.1", server.port), timeout=30)
-        key = base64.b64encode(os.urandom(16)).decode()
-        fields = {"Host": server.host, "Origin": f"http://{server.host}", "Upgrade": "websocket", "Connection": "Upgrade",
-                  "Sec-WebSocket-Key": key, "Sec-WebSocket-Version": "13", **headers}
-        lines = "".join(f"{name}: {value}\r\n" for name, value in fields.items() if value is not None)
-        self.socket.sendall(f"GET {path} HTTP/1.1\r\n{lines}\r\n".encode())
-        head = b""
-        while b"\r\n\r\n" not in head:
-            part = self.socket.recv(1)
-            if not part:
-                break
-            head += part
-        self.status = int(head.split()[1])
-        if self.status == 101:
-            accept = base64.b64encode(hashlib.sha1((key + "258EAFA5-E914-47DA-95CA-C5AB0DC85B11").encode()).digest())
-            assert accept in head
-
-    def send(self, text, opcode=1):
-        data, mask = text.encode() if isinstance(text, str) else text, os.urandom(4)
-        length = bytes([0x80 | len(data)]) if len(data) < 126 else struct.pack(">BH", 0xFE, len(data))
-        self.socket.sendall(bytes([0x80 | opcode]) + length + mask + bytes(b ^ mask[i % 4] for i, b in enumerate(data)))
-
-    def exactly(self, count):
-        data = b""
-        while len(data) < count:
-            part = self.socket.recv(count - len(data))
-            if not part:
-                raise EOFError
-            data += part
-        return data
-
-    def receive(self):
-        """The next message: a dict of a text, or of a picture with its bytes under `file`."""
-        whole, kind = b"", 0
-        while True:
-            first, second = self.exactly(2)
-            length = second & 127
-            if length > 125:
-                length = struct.unpack(">H" if length == 126 else ">Q", self.exactly(2 if length == 126 else 8))[0]
-            data = self.exactly(length)
-            if first & 15 == 8:
-                raise EOFError
-            if first & 15 > 8:
-                continue
-            whole, kind = whole + data, kind or first & 15
-            if first & 128:
-                break
-        if kind == 1:
-            return json.loads(whole)
-        head, file = whole.split(b"\n", 1)
-        return json.loads(head) | {"file": file}
-
-    def until(self, kind):
-        while (message := self.receive())["type"] != kind:
-            pass
-        return message
-
-
-def expect(truth, what):
-    if not truth:
-        sys.exit(f"wrong: {what}")
+INPUT, HOLOGRAM, STREAM = sys.argv[1:]
 
 
 def pixels(file):
@@ -229,41 +119,6 @@ def check_readings(server):
     expect(abs(left["x_m"] + 0.003) < 1e-9 and left["y_m"] > 0 and left["across_deg"] < 0, f"reading {left}")
 
 
-def check_refusals(server):
-    picture = f"/picture?{VIEW}"
-    for headers in ({"Host": "evil.example"}, {"Host": f"evil.example:{server.port}"}, {"Origin": "http://evil.example"},
-                    {"Origin": "null"}, {"Sec_Fetch_Site": "cross-site"}, {"Sec_Fetch_Site": "same-site"}):
-        status, back, body = server.get(picture, **headers)
-        expect(status == 403 and b"JFIF" not in body, f"{headers}: {status}")
-        expect("Access-Control-Allow-Origin" not in back, "others may read")
-        expect(server.get("/state", **headers)[0] == 403, f"state {headers}")
-        socket_headers = {name.replace("_", "-"): value for name, value in headers.items()}
-        expect(WebSocket(server, **socket_headers).status == 403, f"web socket {headers}")
-    for path in ("/../../etc/passwd", "/..%2f..%2fetc/passwd", "//etc/passwd", "/web/main.js", "/main.js/", "/.", "/x.h5"):
-        expect(server.get(path)[0] == 404, path)
-    for query in ("eye=0,0,-1mm", "eye=x", "focus=-1m", "resolution=99999", "resolution=4000x4000", "pupil-samples=0", "format=gif", "word=1", "by=sound", "id=%00"):
-        expect(server.get("/picture?" + query)[0] == 400, query)
-    for method in ("POST", "PUT", "DELETE", "OPTIONS", "HEAD", "TRACE"):
-        expect(server.get("/", method=method)[0] == 405, method)
-    expect(server.get("/", method="POST", body="x" * 100)[0] == 405, "a body")
-    expect(server.get("/", method="PUT", body="x" * 100)[0] == 400, "a body of another kind")
-    expect(server.get("/picture?" + "a" * 3000)[0] == 400, "a long query")
-    for text in (b"\0" * 100, b"GET / HTTP/9.9\r\n\r\n", b"\x16\x03\x01" + os.urandom(200), b"GET / HTTP/1.1\r\n" + b"a: b\r\n" * 9000,
-                 b"GET /" + b"a" * 70000 + b" HTTP/1.1\r\n\r\n", b"GET / HTTP/1.1\r\nHost: a\r\nContent-Length: 99999999999\r\n\r\n"):
-        expect(not server.raw(text).startswith(b"HTTP/1.1 200"), f"{text[:30]!r}")
-    # Connections that say nothing: more than there may be, and the page still comes.
-    idle = [socket.create_connection(("127.0.0.1", server.port), timeout=20) for _ in range(1000)]
-    for connection in idle[::2]:
-        try:
-            connection.sendall(b"GET / HTTP/1.1\r\nHo")
-        except OSError:
-            pass
-    expect(server.get("/")[0] == 200, "the page beside 1,000 idle connections")
-    for connection in idle:
-        connection.close()
-    expect(server.get("/")[0] == 200, "the page after 1,000 idle connections")
-
-
 def check_web_socket(server):
     page = WebSocket(server)
     expect(page.status == 101 and page.receive()["type"] == "state", "the state comes first")
@@ -313,12 +168,6 @@ def check_focus(server):
     reading = json.loads(server.get(f"/reading?{where}&x=0.5&y=0.5")[2])
     page.send(f"focus?{where}&x=0.5&y=0.5")
     expect(page.until("focus")["depth_m"] == reading["depth_m"], "the depth of what was clicked")
-
-
-def next_state(page, test):
-    while not test(state := page.until("state")):
-        pass
-    return state
 
 
 def check_scene():
@@ -399,52 +248,10 @@ def check_stream():
     server.stop(signal.SIGTERM)
 
 
-def check_drops():
-    """Files from the page are opened; what is broken, too large or from elsewhere is not, and what was there stays."""
-    server = Server("--hogels", "40", "--directions", "16")
-    own = {"Origin": f"http://{server.host}"}
-    page = WebSocket(server)
-    mesh = b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n" \
-           b"property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
-    for headers in ({}, {"Origin": "http://evil.example"}, {"Origin": "null"}, own | {"Sec_Fetch_Site": "cross-site"}, own | {"Host": "evil.example"}):
-        expect(server.get("/drop?name=a.ply", "POST", mesh, **headers)[0] == 403, f"a file of {headers}")
-    for name in ("", "..", "../a.ply", "/etc/passwd", "a/b.ply", ".ply", "-o", "a" * 200, "%00"):
-        expect(server.get(f"/drop?name={name}", "POST", mesh, **own)[0] == 400, f"a file named {name}")
-    large = b"POST /drop?name=a.ply HTTP/1.1\r\nHost: %s\r\nOrigin: http://%s\r\nContent-Length: 99999999999\r\n\r\n" % (server.host.encode(), server.host.encode())
-    expect(not server.raw(large, 2).startswith(b"HTTP/1.1 2"), "a file that is too large")
-    before = json.loads(server.get("/state")[2])
-    expect(server.get("/drop?name=bad.ply", "POST", b"ply\nformat ascii 1.0\n", **own)[0] == 200, "a broken file is taken")
-    expect("bad.ply" in page.until("problem")["message"], "a broken file is not told")
-    state = server.wait()  # also where the file came before the first input was shown, whose work goes on then
-    expect(state["name"] == before["name"] and server.get(f"/picture?{VIEW}")[0] == 200, f"after a broken file: {state}")
-    expect(server.get("/drop?name=one%20mesh.ply", "POST", mesh, **own)[0] == 200, "a mesh")
-    state = next_state(page, lambda each: each["name"] == "one mesh.ply" and each["ready"] and each.get("scene") and not each["work"])
-    expect(state["scene"]["is_file"] and state["photo"] == "hogel photo 'one mesh.ply' --hogels 40 --directions 16", f"{state['photo']}")
-    obj = b"mtllib o.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
-    expect(server.get("/drop?name=o.mtl&more=yes", "POST", b"newmtl m\nKd 1 0 0\n", **own)[0] == 200, "a material")
-    expect(server.get("/drop?name=o.obj", "POST", obj, **own)[0] == 200, "a mesh with a material")
-    next_state(page, lambda each: each["name"] == "o.obj" and not each["work"])
-    expect(server.get("/drop?name=x.h5", "POST", pathlib.Path(INPUT).read_bytes(), **own)[0] == 200, "a light field")
-    next_state(page, lambda each: each["name"] == "x.h5" and each["hogels_s"] == 24 and not each["work"])
-    expect(server.get(f"/picture?{VIEW}")[0] == 200, "a picture of a light field that was dropped")
-    server.stop(signal.SIGTERM)
-
-
-def check_token():
-    token = "abcdefghijklmnop-1"
-    server = Server("--host", "0.0.0.0", "--token", token)
-    expect(server.address.endswith(f"/?token={token}"), server.address)
-    for path, status in (("/", 200), ("/state", 403), (f"/state?token={token}", 200), (f"/state?token={token}x", 403), ("/picture", 403)):
-        expect(server.get(path)[0] == status, path)
-    expect(server.get(f"/state?token={token}", Origin="http://evil.example")[0] == 403, "another page with the token")
-    expect(WebSocket(server).status == 403 and WebSocket(server, f"/live?token={token}").status == 101, "web socket and token")
-    server.stop(signal.SIGTERM)
-
-
 def main():
     most = resource.getrlimit(resource.RLIMIT_NOFILE)[1]
     resource.setrlimit(resource.RLIMIT_NOFILE, (min(4096, most) if most > 0 else 4096, most))
-    server = Server()
+    server = Server(input=INPUT)
     expect(server.address == f"http://127.0.0.1:{server.port}/", server.address)
     state = server.wait()
     check_pages(server, state)
@@ -457,14 +264,14 @@ def main():
     check_web_socket(server)
     check_newest_wins(server)
     check_focus(server)
-    check_drops()
+    check_drops(INPUT)
     check_scene()
     check_stream()
-    check_token()
+    check_token(INPUT)
     page = WebSocket(server)
     page.send("picture?eye=0,0,100mm&resolution=1500x1250&pupil-samples=1024")
     time.sleep(0.2)
-    for number, running in ((signal.SIGINT, server), (signal.SIGTERM, Server()), (signal.SIGHUP, Server())):
+    for number, running in ((signal.SIGINT, server), (signal.SIGTERM, Server(input=INPUT)), (signal.SIGHUP, Server(input=INPUT))):
         status, seconds, words = running.stop(number)
         expect(status == 128 + number and words == "hogel: stopped\n", f"stop: {status} {words}")
         expect(seconds < 1 * float(os.environ.get("HOGEL_PATIENCE", 1)), f"stop took {seconds} s")

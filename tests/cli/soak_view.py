@@ -13,6 +13,8 @@ import sys
 import tempfile
 import time
 
+from view_client import Server, WebSocket
+
 
 def memory(process):
     """Resident bytes of a process."""
@@ -44,11 +46,11 @@ class Watch:
         print(text)
 
 
-def drag_eye(check_view, seconds):
+def drag_eye(seconds):
     subprocess.run(["hogel", "render", "pumpkin", "-o", "soak.h5", "--hogels", "64", "--directions", "16", "--size", "6mm", "--depth", "-q"], check=True)
-    server = check_view.Server("--looks", "2", "--wavelength", "532nm", "--memory", "0.5", input="soak.h5")
+    server = Server("--looks", "2", "--wavelength", "532nm", "--memory", "0.5", input="soak.h5")
     server.wait()
-    page, watch = check_view.WebSocket(server), Watch(server, seconds)
+    page, watch = WebSocket(server), Watch(server, seconds)
     while watch.goes_on():
         rounds = watch.rounds
         x, y = 15 * math.cos(0.3 * rounds), 10 * math.sin(0.2 * rounds)
@@ -65,15 +67,15 @@ def drag_eye(check_view, seconds):
             server.get(f"/inside?{view}&x=0.4&y=0.5&what={('hogel', 's-u', 't-v', 'views', 'coverage')[rounds // 10 % 5]}")
         if rounds % 50 == 0:
             page.socket.close()
-            page = check_view.WebSocket(server)
+            page = WebSocket(server)
     watch.end("views")
 
 
-def drag_scene(check_view, seconds):
+def drag_scene(seconds):
     """Turns a scene, which rests now and then so that all of its hogels come."""
-    server = check_view.Server("--hogels", "100", "--directions", "16", "--looks", "2", "--memory", "0.5", input="pumpkin")
+    server = Server("--hogels", "100", "--directions", "16", "--looks", "2", "--memory", "0.5", input="pumpkin")
     server.wait()
-    page, watch = check_view.WebSocket(server), Watch(server, seconds)
+    page, watch = WebSocket(server), Watch(server, seconds)
     view, shown = "eye=5,0,300mm&resolution=200x200&pupil-samples=4", page.until("state")["generation"]
     while watch.goes_on():
         rounds = watch.rounds
@@ -93,9 +95,8 @@ def main():
     hogel, seconds = pathlib.Path(sys.argv[1]).resolve(), float(sys.argv[2])
     os.environ["PATH"] = f"{hogel.parent}:{os.environ['PATH']}"
     os.chdir(tempfile.mkdtemp(prefix="hogel-soak-"))
-    import check_view
-    drag_eye(check_view, seconds / 2)
-    drag_scene(check_view, seconds / 2)
+    drag_eye(seconds / 2)
+    drag_scene(seconds / 2)
 
 
 main()
