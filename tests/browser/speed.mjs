@@ -51,6 +51,6 @@ const told = await page.evaluate(seconds => new Promise(resolve => {
   })();
 }), Number(seconds));
 const all = below(process.pid) - before.all, own = time(stat(server.pid)) - before.server, each = seconds => (1e3 * seconds / told.count).toFixed(1);
-console.log(`| ${await page.locator("#facts").textContent()} | ${told.width} | ${told.rate.toFixed(0)} | ${told.latency.toFixed(0)} ms | ${told.made.toFixed(0)} ms | ${each(own)} ms | ${each(all - own)} ms | ${first} ms |`);
+console.log(`| ${await page.locator("#facts").textContent()} | ${told.width} | ${told.rate.toFixed(1)} | ${told.latency.toFixed(0)} ms | ${told.made.toFixed(0)} ms | ${each(own)} ms | ${each(all - own)} ms | ${first} ms |`);
 await browser.close();
 await ended(server);
