@@ -209,6 +209,9 @@ function showLayers() {
   by("layers-hint").textContent = `${size(stream.bytes)}, ${errors}.`;
 }
 
+// Words stay whole, which lines would break at their hyphens.
+const showCommand = (place, command) => place.replaceChildren(...command.split(" ").flatMap((word, i) => [i ? " " : "", Object.assign(document.createElement("span"), {textContent: word})]));
+
 const size = bytes => bytes < 1e6 ? `${(bytes / 1e3).toPrecision(3)} kB` : `${(bytes / 1e6).toPrecision(3)} MB`;
 
 function facts() {
@@ -279,7 +282,7 @@ const to = {
   },
   make() {
     if (!field.scene) return say("Scenes are made; this is a file");
-    by("made-command").textContent = field.scene.make;
+    showCommand(by("made-command"), field.scene.make);
     by("made").showModal();
   },
   open() { by("file").click(); },

@@ -143,7 +143,7 @@ export class SceneControls {
       const told = scene.advice.filter(each => each.option === option), advice = told.find(each => each.refused) ?? told[0];
       by(`${option}-advice`).hidden = !advice;
       by(`${option}-advice`).classList.toggle("refused", advice?.refused ?? false);
-      by(`${option}-advice-text`).textContent = advice ? `${advice.text[0].toUpperCase()}${advice.text.slice(1)}.` : "";
+      by(`${option}-advice-text`).textContent = advice ? `${advice.text[0].toUpperCase()}${advice.text.slice(1).replaceAll(" um", " µm")}.` : "";
       const button = document.querySelector(`[data-enough=${option}]`);
       button.textContent = advice ? `Take ${option === "pitch" ? `${+(1e6 * advice.enough).toPrecision(4)} µm` : advice.enough}` : "";
     }
