@@ -16,13 +16,11 @@ namespace {
 // The settings of "hogel view WORDS...".
 Settings settings_of(std::vector<std::string> words, const std::string& input) {
     words.insert(words.begin(), {"hogel-view", "view"});
-    static std::vector<std::vector<char*>> kept;
     std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(strdup(word.c_str()));
+    for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
-    kept.push_back(arguments);
     cli::Session session;
-    session.arguments = kept.back().data();
+    session.arguments = arguments.data();
     cli::ViewOptions options;
     options.input = input;
     return {session, options};
