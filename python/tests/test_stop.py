@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Long work stops on Ctrl-C, tells how far it is, and leaves other threads alone."""
+"""Long work stops on Ctrl-C, tells how far it is, and leaves other threads and processes alone."""
 import os
 import signal
 import subprocess
@@ -25,6 +25,25 @@ try:
     lf.save("a.h5", progress=report)
 except KeyboardInterrupt:
     print("stopped", flush=True)
+"""
+
+# Work before a fork, whose threads a child does not have, and the same work in two children.
+FORKS = """
+import hashlib, multiprocessing, sys
+import numpy as np
+import hogel
+
+field = hogel.Field.from_function(lambda x, y: np.exp(1e8j * (x**2 + y**2)), samples=(500, 400), pitch="2um", wavelength="532nm")
+lf = hogel.Scene.load("pumpkin").render(hogels=12, directions=8, size="2mm")
+
+def work(distance):
+    spread = np.asarray(field.propagate(distance=distance * 1e-3))
+    return hashlib.sha256(spread.tobytes() + np.asarray(lf.load()).tobytes()).hexdigest()
+
+here = [work(i) for i in range(1, 5)]
+with multiprocessing.get_context("fork").Pool(2) as pool:
+    there = pool.map_async(work, range(1, 5)).get(timeout=60)
+print(here == there and len(set(here)) == 4)
 """
 
 
@@ -92,6 +111,10 @@ class Threads(unittest.TestCase):
         for thread in threads:
             thread.join()
         self.assertEqual(failures, [])
+
+    def test_processes_that_were_forked_work(self):
+        done = subprocess.run([sys.executable, "-c", FORKS], capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.stdout, "True\n", done.stderr)
 
 
 if __name__ == "__main__":
