@@ -8,14 +8,21 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
+#include <mutex>
+#include <stop_token>
 #include <string_view>
+#include <thread>
+#include <vector>
 
 #include "cli/commands.h"
 #include "cli/program.h"
 #include "hogel/error.h"
+#include "mpi/loss_watch.h"
 #include "mpi/mpi_link.h"
 #include "mpi/rank_team.h"
 
@@ -24,6 +31,10 @@ namespace {
 
 // A rank that has failed waits so long for the others, which end within a second of a stop.
 constexpr std::chrono::seconds patience{15};
+// After a rank was lost the others have so long to keep what is done, before mpirun ends them.
+constexpr std::chrono::milliseconds grace{900};
+// As of a process that was killed.
+constexpr int status_of_loss = 128 + SIGKILL;
 
 // Those whose long work the library shares among the processes of a team.
 constexpr std::array<std::string_view, 8> shared_commands{"render", "compress", "decompress", "hologram",
@@ -47,12 +58,22 @@ void silence_output() {
 
 class Ranks final : public cli::Processes {
   public:
-    explicit Ranks(MpiLink& link) : link_(link), team_(link), scope_(team_) {
+    explicit Ranks(MpiLink& link)
+        : link_(link),
+          team_(link),
+          scope_(team_),
+          watch_(others_here(), [this](const RankProcess& rank) { end_without(rank); }) {
         if (!team_.is_first()) silence_output();
     }
 
     void begin(cli::Session& session) override {
         team_.stop_with(session.stop);
+        {
+            const std::lock_guard lock(stopping_);
+            stop_ = session.stop;
+        }
+        for (char* const* word = session.arguments; word != nullptr && *word != nullptr; ++word)
+            if (std::string_view(*word) == "--resume") resumes_ = true;
         if (session.threads == 0) session.threads = link_.threads();
         if (!team_.is_first()) session.quiet = true;
         const std::string command = session.command->name();
@@ -69,6 +90,7 @@ class Ranks final : public cli::Processes {
         report.status = own.status;
         report.code = own.code;
         report.text = own.message;
+        while (lost_) std::this_thread::sleep_for(grace);  // until end_without() ends the process
         const std::optional<Report> verdict = team_.settle(report, patience);
         if (!verdict) {
             cli::print_failure(own.message);
@@ -78,9 +100,39 @@ class Ranks final : public cli::Processes {
     }
 
   private:
+    std::vector<RankProcess> others_here() const {
+        std::vector<RankProcess> others = link_.on_this_machine();
+        std::erase_if(others, [&](const RankProcess& each) { return each.rank == link_.rank(); });
+        return others;
+    }
+
+    // After a rank of this machine was lost: the first of those that are left says so, all keep what they have done,
+    // and the job ends.
+    void end_without(const RankProcess& lost) {
+        lost_ = true;
+        const auto left = std::ranges::find_if(link_.on_this_machine(),
+                                               [&](const RankProcess& each) { return each.rank != lost.rank; });
+        if (left->rank == link_.rank())
+            cli::print_failure(fmt::format("rank {} of {} (process {}) was lost; {}", lost.rank, link_.size(),
+                                           lost.process,
+                                           resumes_ ? "what is done is kept: the same command goes on from there, with "
+                                                      "any number of ranks"
+                                                    : "run the command again"));
+        {
+            const std::lock_guard lock(stopping_);
+            stop_.request_stop();
+        }
+        std::this_thread::sleep_for(grace);
+        std::_Exit(status_of_loss);  // MPI_Abort() would say more than the line above
+    }
+
     MpiLink& link_;
     RankTeam team_;
     TeamScope scope_;
+    std::mutex stopping_;
+    std::stop_source stop_;  // of the session
+    std::atomic<bool> resumes_ = false, lost_ = false;
+    LossWatch watch_;
 };
 
 int run(int argc, char** argv) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <sched.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -21,19 +22,26 @@ namespace {
 // How long messages may take to leave at the end.
 constexpr std::chrono::seconds patience{5};
 
+// What every process of this machine says of itself, in the order of their ranks.
+template <class Value>
+std::vector<Value> values_of_machine(const Value& own) {
+    MPI_Comm machine = MPI_COMM_NULL;
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+    int size = 1;
+    MPI_Comm_size(machine, &size);
+    std::vector<Value> values(static_cast<std::size_t>(size));
+    MPI_Allgather(&own, sizeof own, MPI_BYTE, values.data(), sizeof own, MPI_BYTE, machine);
+    MPI_Comm_free(&machine);
+    return values;
+}
+
 // The processors that this process may run on, divided by the number of processes on this machine that may run on
 // exactly those: all of them, or those that mpirun bound each process to.
 std::size_t fair_threads() {
     cpu_set_t mine;
     CPU_ZERO(&mine);
-    if (sched_getaffinity(0, sizeof mine, &mine) != 0) return 1;
-    MPI_Comm machine = MPI_COMM_NULL;
-    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
-    int size = 1;
-    MPI_Comm_size(machine, &size);
-    std::vector<cpu_set_t> sets(static_cast<std::size_t>(size));
-    MPI_Allgather(&mine, sizeof mine, MPI_BYTE, sets.data(), sizeof mine, MPI_BYTE, machine);
-    MPI_Comm_free(&machine);
+    if (sched_getaffinity(0, sizeof mine, &mine) != 0) CPU_SET(0, &mine);
+    const std::vector<cpu_set_t> sets = values_of_machine(mine);
     const auto same = std::ranges::count_if(sets, [&](const cpu_set_t& set) { return CPU_EQUAL(&set, &mine) != 0; });
     return static_cast<std::size_t>(std::max<long>(1, CPU_COUNT(&mine) / std::max<long>(1, same)));
 }
@@ -49,6 +57,7 @@ MpiLink::MpiLink(int& argc, char**& argv) {
     rank_ = static_cast<std::size_t>(rank);
     size_ = static_cast<std::size_t>(size);
     threads_ = fair_threads();
+    on_this_machine_ = values_of_machine(RankProcess{rank_, getpid()});
     if (provided < MPI_THREAD_SERIALIZED)
         throw Error(ErrorCode::not_built_in, "this MPI cannot be called by several threads (MPI_THREAD_SERIALIZED)");
 }

@@ -5,8 +5,10 @@
 
 #include <list>
 #include <mutex>
+#include <vector>
 
 #include "mpi/link.h"
+#include "mpi/loss_watch.h"
 
 namespace hogel::mpi {
 
@@ -28,6 +30,8 @@ class MpiLink final : public Link {
 
     /// The threads of this process if the processes of a machine share the processors that they may run on.
     std::size_t threads() const { return threads_; }
+    /// The ranks whose processes are on this machine, this one's among them.
+    const std::vector<RankProcess>& on_this_machine() const { return on_this_machine_; }
     /// Ends all processes at once.
     [[noreturn]] void abort(int status);
 
@@ -41,6 +45,7 @@ class MpiLink final : public Link {
     std::mutex mutex_;
     MPI_Comm all_ = MPI_COMM_NULL;
     std::size_t rank_ = 0, size_ = 1, threads_ = 1;
+    std::vector<RankProcess> on_this_machine_;
     std::list<Sent> sent_;
 };
 

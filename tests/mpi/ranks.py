@@ -3,7 +3,7 @@
 """Runs hogel-mpi with several numbers of ranks and compares its files with those of hogel.
 
 usage: ranks.py TEST HOGEL HOGEL_MPI MPIRUN      TEST: same_files, same_streams, same_photographs, same_fields,
-                                                       same_make, refused, errors, killed or stopped
+                                                       same_make, refused, errors, killed, lost or stopped
 """
 import os
 import pathlib
@@ -20,7 +20,7 @@ ENVIRONMENT = os.environ | {
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
 }
 SIZE = "--hogels 24x20 --directions 24x24 --size 4mm".split()
-KILLS = int(os.environ.get("HOGEL_KILLS", 10))
+KILLS = int(os.environ.get("HOGEL_KILLS", 50))
 
 
 class Run:
@@ -174,6 +174,14 @@ def refused(run):
         require(status == 5 and len(lines) == 1, command, "ended with", status, error)
         require("cannot share its work" in lines[0] and command[0] in lines[0], lines)
     require(run.left() == before, "left behind:", run.left())
+    # What is shared is tested here and described.
+    shared = lines[0].split("expected ")[1].split(", or ")[0].split(", ")
+    require(len(shared) >= 8, "few commands are shared:", shared)
+    tests = pathlib.Path(__file__).read_text()
+    page = (pathlib.Path(__file__).parents[2] / "docs" / "cluster.md").read_text()
+    for command in shared:
+        require(f'["{command}", ' in tests, command, "is not tested")
+        require(f"`{command}`" in page, command, "is not in docs/cluster.md")
 
 
 def errors(run):
@@ -205,27 +213,31 @@ def children(pid):
 
 
 LONG = ["hologram", "a.h5", "-o", "x.h5", "--pitch", "1um", "--resume", "--seed", "3"]
+RENDER = ["render", "pumpkin", "--hogels", "80x80", "--directions", "48x48", "--size", "8mm",
+          "--algorithm", "raytrace", "-o", "x.h5", "--resume"]
 
 
-def long_work(run):
-    run.alone("render", "pumpkin", "--hogels", "64x64", "--directions", "48x48", "--size", "8mm", "-o", "a.h5")
+# The file that a command makes by itself, and how long one thread takes for it.
+def made_alone(run, command):
     began = time.monotonic()
-    run.alone(*LONG, "--threads", "1")
+    run.alone(*command, "--threads", "1")
     whole = run.bytes("x.h5")
     (run.folder / "x.h5").unlink()
     return whole, time.monotonic() - began
 
 
-# A rank that is killed at a random moment, ten times and again until the work is complete, each time with another number
-# of ranks.
-def killed(run):
-    chance = random.Random(7)
-    whole, seconds = long_work(run)
+def long_work(run):
+    run.alone("render", "pumpkin", "--hogels", "64x64", "--directions", "48x48", "--size", "8mm", "-o", "a.h5")
+    return made_alone(run, LONG)
+
+
+# Kills a rank at a random moment, and again until the work is complete, each time with another number of ranks.
+def kill_until_complete(run, chance, command, whole, seconds, kills_wanted):
     kills = completed = resumed = 0
-    while kills < KILLS or completed == 0:
-        process = run.start(chance.choice(RANKS), *LONG)
-        time.sleep(chance.uniform(0.1, 0.5 + seconds) if kills < KILLS else 0)
-        ranks = children(process.pid) if kills < KILLS else []
+    while kills < kills_wanted or completed == 0:
+        process = run.start(chance.choice(RANKS), *command)
+        time.sleep(chance.uniform(0.1, 0.5 + seconds) if kills < kills_wanted else 0)
+        ranks = children(process.pid) if kills < kills_wanted else []
         if ranks:
             try:
                 os.kill(chance.choice(ranks), signal.SIGKILL)
@@ -238,13 +250,45 @@ def killed(run):
             completed += 1
             require(run.bytes("x.h5") == whole, "other bytes after", kills, "kills")
             (run.folder / "x.h5").unlink()
-        elif kills == KILLS and not ranks:
+        elif kills == kills_wanted and not ranks:
             require(False, "ended with", process.returncode, error)
         resumed += (run.folder / "x.h5.part.journal").exists()
         wrong = [name for name in run.left() if name not in ("a.h5", "x.h5.part", "x.h5.part.journal")]
         require(not wrong, "left behind:", wrong)
     require(resumed > 0, "nothing was ever kept")
-    print(f"{kills} kills, {completed} completed, {resumed} times something was kept")
+    print(f"{command[0]}: {kills} kills, {completed} completed, {resumed} times something was kept")
+
+
+def killed(run):
+    chance = random.Random(7)
+    run.alone("render", "pumpkin", "--hogels", "64x64", "--directions", "48x48", "--size", "8mm", "-o", "a.h5")
+    hologram = [word.replace("1um", "1.6um") for word in LONG]
+    for command, kills in ((hologram, KILLS // 2), (RENDER, KILLS - KILLS // 2)):
+        kill_until_complete(run, chance, command, *made_alone(run, command), kills)
+        for part in run.folder.glob("x.h5.part*"):
+            part.unlink()
+
+
+# The others of a rank that is killed name it, once, and keep what is done.
+def lost(run):
+    whole, seconds = long_work(run)
+    for rank in (0, 2):
+        process = run.start(4, *LONG)
+        deadline = time.monotonic() + 60
+        while not (run.folder / "x.h5.part").exists() and time.monotonic() < deadline:
+            time.sleep(0.02)
+        time.sleep(0.15 * seconds)
+        victim = [pid for pid in children(process.pid)
+                  if f"OMPI_COMM_WORLD_RANK={rank}" in pathlib.Path(f"/proc/{pid}/environ").read_text().split("\0")][0]
+        os.kill(victim, signal.SIGKILL)
+        began = time.monotonic()
+        _, error = process.communicate(timeout=60)
+        require(time.monotonic() - began < 5, "took", time.monotonic() - began, "s to end")
+        lines = lines_of_hogel(error)
+        require(process.returncode != 0 and len(lines) == 1, "ended with", process.returncode, error)
+        require(lines[0].startswith(f"hogel: rank {rank} of 4 (process {victim}) was lost; what is done is kept"), lines)
+    status, _, error = run.ranks(3, *LONG)
+    require(status == 0 and run.bytes("x.h5") == whole, "ended with", status, error)
 
 
 # What SIGTERM reaches stops within seconds, says so once, and keeps what is done; --resume without ranks completes it.
