@@ -53,7 +53,14 @@ void SharedPlane::begin_rows(std::size_t rows) {
     if (size_ == 1) return;
     const LineRange own = own_rows(rows);
     first_ = own.first;
-    *now_ = PagedArray({std::max<std::size_t>(own.count, 1), columns_}, scratch_);
+    reserve(*now_, own.count, columns_);
+}
+
+// Memory that is there is used again, because the system clears new memory.
+void SharedPlane::reserve(PagedArray& array, std::size_t rows, std::size_t columns) const {
+    rows = std::max<std::size_t>(rows, 1);
+    columns = std::max<std::size_t>(columns, 1);
+    if (array.extent(0) < rows || array.extent(1) != columns) array = PagedArray({rows, columns}, scratch_);
 }
 
 void SharedPlane::to_columns(std::size_t rows) { turn(rows, true); }
@@ -68,13 +75,15 @@ void SharedPlane::turn(std::size_t rows, bool columns) {
     };
     PagedArray& next = columns ? in_columns_ : in_rows_;
     const LineRange mine = columns ? own_columns() : own_rows(rows);
-    next = PagedArray({columns ? rows_ : std::max<std::size_t>(mine.count, 1),
-                       columns ? std::max<std::size_t>(mine.count, 1) : columns_},
-                      scratch_);
+    reserve(next, columns ? rows_ : mine.count, columns ? mine.count : columns_);
     const auto place = [&](PagedArray& array, bool by_columns, std::size_t first, std::size_t y, std::size_t x) {
         return by_columns ? &array.view()(y, x - first) : &array.view()(y - first, x);
     };
-    for (std::size_t step = 0; step < size_; ++step) {
+    const Part kept = crossing(rank_, rank_);
+    for (std::size_t y = kept.rows.first; y < kept.rows.end() && kept.columns.count > 0; ++y)
+        std::copy_n(place(*now_, !columns, first_, y, kept.columns.first), kept.columns.count,
+                    place(next, columns, mine.first, y, kept.columns.first));
+    for (std::size_t step = 1; step < size_; ++step) {
         const std::size_t to = (rank_ + step) % size_, from = (rank_ + size_ - step) % size_;
         const Part sent = columns ? crossing(rank_, to) : crossing(to, rank_);
         const Part got = columns ? crossing(from, rank_) : crossing(rank_, from);
@@ -97,21 +106,18 @@ void SharedPlane::turn(std::size_t rows, bool columns) {
         const std::size_t sent_at_once = rows_at_once(sent), got_at_once = rows_at_once(got);
         std::size_t sending = sent.rows.first, getting = got.rows.first;
         while (sending < sent.rows.end() || getting < got.rows.end()) {
-            std::string bytes;
             if (sending < sent.rows.end()) {
                 const std::size_t count = std::min(sent_at_once, sent.rows.end() - sending);
-                bytes = pack(sending, count);
+                team_->send_to(to, pack(sending, count));
                 sending += count;
-                if (to != rank_) team_->send_to(to, std::move(bytes));
             }
             if (getting < got.rows.end()) {
                 const std::size_t count = std::min(got_at_once, got.rows.end() - getting);
-                unpack(getting, count, from == rank_ ? bytes : team_->receive_from(from));
+                unpack(getting, count, team_->receive_from(from));
                 getting += count;
             }
         }
     }
-    *now_ = PagedArray();
     now_ = &next;
     first_ = mine.first;
 }

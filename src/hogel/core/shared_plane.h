@@ -43,7 +43,7 @@ class SharedPlane {
     /// The array of the own rows, which leaves the plane.
     PagedArray take_rows(std::size_t rows) {
         now_->keep_rows(own_rows(rows).count);
-        return std::move(*now_);
+        return std::exchange(*now_, PagedArray());
     }
 
     /// Both wait for all processes, and throw Error(cancelled) if one has failed.
@@ -51,6 +51,7 @@ class SharedPlane {
     void to_rows(std::size_t rows);
 
   private:
+    void reserve(PagedArray& array, std::size_t rows, std::size_t columns) const;
     void turn(std::size_t rows, bool columns);
 
     Team* team_;
