@@ -52,12 +52,12 @@ struct Band {
 };
 
 std::vector<Band> bands(std::span<const Camera> cameras, std::size_t processes) {
-    // Enough of each picture for processes to end together, but few, because neighbouring bands show the same hogels.
-    constexpr std::size_t for_each_process = 3, min_rows = 8;
+    // One for each process, because all pixels take about as long and neighbouring bands show the same hogels.
+    constexpr std::size_t min_rows = 8;
     std::vector<Band> list;
     for (std::size_t c = 0; c < cameras.size(); ++c) {
         const std::size_t height = cameras[c].picture.height;
-        const std::size_t rows = std::max(min_rows, height / (for_each_process * processes) + 1);
+        const std::size_t rows = std::max(min_rows, (height + processes - 1) / processes);
         for (std::size_t first = 0; first < height; first += rows)
             list.push_back({c, first, std::min(first + rows, height)});
     }
