@@ -24,7 +24,7 @@ struct Options {
     std::optional<double> overhead;
     double tone_decades = defaults.tone_decades;
     Counts tile;
-    bool no_depth = false;
+    bool no_depth = false, resume = false;
     double depth_error = 0;
 };
 
@@ -126,6 +126,7 @@ int compress_file(Options options, const Session& session) {
     RunRecord record(session);
     record_compression(record, options, light_field);
     compression.metadata = record.metadata();
+    Kept kept(session, options.resume, options.output, options.resume ? describe_input(options.input) : "");
     Stage stage(session, "compressing");
     const CompressionResult result =
         with_options({{"tiles", "--tile"},
@@ -141,6 +142,7 @@ int compress_file(Options options, const Session& session) {
                          state_plan(session, plan_compression(light_field, compression), "compressing", options.output);
                          return compress(light_field, options.output, compression, stage.progress());
                      });
+    kept.complete();
     report_compressed(session, options.output, result);
     return 0;
 }
@@ -237,6 +239,7 @@ void add_compress(Command& command, Session& session) {
         "  hogel compress pumpkin.h5 -o k.hgl --coder ezw --transform ai33 --sqnr 30");
     command.positional("input", options->input, "X.h5|X.hgl", "Light field");
     command.text("-o,--output", options->output, "FILE.hgl", "Compressed light field to write").required();
+    add_resume_flag(command, options->resume);
     add_target_options(command, *options);
     add_method_options(command, *options);
     add_mapping_options(command, *options);

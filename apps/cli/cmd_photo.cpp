@@ -29,7 +29,7 @@ struct Options {
     std::string exposure = "auto", display = "intensity";
     std::string camera = "auto";
     std::string diffuser = "none";
-    bool geometric = false, wave = false, preview = false;
+    bool geometric = false, wave = false, preview = false, resume = false;
 
     double film_distance = 0;
 
@@ -173,6 +173,12 @@ void require_sense(const Options& options, InputKind kind, bool geometric) {
         throw Error(ErrorCode::usage,
                     "--preview: leaves out waves of the hogels of a light field or a scene; give --wave, a number of "
                     "looks and --camera eye");
+    const bool narrow = options.camera == "narrow" || (options.camera == "auto" && kind == InputKind::hologram);
+    if (options.resume && (!narrow || geometric || expected || options.has_diffuser()))
+        throw Error(
+            ErrorCode::usage,
+            "--resume: the narrow camera keeps what is done, of photographs by waves and not behind a diffuser; "
+            "name it by --camera narrow, or leave out --resume");
     if (options.has_diffuser() && kind != InputKind::hologram)
         throw Error(ErrorCode::usage,
                     "--diffuser vertical: stands before a hologram file; make one with 'hogel hologram "
@@ -255,12 +261,14 @@ int photo(const Options& options, const Session& session) {
     require_sense(options, kind, geometric);
     RunRecord record(session);
     record_photograph(record, options, kind, geometric);
+    Kept kept(session, options.resume, options.output, options.resume ? describe_input(options.input) : "");
     std::vector<Image> pictures = kind == InputKind::hologram
                                       ? photographs_of_hologram(options, record, session)
                                       : photographs_of_light_field(options, record, session, kind, geometric);
     if (options.display == "log")
         for (Image& picture : pictures) picture = logarithmic(picture);
     write_photographs(options, pictures, exposure_of(options, given, pictures), geometric, record, session);
+    kept.complete();
     return 0;
 }
 
@@ -301,6 +309,7 @@ void add_photo(Command& command, Session& session) {
     command.positional("input", options->input, "F.h5|X.h5|SCENE",
                        "Hologram, light field, mesh file, built-in scene, another program's field or picture");
     command.text("-o,--output", options->output, "FILE", "Picture to write: .png (sRGB) or .exr (linear)").required();
+    add_resume_flag(command, options->resume);
     add_camera_options(command, options->view);
     add_photo_options(command, *options);
     add_hologram_options(command, options->hologram);

@@ -97,7 +97,7 @@ int write_hdf5(const Options& options, const LightField& light_field, const std:
 int render(const Options& options, const Session& session) {
     if (input_kind(options.scene) != InputKind::scene)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
-    options.output.require(options.scene, options.resume);
+    options.output.require(options.scene);
     if (options.part.part && options.output.compressed())
         throw Error(ErrorCode::usage,
                     fmt::format("--part: belongs to HDF5 files; {} is a compressed one", options.output.file));
@@ -112,7 +112,7 @@ int render(const Options& options, const Session& session) {
             [&](const LightField::Source& face) { return std::make_shared<const InRegions>(face, options.region); });
     state_plan(options, rendered, triangle_count(scene), session);
     if (!options.output.compressed()) return write_hdf5(options, rendered, input, record, session);
-    write_compressed(options.output, rendered, record, session);
+    write_compressed(options.output, rendered, record, session, options.resume ? std::optional(input) : std::nullopt);
     return 0;
 }
 

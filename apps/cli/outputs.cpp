@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -10,6 +12,7 @@
 #include "hogel/compress.h"
 #include "hogel/error.h"
 #include "hogel/units.h"
+#include "hogel/version.h"
 #include "inputs.h"
 
 namespace hogel::cli {
@@ -71,6 +74,15 @@ void add_resume_flag(Command& command, bool& resume) {
                  "Keep what is done when interrupted, as FILE.part, and go on from there the next time");
 }
 
+Kept::Kept(const Session& session, bool resume, const std::string& output, const std::string& input) {
+    if (!resume) return;
+    constexpr std::array<std::string_view, 6> idle{"output", "threads", "quiet", "verbose", "json", "resume"};
+    std::vector<std::string> work{"hogel " HOGEL_VERSION, "hogel " + session.command->name(), input};
+    for (const auto& [name, value] : session.command->values())
+        if (!value.empty() && !std::ranges::count(idle, name)) work.push_back(fmt::format("option {} {}", name, value));
+    scope_.emplace(output + ".part", work);
+}
+
 std::string PartOption::file_for(const std::string& output) const {
     if (!part) return output;
     return fs::path(output).replace_extension(fmt::format(".part-{}-of-{}", part->number, part->count)).string();
@@ -103,11 +115,9 @@ void report_part(const Session& session, const std::string& file, const FilePart
     report_file(session, file, {{"part", part.number}, {"parts", part.count}});
 }
 
-void LightFieldOutput::require(const std::string& input, bool resumes) const {
-    if (compressed() && (single || resumes))
-        throw Error(ErrorCode::usage,
-                    fmt::format("{}: {} HDF5 files; {} is a compressed one", resumes ? "--float, --resume" : "--float",
-                                resumes ? "belong to" : "belongs to", file));
+void LightFieldOutput::require(const std::string& input) const {
+    if (compressed() && single)
+        throw Error(ErrorCode::usage, fmt::format("--float: belongs to HDF5 files; {} is a compressed one", file));
     if (sqnr && !compressed())
         throw Error(ErrorCode::usage,
                     fmt::format("--sqnr: belongs to compressed files, whose names end in .hgl, not to {}", file));
@@ -126,8 +136,8 @@ void add_light_field_output(Command& command, LightFieldOutput& output, const st
         fmt::format("Signal to error of a compressed light field, within 0.1 dB above (default: {})", defaults.sqnr));
 }
 
-void write_compressed(const LightFieldOutput& output, const LightField& made, RunRecord& record,
-                      const Session& session) {
+void write_compressed(const LightFieldOutput& output, const LightField& made, RunRecord& record, const Session& session,
+                      const std::optional<std::string>& kept_of) {
     // It is read several times, in the coder's tiles.
     const LightField light_field = prepare_for_reading(session, made, 2, output.with_depth);
     CompressionOptions compression;
@@ -136,9 +146,11 @@ void write_compressed(const LightFieldOutput& output, const LightField& made, Ru
     record.acted("sqnr", fmt::format("{}", sqnr));
     compression.with_depth = output.with_depth;
     compression.metadata = record.metadata();
+    Kept kept(session, kept_of.has_value(), output.file, kept_of.value_or(""));
     Stage stage(session, "compressing");
     const CompressionResult result = with_options(
         {{"", "--sqnr"}}, [&] { return compress(light_field, output.file, compression, stage.progress()); });
+    kept.complete();
     report_compressed(session, output.file, result);
 }
 

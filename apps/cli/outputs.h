@@ -9,6 +9,7 @@
 #include "command_line.h"
 #include "hogel/file_part.h"
 #include "hogel/pipeline.h"
+#include "hogel/resume.h"
 #include "run_record.h"
 #include "session.h"
 
@@ -24,6 +25,21 @@ void add_force_flag(Command& command, bool& force);
 
 /// --resume, for outputs that take long.
 void add_resume_flag(Command& command, bool& resume);
+
+/// Keeps what the work has merged in "FILE.part", from which the same command goes on after it was interrupted; nothing
+/// without --resume. Of outputs that are no HDF5 files, which have a journal.
+class Kept {
+  public:
+    /// @param input  what describe_input() says of it
+    Kept(const Session& session, bool resume, const std::string& output, const std::string& input);
+    /// The output is there.
+    void complete() {
+        if (scope_) scope_->complete();
+    }
+
+  private:
+    std::optional<ResumeScope> scope_;
+};
 
 /// A part of an output, or the whole if none is given.
 struct PartOption {
@@ -48,16 +64,16 @@ struct LightFieldOutput {
 
     bool compressed() const { return std::filesystem::path(file).extension() == ".hgl"; }
     /// Throws, before any work is done, where the file cannot be written or an option belongs to the other kind.
-    /// @param resumes  whether --resume was given, which belongs to HDF5 files, as --float does
-    void require(const std::string& input, bool resumes = false) const;
+    void require(const std::string& input) const;
 };
 /// -o, --depth, --float and --sqnr.
 void add_light_field_output(Command& command, LightFieldOutput& output, const std::string& depth_help,
                             const std::string& float_help);
 
 /// Compresses a light field while it is made, without an intermediate file, and reports it.
+/// @param kept_of  with --resume: what describe_input() says of the input
 void write_compressed(const LightFieldOutput& output, const LightField& light_field, RunRecord& record,
-                      const Session& session);
+                      const Session& session, const std::optional<std::string>& kept_of = {});
 
 /// Prints a line about a compressed light field and one about its depth; with --json the result.
 void report_compressed(const Session& session, const std::string& file, const CompressionResult& result);

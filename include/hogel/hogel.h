@@ -30,6 +30,7 @@
 #include "hogel/reconstruct.h"
 #include "hogel/renderer.h"
 #include "hogel/resources.h"
+#include "hogel/resume.h"
 #include "hogel/scene.h"
 #include "hogel/scene_hologram.h"
 #include "hogel/scene_model.h"

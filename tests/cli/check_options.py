@@ -20,7 +20,7 @@ TABLE = [
     ("render sphere -o w.h5 --hogels 4", "--directions=16777216"),
     ("render sphere -o w.h5 --hemicube", "--directions=5 --fov=20deg"),
     ("render sphere -o w.h5 --shading shadowed", "--shadow-map=16777216"),
-    ("render sphere -o w.hgl --hogels 4 --directions 4", "--sqnr=0 --sqnr=inf --resume --float"),
+    ("render sphere -o w.hgl --hogels 4 --directions 4", "--sqnr=0 --sqnr=inf --float"),
     ("bake sphere -o w.glb", "--rays=0 --bounces=x --tessellate=0 --size=-1mm"),
     (f"hologram sphere -o w.h5 {SMALL}",
      """--wavelength=0nm --wavelength=rbg --pitch=0um --pitch=3um --fov=40deg --line-pitch=-1um --line-pitch=10um
@@ -41,7 +41,8 @@ TABLE = [
      --exposure=0 --exposure=inf --display=none --display=phase --camera=none --film-distance=1mm --pupil-samples=0
      --geometric --pitch=1um --values=phase --variable=a --conjugate"""),
     ("photo f.h5 -o w.png --camera full", "--film-distance=-1mm --film-distance=1um"),
-    ("photo x.h5 -o w.png", "--focus-tilt=10deg --camera=full"),
+    ("photo x.h5 -o w.png", "--focus-tilt=10deg --camera=full --resume"),
+    ("photo x.h5 -o w.png --wave", "--resume"),
     (f"photo sphere -o w.png {PHOTO} {SMALL}", "--pupil=20mm --pitch=3um --eye=30,0,40mm"),
     ("focus f.h5", "--region=0 --region=x --colour=0 --colour=2 --planes=3 --from=1mm --values=phase"),
     ("propagate f.h5 -o w.h5 --distance 1mm", "--imaginary=b.exr --variable=a --conjugate --pitch=1um --pitch=0um"),

@@ -217,22 +217,28 @@ RENDER = ["render", "pumpkin", "--hogels", "80x80", "--directions", "48x48", "--
           "--algorithm", "raytrace", "-o", "x.h5", "--resume"]
 
 
+COMPRESS = ["compress", "a.h5", "-o", "x.hgl", "--step", "0.02", "--resume"]
+PHOTO = ["photo", "a.h5", "-o", "x.exr", "--wave", "--camera", "narrow", "--looks", "4", "--resolution", "64", "--resume"]
+
+
 # The file that a command makes by itself, and how long one thread takes for it.
 def made_alone(run, command):
+    made = run.folder / command[command.index("-o") + 1]
     began = time.monotonic()
     run.alone(*command, "--threads", "1")
-    whole = run.bytes("x.h5")
-    (run.folder / "x.h5").unlink()
-    return whole, time.monotonic() - began
+    whole = made.read_bytes()
+    made.unlink()
+    return made, whole, time.monotonic() - began
 
 
 def long_work(run):
     run.alone("render", "pumpkin", "--hogels", "64x64", "--directions", "48x48", "--size", "8mm", "-o", "a.h5")
-    return made_alone(run, LONG)
+    return made_alone(run, LONG)[1:]
 
 
 # Kills a rank at a random moment, and again until the work is complete, each time with another number of ranks.
-def kill_until_complete(run, chance, command, whole, seconds, kills_wanted):
+def kill_until_complete(run, chance, command, made, whole, seconds, kills_wanted):
+    kept = [run.folder / (made.name + ending) for ending in (".part", ".part.journal")]
     kills = completed = resumed = 0
     while kills < kills_wanted or completed == 0:
         process = run.start(chance.choice(RANKS), *command)
@@ -246,27 +252,29 @@ def kill_until_complete(run, chance, command, whole, seconds, kills_wanted):
                 pass
         _, error = process.communicate(timeout=300)
         # A rank may be killed after the file has got its name.
-        if process.returncode == 0 or (run.folder / "x.h5").exists():
+        if process.returncode == 0 or made.exists():
             completed += 1
-            require(run.bytes("x.h5") == whole, "other bytes after", kills, "kills")
-            (run.folder / "x.h5").unlink()
+            require(made.read_bytes() == whole, "other bytes after", kills, "kills")
+            made.unlink()
         elif kills == kills_wanted and not ranks:
             require(False, "ended with", process.returncode, error)
-        resumed += (run.folder / "x.h5.part.journal").exists()
-        wrong = [name for name in run.left() if name not in ("a.h5", "x.h5.part", "x.h5.part.journal")]
+        resumed += kept[-1].exists() if made.suffix == ".h5" else kept[0].exists()
+        # A killed process leaves a temporary file, which the next one removes.
+        wrong = [name for name in run.left() if name not in ("a.h5", kept[0].name, kept[1].name) and not name.endswith(".tmp")]
         require(not wrong, "left behind:", wrong)
     require(resumed > 0, "nothing was ever kept")
     print(f"{command[0]}: {kills} kills, {completed} completed, {resumed} times something was kept")
+    for part in kept:
+        part.unlink(missing_ok=True)
 
 
 def killed(run):
     chance = random.Random(7)
     run.alone("render", "pumpkin", "--hogels", "64x64", "--directions", "48x48", "--size", "8mm", "-o", "a.h5")
     hologram = [word.replace("1um", "1.6um") for word in LONG]
-    for command, kills in ((hologram, KILLS // 2), (RENDER, KILLS - KILLS // 2)):
-        kill_until_complete(run, chance, command, *made_alone(run, command), kills)
-        for part in run.folder.glob("x.h5.part*"):
-            part.unlink()
+    commands = (hologram, RENDER, COMPRESS, PHOTO)
+    for i, command in enumerate(commands):
+        kill_until_complete(run, chance, command, *made_alone(run, command), (KILLS + i) // len(commands))
 
 
 # The others of a rank that is killed name it, once, and keep what is done.

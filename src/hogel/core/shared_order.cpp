@@ -152,6 +152,22 @@ void ordered_in_team(Team& team, std::size_t n, std::size_t in_flight,
     });
 }
 
+void ordered_by_bytes(std::size_t n, std::size_t in_flight, const std::function<std::string(std::size_t)>& body,
+                      const std::function<void(std::size_t, std::string_view)>& merge) {
+    Team* const all = team_of_several();
+    ResultLog* const log = result_log();
+    std::size_t kept = log != nullptr ? log->begin(n, merge) : 0;
+    if (log != nullptr && all != nullptr) kept = all->sum(kept);  // which only the first one knows
+    const auto rest = [&](std::size_t i) { return body(kept + i); };
+    const auto merge_rest = [&](std::size_t i, std::string_view bytes) {
+        merge(kept + i, bytes);
+        if (log != nullptr) log->keep(bytes);
+    };
+    if (all != nullptr) return ordered_in_team(*all, n - kept, in_flight, rest, merge_rest);
+    parallel_ordered<std::string>(n - kept, in_flight, rest,
+                                  [&](std::size_t i, const std::string& bytes) { merge_rest(i, bytes); });
+}
+
 std::vector<std::string> all_of(Team& team, const std::string& own) {
     for (std::size_t other = 0; other < team.size(); ++other)
         if (other != team.rank()) team.send_to(other, own);

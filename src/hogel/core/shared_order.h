@@ -9,6 +9,7 @@
 
 #include "hogel/core/message.h"
 #include "hogel/core/parallel.h"
+#include "hogel/core/result_log.h"
 #include "hogel/team.h"
 
 namespace hogel::core {
@@ -46,6 +47,10 @@ void ordered_in_team(Team& team, std::size_t n, std::size_t in_flight,
                      const std::function<std::string(std::size_t)>& body,
                      const std::function<void(std::size_t, std::string_view)>& merge);
 
+/// shared_ordered() for results as bytes, alone or in a team: those that are kept in a file are taken from it.
+void ordered_by_bytes(std::size_t n, std::size_t in_flight, const std::function<std::string(std::size_t)>& body,
+                      const std::function<void(std::size_t, std::string_view)>& merge);
+
 /// How many tiles of each process of a team are alive on the average.
 /// @param in_flight  as of parallel_ordered()
 std::size_t tiles_in_flight(std::size_t in_flight);
@@ -53,15 +58,16 @@ std::size_t tiles_in_flight(std::size_t in_flight);
 /// As parallel_ordered(), but where this process is one of a team, each computes the results that are handed to it, and
 /// the first merges all of them, on a thread of its own while it computes others. So a sum over tiles is the same for
 /// any number of processes. All call it in the same order, never from bodies of loops; those that are not the first
-/// return without having merged anything, and may be ahead of it.
+/// return without having merged anything, and may be ahead of it. Within a ResumeScope what is merged is kept in a
+/// file, and not computed again the next time.
 template <class Result>
 void shared_ordered(std::size_t n, std::size_t in_flight, const Sent<Result>& sent,
                     const std::function<Result(std::size_t)>& body,
                     const std::function<void(std::size_t, Result&)>& merge) {
-    Team* const all = team_of_several();
-    if (all == nullptr) return parallel_ordered<Result>(n, in_flight, body, merge);
-    ordered_in_team(
-        *all, n, in_flight,
+    if (team_of_several() == nullptr && result_log() == nullptr)
+        return parallel_ordered<Result>(n, in_flight, body, merge);
+    ordered_by_bytes(
+        n, in_flight,
         [&](std::size_t i) {
             MessageWriter message;
             sent.write(message, body(i));
