@@ -215,8 +215,6 @@ def children(pid):
 LONG = ["hologram", "a.h5", "-o", "x.h5", "--pitch", "1um", "--resume", "--seed", "3"]
 RENDER = ["render", "pumpkin", "--hogels", "80x80", "--directions", "48x48", "--size", "8mm",
           "--algorithm", "raytrace", "-o", "x.h5", "--resume"]
-
-
 COMPRESS = ["compress", "a.h5", "-o", "x.hgl", "--step", "0.02", "--resume"]
 PHOTO = ["photo", "a.h5", "-o", "x.exr", "--wave", "--camera", "narrow", "--looks", "4", "--resolution", "64", "--resume"]
 
@@ -259,8 +257,9 @@ def kill_until_complete(run, chance, command, made, whole, seconds, kills_wanted
         elif kills == kills_wanted and not ranks:
             require(False, "ended with", process.returncode, error)
         resumed += kept[-1].exists() if made.suffix == ".h5" else kept[0].exists()
-        # A killed process leaves a temporary file, which the next one removes.
-        wrong = [name for name in run.left() if name not in ("a.h5", kept[0].name, kept[1].name) and not name.endswith(".tmp")]
+        # A killed process leaves a temporary file, which the next one removes; of HDF5 files that is the kept one.
+        wrong = [name for name in run.left() if name not in ("a.h5", kept[0].name, kept[1].name)
+                 and not (made.suffix != ".h5" and name.endswith(".tmp"))]
         require(not wrong, "left behind:", wrong)
     require(resumed > 0, "nothing was ever kept")
     print(f"{command[0]}: {kills} kills, {completed} completed, {resumed} times something was kept")
