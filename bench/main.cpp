@@ -327,7 +327,7 @@ void add_studies(CLI::App& app, Program& program) {
     command->add_option("--scene", eye->scene, "A built-in scene")->type_name("NAME")->capture_default_str();
     add_count(command, "--hogels", eye->hogels, "Hogels along a side");
     add_count(command, "--looks", eye->looks, "Photographs of independent phases that are averaged");
-    add_count(command, "--rounds", eye->rounds, "Rounds of which medians are taken");
+    add_count(command, "--rounds", eye->rounds, "Rounds of which the least times are taken");
 
     const auto rays = std::make_shared<RaysStudy>();
     command = add_command<RaysStudy>(

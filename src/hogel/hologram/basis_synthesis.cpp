@@ -10,6 +10,7 @@
 
 #include "hogel/error.h"
 #include "hogel/hologram/direction_phases.h"
+#include "hogel/hologram/fourier_synthesis.h"
 #include "hogel/hologram/fringe_table.h"
 #include "hogel/hologram/hogel_synthesis.h"
 #include "hogel/transform/transform.h"
@@ -20,12 +21,19 @@ namespace {
 
 using Complex = std::complex<float>;
 
+void roots_of(View<const float, 2> radiances, View<float, 2> roots) {
+    for (std::size_t i = 0; i < radiances.size(); ++i) roots.data()[i] = std::sqrt(std::max(radiances.data()[i], 0.0f));
+}
+
 constexpr double max_bytes = 4.0 * (std::size_t{1} << 30);
 
 // A hogel is a sum of fringes, one for each basis function of a transform of the directions of a face, weighted with
 // the coefficients of its amplitudes √L. With horizontal parallax only, fringes are those of a line, and the lines of a
 // hogel differ in a phase. Sources: [K] (3.24) and 4.2; Lucente 1994 for the piecewise constant basis, whose
 // coefficients are the samples.
+//
+// Fringes are linear in the amplitudes, so the waves of a hogel are those of the amplitudes that its coefficients stand
+// for, which are prepared for waves.
 class BasisSynthesis final : public HogelSynthesis {
   public:
     BasisSynthesis(std::span<const LightFieldGrid> faces, FrequencyGrid frequencies, std::size_t lines,
@@ -39,7 +47,8 @@ class BasisSynthesis final : public HogelSynthesis {
           transform_(hogel::transform::transform(pieces_ ? "haar" : method.transform)),
           frequencies_(std::move(frequencies)),
           fft_(frequencies_.rows(), frequencies_.columns()),
-          phases_(direction_phases(frequencies_, fft_, options, method.phases == SharedPhases::designed)) {
+          phases_(direction_phases(frequencies_, fft_, options, method.phases == SharedPhases::designed)),
+          waves_(*this) {
         const std::size_t rays = frequencies_.rays(), samples = frequencies_.coefficients();
         const double bytes = static_cast<double>(rays * samples * options.looks) * sizeof(Complex);
         if (bytes > max_bytes)
@@ -70,8 +79,7 @@ class BasisSynthesis final : public HogelSynthesis {
         if (values_ == RayValues::coefficients) {
             std::copy_n(values.data(), values.size(), prepared.data());
         } else {
-            for (std::size_t i = 0; i < values.size(); ++i)
-                prepared.data()[i] = std::sqrt(std::max(values.data()[i], 0.0f));
+            roots_of(values, prepared);
             if (!pieces_) transform_faces(prepared);
         }
         if (tolerance_ > 0)
@@ -89,23 +97,58 @@ class BasisSynthesis final : public HogelSynthesis {
         write_lines(options_, place, lines_, line, hogel.data(), hogel.extent(1));
     }
 
+    const HogelWaves* hogel_waves() const override { return &waves_; }
+
   private:
+    class Waves final : public HogelWaves {
+      public:
+        explicit Waves(const BasisSynthesis& basis)
+            : basis_(basis),
+              fourier_(basis.frequencies_, basis.lines_, basis.options_, basis.phases_, LobeAverage::amplitude) {}
+        std::size_t prepared_size() const override { return fourier_.prepared_size(); }
+        void prepare(View<const float, 2> values, View<const float, 2> depths, View<float, 2> prepared) const override {
+            Array<float, 2> amplitudes({values.extent(0), basis_.prepared_size()});
+            // All coefficients of amplitudes stand for these amplitudes.
+            if (basis_.values_ == RayValues::radiance && basis_.tolerance_ == 0) {
+                roots_of(values, amplitudes);
+            } else {
+                basis_.prepare(values, depths, amplitudes);
+                if (!basis_.pieces_) basis_.transform_faces(amplitudes, false);
+            }
+            fourier_.prepare_roots(amplitudes, prepared);
+        }
+        void waves(std::span<const float> prepared, const HogelPlace& place, const NearRows& rows,
+                   float* waves) const override {
+            fourier_.waves(prepared, place, rows, waves);
+        }
+
+      private:
+        const BasisSynthesis& basis_;
+        FourierSynthesis fourier_;
+    };
+
     // The transform of the directions of a face, without the hogels, for some hogels at once.
     static transform::Pyramid pyramid(const LightFieldGrid& face, std::size_t hogels) {
         return transform::Pyramid::separate({hogels, face.directions_v, face.directions_u}, {{1, 2}});
     }
 
-    // Transforms the amplitudes of some hogels, face by face.
-    void transform_faces(View<float, 2> amplitudes) const {
-        const std::size_t hogels = amplitudes.extent(0);
-        if (faces_.size() == 1) return transform_.forward(pyramid(faces_.front(), hogels), amplitudes.elements());
+    // Transforms the amplitudes of some hogels, face by face, or coefficients into amplitudes.
+    void transform_faces(View<float, 2> values, bool forward = true) const {
+        const std::size_t hogels = values.extent(0);
+        const auto apply = [&](const LightFieldGrid& face, std::span<float> own) {
+            if (forward)
+                transform_.forward(pyramid(face, hogels), own);
+            else
+                transform_.inverse(pyramid(face, hogels), own);
+        };
+        if (faces_.size() == 1) return apply(faces_.front(), values.elements());
         std::size_t first = 0;
         for (const LightFieldGrid& face : faces_) {
             const std::size_t directions = face.directions();
             Array<float, 2> part({hogels, directions});
-            for (std::size_t i = 0; i < hogels; ++i) std::copy_n(&amplitudes(i, first), directions, &part(i, 0));
-            transform_.forward(pyramid(face, hogels), part.elements());
-            for (std::size_t i = 0; i < hogels; ++i) std::copy_n(&part(i, 0), directions, &amplitudes(i, first));
+            for (std::size_t i = 0; i < hogels; ++i) std::copy_n(&values(i, first), directions, &part(i, 0));
+            apply(face, part.elements());
+            for (std::size_t i = 0; i < hogels; ++i) std::copy_n(&part(i, 0), directions, &values(i, first));
             first += directions;
         }
     }
@@ -159,6 +202,7 @@ class BasisSynthesis final : public HogelSynthesis {
     FrequencyGrid frequencies_;
     math::Fft2 fft_;
     DirectionPhases phases_;
+    Waves waves_;
     std::deque<FringeTable> fringes_;  // one per look
     std::vector<float> norms_;         // of the fringes; empty if no coefficients are dropped
 };

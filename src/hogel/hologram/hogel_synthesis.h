@@ -18,23 +18,37 @@ struct HogelPlace {
     std::size_t look = 0;
 };
 
-/// Computes the n×n waves of which a hogel is the sum.
-class HogelWaves {
+/// The step from the rays of a hogel that all looks share.
+class HogelPreparation {
   public:
-    virtual ~HogelWaves() = default;
+    virtual ~HogelPreparation() = default;
+    /// The number of values per hogel that prepare() computes.
+    virtual std::size_t prepared_size() const = 0;
+    /// Prepares several hogels at once.
+    /// @param radiances  [hogel][n_V n_U] of this wavelength
+    /// @param depths     [hogel][n_V n_U], or empty if the method needs no depth
+    /// @param prepared   [hogel][prepared_size()]
+    virtual void prepare(View<const float, 2> radiances, View<const float, 2> depths,
+                         View<float, 2> prepared) const = 0;
+};
+
+/// Computes the waves, as many as it has samples, of which a hogel is the sum.
+class HogelWaves : public virtual HogelPreparation {
+  public:
     /// The waves of a hogel, in blocks of sixteen rows of frequencies: [row / 16][column][part][row mod 16] with
-    /// frequencies 0 … n−1, the parts real and imaginary, zero in rows beyond n. HogelSynthesis::synthesise() is their
-    /// backward transform; their phases are counted from the first sample.
-    /// @param prepared  by HogelSynthesis::prepare()
+    /// frequencies 0 … n−1, the parts real and imaginary, zero in rows beyond the last. The hogel's samples, before a
+    /// window, are their backward transform; their phases are counted from the first sample.
+    /// @param prepared  by prepare()
     /// @param rows      that are needed; blocks without any of them may be left as they are
-    /// @param waves     aligned to a cache line
+    /// @param waves     size() values, aligned to a cache line
     virtual void waves(std::span<const float> prepared, const HogelPlace& place, const NearRows& rows,
                        float* waves) const = 0;
     /// |waves|² in blocks of sixteen rows [row / 16][column][row mod 16], zero in rows beyond n: powers_size() values.
     /// Only if the waves are independent.
-    virtual void powers(std::span<const float> prepared, float* powers) const = 0;
-    /// Whether the phases of all waves of all hogels are random and independent.
-    virtual bool independent() const = 0;
+    virtual void powers(std::span<const float> /*prepared*/, float* /*powers*/) const {}
+    /// Whether hogels are squares without a window, of which the phases of all waves of all hogels are random and
+    /// independent.
+    virtual bool independent() const { return false; }
 
     /// The number of hogels or looks that are lanes of vectors.
     static constexpr std::size_t lanes = rows_at_once;
@@ -54,41 +68,36 @@ class HogelWaves {
     virtual void row_of_lanes(const SeriesOfLanes&, std::size_t /*row*/, bool /*shared*/, const float* /*prepared*/,
                               float* /*waves*/) const {}
     static constexpr std::size_t rows_together = 16;
-    static std::size_t powers_size(std::size_t samples) { return size(samples) / 2; }
-    static std::size_t size(std::size_t samples) {
-        return (samples + rows_together - 1) / rows_together * rows_together * samples * 2;
+    static std::size_t powers_size(std::size_t samples) { return size(samples, samples) / 2; }
+    static std::size_t size(std::size_t rows, std::size_t columns) {
+        return (rows + rows_together - 1) / rows_together * rows_together * columns * 2;
     }
 };
 
-/// Stores rows of waves, [row][column], in the layout of HogelWaves::waves(): at most sixteen from `first` on, a
-/// multiple of sixteen. Fewer are the last ones.
-inline void store_waves(View<const std::complex<float>, 2> plain, std::size_t first, float* waves) {
+/// Stores all waves of a hogel, [row][column], in the layout of HogelWaves::waves(), but for blocks without any of
+/// `needed`.
+inline void store_waves(View<const std::complex<float>, 2> plain, const NearRows& needed, float* waves) {
     constexpr std::size_t together = HogelWaves::rows_together;
-    const std::size_t n = plain.extent(1);
-    float* block = waves + 2 * first * n;
-    if (plain.extent(0) < together) std::fill_n(block, 2 * together * n, 0.0f);
-    for (std::size_t row = 0; row < plain.extent(0); ++row) {
-        float* to = block + row;
-        for (std::size_t column = 0; column < n; ++column, to += 2 * together) {
-            to[0] = plain(row, column).real();
-            to[together] = plain(row, column).imag();
+    const std::size_t rows = plain.extent(0), columns = plain.extent(1);
+    for (std::size_t first = 0; first < rows; first += together) {
+        if (!needed.has_any(first, together, rows)) continue;
+        float* block = waves + 2 * first * columns;
+        const std::size_t end = std::min(rows, first + together);
+        if (end < first + together) std::fill_n(block, 2 * together * columns, 0.0f);
+        for (std::size_t row = first; row < end; ++row) {
+            float* to = block + row - first;
+            for (std::size_t column = 0; column < columns; ++column, to += 2 * together) {
+                to[0] = plain(row, column).real();
+                to[together] = plain(row, column).imag();
+            }
         }
     }
 }
 
 /// Computes the n×n samples of a hogel from its rays in two steps, the first of which is shared by all looks. Each
 /// synthesis defines whether phases are counted from the hogel's centre or from its first sample.
-class HogelSynthesis {
+class HogelSynthesis : public virtual HogelPreparation {
   public:
-    virtual ~HogelSynthesis() = default;
-    /// The number of values per hogel that prepare() computes.
-    virtual std::size_t prepared_size() const = 0;
-    /// The step that is shared by all looks, for several hogels at once.
-    /// @param radiances  [hogel][n_V n_U] of this wavelength
-    /// @param depths     [hogel][n_V n_U], or empty if the method needs no depth
-    /// @param prepared   [hogel][prepared_size()]
-    virtual void prepare(View<const float, 2> radiances, View<const float, 2> depths,
-                         View<float, 2> prepared) const = 0;
     virtual void synthesise(std::span<const float> prepared, const HogelPlace& place,
                             View<std::complex<float>, 2> hogel) const = 0;
     /// As synthesise(), but writes row y to to + y·to_row; `scratch` is a buffer of the hogel's shape.
@@ -100,6 +109,7 @@ class HogelSynthesis {
             std::copy_n(&scratch(y, 0), scratch.extent(1), to + y * to_row);
     }
     /// The hogels' waves, if each hogel is the Fourier transform of as many waves as it has samples; otherwise null.
+    /// They may be prepared in another way than samples.
     virtual const HogelWaves* hogel_waves() const { return nullptr; }
 };
 

@@ -5,6 +5,7 @@
 #include <list>
 #include <mutex>
 #include <numeric>
+#include <optional>
 
 #include "hogel/core/object_pool.h"
 #include "hogel/core/parallel.h"
@@ -81,7 +82,7 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
                     synthesis_->prepare(
                         {&whole(channel_, band.t0, band.s0, 0, 0) + first * rays_, {some.extent(0), rays_}}, {}, some);
                 else
-                    prepare(scratch->rays, first, some);
+                    prepare(*synthesis_, scratch->rays, first, some);
                 write(some, band, first, look, region, scratch->square, out);
             }
         });
@@ -91,27 +92,38 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
                                                     std::span<const optics::Eye> eyes) const override {
         const HogelWaves* waves = synthesis_->hogel_waves();
         if (waves == nullptr) return nullptr;
-        const auto prepare_hogels = [this](const HogelRange& hogels, View<float, 2> prepared) {
+        eye::Hogels hogels{{grid_, columns_, rows_}, waves, {}, kept_, kept_waves_ ? &*kept_waves_ : nullptr};
+        hogels.prepare = [this, waves](const HogelRange& range, View<float, 2> prepared) {
             auto scratch = scratch_pool_.take();
-            prepare(hogels, scratch->rays, prepared);
+            prepare(*waves, range, scratch->rays, prepared);
         };
-        return eye::make_stereogram_eyes({grid_, columns_, waves, synthesis_->prepared_size(), prepare_hogels, kept_},
-                                         hogels_of(part), eyes);
+        return eye::make_stereogram_eyes(hogels, hogels_of(part), eyes);
     }
 
     std::size_t keep_amplitudes(std::size_t memory) const override {
-        const Shape<2> shape{front().hogels(), synthesis_->prepared_size()};
+        const HogelWaves* waves = synthesis_->hogel_waves();
+        if (waves == nullptr) return 0;
+        const Shape<2> shape{front().hogels(), waves->prepared_size()};
         const std::size_t bytes = shape[0] * shape[1] * sizeof(float);
-        if (synthesis_->hogel_waves() == nullptr || bytes > memory) return 0;
+        if (bytes > memory) return 0;
         if (kept_.size() > 0) return bytes;
         Array<float, 2> amplitudes(shape);
         core::parallel_for(front().hogels_t, [&](std::size_t t) {
             auto scratch = scratch_pool_.take();
             const HogelRange row{0, t, front().hogels_s, 1};
-            prepare(row, scratch->rays, {&amplitudes(t * row.ns, 0), {row.ns, shape[1]}});
+            prepare(*waves, row, scratch->rays, {&amplitudes(t * row.ns, 0), {row.ns, shape[1]}});
         });
         kept_ = std::move(amplitudes);
         return bytes;
+    }
+
+    std::size_t keep_waves(std::size_t memory) const override {
+        const HogelWaves* waves = synthesis_->hogel_waves();
+        if (waves == nullptr || !waves->has_lanes() || kept_.size() == 0) return 0;
+        const eye::HogelLayout layout{grid_, columns_, rows_};
+        const std::size_t bytes = eye::KeptWaves::bytes(layout), looks = std::min(looks_, memory / bytes);
+        if (looks > 0 && !kept_waves_) kept_waves_.emplace(layout, *waves, kept_, looks);
+        return kept_waves_ ? std::min(memory, bytes * kept_waves_->looks()) : 0;
     }
 
     const optics::WavePowers* wave_powers() const override {
@@ -124,12 +136,12 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
     void read_powers(const Region& part, View<float, 2> out) const override {
         const HogelRange hogels{part.x0, part.y0, part.width, part.height};
         auto scratch = scratch_pool_.take();
-        const Shape<2> shape{hogels.hogels(), synthesis_->prepared_size()};
+        const HogelWaves& waves = *synthesis_->hogel_waves();
+        const Shape<2> shape{hogels.hogels(), waves.prepared_size()};
         if (scratch->prepared.size() < shape[0] * shape[1]) scratch->prepared = Array<float, 2>(shape);
         const View<float, 2> prepared(scratch->prepared.data(), shape);
-        prepare(hogels, scratch->rays, prepared);
-        for (std::size_t h = 0; h < hogels.hogels(); ++h)
-            synthesis_->hogel_waves()->powers(prepared[h].elements(), &out(h, 0));
+        prepare(waves, hogels, scratch->rays, prepared);
+        for (std::size_t h = 0; h < hogels.hogels(); ++h) waves.powers(prepared[h].elements(), &out(h, 0));
     }
 
   private:
@@ -185,7 +197,8 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
     }
 
     // Prepares hogels number first, first + 1, … of the tiles, which hold them row by row.
-    void prepare(std::span<const LightFieldTile> tiles, std::size_t first, View<float, 2> prepared) const {
+    void prepare(const HogelPreparation& step, std::span<const LightFieldTile> tiles, std::size_t first,
+                 View<float, 2> prepared) const {
         const Shape<2> rays{prepared.extent(0), rays_};
         if (tiles.size() > 1) {
             Array<float, 2> together(rays);
@@ -196,12 +209,12 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
                     const std::size_t directions = all.extent(2) * all.extent(3);
                     to = std::copy_n(all.data() + hogel * directions, directions, to);
                 }
-            return synthesis_->prepare(together, {}, prepared);
+            return step.prepare(together, {}, prepared);
         }
         const LightFieldTile& tile = tiles.front();
         const View<const float, 2> depths(tile.depth.data() + first * rays_, rays);
-        synthesis_->prepare({tile.radiance.view()[channel_].data() + first * rays_, rays},
-                            tile.depth.size() > 0 ? depths : View<const float, 2>(), prepared);
+        step.prepare({tile.radiance.view()[channel_].data() + first * rays_, rays},
+                     tile.depth.size() > 0 ? depths : View<const float, 2>(), prepared);
     }
 
     // Writes the parts of hogels number first, first + 1, … of a range that are inside the region.
@@ -225,8 +238,9 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
         }
     }
 
-    void prepare(const HogelRange& hogels, std::vector<LightFieldTile>& rays, View<float, 2> prepared) const {
-        if (kept_.size() > 0) {
+    void prepare(const HogelPreparation& step, const HogelRange& hogels, std::vector<LightFieldTile>& rays,
+                 View<float, 2> prepared) const {
+        if (kept_.size() > 0 && &step == synthesis_->hogel_waves()) {
             for (std::size_t row = 0; row < hogels.nt; ++row)
                 std::copy_n(&kept_((hogels.t0 + row) * front().hogels_s + hogels.s0, 0), hogels.ns * kept_.extent(1),
                             &prepared(row * hogels.ns, 0));
@@ -235,13 +249,14 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
         if (faces().size() == 1 && !with_depth_)
             if (const View<const float, 5> whole = light_field_.front().in_memory(); whole.size() > 0) {
                 for (std::size_t row = 0; row < hogels.nt; ++row)
-                    synthesis_->prepare({&whole(channel_, hogels.t0 + row, hogels.s0, 0, 0), {hogels.ns, rays_}}, {},
-                                        {&prepared(row * hogels.ns, 0), {hogels.ns, prepared.extent(1)}});
+                    step.prepare({&whole(channel_, hogels.t0 + row, hogels.s0, 0, 0), {hogels.ns, rays_}}, {},
+                                 {&prepared(row * hogels.ns, 0), {hogels.ns, prepared.extent(1)}});
                 return;
             }
         for_each_band(hogels, [&](const HogelRange& band) {
             read_rays(band, rays);
-            prepare(rays, 0, {&prepared((band.t0 - hogels.t0) * band.ns, 0), {band.hogels(), prepared.extent(1)}});
+            prepare(step, rays, 0,
+                    {&prepared((band.t0 - hogels.t0) * band.ns, 0), {band.hogels(), prepared.extent(1)}});
         });
     }
 
@@ -255,7 +270,7 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
         prepared->range = hogels;
         prepared->values = Array<float, 2>({hogels.hogels(), synthesis_->prepared_size()});
         auto scratch = scratch_pool_.take();
-        prepare(hogels, scratch->rays, prepared->values);
+        prepare(*synthesis_, hogels, scratch->rays, prepared->values);
         const std::lock_guard lock(recent_mutex_);
         recent_.push_front(prepared);
         if (recent_.size() > max_recent) recent_.pop_back();
@@ -274,6 +289,7 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
     std::size_t rays_ = 0;        // of a hogel, over all faces
     std::unique_ptr<HogelSynthesis> synthesis_;
     mutable Array<float, 2> kept_;  // amplitudes of all hogels, if they are kept
+    mutable std::optional<eye::KeptWaves> kept_waves_;
     mutable core::ObjectPool<Scratch> scratch_pool_;
     mutable std::mutex recent_mutex_;
     mutable std::list<std::shared_ptr<const Prepared>> recent_;

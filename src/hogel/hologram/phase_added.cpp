@@ -67,17 +67,13 @@ class PhaseAddedSynthesis final : public HogelSynthesis, public HogelWaves {
     // With the exact frequencies of rays a hogel is no sum of as many waves as it has samples.
     const HogelWaves* hogel_waves() const override { return waves_ ? nullptr : this; }
 
-    void waves(std::span<const float> prepared, const HogelPlace& place, const NearRows&, float* waves) const override {
+    void waves(std::span<const float> prepared, const HogelPlace& place, const NearRows& rows,
+               float* waves) const override {
         thread_local Array<Complex, 2> spectrum;
         if (spectrum.shape() != Shape<2>{samples_, samples_}) spectrum = Array<Complex, 2>({samples_, samples_});
         spread(prepared, place, spectrum);
-        for (std::size_t row = 0; row < samples_; row += rows_together)
-            store_waves({&spectrum(row, 0), {std::min(rows_together, samples_ - row), samples_}}, row, waves);
+        store_waves(spectrum, rows, waves);
     }
-
-    // Phases of one surface point are the same for all hogels that see it.
-    void powers(std::span<const float>, float*) const override {}
-    bool independent() const override { return false; }
 
   private:
     struct Wave {

@@ -122,11 +122,13 @@ EyePhotographer::EyePhotographer(std::vector<std::shared_ptr<const FieldSource>>
                     "photographs from one eye after the other have no diffuser; photograph() has one");
     state_->holograms = std::move(holograms);
     state_->options = options;
+    // Amplitudes of all colours first, which save more than waves.
     std::size_t left = options.memory / 2;
-    for (std::size_t c = 0; c < state_->holograms.size(); ++c) {
-        if (const auto* eyes = dynamic_cast<const EyeLight*>(state_->holograms[c].get()))
-            left -= eyes->keep_amplitudes(left);
-        progress.report(static_cast<double>(c + 1) / static_cast<double>(state_->holograms.size()));
+    const std::size_t colours = state_->holograms.size();
+    for (std::size_t step = 0; step < (options.expected ? 1 : 2) * colours; ++step) {
+        if (const auto* eyes = dynamic_cast<const EyeLight*>(state_->holograms[step % colours].get()))
+            left -= step < colours ? eyes->keep_amplitudes(left) : eyes->keep_waves(left);
+        progress.report(static_cast<double>(step + 1) / static_cast<double>(2 * colours));
     }
 }
 

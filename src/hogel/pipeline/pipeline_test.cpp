@@ -360,8 +360,10 @@ TEST(Plan, of_photographs_counts_what_they_are_computed_from) {
     EXPECT_EQ(from({}), LightFrom::samples);
     EXPECT_EQ(from({.expected = true}), LightFrom::hogels);
     camera.eye.z = 300e-3;
-    request.method = PhaseAdded();
-    EXPECT_EQ(from({}), LightFrom::hogels);
+    for (const HologramMethod& known : std::vector<HologramMethod>{PhaseAdded{}, Basis{}, OverlapAdd{}}) {
+        request.method = known;
+        EXPECT_EQ(from({}), LightFrom::hogels);
+    }
     request.method = PhaseAdded{true};
     EXPECT_EQ(from({}), LightFrom::samples);
 }

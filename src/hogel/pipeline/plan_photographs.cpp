@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <variant>
 #include <vector>
 
-#include "hogel/hologram/eye/stereogram_eyes.h"
+#include "hogel/hologram/eye/eye_band.h"
+#include "hogel/hologram/windows/overlap_add.h"
 #include "hogel/optics/expected/expected.h"
 #include "hogel/optics/film/film.h"
 #include "hogel/optics/line_diffuser.h"
@@ -45,17 +47,28 @@ std::size_t samples_a_side(const LightFieldGrid& light_field, const FieldGrid& h
     return hologram.plane.width / std::max<std::size_t>(light_field.hogels_s, 1);
 }
 
+// The hogels of a method of which waves are known; none of any other.
+std::optional<hologram::eye::HogelLayout> layout_of(const HologramMethod& method, const LightFieldGrid& light_field,
+                                                    const FieldGrid& hologram) {
+    const auto* const added = std::get_if<PhaseAdded>(&method);
+    if ((added != nullptr && added->exact) || std::holds_alternative<OwnMethod>(method)) return {};
+    if (std::holds_alternative<OverlapAdd>(method)) return hologram::windows::window_layout(light_field, hologram);
+    const std::size_t rows = hologram.plane.height / std::max<std::size_t>(light_field.hogels_t, 1);
+    return hologram::eye::HogelLayout{hologram, samples_a_side(light_field, hologram), rows};
+}
+
 // Seconds for one colour of photographs from hogels.
-double seconds_from_hogels(const LightFieldGrid& light_field, const FieldGrid& hologram,
+double seconds_from_hogels(const LightFieldGrid& light_field, const hologram::eye::HogelLayout& layout,
                            std::span<const Camera> cameras, std::size_t looks) {
+    const FieldGrid& hologram = layout.grid;
     const auto hogels = static_cast<double>(light_field.hogels()),
-               waves = static_cast<double>(hologram.plane.samples()), count = static_cast<double>(looks);
+               waves = hogels * static_cast<double>(layout.columns * layout.rows), count = static_cast<double>(looks);
     const std::vector<optics::SharedEye> eyes = eyes_of(cameras);
     double seconds = waves * (seconds_an_amplitude +
                               count * (seconds_a_wave + static_cast<double>(eyes.size()) * seconds_a_wave_and_eye));
     for (const optics::SharedEye& eye : eyes) {
-        const auto per_hogel = static_cast<double>(hologram::eye::band_samples_per_hogel(
-            hologram, samples_a_side(light_field, hologram), {cameras[eye.members.front()].eye, eye.pupil}));
+        const auto per_hogel = static_cast<double>(
+            hologram::eye::band_samples_per_hogel(layout, {cameras[eye.members.front()].eye, eye.pupil}));
         seconds += count * hogels * per_hogel * per_hogel * seconds_a_band_sample;
     }
     for (const Camera& camera : cameras) {
@@ -100,20 +113,21 @@ LightChoice choose_light(std::span<const LightFieldGrid> faces, const HologramRe
                          std::span<const Camera> cameras, const PhotographOptions& options) {
     if (options.expected) return {LightFrom::hogels, "the mean of infinitely many looks is a sum over hogels"};
     if (options.from == LightFrom::samples) return {LightFrom::samples, "that was requested"};
-    const auto* const added = std::get_if<PhaseAdded>(&request.method);
-    if (!std::holds_alternative<Fourier>(request.method) && (added == nullptr || added->exact))
-        return {LightFrom::samples, "this method has no hogels that are sums of as many waves as they have samples"};
-    std::size_t per_hogel = 0, samples = 0;
+    std::size_t per_hogel = 0;
+    std::optional<hologram::eye::HogelLayout> layout;
     for (const Channel& channel : request.channels) {
-        const FieldGrid hologram = hologram_grid(faces, request.options(channel, faces));
-        samples = samples_a_side(faces.front(), hologram);
+        layout = layout_of(request.method, faces.front(), hologram_grid(faces, request.options(channel, faces)));
+        if (!layout)
+            return {LightFrom::samples,
+                    "this method has no hogels that are sums of as many waves as they have samples"};
         for (const optics::SharedEye& eye : eyes_of(cameras))
             per_hogel = std::max(per_hogel, hologram::eye::band_samples_per_hogel(
-                                                hologram, samples, {cameras[eye.members.front()].eye, eye.pupil}));
+                                                *layout, {cameras[eye.members.front()].eye, eye.pupil}));
     }
-    const std::string reason = fmt::format("an eye takes in {} of {} samples of a hogel along an axis, {} than half",
-                                           per_hogel, samples, 2 * per_hogel <= samples ? "no more" : "more");
-    return {hologram::eye::band_is_cheaper(per_hogel, samples) ? LightFrom::hogels : LightFrom::samples, reason};
+    const bool cheaper = layout && hologram::eye::band_is_cheaper(per_hogel, *layout);
+    return {cheaper ? LightFrom::hogels : LightFrom::samples,
+            fmt::format("an eye takes in {0}x{0} of {1}x{2} samples of a hogel, {3} than a quarter", per_hogel,
+                        layout ? layout->across() : 0, layout ? layout->down() : 0, cheaper ? "no more" : "more")};
 }
 
 Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramRequest& request,
@@ -133,7 +147,8 @@ Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramReque
             camera_bytes = std::max(camera_bytes, work.bytes);
             continue;
         }
-        seconds += from_hogels ? seconds_from_hogels(faces.front(), hologram, cameras, request.looks)
+        seconds += from_hogels ? seconds_from_hogels(faces.front(), *layout_of(request.method, faces.front(), hologram),
+                                                     cameras, request.looks)
                                : static_cast<double>(hologram.plane.samples()) * static_cast<double>(request.looks) *
                                      (seconds_a_sample + eyes * seconds_a_sample_and_eye);
         camera_bytes = std::max(camera_bytes, camera_bytes_of(hologram, cameras, options, request.looks));

@@ -74,29 +74,31 @@ class Fit {
     Eigensystem normal_;
 };
 
-// The even (sign 1) or odd (sign −1) eigenfunctions of the kernel, times the roots of the weights. Each by itself,
+// The even (sign 1) or odd (sign −1) eigenfunctions of a kernel, times the roots of the weights. Each by itself,
 // because the largest eigenvalues of a wide band are all 1 but for rounding, and the kernel's own vectors mix both
 // parities there.
-Eigensystem prolate(const Quadrature& quadrature, std::size_t samples, double sign) {
+template <class Kernel>
+Eigensystem prolate(const Quadrature& quadrature, double sign, const Kernel& kernel) {
     const std::size_t points = quadrature.points.size();
-    Array<double, 2> kernel({points, points});
+    Array<double, 2> values({points, points});
     for (std::size_t i = 0; i < points; ++i)
         for (std::size_t j = 0; j < points; ++j)
-            kernel(i, j) = 0.5 * std::sqrt(quadrature.weights[i] * quadrature.weights[j]) *
-                           (dirichlet(quadrature.points[i] - quadrature.points[j], samples) +
-                            sign * dirichlet(quadrature.points[i] + quadrature.points[j], samples)) /
-                           static_cast<double>(samples);
-    return eigensystem(std::move(kernel));
+            values(i, j) = 0.5 * std::sqrt(quadrature.weights[i] * quadrature.weights[j]) *
+                           (kernel(quadrature.points[i] - quadrature.points[j]) +
+                            sign * kernel(quadrature.points[i] + quadrature.points[j]));
+    return eigensystem(std::move(values));
 }
 
 }  // namespace
 
-HogelBasis::HogelBasis(std::size_t samples, std::size_t nodes_per_hogel, double half_band)
-    : samples_(samples), per_hogel_(nodes_per_hogel) {
+HogelBasis::HogelBasis(std::size_t samples, std::size_t nodes_per_hogel, double half_band, Window window,
+                       std::size_t before)
+    : samples_(samples), per_hogel_(nodes_per_hogel), window_(window) {
     const Quadrature quadrature =
         math::gauss_legendre(20 + static_cast<std::size_t>(std::ceil(6 * half_band)), half_band);
     const std::size_t points = quadrature.points.size();
-    const Eigensystem even_ones = prolate(quadrature, samples, 1), odd_ones = prolate(quadrature, samples, -1);
+    const auto kernel = [&](double y) { return square_at(y) / static_cast<double>(samples); };
+    const Eigensystem even_ones = prolate(quadrature, 1, kernel), odd_ones = prolate(quadrature, -1, kernel);
     const auto of_parity = [&](std::size_t k) -> const Eigensystem& { return k % 2 == 0 ? even_ones : odd_ones; };
     const auto eigenvalue = [&](std::size_t k) { return std::max(of_parity(k).values[k / 2], 0.0); };
     // An eigenvalue is the power that random samples have in its function.
@@ -115,7 +117,7 @@ HogelBasis::HogelBasis(std::size_t samples, std::size_t nodes_per_hogel, double 
             functions(k, i) = of_parity(k).vectors(k / 2, i) / std::sqrt(quadrature.weights[i]);
 
     double misfit = 0;
-    for (before_ = 1; before_ <= max_beyond; ++before_) {
+    for (before_ = before; before_ <= max_beyond; ++before_) {
         std::vector<double> places;
         for (std::size_t b = 0; b < per_hogel_ + 2 * before_; ++b) places.push_back(place(b));
         const Fit even(quadrature, places, false), odd(quadrature, places, true);
@@ -135,6 +137,21 @@ HogelBasis::HogelBasis(std::size_t samples, std::size_t nodes_per_hogel, double 
     tabulate(functions, quadrature.points, quadrature.weights);
 }
 
+// Of ½ + ½ cos 2πx and of its square, ⅜ + ½ cos 2πx + ⅛ cos 4πx: a cosine of the window moves the kernel by its
+// frequency.
+double HogelBasis::window_at(double y) const {
+    const double middle = dirichlet(y, samples_);
+    if (window_ == Window::none) return middle;
+    return 0.5 * middle + 0.25 * (dirichlet(y - 1, samples_) + dirichlet(y + 1, samples_));
+}
+
+double HogelBasis::square_at(double y) const {
+    const double middle = dirichlet(y, samples_);
+    if (window_ == Window::none) return middle;
+    return 0.375 * middle + 0.25 * (dirichlet(y - 1, samples_) + dirichlet(y + 1, samples_)) +
+           0.0625 * (dirichlet(y - 2, samples_) + dirichlet(y + 2, samples_));
+}
+
 void HogelBasis::tabulate(View<const double, 2> functions, std::span<const double> points,
                           std::span<const double> shares) {
     table_ = Array<float, 3>({fractions, functions_, 2 * samples_});
@@ -149,7 +166,7 @@ void HogelBasis::tabulate(View<const double, 2> functions, std::span<const doubl
             const double y = static_cast<double>(m) + static_cast<double>(fraction) / static_cast<double>(fractions);
             std::ranges::fill(sums, 0.0);
             for (std::size_t i = 0; i < points.size(); ++i) {
-                const double value = dirichlet(y - points[i], samples_);
+                const double value = window_at(y - points[i]);
                 for (std::size_t k = 0; k < functions_; ++k) sums[k] += weighted(k, i) * value;
             }
             for (std::size_t k = 0; k < functions_; ++k) {
@@ -193,15 +210,15 @@ void HogelBasis::make_pairs() {
 }
 
 HogelBasis::Weights HogelBasis::weights(double frequency) const {
-    const double steps = std::round(frequency * static_cast<double>(fractions));
-    const double whole = std::floor(steps / static_cast<double>(fractions));
-    const auto fraction = static_cast<std::size_t>(steps - whole * static_cast<double>(fractions));
-    const auto n = static_cast<double>(samples_);
-    const double turns = std::floor(whole / n);
+    const auto floored = [](std::int64_t a, std::int64_t b) { return (a - (a % b + b) % b) / b; };
+    const auto n = static_cast<std::int64_t>(samples_), parts = static_cast<std::int64_t>(fractions);
+    const auto steps = static_cast<std::int64_t>(std::floor(frequency * static_cast<double>(fractions) + 0.5));
+    const std::int64_t whole = floored(steps, parts), turns = floored(whole, n);
+    const auto fraction = static_cast<std::size_t>(steps - whole * parts);
     const auto first = static_cast<std::size_t>(whole - turns * n);
-    const bool opposite = samples_ % 2 == 0 && std::fmod(std::abs(turns), 2) != 0;
+    const bool opposite = samples_ % 2 == 0 && turns % 2 != 0;
     const std::size_t count = pairs_[fraction].size() / samples_;
-    return {steps / static_cast<double>(fractions),
+    return {static_cast<double>(steps) / static_cast<double>(fractions),
             opposite ? -1.0f : 1.0f,
             &table_(fraction, 0, first),
             2 * samples_,

@@ -17,15 +17,23 @@ namespace hogel::hologram::eye {
 /// two cycles, so S is a sum of a few prolate spheroidal functions v_k, the eigenfunctions of the kernel Σ_j
 /// e^{2πi(κ−κ')(j−c)/n} over |κ| ≤ κ_m: S(κ) ≈ Σ_k s_k v_k(κ), s_k = ∫ v_k S. They are real, alternately even and odd.
 ///
-/// - A wave e^{2πi(m+ν)(j−c)/n} has the coefficients s_k = D_k(m + ν) = ∫ v_k(κ) sin π(m+ν−κ) / sin(π(m+ν−κ)/n) dκ.
+/// - A wave e^{2πi(m+ν)(j−c)/n} has the coefficients s_k = D_k(m + ν) = ∫ v_k(κ) D(m+ν−κ) dκ, with Dirichlet's kernel
+///   D(y) = sin πy / sin(πy/n).
+/// - With a window w_j, the kernel is Σ_j w_j² e^{2πi(κ−κ')(j−c)/n}, and D the transform of the window.
 /// - A band of `nodes_per_hogel` samples to a hogel has the light s_k v_k if its samples at the nodes b are
 ///   i^{k mod 2} s_k spread(b, k).
 class HogelBasis {
   public:
+    enum class Window {
+        none,
+        hann,  ///< ½ + ½ cos 2π(j−c)/n
+    };
     /// @param samples          n
     /// @param nodes_per_hogel  samples of the band to a hogel, more than 4 κ_m
     /// @param half_band        κ_m
-    HogelBasis(std::size_t samples, std::size_t nodes_per_hogel, double half_band);
+    /// @param before           samples of the band before the hogel, at least
+    HogelBasis(std::size_t samples, std::size_t nodes_per_hogel, double half_band, Window window = Window::none,
+               std::size_t before = 1);
 
     std::size_t samples() const { return samples_; }
     std::size_t functions() const { return functions_; }
@@ -68,10 +76,14 @@ class HogelBasis {
     double error() const { return error_; }
 
   private:
+    // Transforms of the window and of its square.
+    double window_at(double y) const;
+    double square_at(double y) const;
     void tabulate(View<const double, 2> functions, std::span<const double> points, std::span<const double> shares);
     void make_pairs();
 
     std::size_t samples_, per_hogel_, functions_ = 0, before_ = 0;
+    Window window_;
     double error_ = 0;
     Array<float, 2> spread_;
     Array<float, 3> table_;                   // [halves of ν][function][0 … 2n − 1]

@@ -103,7 +103,7 @@ TEST_P(EyeLanes, are_projections_of_single_hogels) {
             for (std::size_t lane = 0; lane < lanes; ++lane) {
                 Array<Complex, 2> single(fast.bands[lane].shape(), Complex(1));
                 if (lane < count) {
-                    Array<float, 1> waves({HogelWaves::size(n)});
+                    Array<float, 1> waves({HogelWaves::size(n, n)});
                     for (std::size_t y = 0; y < n; ++y)
                         for (std::size_t x = 0; x < n; ++x)
                             for (std::size_t part : {std::size_t{0}, lanes})
@@ -111,7 +111,7 @@ TEST_P(EyeLanes, are_projections_of_single_hogels) {
                                     fast.waves((y * n + x) * both + part + lane);
                     const HogelView view{
                         basis.weights(3.3), basis.weights(-77.2), {fast.phases[lane].data(), {nodes, 2, row}}};
-                    project_plain(basis, view, waves.data(), {single.data(), single.extent(1)});
+                    project_plain({basis, basis}, view, waves.data(), {single.data(), single.extent(1)});
                 }
                 float added = 0;
                 for (const Complex& value : single.elements()) added = std::max(added, std::abs(value - Complex(1)));
@@ -164,7 +164,7 @@ TEST_P(EyeLanes, have_the_random_phases_of_single_hogels) {
             series.position[1][lane] = 7 + lane % 3;
             series.position[2][lane] = 1000 - lane;
         }
-        const MiddlePhases middle(n);
+        const MiddlePhases middle(n, n);
         for (const bool shared : {false, true}) {
             Array<float, 1> fast({n * n * both}), plain({n * both});
             for (std::size_t row = 0; row < n; ++row) {
@@ -178,7 +178,7 @@ TEST_P(EyeLanes, have_the_random_phases_of_single_hogels) {
                         << n;
             }
             for (const std::size_t lane : {0, 9, 15}) {
-                Array<float, 1> waves({HogelWaves::size(n)}), of_lane({n * n});
+                Array<float, 1> waves({HogelWaves::size(n, n)}), of_lane({n * n});
                 for (std::size_t y = 0; y < n; ++y)
                     for (std::size_t x = 0; x < n; ++x)
                         of_lane((y / 16 * n + x) * 16 + y % 16) = moduli((y * n + x) * lanes + (shared ? 0 : lane));

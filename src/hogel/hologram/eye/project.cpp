@@ -14,12 +14,15 @@ Complex turn(std::size_t function) { return function % 2 == 0 ? Complex(1) : Com
 
 }  // namespace
 
-MiddlePhases::MiddlePhases(std::size_t samples) : samples_(samples), factors_(padded(samples) * samples * 2) {
-    const auto n = static_cast<double>(samples);
-    for (std::size_t row = 0; row < samples; ++row)
-        for (std::size_t column = 0; column < samples; ++column) {
-            const double angle = std::numbers::pi * std::fmod(static_cast<double>(row + column) * (n - 1) / n, 2.0);
-            float* factor = &factors_[(row / lanes * samples + column) * 2 * lanes + row % lanes];
+MiddlePhases::MiddlePhases(std::size_t rows, std::size_t columns)
+    : rows_(rows), columns_(columns), factors_(padded(rows) * columns * 2) {
+    const auto turns = [](std::size_t wave, std::size_t waves) {
+        return static_cast<double>(wave) * static_cast<double>(waves - 1) / static_cast<double>(waves);
+    };
+    for (std::size_t row = 0; row < rows; ++row)
+        for (std::size_t column = 0; column < columns; ++column) {
+            const double angle = std::numbers::pi * std::fmod(turns(row, rows) + turns(column, columns), 2.0);
+            float* factor = &factors_[(row / lanes * columns + column) * 2 * lanes + row % lanes];
             factor[0] = static_cast<float>(std::cos(angle));
             factor[lanes] = static_cast<float>(std::sin(angle));
         }
@@ -34,29 +37,31 @@ void MiddlePhases::apply_plain(float* waves) const {
         }
 }
 
-void project_plain(const HogelBasis& basis, const HogelView& view, const float* waves, const BandPlace& band) {
-    const std::size_t n = basis.samples(), functions = basis.functions(), nodes = basis.nodes();
-    Array<Complex, 2> lines({n, functions});  // D_x applied: [row][function across]
-    for (std::size_t row = 0; row < n; ++row)
-        for (std::size_t column = 0; column < n && view.near.has_any(row / lanes * lanes, lanes, n); ++column) {
-            const float* wave = waves + ((row / lanes * n + column) * 2) * lanes + row % lanes;
+void project_plain(const HogelBases& bases, const HogelView& view, const float* waves, const BandPlace& band) {
+    const HogelBasis &across = bases.across, &down = bases.down;
+    const std::size_t rows = down.samples(), columns = across.samples(), nodes = across.nodes();
+    Array<Complex, 2> lines({rows, across.functions()});  // D_x applied: [row][function across]
+    for (std::size_t row = 0; row < rows; ++row)
+        for (std::size_t column = 0; column < columns && view.near.has_any(row / lanes * lanes, lanes, rows);
+             ++column) {
+            const float* wave = waves + ((row / lanes * columns + column) * 2) * lanes + row % lanes;
             const Complex value = Complex(wave[0], wave[lanes]);
-            for (std::size_t k = 0; k < functions; ++k)
+            for (std::size_t k = 0; k < across.functions(); ++k)
                 lines(row, k) += view.columns.first[k * view.columns.stride + column] * value;
         }
-    Array<Complex, 2> numbers({functions, functions});  // D_y applied, and the signs: [down][across]
-    for (std::size_t l = 0; l < functions; ++l)
-        for (std::size_t k = 0; k < functions; ++k) {
-            for (std::size_t row = 0; row < n; ++row)
+    Array<Complex, 2> numbers({down.functions(), across.functions()});  // D_y applied, and the signs: [down][across]
+    for (std::size_t l = 0; l < down.functions(); ++l)
+        for (std::size_t k = 0; k < across.functions(); ++k) {
+            for (std::size_t row = 0; row < rows; ++row)
                 numbers(l, k) += view.rows.first[l * view.rows.stride + row] * lines(row, k);
             numbers(l, k) *= view.columns.sign * view.rows.sign * turn(k) * turn(l);
         }
-    const View<const float, 2> spread = basis.spread();
     for (std::size_t y = 0; y < nodes; ++y)
         for (std::size_t x = 0; x < nodes; ++x) {
             Complex sum = 0;
-            for (std::size_t l = 0; l < functions; ++l)
-                for (std::size_t k = 0; k < functions; ++k) sum += spread(y, l) * spread(x, k) * numbers(l, k);
+            for (std::size_t l = 0; l < down.functions(); ++l)
+                for (std::size_t k = 0; k < across.functions(); ++k)
+                    sum += down.spread()(y, l) * across.spread()(x, k) * numbers(l, k);
             band.first[y * band.row + x] += sum * Complex(view.phases(y, 0, 2 * x), view.phases(y, 1, 2 * x + 1));
         }
 }

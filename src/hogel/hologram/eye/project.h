@@ -16,18 +16,19 @@ namespace hogel::hologram::eye {
 inline constexpr std::size_t lanes = 16;
 constexpr std::size_t padded(std::size_t count) { return (count + lanes - 1) / lanes * lanes; }
 
-/// The factors e^{iπ(m+m′)(n−1)/n} with which the phases of a hogel's waves are counted from its middle rather than
-/// from its first sample, in the layout of HogelWaves::waves(). All eyes share the product.
+/// The factors e^{iπm(n−1)/n} e^{iπm′(n′−1)/n′}, of the waves m of n columns and m′ of n′ rows, with which the phases
+/// of a hogel's waves are counted from its middle rather than from its first sample, in the layout of
+/// HogelWaves::waves(). All eyes share the product.
 class MiddlePhases {
   public:
-    explicit MiddlePhases(std::size_t samples);
+    MiddlePhases(std::size_t rows, std::size_t columns);
     /// Multiplies waves, the fast one only blocks of sixteen rows that have some of `rows`. Plain and fast twins agree
     /// to rounding.
     void apply_plain(float* waves) const;
     void apply(float* waves, const NearRows& rows = {}) const;
 
   private:
-    std::size_t samples_;
+    std::size_t rows_, columns_;
     std::vector<float, CacheLineAllocator<float>> factors_;
 };
 
@@ -50,11 +51,17 @@ struct BandPlace {
     std::size_t row;
 };
 
-/// Adds to a band what a hogel's waves send to an eye: E D_y C D_xᵀ Eᵀ, times the phases of the view, with C the waves,
-/// D the weights of the view and E = basis.spread() with a factor i for odd functions.
+/// The bases of a hogel along its rows and down its columns, with the same nodes.
+struct HogelBases {
+    const HogelBasis& across;
+    const HogelBasis& down;
+};
+
+/// Adds to a band what a hogel's waves send to an eye: E_y D_y C D_xᵀ E_xᵀ, times the phases of the view, with C the
+/// waves, D the weights of the view and E = spread() of a basis with a factor i for odd functions.
 /// Plain and fast twins agree to rounding.
 /// @param waves  in the layout of HogelWaves::waves(), with phases counted from the middle
-void project_plain(const HogelBasis& basis, const HogelView& view, const float* waves, const BandPlace& band);
-void project(const HogelBasis& basis, const HogelView& view, const float* waves, const BandPlace& band);
+void project_plain(const HogelBases& bases, const HogelView& view, const float* waves, const BandPlace& band);
+void project(const HogelBases& bases, const HogelView& view, const float* waves, const BandPlace& band);
 
 }  // namespace hogel::hologram::eye

@@ -21,8 +21,8 @@ using core::HWY_NAMESPACE::with_count;
 using math::HWY_NAMESPACE::transpose_sixteen;
 
 #if HWY_TARGET == HWY_SCALAR
-void Project(const HogelBasis& basis, const HogelView& view, const float* waves, const BandPlace& band) {
-    project_plain(basis, view, waves, band);
+void Project(const HogelBases& bases, const HogelView& view, const float* waves, const BandPlace& band) {
+    project_plain(bases, view, waves, band);
 }
 
 void Multiply(const float* factors, std::size_t count, float* waves) {
@@ -157,11 +157,11 @@ HWY_INLINE void add_times_phases(const float* re, const float* im, const HogelVi
 // Adds sixteen nodes across, from x on, of `pairs` rows from y on and of as many from the other end to the band: rows
 // at the same distance from the middle have the same even functions and opposite odd ones.
 template <std::size_t pairs>
-HWY_INLINE void add_pairs_of_rows(const float* in, std::size_t across, const HogelBasis& basis, const HogelView& view,
+HWY_INLINE void add_pairs_of_rows(const float* in, std::size_t across, const HogelBasis& down, const HogelView& view,
                                   std::size_t y, std::size_t x, const BandPlace& band) {
     const D d;
-    const std::size_t functions = basis.functions(), nodes = basis.nodes();
-    const float* spread = basis.spread().data() + y * functions;
+    const std::size_t functions = down.functions(), nodes = down.nodes();
+    const float* spread = down.spread().data() + y * functions;
     HWY_ALIGN float rows[2][pairs][2][lanes];  // [mirrored][pair][part][node]
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
         V sums[2][pairs][2];  // [odd][pair][part]
@@ -193,55 +193,59 @@ HWY_INLINE void add_pairs_of_rows(const float* in, std::size_t across, const Hog
     }
 }
 
-void Project(const HogelBasis& basis, const HogelView& view, const float* waves, const BandPlace& band) {
-    const std::size_t n = basis.samples(), functions = basis.functions(), nodes = basis.nodes();
-    const std::size_t rows = padded(n), groups = (functions + together - 1) / together, across = padded(nodes);
-    const std::size_t all = groups * together;
+void Project(const HogelBases& bases, const HogelView& view, const float* waves, const BandPlace& band) {
+    const std::size_t rows = bases.down.samples(), columns = bases.across.samples(), nodes = bases.across.nodes();
+    const std::size_t functions = bases.across.functions(), functions_down = bases.down.functions();
+    const auto groups_of = [](std::size_t count) { return (count + together - 1) / together; };
+    const std::size_t groups = groups_of(functions), all = groups * together;
+    const std::size_t groups_down = groups_of(functions_down), all_down = groups_down * together;
+    const std::size_t padded_rows = padded(rows), across = padded(nodes);
     thread_local std::vector<float, CacheLineAllocator<float> > scratch;
-    const std::size_t needed = lanes * (lanes + groups * (rows + 2 * all + across)) + 2 * across * all;
+    const std::size_t needed =
+        lanes * (lanes + groups * (padded_rows + all_down) + groups_down * (all + across)) + 2 * across * all_down;
     if (scratch.size() < needed) scratch.resize(needed);
-    float* lines = scratch.data();                       // [part][function][row]
-    float* turned = lines + lanes * lanes;               // [group][row][part, function across]
-    float* numbers = turned + lanes * groups * rows;     // [group][function down][part, function across]
-    float* swapped = numbers + lanes * groups * all;     // [group down][function across][part, function down]
-    float* spread_x = swapped + lanes * groups * all;    // [group down][node across][part, function down]
-    float* rows_x = spread_x + lanes * groups * across;  // [function down][part][node across]
+    float* lines = scratch.data();                            // [part][function][row]
+    float* turned = lines + lanes * lanes;                    // [group][row][part, function across]
+    float* numbers = turned + lanes * groups * padded_rows;   // [group][function down][part, function across]
+    float* swapped = numbers + lanes * groups * all_down;     // [group down][function across][part, function down]
+    float* spread_x = swapped + lanes * groups_down * all;    // [group down][node across][part, function down]
+    float* rows_x = spread_x + lanes * groups_down * across;  // [function down][part][node across]
     for (std::size_t group = 0; group < groups; ++group) {
         const std::size_t first = group * together, count = std::min(together, functions - first);
-        for (std::size_t row = 0; row < n; row += lanes) {
-            if (!view.near.has_any(row, lanes, n)) {
-                std::fill_n(turned + (group * rows + row) * lanes, lanes * lanes, 0.0f);
+        for (std::size_t row = 0; row < rows; row += lanes) {
+            if (!view.near.has_any(row, lanes, rows)) {
+                std::fill_n(turned + (group * padded_rows + row) * lanes, lanes * lanes, 0.0f);
                 continue;
             }
             with_count<together>(
-                count, [&](auto some) { sum_columns<some()>(waves + 2 * row * n, view.columns, first, lines); });
+                count, [&](auto some) { sum_columns<some()>(waves + 2 * row * columns, view.columns, first, lines); });
             for (std::size_t k = count; k < together; ++k)
                 for (std::size_t part : {std::size_t{0}, together})
                     std::fill_n(lines + (part + k) * lanes, lanes, 0.0f);
-            float* to = turned + (group * rows + row) * lanes;
+            float* to = turned + (group * padded_rows + row) * lanes;
             transpose_sixteen([&](std::size_t i) { return lines + i * lanes; }, lanes,
                               [&](std::size_t j) { return to + j * lanes; });
         }
-        for (std::size_t l = 0; l < functions; l += together)
-            with_count<together>(std::min(together, functions - l), [&](auto some) {
-                sum_pairs_of_rows<some()>(turned + group * rows * lanes, view.rows, l,
-                                          numbers + (group * all + l) * lanes);
+        for (std::size_t l = 0; l < functions_down; l += together)
+            with_count<together>(std::min(together, functions_down - l), [&](auto some) {
+                sum_pairs_of_rows<some()>(turned + group * padded_rows * lanes, view.rows, l,
+                                          numbers + (group * all_down + l) * lanes);
             });
     }
     // Functions down become those that lie side by side; i for each odd function.
-    std::fill_n(swapped, lanes * groups * all, 0.0f);
+    std::fill_n(swapped, lanes * groups_down * all, 0.0f);
     const float sign = view.columns.sign * view.rows.sign;
-    for (std::size_t l = 0; l < functions; ++l)
+    for (std::size_t l = 0; l < functions_down; ++l)
         for (std::size_t k = 0; k < functions; ++k) {
-            const float* from = numbers + (k / together * all + l) * lanes + k % together;
+            const float* from = numbers + (k / together * all_down + l) * lanes + k % together;
             float* to = swapped + (l / together * all + k) * lanes + l % together;
             const float re = sign * from[0], im = sign * from[together];
             const std::size_t odd = k % 2 + l % 2;
             to[0] = odd == 0 ? re : odd == 1 ? -im : -re;
             to[together] = odd == 0 ? im : odd == 1 ? re : -im;
         }
-    const float* spread = basis.spread().data();
-    for (std::size_t group = 0; group < groups; ++group) {
+    const float* spread = bases.across.spread().data();
+    for (std::size_t group = 0; group < groups_down; ++group) {
         float* to = spread_x + group * across * lanes;
         sum_all_rows(swapped + group * all * lanes, functions, lanes, spread, functions, nodes, to, lanes);
         std::fill_n(to + nodes * lanes, (across - nodes) * lanes, 0.0f);
@@ -257,7 +261,7 @@ void Project(const HogelBasis& basis, const HogelView& view, const float* waves,
     for (std::size_t y = 0; y < pairs; y += pairs_together)
         with_count<pairs_together>(std::min(pairs_together, pairs - y), [&](auto some) {
             for (std::size_t x = 0; x < across; x += lanes)
-                add_pairs_of_rows<some()>(rows_x, across, basis, view, y, x, band);
+                add_pairs_of_rows<some()>(rows_x, across, bases.down, view, y, x, band);
         });
 }
 #endif
@@ -273,14 +277,14 @@ HWY_EXPORT(Multiply);
 HWY_EXPORT(Project);
 
 void MiddlePhases::apply(float* waves, const NearRows& rows) const {
-    const std::size_t block = 2 * lanes * samples_;
-    for (std::size_t row = 0; row < samples_; row += lanes)
-        if (rows.has_any(row, lanes, samples_))
+    const std::size_t block = 2 * lanes * columns_;
+    for (std::size_t row = 0; row < rows_; row += lanes)
+        if (rows.has_any(row, lanes, rows_))
             HWY_DYNAMIC_DISPATCH(Multiply)(&factors_[row / lanes * block], block, waves + row / lanes * block);
 }
 
-void project(const HogelBasis& basis, const HogelView& view, const float* waves, const BandPlace& band) {
-    HWY_DYNAMIC_DISPATCH(Project)(basis, view, waves, band);
+void project(const HogelBases& bases, const HogelView& view, const float* waves, const BandPlace& band) {
+    HWY_DYNAMIC_DISPATCH(Project)(bases, view, waves, band);
 }
 
 }  // namespace hogel::hologram::eye

@@ -2,85 +2,31 @@
 #include "hogel/hologram/eye/stereogram_eyes.h"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <mutex>
-#include <numbers>
 #include <utility>
 
+#include "hogel/core/half.h"
 #include "hogel/core/object_pool.h"
 #include "hogel/core/parallel.h"
 #include "hogel/core/shared_order.h"
-#include "hogel/hologram/eye/hogel_basis.h"
 #include "hogel/hologram/eye/lanes.h"
-#include "hogel/hologram/eye/node_phases.h"
 #include "hogel/hologram/eye/project.h"
-#include "hogel/optics/film/interpolation.h"
-#include "hogel/optics/phase_walk.h"
 
 namespace hogel::hologram::eye {
 namespace {
 
 using Complex = std::complex<float>;
 
-// A fraction by which a pupil's band is widened, because its width varies slightly over the hologram.
-constexpr double guard = 0.1;
-
-// The waves to a hogel on either side of the pupil's band that a preview takes.
-constexpr double near_waves = 3;
-
-// Hogels across whose values are prepared together, and the side of a tile of hogels that share vectors.
-constexpr std::size_t block_across = 32, tile = 4;
+// Hogels across whose values are prepared together.
+constexpr std::size_t block_across = 32, tile = tile_side;
 
 // Rows of tiles between which the light of hogels does not meet: nodes reach at most eight beyond either end of a
-// hogel, which has at least one.
-constexpr std::size_t strips_apart = 5;
+// hogel, or of its window, which has at least one to a hogel.
+constexpr std::size_t strips_apart(std::size_t overlap) { return (tile + overlap - 1 + 2 * 8 + tile - 1) / tile; }
 
 // By how much the demodulation's frequency may grow from hogel to hogel, in cycles per hogel, for lanes to share
 // weights often enough.
 constexpr double max_bend_in_lanes = 0.15;
-
-// Bands of frequencies, in cycles per hogel, where the hologram is nearest to the eye.
-struct Bands {
-    double pupil;  ///< half the width of the pupil's light
-    double bend;   ///< by how much the demodulation's frequency grows over a hogel
-
-    // Half the width of the light that `per_hogel` samples to a hogel hold: the demodulation is that at the nodes, some
-    // of which are beyond the hogel's ends.
-    double held(std::size_t per_hogel) const {
-        const double reach = 0.5 + 3 / static_cast<double>(per_hogel);
-        return pupil * (1 + guard) + bend * reach + 0.5 / static_cast<double>(HogelBasis::fractions);
-    }
-    // Enough for the film's interpolation to pass the pupil's light, and for samples to hold a hogel's.
-    std::size_t per_hogel() const {
-        std::size_t count = 1;
-        while (static_cast<double>(count) <
-               std::max(pupil * (1 + guard) / optics::film::InterpolationTable::pass, 2.5 * held(count)))
-            ++count;
-        return count;
-    }
-};
-
-Bands bands_of(const FieldGrid& part, std::size_t samples, const optics::Eye& eye) {
-    const Grid& plane = part.plane;
-    const double x =
-        std::clamp(eye.position.x, plane.center_x - plane.size_x() / 2, plane.center_x + plane.size_x() / 2);
-    const double y =
-        std::clamp(eye.position.y, plane.center_y - plane.size_y() / 2, plane.center_y + plane.size_y() / 2);
-    const double path = part.wavelength * optics::ViewGeometry(eye.position, part.wavelength).distance(x, y);
-    const double side = plane.pitch_x * static_cast<double>(samples);
-    return {0.5 * eye.pupil * side / path, side * side / path};
-}
-
-// One eye's band.
-struct EyeBand {
-    optics::narrow_band::BandGrid grid;
-    std::shared_ptr<const HogelBasis> basis;
-    std::size_t per_hogel;
-    double bend;                 // as in Bands
-    std::vector<double> places;  // of the nodes
-    double reach;                // rows of waves on either side of the eye's direction that count
-};
 
 using EyeBands = std::vector<std::vector<Array<Complex, 2>>>;  // [eye][look]
 
@@ -108,25 +54,28 @@ class StereogramEyes final : public optics::EyeDrawing {
         : hogels_(hogels),
           range_(range),
           eyes_(std::move(eyes)),
-          middle_(hogels.samples),
-          in_lanes_(hogels.waves->has_lanes()) {
-        for (const EyeBand& eye : eyes_) in_lanes_ = in_lanes_ && eye.bend <= max_bend_in_lanes;
+          middle_(hogels.rows, hogels.columns),
+          in_lanes_(hogels.waves->has_lanes()),
+          keeps_tiles_(hogels.kept_waves != nullptr && range.ns * hogels.across() == hogels.grid.plane.width &&
+                       range.nt * hogels.down() == hogels.grid.plane.height) {
+        for (const EyeBand& eye : eyes_) in_lanes_ = in_lanes_ && eye.bend() <= max_bend_in_lanes;
     }
 
-    const optics::narrow_band::BandGrid& band(std::size_t eye) const override { return eyes_[eye].grid; }
+    const optics::narrow_band::BandGrid& band(std::size_t eye) const override { return eyes_[eye].grid(); }
 
     std::vector<std::vector<Array<Complex, 2>>> draw(std::size_t first_look, std::size_t looks,
                                                      const Progress& progress) const override {
         // The system clears their pages, half a gigabyte for many looks, on all threads.
         EyeBands bands(eyes_.size(), std::vector<Array<Complex, 2>>(looks));
         core::parallel_for(eyes_.size() * looks, [&](std::size_t i) {
-            const Grid& plane = eyes_[i / looks].grid.plane;
+            const Grid& plane = eyes_[i / looks].grid().plane;
             bands[i / looks][i % looks] = Array<Complex, 2>({plane.height, plane.width});
         });
         // Strips of hogels in an order in which those that follow each other do not meet.
         std::vector<std::size_t> strips;
-        for (std::size_t first = 0; first < strips_apart; ++first)
-            for (std::size_t t = first * tile; t < range_.nt; t += strips_apart * tile) strips.push_back(t);
+        const std::size_t apart = strips_apart(hogels_.overlap) * tile;
+        for (std::size_t first = 0; first < apart; first += tile)
+            for (std::size_t t = first; t < range_.nt; t += apart) strips.push_back(t);
         const auto report = [&](std::size_t done) {
             progress.report(static_cast<double>(done) / static_cast<double>(strips.size()));
         };
@@ -147,8 +96,7 @@ class StereogramEyes final : public optics::EyeDrawing {
         std::mutex mutex;
         std::size_t done = 0;
         for (std::size_t first = 0, end = 0; first < strips.size(); first = end) {
-            while (end < strips.size() && strips[end] % (strips_apart * tile) == strips[first] % (strips_apart * tile))
-                ++end;
+            while (end < strips.size() && strips[end] % apart == strips[first] % apart) ++end;
             core::parallel_for(end - first, [&](std::size_t i) {
                 auto scratch = scratch_pool_.take();
                 draw_strip(strips[first + i], {first_look, looks}, *scratch);
@@ -184,7 +132,7 @@ class StereogramEyes final : public optics::EyeDrawing {
         scratch.strip.resize(eyes_.size());
         for (std::size_t e = 0; e < eyes_.size(); ++e) {
             const EyeBand& eye = eyes_[e];
-            const Shape<2> shape{strip.nt * eye.per_hogel + 2 * eye.basis->before(), eye.grid.plane.width};
+            const Shape<2> shape{eye.samples(strip.nt), eye.grid().plane.width};
             scratch.strip[e].resize(looks.count);
             for (Array<Complex, 2>& own : scratch.strip[e])
                 if (own.shape() == shape)
@@ -203,7 +151,7 @@ class StereogramEyes final : public optics::EyeDrawing {
             for (std::size_t look = 0; look < strip[e].size(); ++look) {
                 const Array<Complex, 2>& own = strip[e][look];
                 const auto* from = reinterpret_cast<const float*>(own.data());
-                auto* to = reinterpret_cast<float*>(&bands[e][look](t * eyes_[e].per_hogel, 0));
+                auto* to = reinterpret_cast<float*>(&bands[e][look](t * eyes_[e].per_hogel(), 0));
                 for (std::size_t i = 0; i < 2 * own.size(); ++i) to[i] += from[i];
             }
     }
@@ -215,13 +163,13 @@ class StereogramEyes final : public optics::EyeDrawing {
         scratch.phases.resize(eyes_.size());
         for (std::size_t e = 0; e < eyes_.size(); ++e) {
             const EyeBand& eye = eyes_[e];
-            const std::size_t nodes = eye.basis->nodes();
+            const std::size_t nodes = eye.nodes();
             Array<float, 4>& phases = scratch.phases[e];
             const Shape<4> shape{some.hogels(), nodes, 2, phase_row(nodes)};
             if (phases.shape() != shape) phases = Array<float, 4>(shape);
             scratch.views[e].clear();
             for (std::size_t h = 0; h < some.hogels(); ++h)
-                scratch.views[e].push_back(view(eye, some.s0 + h % some.ns, some.t0 + h / some.ns, phases[h]));
+                scratch.views[e].push_back(eye.view(hogels_, some.s0 + h % some.ns, some.t0 + h / some.ns, phases[h]));
         }
         if (in_lanes_)
             draw_in_lanes(some, looks, scratch, bands);
@@ -232,14 +180,14 @@ class StereogramEyes final : public optics::EyeDrawing {
     void prepare(const HogelRange& some, Scratch& scratch) const {
         scratch.moduli.resize(some.hogels());
         if (hogels_.kept.size() > 0) {
-            const std::size_t across = hogels_.grid.plane.width / hogels_.samples;
+            const std::size_t across = hogels_.grid.plane.width / hogels_.across();
             for (std::size_t h = 0; h < some.hogels(); ++h)
                 scratch.moduli[h] = &hogels_.kept((some.t0 + h / some.ns) * across + some.s0 + h % some.ns, 0);
             return;
         }
         Array<float, 2>& prepared = scratch.prepared;
-        if (prepared.shape() != Shape<2>{some.hogels(), hogels_.prepared_size})
-            prepared = Array<float, 2>({some.hogels(), hogels_.prepared_size});
+        if (prepared.shape() != Shape<2>{some.hogels(), hogels_.waves->prepared_size()})
+            prepared = Array<float, 2>({some.hogels(), hogels_.waves->prepared_size()});
         hogels_.prepare(some, prepared);
         for (std::size_t h = 0; h < some.hogels(); ++h) scratch.moduli[h] = &prepared(h, 0);
     }
@@ -247,22 +195,22 @@ class StereogramEyes final : public optics::EyeDrawing {
     // The place in a strip of an eye's band of the first node of a hogel.
     BandPlace place(std::size_t e, const HogelRange& some, std::size_t hogel, Array<Complex, 2>& band) const {
         const std::size_t s = some.s0 + hogel % some.ns - range_.s0, t = hogel / some.ns;
-        return {&band(t * eyes_[e].per_hogel, s * eyes_[e].per_hogel), band.extent(1)};
+        return {&band(t * eyes_[e].per_hogel(), s * eyes_[e].per_hogel()), band.extent(1)};
     }
 
     void draw_one_by_one(const HogelRange& some, const Looks& looks, Scratch& scratch, EyeBands& bands) const {
         Array<float, 1>& waves = scratch.waves;
-        const std::size_t size = HogelWaves::size(hogels_.samples);
+        const std::size_t size = HogelWaves::size(hogels_.rows, hogels_.columns);
         if (waves.size() != size) waves = Array<float, 1>({size});
         for (std::size_t look = 0; look < looks.count; ++look)
             for (std::size_t h = 0; h < some.hogels(); ++h) {
                 const NearRows rows = eyes_.size() == 1 ? scratch.views[0][h].near : NearRows{};
-                hogels_.waves->waves({scratch.moduli[h], hogels_.prepared_size},
+                hogels_.waves->waves({scratch.moduli[h], hogels_.waves->prepared_size()},
                                      {some.s0 + h % some.ns, some.t0 + h / some.ns, looks.first + look}, rows,
                                      waves.data());
                 middle_.apply(waves.data(), rows);
                 for (std::size_t e = 0; e < eyes_.size(); ++e)
-                    project(*eyes_[e].basis, scratch.views[e][h], waves.data(), place(e, some, h, bands[e][look]));
+                    project(eyes_[e].bases(), scratch.views[e][h], waves.data(), place(e, some, h, bands[e][look]));
             }
     }
 
@@ -275,18 +223,21 @@ class StereogramEyes final : public optics::EyeDrawing {
     void draw_in_lanes(const HogelRange& some, const Looks& looks, Scratch& scratch, EyeBands& bands) const {
         const std::size_t together = std::max<std::size_t>(1, HogelWaves::lanes / looks.count);
         std::vector<std::size_t> hogels;
+        KeptWaves::Tile kept;
         const auto flush = [&] {
             for (std::size_t look = 0; !hogels.empty() && look < looks.count; look += HogelWaves::lanes) {
                 std::vector<Item> items;
                 for (const std::size_t hogel : hogels)
                     for (std::size_t l = look; l < std::min(look + HogelWaves::lanes, looks.count); ++l)
                         items.push_back({hogel, l});
-                draw_batch(some, items, looks.first, scratch, bands);
+                draw_batch(some, items, looks.first, kept, scratch, bands);
             }
             hogels.clear();
         };
         for (std::size_t t0 = 0; t0 < some.nt; t0 += tile)
             for (std::size_t s0 = 0; s0 < some.ns; s0 += tile) {
+                if (keeps_tiles_ && looks.count == 1)
+                    kept = hogels_.kept_waves->tile(looks.first, some.s0 + s0, some.t0 + t0);
                 for (std::size_t t = t0; t < std::min(t0 + tile, some.nt); ++t)
                     for (std::size_t s = s0; s < std::min(s0 + tile, some.ns); ++s) {
                         hogels.push_back(t * some.ns + s);
@@ -318,23 +269,24 @@ class StereogramEyes final : public optics::EyeDrawing {
         return groups;
     }
 
-    void draw_batch(const HogelRange& some, const std::vector<Item>& items, std::size_t first_look, Scratch& scratch,
-                    EyeBands& bands) const {
+    // @param kept  the waves of these hogels, if they are kept
+    void draw_batch(const HogelRange& some, const std::vector<Item>& items, std::size_t first_look,
+                    const KeptWaves::Tile& kept, Scratch& scratch, EyeBands& bands) const {
         constexpr std::size_t both = 2 * HogelWaves::lanes;
-        const std::size_t n = hogels_.samples;
+        const std::size_t n = hogels_.columns;
         std::vector<HogelPlace> places;
         for (const Item& item : items)
             places.push_back({some.s0 + item.hogel % some.ns, some.t0 + item.hogel / some.ns, first_look + item.look});
         const bool shared = items.front().hogel == items.back().hogel;
         const float* prepared = scratch.moduli[items.front().hogel];
-        if (!shared) {
+        if (!shared && kept.rows == nullptr) {
             scratch.sources.clear();
             for (const Item& item : items) scratch.sources.push_back(scratch.moduli[item.hogel]);
             const std::size_t size = HogelWaves::powers_size(n) * HogelWaves::lanes;
             if (scratch.gathered.size() != size) scratch.gathered = Array<float, 1>({size});
             prepared = scratch.gathered.data();
         }
-        const SeriesOfLanes series = hogels_.waves->series_of_lanes(places);
+        const SeriesOfLanes series = kept.rows == nullptr ? hogels_.waves->series_of_lanes(places) : SeriesOfLanes{};
         if (scratch.waves.size() != n * both) scratch.waves = Array<float, 1>({n * both});
         std::vector<std::vector<Group>> groups(eyes_.size());
         scratch.lines.resize(eyes_.size());
@@ -342,7 +294,7 @@ class StereogramEyes final : public optics::EyeDrawing {
             groups[e] = groups_of(items, scratch.views[e]);
             if (scratch.lines[e].size() < groups[e].size()) scratch.lines[e].resize(groups[e].size());
             for (Array<float, 1>& lines : scratch.lines[e])
-                if (const std::size_t size = n * eyes_[e].basis->functions() * both; lines.size() != size)
+                if (const std::size_t size = n * eyes_[e].bases().across.functions() * both; lines.size() != size)
                     lines = Array<float, 1>({size});
         }
         const auto counts = [&](std::size_t row) {
@@ -352,19 +304,25 @@ class StereogramEyes final : public optics::EyeDrawing {
         };
         std::size_t gathered = 0;  // rows
         for (std::size_t row = 0; row < n; ++row) {
-            const bool drawn = counts(row);
-            if (drawn && !shared && row >= gathered) {
-                const std::size_t block = row / HogelWaves::rows_together * HogelWaves::rows_together;
-                hogels_.waves->gather_lanes(scratch.sources, block, scratch.gathered.data());
-                gathered = block + HogelWaves::rows_together;
+            const bool lit = kept.lit == nullptr || kept.lit[row] != 0;
+            if (lit && counts(row)) {
+                if (kept.rows != nullptr) {
+                    core::to_float(kept.rows + row * n * both, scratch.waves.data(), n * both);
+                } else {
+                    if (!shared && row >= gathered) {
+                        const std::size_t block = row / HogelWaves::rows_together * HogelWaves::rows_together;
+                        hogels_.waves->gather_lanes(scratch.sources, block, scratch.gathered.data());
+                        gathered = block + HogelWaves::rows_together;
+                    }
+                    hogels_.waves->row_of_lanes(series, row, shared, prepared, scratch.waves.data());
+                }
             }
-            if (drawn) hogels_.waves->row_of_lanes(series, row, shared, prepared, scratch.waves.data());
             for (std::size_t e = 0; e < eyes_.size(); ++e) {
-                const HogelBasis& basis = *eyes_[e].basis;
+                const HogelBasis& basis = eyes_[e].bases().across;
                 const std::size_t size = basis.functions() * both;
                 for (std::size_t g = 0; g < groups[e].size(); ++g) {
                     float* line = &scratch.lines[e][g](row * size);
-                    if (groups[e][g].near.has(row, n))
+                    if (lit && groups[e][g].near.has(row, n))
                         sum_row(basis, groups[e][g].columns, scratch.waves.data(), line);
                     else
                         std::fill_n(line, size, 0.0f);
@@ -372,13 +330,13 @@ class StereogramEyes final : public optics::EyeDrawing {
             }
         }
         for (std::size_t e = 0; e < eyes_.size(); ++e) {
-            const HogelBasis& basis = *eyes_[e].basis;
+            const HogelBasis& basis = eyes_[e].bases().across;
             if (const std::size_t size = basis.functions() * basis.functions() * both; scratch.numbers.size() < size)
                 scratch.numbers = Array<float, 1>({size});
             for (std::size_t g = 0; g < groups[e].size(); ++g) {
                 const Group& group = groups[e][g];
-                sum_rows(basis, group.rows, group.columns.sign * group.rows.sign, scratch.lines[e][g].data(),
-                         group.chosen, scratch.numbers.data());
+                sum_rows(basis, group.rows, kept.scale * group.columns.sign * group.rows.sign,
+                         scratch.lines[e][g].data(), group.chosen, scratch.numbers.data());
             }
             LaneTarget targets[HogelWaves::lanes];
             for (std::size_t lane = 0; lane < items.size(); ++lane) {
@@ -390,110 +348,21 @@ class StereogramEyes final : public optics::EyeDrawing {
         }
     }
 
-    HogelView view(const EyeBand& eye, std::size_t s, std::size_t t, View<float, 3> phases) const {
-        const optics::ViewGeometry& geometry = eye.grid.geometry;
-        const Grid& plane = hogels_.grid.plane;
-        const auto n = static_cast<double>(hogels_.samples);
-        const double x = plane.x((static_cast<double>(s) + 0.5) * n - 0.5),
-                     y = plane.y((static_cast<double>(t) + 0.5) * n - 0.5);
-        const double width = n * plane.pitch_x, height = n * plane.pitch_y, wavelength = geometry.wavelength();
-        HogelView view;
-        view.columns = eye.basis->weights(geometry.sine_x(x, y) * width / wavelength);
-        view.rows = eye.basis->weights(-geometry.sine_y(x, y) * height / wavelength);
-        set_phases(eye, {x, y, width, height, view.columns.frequency, view.rows.frequency}, phases);
-        view.phases = phases;
-        view.near = rows_near(view.rows.frequency, eye.reach);
-        return view;
-    }
-
-    // The rows m of waves with |m + frequency| ≤ reach, modulo n.
-    NearRows rows_near(double frequency, double reach) const {
-        const auto n = static_cast<double>(hogels_.samples);
-        const double first = std::ceil(-frequency - reach), count = std::floor(reach - frequency) - first + 1;
-        if (count >= n) return {};
-        return {static_cast<std::size_t>(first - n * std::floor(first / n)), static_cast<std::size_t>(count)};
-    }
-
-    // A hogel: its middle, its size, and the frequencies that its weights have taken from the demodulation.
-    struct Place {
-        double x, y, width, height, columns, rows;
-    };
-
-    // e^{ik|x−c|} at the nodes, without the frequencies that are taken. Exact along the two lines through the middle;
-    // elsewhere the product of both, times a bend that is nearly the same for all nodes: ∂²r/∂x∂y.
-    static void set_phases(const EyeBand& eye, const Place& hogel, View<float, 3> phases) {
-        const optics::ViewGeometry& geometry = eye.grid.geometry;
-        const HogelBasis& basis = *eye.basis;
-        const double reach = basis.place(basis.nodes() - 1);
-        const double distance = geometry.distance(hogel.x, hogel.y), size = reach * std::max(hogel.width, hogel.height);
-        // r grows by −n_x n_y/r along both axes, and rows run down.
-        const double bend = geometry.sine_x(hogel.x, hogel.y) * geometry.sine_y(hogel.x, hogel.y) * hogel.width *
-                            hogel.height / (distance * geometry.wavelength());
-        // The next terms of the series, in cycles, and the angle up to which its root is exact.
-        const bool small = size * size * size / (distance * distance * geometry.wavelength()) < 2e-4 &&
-                           2 * std::numbers::pi * std::abs(bend) * reach * reach < 0.1;
-        if (!small) return set_phases_one_by_one(eye, hogel, phases);
-        const double x = hogel.x - geometry.eye().x, y = hogel.y - geometry.eye().y, z = geometry.eye().z;
-        const double frequency = 1 / geometry.wavelength();
-        const NodeLine across{x, hogel.width, y * y + z * z, frequency, hogel.columns, distance * frequency},
-            down{y, -hogel.height, x * x + z * z, frequency, hogel.rows, 0};
-        node_phases(across, down, bend, eye.places, phases.data());
-    }
-
-    static void set_phases_one_by_one(const EyeBand& eye, const Place& hogel, View<float, 3> phases) {
-        const HogelBasis& basis = *eye.basis;
-        for (std::size_t row = 0; row < basis.nodes(); ++row)
-            for (std::size_t column = 0; column < basis.nodes(); ++column) {
-                const double right = basis.place(column), below = basis.place(row);
-                const std::complex<float> phase(optics::unit_phasor(
-                    eye.grid.geometry.cycles(hogel.x + right * hogel.width, hogel.y - below * hogel.height) -
-                    right * hogel.columns - below * hogel.rows));
-                phases(row, 0, 2 * column) = phases(row, 0, 2 * column + 1) = phase.real();
-                phases(row, 1, 2 * column) = -phase.imag();
-                phases(row, 1, 2 * column + 1) = phase.imag();
-            }
-    }
-
     Hogels hogels_;
     HogelRange range_;
     std::vector<EyeBand> eyes_;
     MiddlePhases middle_;
     bool in_lanes_;
+    bool keeps_tiles_;  // whether tiles of the range are those of kept waves
     mutable core::ObjectPool<Scratch> scratch_pool_;
 };
 
 }  // namespace
 
-std::size_t band_samples_per_hogel(const FieldGrid& hologram, std::size_t samples, const optics::Eye& eye) {
-    return bands_of(hologram, samples, eye).per_hogel();
-}
-
 std::unique_ptr<optics::EyeDrawing> make_stereogram_eyes(const Hogels& hogels, const HogelRange& range,
                                                          std::span<const optics::Eye> eyes) {
-    const std::size_t n = hogels.samples;
-    const FieldGrid whole{hogel::part(hogels.grid.plane, {range.s0 * n, range.t0 * n, range.ns * n, range.nt * n}),
-                          hogels.grid.wavelength};
-    std::vector<EyeBand> bands;
-    std::map<std::pair<std::size_t, double>, std::shared_ptr<const HogelBasis>> bases;
-    for (const optics::Eye& eye : eyes) {
-        const Bands band = bands_of(whole, n, eye);
-        const std::size_t per_hogel = band.per_hogel();
-        const double half = band.held(per_hogel);
-        if (!band_is_cheaper(per_hogel, n)) return nullptr;
-        auto& basis = bases[{per_hogel, half}];
-        if (!basis) basis = std::make_shared<HogelBasis>(n, per_hogel, half);
-        const auto samples = [&](std::size_t count) { return count * per_hogel + 2 * basis->before(); };
-        const double pitch = static_cast<double>(n) / static_cast<double>(per_hogel);
-        const Grid plane{samples(range.ns),           samples(range.nt),    whole.plane.pitch_x * pitch,
-                         whole.plane.pitch_y * pitch, whole.plane.center_x, whole.plane.center_y};
-        EyeBand& own = bands.emplace_back(EyeBand{{optics::ViewGeometry(eye.position, whole.wavelength), plane},
-                                                  basis,
-                                                  per_hogel,
-                                                  band.bend,
-                                                  {},
-                                                  eye.preview ? half + near_waves : static_cast<double>(n)});
-        for (std::size_t node = 0; node < basis->nodes(); ++node) own.places.push_back(basis->place(node));
-    }
+    std::vector<EyeBand> bands = EyeBand::of(hogels, range, eyes);
+    if (bands.empty()) return nullptr;
     return std::make_unique<StereogramEyes>(hogels, range, std::move(bands));
 }
 

@@ -5,29 +5,23 @@
 #include <memory>
 #include <span>
 
+#include "hogel/hologram/eye/eye_band.h"
+#include "hogel/hologram/eye/kept_waves.h"
 #include "hogel/hologram/hogel_synthesis.h"
 #include "hogel/optics/eye_light.h"
 
 namespace hogel::hologram::eye {
 
 /// What eyes need of a stereogram whose hogels are sums of the waves of their Fourier transforms.
-struct Hogels {
-    FieldGrid grid;
-    std::size_t samples = 0;  ///< along a side of a hogel
+struct Hogels : HogelLayout {
     const HogelWaves* waves = nullptr;
-    std::size_t prepared_size = 0;
-    /// Computes the prepared values of a range, [hogel][prepared_size], row by row.
+    /// Computes what `waves` needs of a range, [hogel][waves->prepared_size()], row by row.
     std::function<void(const HogelRange&, View<float, 2>)> prepare;
     /// The prepared values of all hogels of the grid, row by row, where they are kept; otherwise no elements.
     View<const float, 2> kept = {};
+    /// Waves of the first looks, where they are kept; otherwise null.
+    const KeptWaves* kept_waves = nullptr;
 };
-
-/// The samples of an eye's band to a hogel, along an axis, for hogels of `samples` samples a side.
-std::size_t band_samples_per_hogel(const FieldGrid& hologram, std::size_t samples, const optics::Eye& eye);
-
-/// Whether computing so many samples of a band costs less than those of the hogels: at most half as many. A band that
-/// is nearly as dense as the samples saves nothing.
-constexpr bool band_is_cheaper(std::size_t per_hogel, std::size_t samples) { return 2 * per_hogel <= samples; }
 
 /// The light of a range of hogels of a stereogram towards eyes, without its samples. Null where an eye receives so
 /// many of a hogel's waves that computing the samples costs less.

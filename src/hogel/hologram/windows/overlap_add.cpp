@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "hogel/core/object_pool.h"
+#include "hogel/hologram/eye/stereogram_eyes.h"
 #include "hogel/hologram/hogel_synthesis.h"
 #include "hogel/hologram/point_cycles.h"
 #include "hogel/hologram/unit_roots.h"
@@ -19,16 +20,6 @@ namespace hogel::hologram::windows {
 namespace {
 
 using Complex = std::complex<float>;
-
-// The window's side in samples: at least two hogels, as large as the spacing of directions allows, a multiple of the
-// hogel's side so that windows add up to a constant, and such that the window is centred on the hogel.
-std::size_t window_side(const LightFieldGrid& light_field, const FieldGrid& grid, std::size_t hop) {
-    const double step = std::min(light_field.step_u(), light_field.step_v());
-    const double hogels = std::round(grid.wavelength / (step * light_field.pitch));
-    auto side = static_cast<std::size_t>(std::max(2.0, hogels));
-    if (hop % 2 == 1 && side % 2 == 0) ++side;
-    return side * hop;
-}
 
 std::vector<float> hann_window(std::size_t side) {
     std::vector<float> window;
@@ -63,7 +54,7 @@ float surface_stretch(std::span<const float> depths, const std::array<std::uint3
 // computed by one Fourier transform, each with the phase of a spherical wave from the point that the ray meets. All
 // windows are added. Source: Padmanaban, Peng and Wetzstein, "Holographic near-eye displays based on overlap-add
 // stereograms", ACM TOG 38(6), 2019.
-class OverlapAddHologram final : public FieldSource {
+class OverlapAddHologram final : public FieldSource, public optics::EyeLight, public HogelWaves {
   public:
     OverlapAddHologram(const LightField& light_field, const FieldGrid& grid, const HologramOptions& options,
                        PointPhases phases, bool one_by_one)
@@ -73,7 +64,7 @@ class OverlapAddHologram final : public FieldSource {
           options_(options),
           grid_(grid),
           hop_(grid.plane.width / light_field_.grid().hogels_s),
-          side_(window_side(light_field_.grid(), grid, hop_)),
+          side_(window_layout(light_field_.grid(), grid).columns),
           fft_(side_, side_),
           window_(hann_window(side_)),
           brightness_(light_field_.grid(), grid, hop_, window_, phases == PointPhases::random ? point_spacing : 1) {
@@ -103,8 +94,76 @@ class OverlapAddHologram final : public FieldSource {
             add_one_by_one({s0, t0, ns, nt}, region, look, *scratch, out);
     }
 
+    std::unique_ptr<optics::EyeDrawing> eye_drawing(const Region& part,
+                                                    std::span<const optics::Eye> eyes) const override {
+        eye::Hogels hogels{window_layout(light_field_.grid(), grid_), this, {}};
+        hogels.prepare = [this](const HogelRange& range, View<float, 2> prepared) {
+            auto scratch = scratch_pool_.take();
+            std::size_t first = 0;
+            for_each_band(range, scratch->tile, [&](const LightFieldTile& tile) {
+                const std::size_t rays = light_field_.grid().directions(), count = tile.range.hogels();
+                const View<float, 2> some(&prepared(first, 0), {count, prepared.extent(1)});
+                prepare({tile.radiance.view()[options_.channel.index].data(), {count, rays}},
+                        {tile.depth.data(), {count, rays}}, some);
+                first += count;
+            });
+        };
+        const std::size_t s0 = part.x0 / hop_, t0 = part.y0 / hop_;
+        return eye::make_stereogram_eyes(
+            hogels, {s0, t0, (part.x0 + part.width - 1) / hop_ + 1 - s0, (part.y0 + part.height - 1) / hop_ + 1 - t0},
+            eyes);
+    }
+    // Amplitudes and phases depend on the depth of every ray, which is no less to keep than the light field.
+    std::size_t keep_amplitudes(std::size_t) const override { return 0; }
+
+    // Rays and their depths.
+    std::size_t prepared_size() const override { return 2 * light_field_.grid().directions(); }
+    void prepare(View<const float, 2> radiances, View<const float, 2> depths, View<float, 2> prepared) const override {
+        const std::size_t rays = radiances.extent(1);
+        for (std::size_t hogel = 0; hogel < radiances.extent(0); ++hogel) {
+            std::copy_n(&radiances(hogel, 0), rays, &prepared(hogel, 0));
+            std::copy_n(&depths(hogel, 0), rays, &prepared(hogel, rays));
+        }
+    }
+    void waves(std::span<const float> prepared, const HogelPlace& place, const NearRows& rows,
+               float* waves) const override {
+        thread_local Array<Complex, 2> window;
+        if (window.shape() != Shape<2>{side_, side_}) window = Array<Complex, 2>({side_, side_});
+        const std::size_t rays = light_field_.grid().directions();
+        const CycleSeries points = cycle_series(place.look);
+        fill(prepared.first(rays), prepared.subspan(rays), place, phases_ == PointPhases::random ? &points : nullptr,
+             window);
+        if (is_cut(place)) cut(place, window);
+        store_waves(window, rows, waves);
+    }
+
   private:
     static constexpr std::size_t band_rays = std::size_t{1} << 18;
+
+    // Whether the window reaches beyond the hologram.
+    bool is_cut(const HogelPlace& place) const {
+        const std::size_t reach = (side_ / hop_) / 2;
+        const LightFieldGrid& hogels = light_field_.grid();
+        return place.s < reach || place.t < reach || place.s + reach >= hogels.hogels_s ||
+               place.t + reach >= hogels.hogels_t;
+    }
+
+    // Replaces the waves of a window by those of its samples within the hologram.
+    void cut(const HogelPlace& place, View<Complex, 2> window) const {
+        fft_.backward(window);
+        const std::size_t before = (side_ - hop_) / 2;
+        const auto inside = [&](std::size_t hogel, std::size_t sample, std::size_t samples) {
+            const std::size_t at = hogel * hop_ + sample;
+            return at >= before && at < samples + before;
+        };
+        const float share = 1 / static_cast<float>(side_ * side_);
+        for (std::size_t y = 0; y < side_; ++y)
+            for (std::size_t x = 0; x < side_; ++x) {
+                const bool lit = inside(place.t, y, grid_.plane.height) && inside(place.s, x, grid_.plane.width);
+                window(y, x) *= lit ? share : 0;
+            }
+        fft_.forward(window);
+    }
 
     // Buffers for one region.
     struct Scratch {
@@ -250,8 +309,10 @@ class OverlapAddHologram final : public FieldSource {
             }
     }
 
+    // @param points  phases of points by column and row; null if they have none
+    template <class Points>
     void fill(std::span<const float> radiance, std::span<const float> depths, const HogelPlace& place,
-              const PointCycles* points, View<Complex, 2> window) const {
+              const Points* points, View<Complex, 2> window) const {
         std::fill(window.data(), window.data() + window.size(), Complex(0));
         for (const WindowDirection& direction : directions_) {
             const float light = radiance[direction.ray] * direction.share;
@@ -287,8 +348,9 @@ class OverlapAddHologram final : public FieldSource {
     }
 
     // A diffuse surface consists of points, point_spacing apart in x and y; a ray shows the nearest one.
+    template <class Points>
     double cycles_of_point(const WindowDirection& direction, double depth, const HogelPlace& place,
-                           const PointCycles& points) const {
+                           const Points& points) const {
         const double pitch = light_field_.grid().pitch, hogels = depth * hogels_a_metre_;
         const auto s = static_cast<double>(place.s), t = static_cast<double>(place.t);
         const std::int64_t column = nearest_whole((s + direction.U * hogels) / point_spacing),
@@ -296,7 +358,8 @@ class OverlapAddHologram final : public FieldSource {
         const double x = (static_cast<double>(column) * point_spacing - s) * pitch,
                      y = (t - static_cast<double>(row) * point_spacing) * pitch;
         const double distance = std::copysign(std::sqrt(depth * depth + x * x + y * y), depth);
-        return (distance - depth * reference_cosine_) * waves_a_metre_ + points(column, row);
+        return (distance - depth * reference_cosine_) * waves_a_metre_ +
+               points(static_cast<std::int32_t>(column), static_cast<std::int32_t>(row));
     }
 
     // First and number of the hogels whose windows touch samples first..first+count−1.
@@ -349,6 +412,15 @@ class OverlapAddHologram final : public FieldSource {
 };
 
 }  // namespace
+
+eye::HogelLayout window_layout(const LightFieldGrid& light_field, const FieldGrid& grid) {
+    const std::size_t hop = grid.plane.width / light_field.hogels_s;
+    const double step = std::min(light_field.step_u(), light_field.step_v());
+    const double hogels = std::round(grid.wavelength / (step * light_field.pitch));
+    auto side = static_cast<std::size_t>(std::max(2.0, hogels));
+    if (hop % 2 == 1 && side % 2 == 0) ++side;
+    return {grid, side * hop, side * hop, side, eye::HogelBasis::Window::hann};
+}
 
 std::shared_ptr<const FieldSource> make_overlap_add(const LightField& light_field, const FieldGrid& grid,
                                                     const HologramOptions& options, PointPhases phases,

@@ -5,9 +5,14 @@
 
 #include "hogel/field.h"
 #include "hogel/hologram.h"
+#include "hogel/hologram/eye/eye_band.h"
 #include "hogel/light_field.h"
 
 namespace hogel::hologram::windows {
+
+/// The windows of a hologram of this grid: at least two hogels wide, as large as the spacing of directions allows, a
+/// multiple of the hogel's side so that windows add up to a constant, and such that the window is centred on the hogel.
+eye::HogelLayout window_layout(const LightFieldGrid& light_field, const FieldGrid& grid);
 
 /// Makes a hologram of overlapping windows (OLAS).
 /// @param one_by_one  use the plain version, which is always used for large windows; the fast one computes the windows

@@ -57,12 +57,13 @@ void Film::develop(View<const float, 2> blocks, const Camera& camera, const Rect
     }
     core::parallel_for(picture.height, [&](std::size_t row) {
         std::vector<float> line(size_.x.count), pixels(picture.width);
+        std::vector<double> sines;
         for (std::size_t b = 0; b < sub_y; ++b) {
-            const double y = picture.y(place(row, b, sub_y)), dy = y - eye.y;
-            if (!(y >= shown.bottom && y < shown.top)) continue;
-            add_down_columns(intensity.data(), size_.x.count, size_.y.count,
-                             {slopes, dy / std::hypot(dy, eye.z) / size_.y.step, -size_.y.low / size_.y.step}, 1, line);
+            const double y = picture.y(place(row, b, sub_y)), up = y - eye.y;
+            if (y >= shown.bottom && y < shown.top) sines.push_back(up / std::hypot(up, eye.z) / size_.y.step);
         }
+        sum_down_columns(intensity.data(), size_.x.count, size_.y.count, {slopes, sines, -size_.y.low / size_.y.step},
+                         line);
         const double dy = picture.y(static_cast<double>(row)) - eye.y;
         for (std::size_t a = 0; a < sub_x; ++a) {
             const Columns& c = columns[a];

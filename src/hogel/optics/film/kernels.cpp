@@ -8,11 +8,13 @@
 
 namespace hogel::optics::film {
 
-void add_down_columns_plain(const float* values, std::size_t stride, std::size_t height, const ColumnPlaces& places,
-                            float weight, std::span<float> out) {
+void sum_down_columns_plain(const float* values, std::size_t stride, std::size_t height, const ColumnPoints& points,
+                            std::span<float> out) {
     for (std::size_t i = 0; i < out.size(); ++i) {
-        const double row = places.offset + places.scale * places.slopes[i];
-        out[i] += weight * smooth_at<TwelvePoint>(height, row, [&](std::size_t j) { return values[j * stride + i]; });
+        out[i] = 0;
+        for (const double scale : points.scales)
+            out[i] += smooth_at<TwelvePoint>(height, points.offset + scale * points.slopes[i],
+                                             [&](std::size_t j) { return values[j * stride + i]; });
     }
 }
 

@@ -24,18 +24,25 @@ std::vector<float> noise(std::size_t count) {
     return values;
 }
 
-// Widths around every multiple of a vector; positions inside, at both ends and outside.
+// Widths around every multiple of a vector; points inside, at both ends and outside; columns that differ much from
+// each other, little, and not at all.
 TEST_P(FilmKernels, vector_and_plain_columns_agree) {
-    const std::size_t height = 20, stride = 50;
+    const std::size_t height = 40, stride = 150;
     const std::vector<float> values = noise(height * stride);
-    std::vector<double> slopes(stride);
-    for (std::size_t i = 0; i < stride; ++i) slopes[i] = std::cos(0.3 * static_cast<double>(i));
-    for (std::size_t width = 0; width <= stride; ++width) {
-        std::vector<float> fast(width, 1), plain(width, 1);
-        const ColumnPlaces places{std::span(slopes).first(width), 12.3, 9.7};
-        add_down_columns(values.data(), stride, height, places, 0.7f, fast);
-        add_down_columns_plain(values.data(), stride, height, places, 0.7f, plain);
-        for (std::size_t x = 0; x < width; ++x) EXPECT_NEAR(fast[x], plain[x], 1e-5f) << width << " " << x;
+    for (const double bend : {0.3, 0.01, 0.0}) {
+        std::vector<double> slopes(stride);
+        for (std::size_t i = 0; i < stride; ++i) slopes[i] = std::cos(bend * (static_cast<double>(i) - 40));
+        for (const std::vector<double>& scales :
+             {std::vector<double>{12.3}, {-7, -6.6, -3.1, 0.0, 0.25, 3}, {-11, -4, 1, 2, 3, 4, 5, 23.7, 40}})
+            for (std::size_t width = 0; width <= stride; width += width < 40 ? 1 : 11) {
+                std::vector<float> fast(width, 1), plain(width, 1);
+                const ColumnPoints points{std::span(slopes).first(width), scales, 9.7};
+                sum_down_columns(values.data(), stride, height, points, fast);
+                sum_down_columns_plain(values.data(), stride, height, points, plain);
+                const double allowed = 5e-4 * static_cast<double>(scales.size());
+                for (std::size_t x = 0; x < width; ++x)
+                    ASSERT_NEAR(fast[x], plain[x], allowed) << bend << " " << width << " " << x;
+            }
     }
 }
 
@@ -62,8 +69,8 @@ TEST_P(FilmKernels, keep_waves) {
             add_along_line(line, {0, 0, 1, 1, at}, 1, value);  // d = 0: at the offset itself, r = 1
             EXPECT_NEAR(value[0], wave(at), tolerance) << at;
             std::vector<float> down(1);
-            const double slope = 1;
-            add_down_columns(line.data(), 1, line.size(), {std::span(&slope, 1), at - 2, 2}, 1, down);
+            const double slope = 1, scale = at - 2;
+            sum_down_columns(line.data(), 1, line.size(), {std::span(&slope, 1), std::span(&scale, 1), 2}, down);
             EXPECT_NEAR(down[0], wave(at), tolerance) << at;
         }
     }

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/hologram/eye/eye_band.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+#include "hogel/hologram/eye/node_phases.h"
+#include "hogel/optics/film/interpolation.h"
+#include "hogel/optics/phase_walk.h"
+
+namespace hogel::hologram::eye {
+namespace {
+
+// A fraction by which a pupil's band is widened, because its width varies slightly over the hologram.
+constexpr double guard = 0.1;
+
+// The waves to a hogel on either side of the pupil's band that a preview takes.
+constexpr double near_waves = 3;
+
+// Bands of frequencies, in cycles per hogel, where the hologram is nearest to the eye.
+struct Bands {
+    double pupil;  ///< half the width of the pupil's light
+    double bend;   ///< by how much the demodulation's frequency grows over a hogel
+
+    // Half the width of the light that `per_hogel` samples to a hogel hold: the demodulation is that at the nodes, some
+    // of which are beyond the hogel's ends.
+    double held(std::size_t per_hogel) const {
+        const double reach = 0.5 + 3 / static_cast<double>(per_hogel);
+        return pupil * (1 + guard) + bend * reach + 0.5 / static_cast<double>(HogelBasis::fractions);
+    }
+    // Enough for the film's interpolation to pass the pupil's light, and for samples to hold a hogel's.
+    std::size_t per_hogel() const {
+        std::size_t count = 1;
+        while (static_cast<double>(count) <
+               std::max(pupil * (1 + guard) / optics::film::InterpolationTable::pass, 2.5 * held(count)))
+            ++count;
+        return count;
+    }
+};
+
+// Hogels of windows take as many samples each.
+std::size_t per_hop(const Bands& bands, std::size_t overlap) { return (bands.per_hogel() + overlap - 1) / overlap; }
+
+Bands bands_of(const Grid& plane, const HogelLayout& hogels, const optics::Eye& eye) {
+    const double x =
+        std::clamp(eye.position.x, plane.center_x - plane.size_x() / 2, plane.center_x + plane.size_x() / 2);
+    const double y =
+        std::clamp(eye.position.y, plane.center_y - plane.size_y() / 2, plane.center_y + plane.size_y() / 2);
+    const double wavelength = hogels.grid.wavelength;
+    const double path = wavelength * optics::ViewGeometry(eye.position, wavelength).distance(x, y);
+    const double side = plane.pitch_x * static_cast<double>(hogels.columns);
+    return {0.5 * eye.pupil * side / path, side * side / path};
+}
+
+}  // namespace
+
+std::size_t band_samples_per_hogel(const HogelLayout& hogels, const optics::Eye& eye) {
+    return per_hop(bands_of(hogels.grid.plane, hogels, eye), hogels.overlap);
+}
+
+std::vector<EyeBand> EyeBand::of(const HogelLayout& hogels, const HogelRange& range,
+                                 std::span<const optics::Eye> eyes) {
+    const std::size_t across = hogels.across(), down = hogels.down();
+    const Grid whole =
+        hogel::part(hogels.grid.plane, {range.s0 * across, range.t0 * down, range.ns * across, range.nt * down});
+    using Bases = std::pair<std::shared_ptr<const HogelBasis>, std::shared_ptr<const HogelBasis>>;
+    std::map<std::pair<std::size_t, double>, Bases> known;
+    std::vector<EyeBand> bands;
+    for (const optics::Eye& eye : eyes) {
+        const Bands band = bands_of(whole, hogels, eye);
+        const std::size_t per_hogel = per_hop(band, hogels.overlap), nodes = per_hogel * hogels.overlap;
+        const double half = band.held(nodes);
+        if (!band_is_cheaper(per_hogel, hogels)) return {};
+        Bases& bases = known[{per_hogel, half}];
+        if (!bases.first) {
+            const auto basis = [&](std::size_t samples, std::size_t before) {
+                return std::make_shared<const HogelBasis>(samples, nodes, half, hogels.window, before);
+            };
+            bases.first = basis(hogels.columns, 1);
+            bases.second = hogels.rows == hogels.columns ? bases.first : basis(hogels.rows, bases.first->before());
+            if (bases.second->before() > bases.first->before())
+                bases.first = basis(hogels.columns, bases.second->before());
+        }
+        EyeBand own(optics::ViewGeometry(eye.position, hogels.grid.wavelength));
+        std::tie(own.across_, own.down_) = bases;
+        own.per_hogel_ = per_hogel;
+        own.overlap_ = hogels.overlap;
+        own.bend_ = band.bend;
+        own.reach_ = eye.preview ? half + near_waves : static_cast<double>(hogels.rows);
+        const auto step = [&](double pitch, std::size_t samples) {
+            return pitch * (static_cast<double>(samples) / static_cast<double>(per_hogel));
+        };
+        own.grid_.plane = {own.samples(range.ns),     own.samples(range.nt), step(whole.pitch_x, across),
+                           step(whole.pitch_y, down), whole.center_x,        whole.center_y};
+        for (std::size_t node = 0; node < own.nodes(); ++node) own.places_.push_back(own.across_->place(node));
+        bands.push_back(std::move(own));
+    }
+    return bands;
+}
+
+HogelView EyeBand::view(const HogelLayout& hogels, std::size_t s, std::size_t t, View<float, 3> phases) const {
+    const optics::ViewGeometry& geometry = grid_.geometry;
+    const Grid& plane = hogels.grid.plane;
+    const auto middle = [](std::size_t hogel, std::size_t samples) {
+        return (static_cast<double>(hogel) + 0.5) * static_cast<double>(samples) - 0.5;
+    };
+    const double x = plane.x(middle(s, hogels.across())), y = plane.y(middle(t, hogels.down()));
+    const double width = static_cast<double>(hogels.columns) * plane.pitch_x,
+                 height = static_cast<double>(hogels.rows) * plane.pitch_y, wavelength = geometry.wavelength();
+    HogelView view;
+    view.columns = across_->weights(geometry.sine_x(x, y) * width / wavelength);
+    view.rows = down_->weights(-geometry.sine_y(x, y) * height / wavelength);
+    set_phases({x, y, width, height, view.columns.frequency, view.rows.frequency}, phases);
+    view.phases = phases;
+    view.near = rows_near(view.rows.frequency);
+    return view;
+}
+
+// The rows m of waves with |m + frequency| ≤ reach, modulo n.
+NearRows EyeBand::rows_near(double frequency) const {
+    const auto n = static_cast<double>(down_->samples());
+    const double first = std::ceil(-frequency - reach_), count = std::floor(reach_ - frequency) - first + 1;
+    if (count >= n) return {};
+    return {static_cast<std::size_t>(first - n * std::floor(first / n)), static_cast<std::size_t>(count)};
+}
+
+// e^{ik|x−c|} at the nodes, without the frequencies that are taken. Exact along the two lines through the middle;
+// elsewhere the product of both, times a bend that is nearly the same for all nodes: ∂²r/∂x∂y.
+void EyeBand::set_phases(const Place& hogel, View<float, 3> phases) const {
+    const optics::ViewGeometry& geometry = grid_.geometry;
+    const double reach = places_.back();
+    const double distance = geometry.distance(hogel.x, hogel.y), size = reach * std::max(hogel.width, hogel.height);
+    // r grows by −n_x n_y/r along both axes, and rows run down.
+    const double bend = geometry.sine_x(hogel.x, hogel.y) * geometry.sine_y(hogel.x, hogel.y) * hogel.width *
+                        hogel.height / (distance * geometry.wavelength());
+    // The next terms of the series, in cycles, and the angle up to which its root is exact.
+    const bool small = size * size * size / (distance * distance * geometry.wavelength()) < 2e-4 &&
+                       2 * std::numbers::pi * std::abs(bend) * reach * reach < 0.1;
+    if (!small) return set_phases_one_by_one(hogel, phases);
+    const double x = hogel.x - geometry.eye().x, y = hogel.y - geometry.eye().y, z = geometry.eye().z;
+    const double frequency = 1 / geometry.wavelength();
+    const NodeLine across{x, hogel.width, y * y + z * z, frequency, hogel.columns, distance * frequency},
+        down{y, -hogel.height, x * x + z * z, frequency, hogel.rows, 0};
+    node_phases(across, down, bend, places_, phases.data());
+}
+
+void EyeBand::set_phases_one_by_one(const Place& hogel, View<float, 3> phases) const {
+    for (std::size_t row = 0; row < nodes(); ++row)
+        for (std::size_t column = 0; column < nodes(); ++column) {
+            const double right = places_[column], below = places_[row];
+            const std::complex<float> phase(optics::unit_phasor(
+                grid_.geometry.cycles(hogel.x + right * hogel.width, hogel.y - below * hogel.height) -
+                right * hogel.columns - below * hogel.rows));
+            phases(row, 0, 2 * column) = phases(row, 0, 2 * column + 1) = phase.real();
+            phases(row, 1, 2 * column) = -phase.imag();
+            phases(row, 1, 2 * column + 1) = phase.imag();
+        }
+}
+
+}  // namespace hogel::hologram::eye

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "hogel/hologram/eye/hogel_basis.h"
+#include "hogel/hologram/eye/project.h"
+#include "hogel/light_field.h"
+#include "hogel/optics/eye_light.h"
+
+namespace hogel::hologram::eye {
+
+/// Hogels side by side, or windows around them.
+struct HogelLayout {
+    FieldGrid grid;                     ///< of the hologram
+    std::size_t columns = 0, rows = 0;  ///< samples of a hogel, or of its window
+    std::size_t overlap = 1;            ///< hogels that a window is wide and high
+    HogelBasis::Window window = HogelBasis::Window::none;
+
+    std::size_t across() const { return columns / overlap; }  ///< samples from hogel to hogel
+    std::size_t down() const { return rows / overlap; }
+};
+
+/// The samples of an eye's band to a hogel, along an axis.
+std::size_t band_samples_per_hogel(const HogelLayout& hogels, const optics::Eye& eye);
+
+/// Whether computing so many samples of a band costs less than those of the hogels: at most half as many along an axis.
+/// A band that is nearly as dense as the samples saves nothing.
+inline bool band_is_cheaper(std::size_t per_hogel, const HogelLayout& hogels) {
+    return 4 * per_hogel * per_hogel <= hogels.across() * hogels.down();
+}
+
+/// The band of an eye, of the light of a range of hogels.
+class EyeBand {
+  public:
+    /// Bands of several eyes; none where one of them is not cheaper than samples.
+    static std::vector<EyeBand> of(const HogelLayout& hogels, const HogelRange& range,
+                                   std::span<const optics::Eye> eyes);
+
+    const optics::narrow_band::BandGrid& grid() const { return grid_; }
+    HogelBases bases() const { return {*across_, *down_}; }
+    std::size_t nodes() const { return across_->nodes(); }
+    std::size_t per_hogel() const { return per_hogel_; }
+    /// By how much the demodulation's frequency grows over a hogel, in cycles per hogel.
+    double bend() const { return bend_; }
+    /// Samples of the band that so many hogels light, along an axis.
+    std::size_t samples(std::size_t hogels) const {
+        return (hogels + overlap_ - 1) * per_hogel_ + 2 * across_->before();
+    }
+
+    /// A hogel as the eye sees it.
+    /// @param phases  receives those of the view, [node down][2][phase_row(nodes)]
+    HogelView view(const HogelLayout& hogels, std::size_t s, std::size_t t, View<float, 3> phases) const;
+
+  private:
+    explicit EyeBand(const optics::ViewGeometry& geometry) : grid_{geometry, {}} {}
+    // A hogel: its middle, its size, and the frequencies that its weights have taken from the demodulation.
+    struct Place {
+        double x, y, width, height, columns, rows;
+    };
+    void set_phases(const Place& hogel, View<float, 3> phases) const;
+    void set_phases_one_by_one(const Place& hogel, View<float, 3> phases) const;
+    NearRows rows_near(double frequency) const;
+
+    optics::narrow_band::BandGrid grid_;
+    std::shared_ptr<const HogelBasis> across_, down_;
+    std::size_t per_hogel_ = 0, overlap_ = 1;
+    double bend_ = 0;
+    double reach_ = 0;            // rows of waves on either side of the eye's direction that count
+    std::vector<double> places_;  // of the nodes
+};
+
+}  // namespace hogel::hologram::eye
