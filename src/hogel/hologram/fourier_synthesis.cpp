@@ -6,17 +6,27 @@
 #include <utility>
 
 namespace hogel::hologram {
+namespace {
+
+// Moduli of sixteen larger hogels side by side would not fit into the second cache.
+constexpr std::size_t max_side_in_lanes = 256;
+
+}  // namespace
 
 FourierSynthesis::FourierSynthesis(FrequencyGrid frequencies, std::size_t lines, const HologramOptions& options,
                                    DirectionPhases directions, LobeAverage average)
     : options_(options),
       average_(average),
       frequencies_(std::move(frequencies)),
+      lit_rows_(frequencies_.lit_rows()),
       lines_(lines),
       fft_(frequencies_.rows(), frequencies_.columns()),
       directions_(std::move(directions)) {
     if (lines > 0) down_.emplace(lines);
+    if (lines > 0 && math::good_fft_size(lines) == lines) sixteen_down_.emplace(lines);
     if (lines == 0 && FastTiles::can(frequencies_.columns())) fast_.emplace(frequencies_.columns(), directions_);
+    const std::size_t n = frequencies_.columns();
+    if (independent() && !has_lanes() && n >= rows_at_once && n <= max_side_in_lanes) middle_ = middle_phases(n);
 }
 
 void FourierSynthesis::prepare(View<const float, 2> radiances, View<const float, 2>, View<float, 2> prepared) const {
@@ -95,6 +105,29 @@ SeriesOfLanes FourierSynthesis::series_of_lanes(std::span<const HogelPlace> plac
     return series;
 }
 
+void FourierSynthesis::gather_lanes(std::span<const float* const> moduli, std::size_t row, float* gathered) const {
+    if (fast_) return fast_->gather_lanes(moduli, row, gathered);
+    const std::size_t n = frequencies_.columns();
+    for (std::size_t end = std::min(row + rows_together, n); row < end; ++row)
+        for (std::size_t x = 0; x < n && lit_rows_[row]; x += rows_at_once) {
+            const std::size_t at = row * n + std::min(x, n - rows_at_once);
+            gather_rows(moduli, at, gathered + at * rows_at_once, rows_at_once);
+        }
+}
+
+void FourierSynthesis::row_of_lanes(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,
+                                    float* waves) const {
+    if (middle_.empty()) return fast_->row_of_lanes(series, row, shared, moduli, waves);
+    const std::size_t n = frequencies_.columns();
+    if (!shared)
+        moduli += row * n * rows_at_once;
+    else if (fast_)
+        moduli += row / rows_at_once * rows_at_once * n + row % rows_at_once;
+    else
+        moduli += row * n;
+    random_row_of_any_side(series, row, shared, moduli, shared && !fast_ ? 1 : rows_at_once, middle_, n, waves);
+}
+
 void FourierSynthesis::transform(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> values,
                                  Complex* to, std::size_t to_row) const {
     spread_phases(moduli, place, values);
@@ -122,13 +155,40 @@ void FourierSynthesis::spread_lines(std::span<const float> moduli, const HogelPl
         spread_phases(moduli, place, {values.data(), {1, n}});
         write_lines(options_, place, lines_, {values.data(), n}, values.data(), n);
     }
-    thread_local std::vector<Complex> column;
-    column.resize(lines_);
+    transform_down(values);
+}
+
+// Divided by the number of lines, so that a backward transform gives the lines again.
+void FourierSynthesis::transform_down(View<Complex, 2> values) const {
+    const std::size_t n = values.extent(1);
     const float share = 1 / static_cast<float>(lines_);
-    for (std::size_t x = 0; x < n; ++x) {
-        for (std::size_t line = 0; line < lines_; ++line) column[line] = values(line, x);
-        down_->forward(column.data());
-        for (std::size_t row = 0; row < lines_; ++row) values(row, x) = share * column[row];
+    if (!sixteen_down_) {
+        thread_local std::vector<Complex> column;
+        column.resize(lines_);
+        for (std::size_t x = 0; x < n; ++x) {
+            for (std::size_t line = 0; line < lines_; ++line) column[line] = values(line, x);
+            down_->forward(column.data());
+            for (std::size_t row = 0; row < lines_; ++row) values(row, x) = share * column[row];
+        }
+        return;
+    }
+    constexpr std::size_t together = math::SplitFft::together, step = math::SplitFft::row;
+    thread_local Array<float, 1> columns;
+    if (columns.size() != lines_ * step) columns = Array<float, 1>({lines_ * step});
+    for (std::size_t x = 0; x < n; x += together) {
+        const std::size_t count = std::min(together, n - x);
+        for (std::size_t line = 0; line < lines_; ++line) {
+            float* to = columns.data() + line * step;
+            for (std::size_t i = 0; i < count; ++i) {
+                to[i] = values(line, x + i).real();
+                to[together + i] = values(line, x + i).imag();
+            }
+        }
+        sixteen_down_->transform(columns.data());
+        for (std::size_t row = 0; row < lines_; ++row) {
+            const float* from = columns.data() + sixteen_down_->place(row) * step;
+            for (std::size_t i = 0; i < count; ++i) values(row, x + i) = {share * from[i], share * from[together + i]};
+        }
     }
 }
 

@@ -10,6 +10,7 @@
 #include "hogel/hologram/fast_tiles.h"
 #include "hogel/hologram/hogel_synthesis.h"
 #include "hogel/math/fft.h"
+#include "hogel/math/split_fft.h"
 
 namespace hogel::hologram {
 
@@ -39,15 +40,12 @@ class FourierSynthesis final : public HogelSynthesis, public HogelWaves {
                float* waves) const override;
     void powers(std::span<const float> moduli, float* powers) const override;
     bool independent() const override { return directions_.empty() && lines_ == 0; }
-    bool has_lanes() const override { return fast_ && fast_->has_lanes(); }
+    bool has_light(std::size_t row) const override { return lines_ > 0 || lit_rows_[row]; }
+    bool has_lanes() const override { return !middle_.empty() || (fast_ && fast_->has_lanes()); }
     SeriesOfLanes series_of_lanes(std::span<const HogelPlace> places) const override;
-    void gather_lanes(std::span<const float* const> moduli, std::size_t row, float* gathered) const override {
-        fast_->gather_lanes(moduli, row, gathered);
-    }
+    void gather_lanes(std::span<const float* const> moduli, std::size_t row, float* gathered) const override;
     void row_of_lanes(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,
-                      float* waves) const override {
-        fast_->row_of_lanes(series, row, shared, moduli, waves);
-    }
+                      float* waves) const override;
 
   private:
     void prepare(View<const float, 2> values, bool of_roots, View<float, 2> moduli) const;
@@ -55,15 +53,19 @@ class FourierSynthesis final : public HogelSynthesis, public HogelWaves {
                    std::size_t to_row) const;
     void spread_phases(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> values) const;
     void spread_lines(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> values) const;
+    void transform_down(View<Complex, 2> values) const;
 
     HologramOptions options_;
     LobeAverage average_;
     FrequencyGrid frequencies_;
+    std::vector<bool> lit_rows_;
     std::size_t lines_;
     math::Fft2 fft_;
-    std::optional<math::Fft1> down_;  // of the lines of a hogel
+    std::optional<math::Fft1> down_;              // of the lines of a hogel
+    std::optional<math::SplitFft> sixteen_down_;  // the same, if it supports their number
     DirectionPhases directions_;
     std::optional<FastTiles> fast_;  // if it supports this side of hogels
+    std::vector<float> middle_;      // phases from the middle, for lanes that fast_ does not support
 };
 
 }  // namespace hogel::hologram

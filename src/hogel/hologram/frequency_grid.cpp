@@ -204,6 +204,12 @@ void FrequencyGrid::list_runs() {
     }
 }
 
+std::vector<bool> FrequencyGrid::lit_rows() const {
+    std::vector<bool> lit(rows_);
+    for (const Run& run : runs_) lit[run.row] = true;
+    return lit;
+}
+
 bool is_frequency_grid(const LightFieldGrid& light_field, double wavelength) {
     const auto fits = [&](double step, double middle) {
         return std::abs(step * light_field.pitch / wavelength - 1) < 1e-6 &&

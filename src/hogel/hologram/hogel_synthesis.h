@@ -50,6 +50,9 @@ class HogelWaves : public virtual HogelPreparation {
     /// independent.
     virtual bool independent() const { return false; }
 
+    /// Whether waves of a row may have light, in any hogel.
+    virtual bool has_light(std::size_t /*row*/) const { return true; }
+
     /// The number of hogels or looks that are lanes of vectors.
     static constexpr std::size_t lanes = rows_at_once;
     /// Whether the functions below compute waves.
@@ -57,7 +60,7 @@ class HogelWaves : public virtual HogelPreparation {
     /// The phases of some hogels or looks, at most `lanes`.
     virtual SeriesOfLanes series_of_lanes(std::span<const HogelPlace>) const { return {}; }
     /// Stores what hogels have prepared for sixteen rows, at most one hogel for each lane, as row_of_lanes() takes it:
-    /// its part of powers_size() · lanes values.
+    /// its part of powers_size() · lanes values. Rows without light may be left as they are.
     /// @param row       the first one, a multiple of sixteen
     /// @param gathered  all values
     virtual void gather_lanes(std::span<const float* const>, std::size_t /*row*/, float* /*gathered*/) const {}

@@ -2,6 +2,8 @@
 #include "hogel/hologram/hogel_tiles.h"
 
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "hogel/hologram/random_bytes.h"
 
@@ -38,6 +40,38 @@ void random_row_plain(const SeriesOfLanes& series, std::size_t row, bool shared,
             const float modulus = moduli[x * rows_at_once + (shared ? 0 : lane)];
             out[x * square_column + lane] = modulus * roots.re[byte];
             out[x * square_column + rows_at_once + lane] = modulus * roots.im[byte];
+        }
+    }
+}
+
+std::vector<float> middle_phases(std::size_t columns) {
+    std::vector<float> phases;
+    const auto n = static_cast<double>(columns);
+    for (std::size_t k = 0; k < 2 * columns; ++k) {
+        const double angle = std::numbers::pi * std::fmod(static_cast<double>(k) * (n - 1) / n, 2.0);
+        phases.push_back(static_cast<float>(std::cos(angle)));
+        phases.push_back(static_cast<float>(std::sin(angle)));
+    }
+    return phases;
+}
+
+void random_row_of_any_side_plain(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,
+                                  std::size_t apart, std::span<const float> middle, std::size_t columns, float* out) {
+    const PhaseRoots& roots = phase_roots();
+    std::array<std::uint8_t, 16> bytes;
+    for (std::size_t lane = 0; lane < rows_at_once; ++lane) {
+        PhaseSeries own{series.key, {}};
+        for (std::size_t word = 0; word < 3; ++word)
+            own.position[word] = static_cast<std::uint32_t>(series.position[word][lane]);
+        for (std::size_t x = 0; x < columns; ++x) {
+            const std::size_t at = row * columns + x;
+            if (x == 0 || at % 16 == 0) random_bytes_plain(own, static_cast<std::uint32_t>(at / 16), bytes);
+            const float modulus = moduli[x * apart + (shared ? 0 : lane)];
+            const std::complex<float> wave = modulus *
+                                             std::complex(roots.re[bytes[at % 16]], roots.im[bytes[at % 16]]) *
+                                             std::complex(middle[2 * (row + x)], middle[2 * (row + x) + 1]);
+            out[x * square_column + lane] = wave.real();
+            out[x * square_column + rows_at_once + lane] = wave.imag();
         }
     }
 }

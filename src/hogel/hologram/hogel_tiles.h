@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "hogel/hologram/random_phase.h"
 
@@ -44,6 +45,17 @@ void random_row_plain(const SeriesOfLanes& series, std::size_t row, bool shared,
                       std::size_t columns, float* out);
 void random_row(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli, std::size_t columns,
                 float* out);
+
+/// The phases from the middle of a hogel of any side: e^{iπk(n − 1)/n} for k = row + x, the parts one after the other.
+std::vector<float> middle_phases(std::size_t columns);
+
+/// As random_row(), of hogels of any side.
+/// @param apart   from one column's moduli to the next; those of lanes follow each other unless `shared`
+/// @param middle  middle_phases(columns)
+void random_row_of_any_side_plain(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,
+                                  std::size_t apart, std::span<const float> middle, std::size_t columns, float* out);
+void random_row_of_any_side(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,
+                            std::size_t apart, std::span<const float> middle, std::size_t columns, float* out);
 
 /// out = moduli · phases. `phases` has the layout of `out`.
 void shared_waves(std::span<const float> phases, const float* moduli, float* out);

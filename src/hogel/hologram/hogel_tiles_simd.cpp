@@ -6,6 +6,8 @@
 // Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
+#include <type_traits>
+
 #include "hogel/hologram/hogel_tiles.h"
 #include "hogel/hologram/philox_lanes.h"
 #include "hogel/math/transpose-inl.h"
@@ -24,6 +26,11 @@ void RandomWaves(const PhaseSeries& series, const PhaseRoots&, std::size_t first
 void RandomRow(const SeriesOfLanes& series, const PhaseRoots&, std::size_t row, bool shared, const float* moduli,
                std::size_t columns, float* out) {
     random_row_plain(series, row, shared, moduli, columns, out);
+}
+void RandomRowOfAnySide(const SeriesOfLanes& series, const PhaseRoots&, std::size_t row, bool shared,
+                        const float* moduli, std::size_t apart, std::span<const float> middle, std::size_t columns,
+                        float* out) {
+    random_row_of_any_side_plain(series, row, shared, moduli, apart, middle, columns, out);
 }
 #else
 using D = hn::CappedTag<float, rows_at_once>;
@@ -147,6 +154,60 @@ void RandomRow(const SeriesOfLanes& series, const PhaseRoots& roots, std::size_t
     else
         random_row_as<false>(series, roots, row, moduli, columns, out);
 }
+
+// Draws begin before the row's first column and end after its last one, because all rows together are one sequence.
+template <bool shared>
+HWY_INLINE void random_row_of_any_side_as(const SeriesOfLanes& series, const PhaseRoots& roots, std::size_t row,
+                                          const float* moduli, std::size_t apart, const float* middle,
+                                          std::size_t columns, float* out) {
+    const D d;
+    const hn::RebindToUnsigned<D> words;
+    const hn::Repartition<std::uint64_t, decltype(words)> wide;
+    const std::size_t half = hn::Lanes(wide), first = row * columns, last = first + columns - 1;
+    for (std::size_t draw = first / 16; draw <= last / 16; ++draw)
+        for (std::size_t i = 0; i < rows_at_once; i += hn::Lanes(d)) {
+            auto a0 = hn::Set(wide, draw), b0 = a0;
+            auto a1 = hn::Load(wide, series.position[0] + i), b1 = hn::Load(wide, series.position[0] + i + half);
+            auto a2 = hn::Load(wide, series.position[1] + i), b2 = hn::Load(wide, series.position[1] + i + half);
+            auto a3 = hn::Load(wide, series.position[2] + i), b3 = hn::Load(wide, series.position[2] + i + half);
+            philox_lanes(wide, a0, a1, a2, a3, series.key);
+            philox_lanes(wide, b0, b1, b2, b3, series.key);
+            const auto wave = [&](auto shift, auto word, std::size_t at) HWY_ATTR {
+                if (at < first || at > last) return;
+                const std::size_t x = at - first;
+                V re, im, modulus;
+                Root<shift()>(d, roots, word, re, im);
+                if constexpr (shared)
+                    modulus = hn::Set(d, moduli[x * apart]);
+                else
+                    modulus = hn::Load(d, moduli + x * apart + i);
+                const V c = hn::Set(d, middle[2 * (row + x)]), s = hn::Set(d, middle[2 * (row + x) + 1]);
+                float* to = out + x * square_column + i;
+                hn::Store(hn::Mul(modulus, hn::NegMulAdd(im, s, hn::Mul(re, c))), d, to);
+                hn::Store(hn::Mul(modulus, hn::MulAdd(im, c, hn::Mul(re, s))), d, to + rows_at_once);
+            };
+            const auto four = [&](auto lower, auto upper, std::size_t at) HWY_ATTR {
+                const auto word = hn::ConcatEven(words, hn::BitCast(words, upper), hn::BitCast(words, lower));
+                wave(std::integral_constant<int, 0>(), word, at);
+                wave(std::integral_constant<int, 8>(), word, at + 1);
+                wave(std::integral_constant<int, 16>(), word, at + 2);
+                wave(std::integral_constant<int, 24>(), word, at + 3);
+            };
+            four(a0, b0, 16 * draw);
+            four(a1, b1, 16 * draw + 4);
+            four(a2, b2, 16 * draw + 8);
+            four(a3, b3, 16 * draw + 12);
+        }
+}
+
+void RandomRowOfAnySide(const SeriesOfLanes& series, const PhaseRoots& roots, std::size_t row, bool shared,
+                        const float* moduli, std::size_t apart, std::span<const float> middle, std::size_t columns,
+                        float* out) {
+    if (shared)
+        random_row_of_any_side_as<true>(series, roots, row, moduli, apart, middle.data(), columns, out);
+    else
+        random_row_of_any_side_as<false>(series, roots, row, moduli, apart, middle.data(), columns, out);
+}
 #endif
 
 void TransposeRows(const float* from, std::size_t columns, float* to, std::size_t to_sixteen) {
@@ -177,6 +238,7 @@ namespace hogel::hologram {
 
 HWY_EXPORT(RandomWaves);
 HWY_EXPORT(RandomRow);
+HWY_EXPORT(RandomRowOfAnySide);
 HWY_EXPORT(TransposeRows);
 HWY_EXPORT(GatherRows);
 HWY_EXPORT(TransposeHogels);
@@ -189,6 +251,11 @@ void random_waves(const PhaseSeries& series, std::size_t first_row, const float*
 void random_row(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli, std::size_t columns,
                 float* out) {
     HWY_DYNAMIC_DISPATCH(RandomRow)(series, phase_roots(), row, shared, moduli, columns, out);
+}
+
+void random_row_of_any_side(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,
+                            std::size_t apart, std::span<const float> middle, std::size_t columns, float* out) {
+    HWY_DYNAMIC_DISPATCH(RandomRowOfAnySide)(series, phase_roots(), row, shared, moduli, apart, middle, columns, out);
 }
 
 void transpose_rows(const float* from, std::size_t columns, float* to, std::size_t to_sixteen) {

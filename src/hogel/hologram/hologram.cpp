@@ -2,16 +2,19 @@
 #include "hogel/hologram.h"
 
 #include <algorithm>
+#include <array>
 #include <list>
 #include <mutex>
 #include <numeric>
 #include <optional>
 
+#include "hogel/core/lru_cache.h"
 #include "hogel/core/object_pool.h"
 #include "hogel/core/parallel.h"
 #include "hogel/hologram/eye/stereogram_eyes.h"
 #include "hogel/hologram/hogel_synthesis.h"
 #include "hogel/hologram/windows/overlap_add.h"
+#include "hogel/resources.h"
 
 namespace hogel {
 
@@ -90,14 +93,27 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
 
     std::unique_ptr<optics::EyeDrawing> eye_drawing(const Region& part,
                                                     std::span<const optics::Eye> eyes) const override {
-        const HogelWaves* waves = synthesis_->hogel_waves();
-        if (waves == nullptr) return nullptr;
-        eye::Hogels hogels{{grid_, columns_, rows_}, waves, {}, kept_, kept_waves_ ? &*kept_waves_ : nullptr};
-        hogels.prepare = [this, waves](const HogelRange& range, View<float, 2> prepared) {
-            auto scratch = scratch_pool_.take();
-            prepare(*waves, range, scratch->rays, prepared);
-        };
-        return eye::make_stereogram_eyes(hogels, hogels_of(part), eyes);
+        if (synthesis_->hogel_waves() == nullptr) return nullptr;
+        const eye::Hogels hogels = hogels_for_eyes(nullptr);
+        return eye::make_stereogram_eyes({&hogels, 1}, hogels_of(part), eyes);
+    }
+
+    std::unique_ptr<optics::EyeDrawing> eye_drawing_of_colours(std::span<const optics::EyeLight* const> colours,
+                                                               const Region& part,
+                                                               std::span<const optics::Eye> eyes) const override {
+        // The blocks of the strips that all threads draw.
+        const std::size_t blocks = thread_count() * (front().hogels_s / eye::block_across + 2);
+        const double bytes = static_cast<double>(blocks * eye::block_across * eye::tile_side * rays_ *
+                                                 (front().channels + (with_depth_ ? 1 : 0)) * sizeof(float));
+        if (bytes > max_shared_bytes) return nullptr;
+        const auto shared = std::make_shared<SharedRays>(blocks);
+        std::vector<eye::Hogels> all;
+        for (const optics::EyeLight* colour : colours) {
+            const auto* own = dynamic_cast<const Stereogram*>(colour);
+            if (own == nullptr || !own->has_rays_of(*this)) return nullptr;
+            all.push_back(own->hogels_for_eyes(shared));
+        }
+        return eye::make_stereogram_eyes(all, hogels_of(part), eyes);
     }
 
     std::size_t keep_amplitudes(std::size_t memory) const override {
@@ -149,6 +165,34 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
     // The maximum bytes of rays that are read at a time (but at least one row of hogels), because the rays of a region
     // may take gigabytes.
     static constexpr std::size_t max_ray_bytes = std::size_t{1} << 27;
+
+    // The rays of blocks of hogels, which several colours need one after the other.
+    using SharedRays = core::LruCache<std::array<std::size_t, 4>, std::vector<LightFieldTile>>;
+    static constexpr double max_shared_bytes = 512.0 * (1 << 20);
+
+    // Whether hogels are made from the same rays as another's, and these are not in memory.
+    bool has_rays_of(const Stereogram& other) const {
+        return synthesis_->hogel_waves() != nullptr && kept_.size() == 0 && looks_ == other.looks_ &&
+               with_depth_ == other.with_depth_ && columns_ == other.columns_ && rows_ == other.rows_ &&
+               std::ranges::equal(faces(), other.faces()) && light_field_.front().in_memory().size() == 0;
+    }
+
+    // @param shared  null, or the rays of the colours that are drawn together
+    eye::Hogels hogels_for_eyes(const std::shared_ptr<SharedRays>& shared) const {
+        const HogelWaves* waves = synthesis_->hogel_waves();
+        eye::Hogels hogels{{grid_, columns_, rows_}, waves, {}, kept_, kept_waves_ ? &*kept_waves_ : nullptr};
+        hogels.prepare = [this, waves, shared](const HogelRange& range, View<float, 2> prepared) {
+            auto scratch = scratch_pool_.take();
+            if (!shared) return prepare(*waves, range, scratch->rays, prepared);
+            const auto tiles = shared->get({range.s0, range.t0, range.ns, range.nt}, [&] {
+                auto made = std::make_shared<std::vector<LightFieldTile>>();
+                read_rays(range, *made);
+                return std::shared_ptr<const std::vector<LightFieldTile>>(std::move(made));
+            });
+            prepare(*waves, *tiles, 0, prepared);
+        };
+        return hogels;
+    }
 
     const LightFieldGrid& front() const { return light_field_.grid(); }
     std::span<const LightField::Source> faces() const { return light_field_.faces(); }

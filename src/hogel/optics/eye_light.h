@@ -56,6 +56,14 @@ class EyeLight {
     /// The light of a part of the hologram; null where computing the samples costs less. Hogels that the part cuts
     /// belong to it.
     virtual std::unique_ptr<EyeDrawing> eye_drawing(const Region& part, std::span<const Eye> eyes) const = 0;
+    /// The same for several colours of a hologram, of which this is one, if they need the same rays and these are not
+    /// in memory: rays are made once for all colours. The bands of all eyes of the first colour, then of the next.
+    /// Otherwise null.
+    virtual std::unique_ptr<EyeDrawing> eye_drawing_of_colours(std::span<const EyeLight* const> /*colours*/,
+                                                               const Region& /*part*/,
+                                                               std::span<const Eye> /*eyes*/) const {
+        return nullptr;
+    }
     /// Computes what all eyes and looks share, the amplitudes of the waves, and keeps it, if that takes at most
     /// `memory` bytes. Not to be called while the field is read. Returns the bytes that are kept.
     virtual std::size_t keep_amplitudes(std::size_t memory) const = 0;

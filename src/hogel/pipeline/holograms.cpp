@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "hogel/core/shared_order.h"
 #include "hogel/error.h"
 #include "hogel/hologram/parallax.h"
+#include "hogel/optics/photograph_together.h"
 #include "hogel/pipeline.h"
 
 namespace hogel {
@@ -69,12 +71,16 @@ std::vector<Image> photograph_colours(const Fields& holograms, std::span<const C
     const core::StopScope scope(progress);
     const std::size_t colours = holograms.size();
     std::vector<Image> pictures(cameras.size());
+    const auto* full = std::get_if<PlaneWaveCameraOptions>(&with);
+    std::optional<std::vector<std::vector<Image>>> together;  // [colour][camera]
+    if (full == nullptr)
+        together = optics::photograph_together(holograms, cameras, std::get<PhotographOptions>(with), progress);
     for (std::size_t c = 0; c < colours; ++c) {
         const Progress part = progress.part(c, colours);
-        const auto* full = std::get_if<PlaneWaveCameraOptions>(&with);
         const std::vector<Image> seen =
-            full != nullptr ? photograph_by_plane_waves(*holograms[c], cameras, *full, part)
-                            : photograph(*holograms[c], cameras, std::get<PhotographOptions>(with), part);
+            together          ? std::move((*together)[c])
+            : full != nullptr ? photograph_by_plane_waves(*holograms[c], cameras, *full, part)
+                              : photograph(*holograms[c], cameras, std::get<PhotographOptions>(with), part);
         for (std::size_t i = 0; i < cameras.size(); ++i) {
             if (c == 0) {
                 pictures[i] = Image(seen[i].width(), seen[i].height(), colours);

@@ -2,6 +2,7 @@
 // Photographs from one eye after the other.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stop_token>
@@ -9,6 +10,7 @@
 #include "hogel/error.h"
 #include "hogel/hologram.h"
 #include "hogel/hologram/test_light_fields.h"
+#include "hogel/optics/photograph_together.h"
 #include "hogel/photograph.h"
 #include "hogel/units.h"
 
@@ -119,6 +121,35 @@ TEST(EyePhotographer, continues_after_a_stop) {
     const Image picture = photographer.photograph(s.camera());
     const Camera camera = s.camera();
     EXPECT_LT(distance(picture, photograph(*s.hologram, {&camera, 1}).front()), 4e-3);
+}
+
+// Three colours of a light field that is not in memory share its rays, and their pictures are those of each by itself.
+TEST(PhotographTogether, makes_rays_once_for_all_colours) {
+    LightFieldBuffer rays(LightFieldGrid{70, 22, 48_um, 24, 24, Perspective{0.15, 0.15}, 3});
+    for (std::size_t i = 0; i < rays.radiance.size(); ++i)
+        rays.radiance.data()[i] = static_cast<float>(1 + std::sin(0.001 * static_cast<double>(i)));
+    const auto source = std::make_shared<Counted>(std::move(rays));
+    std::vector<std::shared_ptr<const FieldSource>> colours;
+    for (std::size_t c = 0; c < 3; ++c)
+        colours.push_back(make_hologram(LightField(LightField::Source(source)),
+                                        {{630_nm - 80_nm * static_cast<double>(c), c}, 1.5_um, Fourier{}, 3, 7}));
+    std::vector<Camera> cameras(3, Setting().camera());
+    cameras[1].focus_depth = -1_mm;
+    cameras[2].eye.x = -2_mm;
+    std::vector<std::vector<Image>> alone;
+    source->readings = 0;
+    for (const auto& colour : colours) alone.push_back(photograph(*colour, cameras));
+    const std::size_t readings = source->readings;
+    source->readings = 0;
+    const auto together = optics::photograph_together(colours, cameras, {}, {});
+    ASSERT_TRUE(together);
+    EXPECT_EQ(3 * source->readings, readings);
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < cameras.size(); ++i)
+            EXPECT_TRUE(std::ranges::equal((*together)[c][i].pixels.elements(), alone[c][i].pixels.elements()));
+    // Not from samples, nor of one colour.
+    EXPECT_FALSE(optics::photograph_together(colours, cameras, {.from = LightFrom::samples}, {}));
+    EXPECT_FALSE(optics::photograph_together({colours.data(), 1}, cameras, {}, {}));
 }
 
 }  // namespace

@@ -52,6 +52,7 @@ KeptWaves::KeptWaves(const HogelLayout& hogels, const HogelWaves& waves, View<co
             const SeriesOfLanes series = waves.series_of_lanes(places);
             for (std::size_t row = 0; row < hogels.rows; ++row) {
                 if (row % HogelWaves::rows_together == 0) waves.gather_lanes(sources, row, gathered.data());
+                if (!waves.has_light(row)) continue;
                 waves.row_of_lanes(series, row, false, gathered.data(), row_of_waves.data());
                 for (float& value : row_of_waves.elements()) value /= scales_[tile];
                 lit_(tile, row) = std::ranges::any_of(row_of_waves.elements(), [](float value) { return value != 0; });

@@ -199,5 +199,50 @@ TEST_P(EyeLanes, have_the_random_phases_of_single_hogels) {
     }
 }
 
+// Of sides that are no powers of two, too.
+TEST_P(EyeLanes, have_the_random_phases_of_single_hogels_of_any_side) {
+    for (const std::size_t n : {17, 32, 50, 107}) {
+        const std::vector<float> phases = middle_phases(n);
+        const Array<float, 1> moduli = noise(n * n * lanes, 9);  // [row][column][lane]
+        SeriesOfLanes series{{5, 6}, {}};
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            series.position[0][lane] = 2;
+            series.position[1][lane] = 70 + lane;
+            series.position[2][lane] = 1000 - lane;
+        }
+        const MiddlePhases middle(n, n);
+        for (const bool shared : {false, true}) {
+            Array<float, 1> fast({n * n * both}), plain({n * both});
+            for (std::size_t row = 0; row < n; ++row) {
+                const float* own = moduli.data() + row * n * lanes;
+                random_row_of_any_side(series, row, shared, own, lanes, phases, n, &fast(row * n * both));
+                random_row_of_any_side_plain(series, row, shared, own, lanes, phases, n, plain.data());
+                for (std::size_t i = 0; i < plain.size(); ++i)
+                    ASSERT_NEAR(fast(row * n * both + i), plain(i),
+                                1e-6 * std::abs(moduli(row * n * lanes + i / 32)) + 4e-6)
+                        << n;
+            }
+            for (const std::size_t lane : {0, 15}) {
+                std::vector<float> of_lane(n * n);
+                for (std::size_t i = 0; i < n * n; ++i) of_lane[i] = moduli(i * lanes + (shared ? 0 : lane));
+                PhaseSeries one{series.key, {}};
+                for (std::size_t word = 0; word < 3; ++word)
+                    one.position[word] = static_cast<std::uint32_t>(series.position[word][lane]);
+                Array<std::complex<float>, 2> values({n, n});
+                spread_random_phases(one, of_lane, values.elements());
+                Array<float, 1> waves({HogelWaves::size(n, n)});
+                store_waves(values, {}, waves.data());
+                middle.apply_plain(waves.data());
+                for (std::size_t y = 0; y < n; ++y)
+                    for (std::size_t x = 0; x < n; ++x)
+                        for (std::size_t part : {std::size_t{0}, lanes})
+                            ASSERT_NEAR(fast((y * n + x) * both + part + lane),
+                                        waves((y / 16 * n + x) * both + part + y % 16), 1e-5)
+                                << n << " " << lane << " " << y << " " << x;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace hogel::hologram::eye

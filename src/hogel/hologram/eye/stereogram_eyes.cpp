@@ -17,8 +17,7 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// Hogels across whose values are prepared together.
-constexpr std::size_t block_across = 32, tile = tile_side;
+constexpr std::size_t tile = tile_side;
 
 // Rows of tiles between which the light of hogels does not meet: nodes reach at most eight beyond either end of a
 // hogel, or of its window, which has at least one to a hogel.
@@ -48,9 +47,10 @@ core::Sent<EyeBands> sent_bands() {
             }};
 }
 
-class StereogramEyes final : public optics::EyeDrawing {
+// Eyes that see the light of one colour.
+class ColourEyes {
   public:
-    StereogramEyes(const Hogels& hogels, const HogelRange& range, std::vector<EyeBand> eyes)
+    ColourEyes(const Hogels& hogels, const HogelRange& range, std::vector<EyeBand> eyes)
         : hogels_(hogels),
           range_(range),
           eyes_(std::move(eyes)),
@@ -61,54 +61,9 @@ class StereogramEyes final : public optics::EyeDrawing {
         for (const EyeBand& eye : eyes_) in_lanes_ = in_lanes_ && eye.bend() <= max_bend_in_lanes;
     }
 
-    const optics::narrow_band::BandGrid& band(std::size_t eye) const override { return eyes_[eye].grid(); }
+    const std::vector<EyeBand>& eyes() const { return eyes_; }
+    std::size_t overlap() const { return hogels_.overlap; }
 
-    std::vector<std::vector<Array<Complex, 2>>> draw(std::size_t first_look, std::size_t looks,
-                                                     const Progress& progress) const override {
-        // The system clears their pages, half a gigabyte for many looks, on all threads.
-        EyeBands bands(eyes_.size(), std::vector<Array<Complex, 2>>(looks));
-        core::parallel_for(eyes_.size() * looks, [&](std::size_t i) {
-            const Grid& plane = eyes_[i / looks].grid().plane;
-            bands[i / looks][i % looks] = Array<Complex, 2>({plane.height, plane.width});
-        });
-        // Strips of hogels in an order in which those that follow each other do not meet.
-        std::vector<std::size_t> strips;
-        const std::size_t apart = strips_apart(hogels_.overlap) * tile;
-        for (std::size_t first = 0; first < apart; first += tile)
-            for (std::size_t t = first; t < range_.nt; t += apart) strips.push_back(t);
-        const auto report = [&](std::size_t done) {
-            progress.report(static_cast<double>(done) / static_cast<double>(strips.size()));
-        };
-        if (core::team_of_several() != nullptr) {
-            core::shared_ordered<EyeBands>(
-                strips.size(), core::default_in_flight(), sent_bands(),
-                [&](std::size_t i) {
-                    auto scratch = scratch_pool_.take();
-                    draw_strip(strips[i], {first_look, looks}, *scratch);
-                    return scratch->strip;
-                },
-                [&](std::size_t i, const EyeBands& strip) {
-                    add(strip, strips[i], bands);
-                    report(i + 1);
-                });
-            return bands;
-        }
-        std::mutex mutex;
-        std::size_t done = 0;
-        for (std::size_t first = 0, end = 0; first < strips.size(); first = end) {
-            while (end < strips.size() && strips[end] % apart == strips[first] % apart) ++end;
-            core::parallel_for(end - first, [&](std::size_t i) {
-                auto scratch = scratch_pool_.take();
-                draw_strip(strips[first + i], {first_look, looks}, *scratch);
-                add(scratch->strip, strips[first + i], bands);
-                const std::lock_guard lock(mutex);
-                report(++done);
-            });
-        }
-        return bands;
-    }
-
-  private:
     struct Looks {
         std::size_t first, count;
     };
@@ -124,6 +79,7 @@ class StereogramEyes final : public optics::EyeDrawing {
         std::vector<const float*> sources;
         EyeBands strip;
     };
+    auto scratch() const { return scratch_pool_.take(); }
 
     // Draws the light of a row of tiles, from row t of the hogels on, into scratch.strip: the rows of each band that it
     // reaches.
@@ -145,8 +101,9 @@ class StereogramEyes final : public optics::EyeDrawing {
                  scratch.strip);
     }
 
-    // Adds the light of a strip to the bands.
-    void add(const EyeBands& strip, std::size_t t, EyeBands& bands) const {
+    // Adds the light of a strip to the bands of these eyes.
+    void add(std::span<const std::vector<Array<Complex, 2>>> strip, std::size_t t,
+             std::span<std::vector<Array<Complex, 2>>> bands) const {
         for (std::size_t e = 0; e < eyes_.size(); ++e)
             for (std::size_t look = 0; look < strip[e].size(); ++look) {
                 const Array<Complex, 2>& own = strip[e][look];
@@ -156,6 +113,7 @@ class StereogramEyes final : public optics::EyeDrawing {
             }
     }
 
+  private:
     // Adds the light of some hogels to all bands.
     void draw(const HogelRange& some, const Looks& looks, Scratch& scratch, EyeBands& bands) const {
         prepare(some, scratch);
@@ -304,7 +262,7 @@ class StereogramEyes final : public optics::EyeDrawing {
         };
         std::size_t gathered = 0;  // rows
         for (std::size_t row = 0; row < n; ++row) {
-            const bool lit = kept.lit == nullptr || kept.lit[row] != 0;
+            const bool lit = kept.lit != nullptr ? kept.lit[row] != 0 : hogels_.waves->has_light(row);
             if (lit && counts(row)) {
                 if (kept.rows != nullptr) {
                     core::to_float(kept.rows + row * n * both, scratch.waves.data(), n * both);
@@ -357,13 +315,92 @@ class StereogramEyes final : public optics::EyeDrawing {
     mutable core::ObjectPool<Scratch> scratch_pool_;
 };
 
+// Eyes that see several colours of the same hogels, strip by strip, so that these may share rays.
+class StereogramEyes final : public optics::EyeDrawing {
+  public:
+    StereogramEyes(std::vector<std::unique_ptr<ColourEyes>> colours, const HogelRange& range)
+        : colours_(std::move(colours)), range_(range) {}
+
+    const optics::narrow_band::BandGrid& band(std::size_t eye) const override { return eye_band(eye).grid(); }
+
+    std::vector<std::vector<Array<Complex, 2>>> draw(std::size_t first_look, std::size_t looks,
+                                                     const Progress& progress) const override {
+        const std::size_t each = colours_.front()->eyes().size(), eyes = colours_.size() * each;
+        // The system clears their pages, half a gigabyte for many looks, on all threads.
+        EyeBands bands(eyes, std::vector<Array<Complex, 2>>(looks));
+        core::parallel_for(eyes * looks, [&](std::size_t i) {
+            const Grid& plane = band(i / looks).plane;
+            bands[i / looks][i % looks] = Array<Complex, 2>({plane.height, plane.width});
+        });
+        // Strips of hogels in an order in which those that follow each other do not meet.
+        std::vector<std::size_t> strips;
+        const std::size_t apart = strips_apart(colours_.front()->overlap()) * tile;
+        for (std::size_t first = 0; first < apart; first += tile)
+            for (std::size_t t = first; t < range_.nt; t += apart) strips.push_back(t);
+        const auto report = [&](std::size_t done) {
+            progress.report(static_cast<double>(done) / static_cast<double>(strips.size()));
+        };
+        const ColourEyes::Looks some{first_look, looks};
+        const auto add = [&](std::size_t colour, std::span<const std::vector<Array<Complex, 2>>> strip, std::size_t t) {
+            colours_[colour]->add(strip, t, std::span(bands).subspan(colour * each, each));
+        };
+        if (core::team_of_several() != nullptr) {
+            core::shared_ordered<EyeBands>(
+                strips.size(), core::default_in_flight(), sent_bands(),
+                [&](std::size_t i) {
+                    EyeBands all;
+                    for (const auto& colour : colours_) {
+                        auto scratch = colour->scratch();
+                        colour->draw_strip(strips[i], some, *scratch);
+                        all.insert(all.end(), scratch->strip.begin(), scratch->strip.end());
+                    }
+                    return all;
+                },
+                [&](std::size_t i, const EyeBands& all) {
+                    for (std::size_t c = 0; c < colours_.size(); ++c)
+                        add(c, std::span(all).subspan(c * each, each), strips[i]);
+                    report(i + 1);
+                });
+            return bands;
+        }
+        std::mutex mutex;
+        std::size_t done = 0;
+        for (std::size_t first = 0, end = 0; first < strips.size(); first = end) {
+            while (end < strips.size() && strips[end] % apart == strips[first] % apart) ++end;
+            core::parallel_for(end - first, [&](std::size_t i) {
+                for (std::size_t c = 0; c < colours_.size(); ++c) {
+                    auto scratch = colours_[c]->scratch();
+                    colours_[c]->draw_strip(strips[first + i], some, *scratch);
+                    add(c, scratch->strip, strips[first + i]);
+                }
+                const std::lock_guard lock(mutex);
+                report(++done);
+            });
+        }
+        return bands;
+    }
+
+  private:
+    const EyeBand& eye_band(std::size_t eye) const {
+        const std::size_t each = colours_.front()->eyes().size();
+        return colours_[eye / each]->eyes()[eye % each];
+    }
+
+    std::vector<std::unique_ptr<ColourEyes>> colours_;
+    HogelRange range_;
+};
+
 }  // namespace
 
-std::unique_ptr<optics::EyeDrawing> make_stereogram_eyes(const Hogels& hogels, const HogelRange& range,
+std::unique_ptr<optics::EyeDrawing> make_stereogram_eyes(std::span<const Hogels> colours, const HogelRange& range,
                                                          std::span<const optics::Eye> eyes) {
-    std::vector<EyeBand> bands = EyeBand::of(hogels, range, eyes);
-    if (bands.empty()) return nullptr;
-    return std::make_unique<StereogramEyes>(hogels, range, std::move(bands));
+    std::vector<std::unique_ptr<ColourEyes>> all;
+    for (const Hogels& hogels : colours) {
+        std::vector<EyeBand> bands = EyeBand::of(hogels, range, eyes);
+        if (bands.empty()) return nullptr;
+        all.push_back(std::make_unique<ColourEyes>(hogels, range, std::move(bands)));
+    }
+    return std::make_unique<StereogramEyes>(std::move(all), range);
 }
 
 }  // namespace hogel::hologram::eye

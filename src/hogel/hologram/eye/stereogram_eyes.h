@@ -12,6 +12,9 @@
 
 namespace hogel::hologram::eye {
 
+/// Hogels across whose values are prepared together; down there are tile_side.
+inline constexpr std::size_t block_across = 32;
+
 /// What eyes need of a stereogram whose hogels are sums of the waves of their Fourier transforms.
 struct Hogels : HogelLayout {
     const HogelWaves* waves = nullptr;
@@ -23,9 +26,10 @@ struct Hogels : HogelLayout {
     const KeptWaves* kept_waves = nullptr;
 };
 
-/// The light of a range of hogels of a stereogram towards eyes, without its samples. Null where an eye receives so
-/// many of a hogel's waves that computing the samples costs less.
-std::unique_ptr<optics::EyeDrawing> make_stereogram_eyes(const Hogels& hogels, const HogelRange& range,
+/// The light of a range of hogels of stereograms of several colours towards eyes, without their samples: the bands of
+/// all eyes of the first colour, then of the next. The colours of a strip of hogels are drawn one after the other. Null
+/// where an eye receives so many of a hogel's waves that computing the samples costs less.
+std::unique_ptr<optics::EyeDrawing> make_stereogram_eyes(std::span<const Hogels> colours, const HogelRange& range,
                                                          std::span<const optics::Eye> eyes);
 
 }  // namespace hogel::hologram::eye

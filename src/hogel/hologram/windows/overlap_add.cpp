@@ -110,8 +110,8 @@ class OverlapAddHologram final : public FieldSource, public optics::EyeLight, pu
         };
         const std::size_t s0 = part.x0 / hop_, t0 = part.y0 / hop_;
         return eye::make_stereogram_eyes(
-            hogels, {s0, t0, (part.x0 + part.width - 1) / hop_ + 1 - s0, (part.y0 + part.height - 1) / hop_ + 1 - t0},
-            eyes);
+            {&hogels, 1},
+            {s0, t0, (part.x0 + part.width - 1) / hop_ + 1 - s0, (part.y0 + part.height - 1) / hop_ + 1 - t0}, eyes);
     }
     // Amplitudes and phases depend on the depth of every ray, which is no less to keep than the light field.
     std::size_t keep_amplitudes(std::size_t) const override { return 0; }
