@@ -259,9 +259,9 @@ struct LightChoice {
     LightFrom from = LightFrom::samples;  ///< hogels or samples
     std::string reason;
 };
-/// The choice of photograph() for holograms of a light field with these faces. From hogels, whose waves the methods
-/// Fourier and PhaseAdded know, if an eye's band has at most half as many samples as a hogel along an axis, for the
-/// widest band of all cameras and colours; otherwise from samples.
+/// The choice of photograph() for holograms of a light field with these faces. From hogels, whose waves all methods but
+/// the exact PhaseAdded and OwnMethod know, if an eye's band has at most a quarter as many samples as a hogel, half
+/// along either axis, for the widest band of all cameras and colours; otherwise from samples.
 HOGEL_API LightChoice choose_light(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                                    std::span<const Camera> cameras, const PhotographOptions& options = {});
 

@@ -3,8 +3,8 @@
 """Measures each stage by 1 rank of 2 threads and by 2 ranks of 1 thread, in turns, files and the start of MPI included, and
 prints the table of docs/cluster.md. Figures count on an idle machine of two processors alone.
 
-usage: efficiency.py HOGEL HOGEL_MPI MPIRUN [--stages NAME,NAME] [--rounds N] [--small] [--require]
-       --small: sizes for a try of this program; --require: an error unless each stage reaches its limit in one of three tries,
+usage: efficiency.py HOGEL HOGEL_MPI MPIRUN [--stages NAME,NAME] [--rounds N] [--small | --large] [--require]
+       --small: sizes for a try of this program; --large: four times the work; --require: an error unless each stage reaches its limit in one of three tries,
        and status 77 where there are fewer than two processors
 """
 import argparse
@@ -58,10 +58,17 @@ def smaller(command):
     return command
 
 
+def larger(command):
+    for usual, large in (("192x192", "384x384"), ("160x160", "320x320"), ("20mm", "40mm"), ("19.2mm", "38.4mm"), ("12mm", "24mm"),
+                         ("2400x2000", "4800x4000"), ("resolution 512", "resolution 1024")):
+        command = command.replace(usual, large)
+    return command
+
+
 class Bench:
     def __init__(self, options, folder):
         self.hogel, self.hogel_mpi, self.mpirun = (os.path.abspath(each) for each in (options.hogel, options.hogel_mpi, options.mpirun))
-        self.sized = smaller if options.small else str
+        self.sized = smaller if options.small else larger if options.large else str
         self.folder, self.made = folder, set()
 
     def prepare(self, name):
@@ -103,6 +110,7 @@ def main():
     parser.add_argument("--stages", default=",".join(name.replace(",", "") for name in FULL))
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--small", action="store_true")
+    parser.add_argument("--large", action="store_true")
     parser.add_argument("--require", action="store_true")
     options = parser.parse_args()
     if options.require and len(os.sched_getaffinity(0)) < 2:

@@ -32,8 +32,8 @@ std::unique_ptr<EyeDrawing> draw_eyes(const FieldSource& whole, const Region& pa
         if (const auto* hogels = dynamic_cast<const EyeLight*>(&whole)) drawing = hogels->eye_drawing(part, eyes);
     if (!drawing && from == LightFrom::hogels)
         throw Error(ErrorCode::usage,
-                    "a photograph from hogels needs a stereogram that is made on demand, by Fourier transforms of "
-                    "hogels with at least twice as many samples as the eye takes in; from samples would do");
+                    "a photograph from hogels needs a stereogram that is made on demand, of hogels that are sums of as "
+                    "many waves as they have samples, four times as many as the eye takes in; from samples would do");
     if (!drawing) drawing = std::make_unique<SampledEyes>(window, eyes);
     return drawing;
 }
