@@ -6,6 +6,12 @@
 #include "hogel/core/parallel.h"
 
 namespace hogel::core {
+namespace {
+
+// The tiles for each process of which the end of the work consists.
+constexpr std::size_t few_for_each = 4;
+
+}  // namespace
 
 std::optional<std::size_t> TileQueue::next() {
     const std::lock_guard lock(mutex_);
@@ -15,8 +21,9 @@ std::optional<std::size_t> TileQueue::next() {
         last_ = over_ ? tiles_ : std::min<std::size_t>(here_.first + here_.count, tiles_);
     }
     if (over_) return std::nullopt;
-    // While the last tile is worked on, the next ones are under way.
-    if (--here_.count == 0) team_.expect_tiles(queue_, tiles_, ahead_);
+    // While the last tile is worked on, the next ones are under way; but not towards the end, where a process that is
+    // at work would hold a tile that an idle one could take.
+    if (--here_.count == 0 && tiles_ - last_ > few_for_each * team_.size()) team_.expect_tiles(queue_, tiles_, ahead_);
     return here_.first++;
 }
 
