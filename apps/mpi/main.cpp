@@ -22,6 +22,7 @@
 #include "cli/commands.h"
 #include "cli/program.h"
 #include "hogel/error.h"
+#include "hogel/resources.h"
 #include "mpi/loss_watch.h"
 #include "mpi/mpi_link.h"
 #include "mpi/rank_team.h"
@@ -136,6 +137,7 @@ class Ranks final : public cli::Processes {
 };
 
 int run(int argc, char** argv) {
+    set_max_kept_memory(SIZE_MAX);  // the program ends with its command
     block_signals();
     MpiLink link(argc, argv);
     Ranks ranks(link);

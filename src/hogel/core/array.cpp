@@ -7,6 +7,7 @@
 #include <new>
 
 #include "hogel/core/freed_blocks.h"
+#include "hogel/resources.h"
 
 namespace hogel {
 namespace {
@@ -29,6 +30,8 @@ core::FreedBlocks& freed_blocks() {
 }
 
 }  // namespace
+
+void set_max_kept_memory(std::size_t bytes) { freed_blocks().set_max_kept(max_kept == 0 ? 0 : bytes); }
 
 void* allocate_lines(std::size_t bytes) {
     if (bytes >= large) return freed_blocks().allocate(bytes);

@@ -98,6 +98,16 @@ void FreedBlocks::free(void* memory) {
     for (void* block : gone) std::free(block);
 }
 
+void FreedBlocks::set_max_kept(std::size_t max_kept) {
+    std::vector<void*> gone;
+    {
+        const std::lock_guard lock(mutex_);
+        max_kept_ = max_kept;
+        gone = overflow(max_kept_);
+    }
+    for (void* block : gone) std::free(block);
+}
+
 std::size_t FreedBlocks::kept() const {
     const std::lock_guard lock(mutex_);
     return kept_;

@@ -26,6 +26,9 @@ class FreedBlocks {
     /// Takes back a block from allocate().
     void free(void* memory);
 
+    /// Sets max_kept, and gives back what is beyond it.
+    void set_max_kept(std::size_t max_kept);
+
     /// Bytes of the blocks that are kept.
     std::size_t kept() const;
     /// Bytes of the blocks that are in use.
@@ -35,7 +38,7 @@ class FreedBlocks {
     void* take(std::size_t bytes);
     std::vector<void*> overflow(std::size_t max_kept);
 
-    const std::size_t max_kept_;
+    std::size_t max_kept_;
     mutable std::mutex mutex_;
     std::multimap<std::size_t, void*> blocks_;  // kept, by their bytes
     std::size_t kept_ = 0, in_use_ = 0, max_in_use_ = 0;

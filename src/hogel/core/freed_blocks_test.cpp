@@ -81,6 +81,17 @@ TEST(FreedBlocks, no_more_are_kept_than_allowed) {
     EXPECT_LE(blocks.kept(), 30 * mega);
 }
 
+TEST(FreedBlocks, more_or_fewer_are_kept_when_told) {
+    FreedBlocks blocks(0);
+    blocks.free(blocks.allocate(20 * mega));
+    EXPECT_EQ(blocks.kept(), 0u);
+    blocks.set_max_kept(40 * mega);
+    blocks.free(blocks.allocate(20 * mega));
+    EXPECT_GE(blocks.kept(), 20 * mega);
+    blocks.set_max_kept(10 * mega);
+    EXPECT_EQ(blocks.kept(), 0u);
+}
+
 // A sanitizer ends the program at a request that cannot be met, and sees pages of its own.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST(FreedBlocks, more_than_there_is_throws_and_counts_nothing) {
