@@ -46,11 +46,11 @@ struct EyeStudy {
     std::size_t looks = 1;
     std::size_t rounds = 3;
 };
-/// The eye camera beside the narrow-band camera, which computes all samples, with the same phases, from a light field in
-/// memory: of 532 nm, for eyes over the cone that the field of view covers, focuses and pupils, and for each method
-/// that knows its hogels' waves. Prints PSNR and maximum error of display values, and wall and processor time, the least
-/// of rounds in turns; then those of a new eye of EyePhotographer, in full and as a preview, of another focus of the
-/// same eye, and of the mean of infinitely many looks in three colours.
+/// The eye camera beside the narrow-band camera, which computes all samples, with the same phases, from a light field
+/// in memory: of 532 nm, for eyes over the cone that the field of view covers, focuses and pupils, and for each method
+/// that knows its hogels' waves. Prints PSNR and maximum error of display values, and wall and processor time, the
+/// least of rounds in turns; then those of a new eye of EyePhotographer, in full and as a preview, of another focus of
+/// the same eye, and of the mean of infinitely many looks in three colours.
 void study_eye(const EyeStudy& study);
 
 struct RaysStudy {

@@ -25,8 +25,8 @@ class HOGEL_API ThreadLimit {
 /// The number of threads that parallel loops use at present: all of the machine, or fewer under a ThreadLimit.
 HOGEL_API std::size_t thread_count();
 
-/// Sets how many bytes of large arrays are kept when they are freed, for later ones, because the system clears every new
-/// page; 1 GiB unless set. Arrays in use and memory that is kept are together never more than was in use before. A
+/// Sets how many bytes of large arrays are kept when they are freed, for later ones, because the system clears every
+/// new page; 1 GiB unless set. Arrays in use and memory that is kept are together never more than was in use before. A
 /// program that ends after its work may keep all of it; one that lives long gives back the rest at once.
 HOGEL_API void set_max_kept_memory(std::size_t bytes);
 

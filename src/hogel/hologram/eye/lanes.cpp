@@ -2,9 +2,6 @@
 #include "hogel/hologram/eye/lanes.h"
 
 #include <complex>
-#include <vector>
-
-#include "hogel/core/half.h"
 
 namespace hogel::hologram::eye {
 
@@ -16,13 +13,6 @@ void sum_row_plain(const HogelBasis& basis, const HogelBasis::Weights& columns, 
                 sum += columns.first[k * columns.stride + column] * waves[column * 2 * lanes + i];
             line[k * 2 * lanes + i] = sum;
         }
-}
-
-void sum_row_of_halves_plain(const HogelBasis& basis, const HogelBasis::Weights& columns, const std::uint16_t* waves,
-                             float* line) {
-    std::vector<float> floats(basis.samples() * 2 * lanes);
-    core::to_float(waves, floats.data(), floats.size());
-    sum_row_plain(basis, columns, floats.data(), line);
 }
 
 void sum_rows_plain(const HogelBasis& basis, const HogelBasis::Weights& rows, float sign, const float* lines,

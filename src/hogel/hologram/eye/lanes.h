@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 
 #include "hogel/hologram/eye/project.h"
@@ -16,12 +15,6 @@ namespace hogel::hologram::eye {
 /// Sums a row of waves over its columns: line[function][part][lane] = Σ_column D_k waves[column][part][lane].
 void sum_row_plain(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line);
 void sum_row(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line);
-
-/// As sum_row(), of waves in binary16.
-void sum_row_of_halves_plain(const HogelBasis& basis, const HogelBasis::Weights& columns, const std::uint16_t* waves,
-                             float* line);
-void sum_row_of_halves(const HogelBasis& basis, const HogelBasis::Weights& columns, const std::uint16_t* waves,
-                       float* line);
 
 /// Sums all rows: numbers[down][across][part][lane] = sign · Σ_row D_l lines[row][function][part][lane].
 /// @param chosen  for each lane, whether it is stored (1) or left as it is (0)

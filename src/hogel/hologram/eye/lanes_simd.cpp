@@ -25,10 +25,6 @@ using math::HWY_NAMESPACE::transpose_sixteen;
 void SumRow(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line) {
     sum_row_plain(basis, columns, waves, line);
 }
-void SumRowOfHalves(const HogelBasis& basis, const HogelBasis::Weights& columns, const std::uint16_t* waves,
-                    float* line) {
-    sum_row_of_halves_plain(basis, columns, waves, line);
-}
 void SumRows(const HogelBasis& basis, const HogelBasis::Weights& rows, float sign, const float* lines,
              const float* chosen, float* numbers) {
     sum_rows_plain(basis, rows, sign, lines, chosen, numbers);
@@ -47,16 +43,10 @@ constexpr std::size_t parts_together = HWY_ARCH_X86 && HWY_TARGET > HWY_AVX3 ? 1
 // Floats of a complex number of all lanes.
 constexpr std::size_t both = 2 * lanes;
 
-HWY_INLINE V load_item(const float* from) { return hn::Load(D(), from); }
-HWY_INLINE V load_item(const std::uint16_t* from) {
-    const hn::Rebind<hwy::float16_t, D> halves;
-    return hn::PromoteTo(D(), hn::Load(halves, reinterpret_cast<const hwy::float16_t*>(from)));
-}
-
-// Sums over pairs of items, `stride` numbers apart, of weights of some functions from `first` on; store(k, part, i,
+// Sums over pairs of items, `stride` floats apart, of weights of some functions from `first` on; store(k, part, i,
 // sum).
-template <std::size_t functions, class Item, class Store>
-HWY_INLINE void sum_pairs(const Item* items, std::size_t stride, const HogelBasis::Weights& weights, std::size_t first,
+template <std::size_t functions, class Store>
+HWY_INLINE void sum_pairs(const float* items, std::size_t stride, const HogelBasis::Weights& weights, std::size_t first,
                           const Store& store) {
     const D d;
     const std::size_t two = weights.pairs.size() - weights.alone;
@@ -66,12 +56,12 @@ HWY_INLINE void sum_pairs(const Item* items, std::size_t stride, const HogelBasi
             for (auto& part : sums)
                 for (V& sum : part) sum = hn::Zero(d);
             for (const WavePair& pair : weights.pairs.first(two)) {
-                const Item *one = items + stride * pair.one + at + i, *other = items + stride * pair.other + at + i;
+                const float *one = items + stride * pair.one + at + i, *other = items + stride * pair.other + at + i;
                 const V sign = hn::Set(d, pair.sign_one), sign_other = hn::Set(d, pair.sign_other);
                 V even[parts_together], odd[parts_together];
                 for (std::size_t p = 0; p < parts_together; ++p) {
-                    const V a = hn::Xor(load_item(one + p * lanes), sign),
-                            b = hn::Xor(load_item(other + p * lanes), sign_other);
+                    const V a = hn::Xor(hn::Load(d, one + p * lanes), sign),
+                            b = hn::Xor(hn::Load(d, other + p * lanes), sign_other);
                     even[p] = hn::Add(a, b);
                     odd[p] = hn::Sub(a, b);
                 }
@@ -83,10 +73,10 @@ HWY_INLINE void sum_pairs(const Item* items, std::size_t stride, const HogelBasi
                 }
             }
             for (const WavePair& pair : weights.pairs.subspan(two)) {
-                const Item* one = items + stride * pair.one + at + i;
+                const float* one = items + stride * pair.one + at + i;
                 const V sign = hn::Set(d, pair.sign_one);
                 for (std::size_t p = 0; p < parts_together; ++p) {
-                    const V a = hn::Xor(load_item(one + p * lanes), sign);
+                    const V a = hn::Xor(hn::Load(d, one + p * lanes), sign);
                     for (std::size_t k = 0; k < functions; ++k)
                         sums[p][k] = hn::MulAdd(hn::Set(d, pair.weights[first + k]), a, sums[p][k]);
                 }
@@ -96,9 +86,7 @@ HWY_INLINE void sum_pairs(const Item* items, std::size_t stride, const HogelBasi
         }
 }
 
-template <class Item>
-HWY_INLINE void sum_row_of(const HogelBasis& basis, const HogelBasis::Weights& columns, const Item* waves,
-                           float* line) {
+void SumRow(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line) {
     const std::size_t functions = basis.functions();
     for (std::size_t first = 0; first < functions; first += together)
         with_count<together>(std::min(together, functions - first), [&](auto some) HWY_ATTR {
@@ -106,15 +94,6 @@ HWY_INLINE void sum_row_of(const HogelBasis& basis, const HogelBasis::Weights& c
                               [&](std::size_t k, std::size_t at, std::size_t, V sum)
                                   HWY_ATTR { hn::Store(sum, D(), line + (first + k) * both + at); });
         });
-}
-
-void SumRow(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line) {
-    sum_row_of(basis, columns, waves, line);
-}
-
-void SumRowOfHalves(const HogelBasis& basis, const HogelBasis::Weights& columns, const std::uint16_t* waves,
-                    float* line) {
-    sum_row_of(basis, columns, waves, line);
 }
 
 void SumRows(const HogelBasis& basis, const HogelBasis::Weights& rows, float sign, const float* lines,
@@ -258,16 +237,11 @@ HWY_AFTER_NAMESPACE();
 namespace hogel::hologram::eye {
 
 HWY_EXPORT(SumRow);
-HWY_EXPORT(SumRowOfHalves);
 HWY_EXPORT(SumRows);
 HWY_EXPORT(AddLanes);
 
 void sum_row(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line) {
     HWY_DYNAMIC_DISPATCH(SumRow)(basis, columns, waves, line);
-}
-void sum_row_of_halves(const HogelBasis& basis, const HogelBasis::Weights& columns, const std::uint16_t* waves,
-                       float* line) {
-    HWY_DYNAMIC_DISPATCH(SumRowOfHalves)(basis, columns, waves, line);
 }
 void sum_rows(const HogelBasis& basis, const HogelBasis::Weights& rows, float sign, const float* lines,
               const float* chosen, float* numbers) {

@@ -9,7 +9,6 @@
 #include <random>
 #include <vector>
 
-#include "hogel/core/half.h"
 #include "hogel/core/test_targets.h"
 #include "hogel/hologram/eye/node_phases.h"
 #include "hogel/hologram/hogel_synthesis.h"
@@ -151,30 +150,6 @@ TEST_P(EyeLanes, have_the_phases_of_the_exact_path) {
         for (std::size_t y = 0; y < 2 * count; ++y)
             for (std::size_t x = 0; x < 2 * count; ++x)
                 ASSERT_NEAR(fast(y * row + x), plain(y * row + x), 2e-6) << count << " " << y << " " << x;
-    }
-}
-
-TEST_P(EyeLanes, are_summed_from_halves) {
-    for (const Size& size : sizes) {
-        const HogelBasis basis(size.samples, size.per_hogel, size.half_band);
-        const Array<float, 1> waves = noise(basis.samples() * both, 3);
-        std::vector<std::uint16_t, CacheLineAllocator<std::uint16_t>> halves(waves.size());
-        core::to_half(waves.data(), halves.data(), halves.size());
-        const std::size_t count = basis.functions() * both;
-        Array<float, 1> fast({count}), plain({count}), exact({count});
-        for (const double frequency : {0.2, -40.5}) {
-            const HogelBasis::Weights columns = basis.weights(frequency);
-            sum_row_of_halves(basis, columns, halves.data(), fast.data());
-            sum_row_of_halves_plain(basis, columns, halves.data(), plain.data());
-            sum_row_plain(basis, columns, waves.data(), exact.data());
-            double wrong = 0, all = 0;
-            for (std::size_t i = 0; i < count; ++i) {
-                ASSERT_NEAR(fast(i), plain(i), 2e-4) << size.samples;
-                wrong += std::pow(double(fast(i)) - double(exact(i)), 2);
-                all += std::pow(double(exact(i)), 2);
-            }
-            EXPECT_LT(std::sqrt(wrong / all), 4e-4);
-        }
     }
 }
 

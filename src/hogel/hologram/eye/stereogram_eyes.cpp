@@ -5,6 +5,7 @@
 #include <mutex>
 #include <utility>
 
+#include "hogel/core/half.h"
 #include "hogel/core/object_pool.h"
 #include "hogel/core/parallel.h"
 #include "hogel/core/shared_order.h"
@@ -262,25 +263,27 @@ class ColourEyes {
         std::size_t gathered = 0;  // rows
         for (std::size_t row = 0; row < n; ++row) {
             const bool lit = kept.lit != nullptr ? kept.lit[row] != 0 : hogels_.waves->has_light(row);
-            if (lit && kept.rows == nullptr && counts(row)) {
-                if (!shared && row >= gathered) {
-                    const std::size_t block = row / HogelWaves::rows_together * HogelWaves::rows_together;
-                    hogels_.waves->gather_lanes(scratch.sources, block, scratch.gathered.data());
-                    gathered = block + HogelWaves::rows_together;
+            if (lit && counts(row)) {
+                if (kept.rows != nullptr) {
+                    core::to_float(kept.rows + row * n * both, scratch.waves.data(), n * both);
+                } else {
+                    if (!shared && row >= gathered) {
+                        const std::size_t block = row / HogelWaves::rows_together * HogelWaves::rows_together;
+                        hogels_.waves->gather_lanes(scratch.sources, block, scratch.gathered.data());
+                        gathered = block + HogelWaves::rows_together;
+                    }
+                    hogels_.waves->row_of_lanes(series, row, shared, prepared, scratch.waves.data());
                 }
-                hogels_.waves->row_of_lanes(series, row, shared, prepared, scratch.waves.data());
             }
             for (std::size_t e = 0; e < eyes_.size(); ++e) {
                 const HogelBasis& basis = eyes_[e].bases().across;
                 const std::size_t size = basis.functions() * both;
                 for (std::size_t g = 0; g < groups[e].size(); ++g) {
                     float* line = &scratch.lines[e][g](row * size);
-                    if (!lit || !groups[e][g].near.has(row, n))
-                        std::fill_n(line, size, 0.0f);
-                    else if (kept.rows != nullptr)
-                        sum_row_of_halves(basis, groups[e][g].columns, kept.rows + row * n * both, line);
-                    else
+                    if (lit && groups[e][g].near.has(row, n))
                         sum_row(basis, groups[e][g].columns, scratch.waves.data(), line);
+                    else
+                        std::fill_n(line, size, 0.0f);
                 }
             }
         }
