@@ -121,9 +121,9 @@ HOGEL_API Image photograph_directly(const FieldSource& hologram, const Camera& c
                                     std::size_t subpixels = 1);
 
 /// Photographs of holograms of one or three wavelengths from one eye after the other, for interactive use. It keeps
-/// what all eyes share, the amplitudes of the waves of a stereogram, and the light in the pupil of the last eye, so
-/// that a new eye costs only that eye, and a new focus or picture of the same eye, or a slightly narrower pupil, only
-/// the films. Pictures are those of photograph().
+/// what all eyes share, the amplitudes of the waves of a stereogram and the waves of the first look, and the light in
+/// the pupil of the last eye, so that a new eye costs only that eye, and a new focus or picture of the same eye, or a
+/// slightly narrower pupil, only the films. Pictures are those of photograph().
 ///
 /// A photograph can be stopped at any time: the looks of its eye that were drawn before are kept, and asking for the
 /// same eye again continues with the others. For one thread at a time.

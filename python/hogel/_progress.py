@@ -2,6 +2,7 @@
 """How long work shows how far it is."""
 from __future__ import annotations
 
+import importlib
 import sys
 import time
 from collections.abc import Callable
@@ -47,11 +48,9 @@ class _Tqdm:
 
 def _new_bar(what: str) -> Union[_Line, _Tqdm]:
     try:
-        if "ipykernel" in sys.modules:
-            from tqdm.auto import tqdm  # type: ignore[import]
-        else:
-            from tqdm import tqdm  # type: ignore[import]
-        return _Tqdm(what, tqdm)
+        # By name, because stubs of tqdm, which may be there without it, give the two different types.
+        module = importlib.import_module("tqdm.auto" if "ipykernel" in sys.modules else "tqdm")
+        return _Tqdm(what, module.tqdm)
     except ImportError:
         return _Line(what)
 

@@ -137,9 +137,10 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
         const HogelWaves* waves = synthesis_->hogel_waves();
         if (waves == nullptr || !waves->has_lanes() || kept_.size() == 0) return 0;
         const eye::HogelLayout layout{grid_, columns_, rows_};
-        const std::size_t bytes = eye::KeptWaves::bytes(layout), looks = std::min(looks_, memory / bytes);
-        if (looks > 0 && !kept_waves_) kept_waves_.emplace(layout, *waves, kept_, looks);
-        return kept_waves_ ? std::min(memory, bytes * kept_waves_->looks()) : 0;
+        const std::size_t bytes = eye::KeptWaves::bytes(layout);
+        if (bytes > memory) return 0;
+        if (!kept_waves_) kept_waves_.emplace(layout, *waves, kept_);
+        return bytes;
     }
 
     const optics::WavePowers* wave_powers() const override {

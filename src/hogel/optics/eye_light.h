@@ -67,8 +67,8 @@ class EyeLight {
     /// Computes what all eyes and looks share, the amplitudes of the waves, and keeps it, if that takes at most
     /// `memory` bytes. Not to be called while the field is read. Returns the bytes that are kept.
     virtual std::size_t keep_amplitudes(std::size_t memory) const = 0;
-    /// Keeps the waves of the first looks too, as many as fit, if amplitudes are kept; then eyes that are drawn look by
-    /// look take less time. As keep_amplitudes().
+    /// Keeps the waves of the first look too, if amplitudes are kept; then this look of another eye takes less time. As
+    /// keep_amplitudes().
     virtual std::size_t keep_waves(std::size_t /*memory*/) const { return 0; }
     /// The powers of the waves of all hogels if their phases are random and independent, so that the mean of infinitely
     /// many looks is a sum of their intensities; otherwise null.

@@ -22,7 +22,7 @@ struct Light {
     std::size_t looks_at_once = 1;
 };
 
-// None where that is not possible, or where one colour after the other takes less memory than there is.
+// None where colours cannot share rays, or where their bands do not fit into memory together.
 std::optional<Light> light_of_colours(std::span<const std::shared_ptr<const FieldSource>> colours,
                                       std::span<const Camera> cameras, const PhotographOptions& options) {
     if (colours.size() < 2 || cameras.empty() || options.expected || options.vertical_diffuser ||

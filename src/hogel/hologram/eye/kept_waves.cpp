@@ -23,18 +23,16 @@ std::size_t KeptWaves::bytes(const HogelLayout& hogels) {
            HogelWaves::lanes * sizeof(std::uint16_t);
 }
 
-KeptWaves::KeptWaves(const HogelLayout& hogels, const HogelWaves& waves, View<const float, 2> amplitudes,
-                     std::size_t looks)
-    : looks_(looks),
-      across_(tiles(hogels.grid.plane.width, hogels.across())),
+KeptWaves::KeptWaves(const HogelLayout& hogels, const HogelWaves& waves, View<const float, 2> amplitudes)
+    : across_(tiles(hogels.grid.plane.width, hogels.across())),
       down_(tiles(hogels.grid.plane.height, hogels.down())),
-      rows_({looks * across_ * down_, hogels.rows * hogels.columns * 2 * HogelWaves::lanes}),
-      lit_({looks * across_ * down_, hogels.rows}),
-      scales_(looks * across_ * down_) {
+      rows_({across_ * down_, hogels.rows * hogels.columns * 2 * HogelWaves::lanes}),
+      lit_({across_ * down_, hogels.rows}),
+      scales_(across_ * down_) {
     const std::size_t ns = hogels.grid.plane.width / hogels.across(), nt = hogels.grid.plane.height / hogels.down();
     const std::size_t n = hogels.columns, row_size = n * 2 * HogelWaves::lanes;
-    core::parallel_for(looks * down_, [&](std::size_t strip) {
-        const std::size_t look = strip / down_, t0 = strip % down_ * tile_side;
+    core::parallel_for(down_, [&](std::size_t strip) {
+        const std::size_t t0 = strip * tile_side;
         Array<float, 1> gathered({HogelWaves::powers_size(n) * HogelWaves::lanes}), row_of_waves({row_size});
         for (std::size_t s0 = 0; s0 < ns; s0 += tile_side) {
             std::vector<const float*> sources;
@@ -44,7 +42,7 @@ KeptWaves::KeptWaves(const HogelLayout& hogels, const HogelWaves& waves, View<co
                 for (std::size_t s = s0; s < std::min(s0 + tile_side, ns); ++s) {
                     const std::span<const float> own = amplitudes[t * ns + s].elements();
                     sources.push_back(own.data());
-                    places.push_back({s, t, look});
+                    places.push_back({s, t, 0});
                     largest = std::max(largest, *std::ranges::max_element(own));
                 }
             const std::size_t tile = strip * across_ + s0 / tile_side;

@@ -21,12 +21,9 @@ static_assert(tile_side * tile_side == HogelWaves::lanes);
 class KeptWaves {
   public:
     /// @param amplitudes  of all hogels, row by row, as `waves` prepares them
-    KeptWaves(const HogelLayout& hogels, const HogelWaves& waves, View<const float, 2> amplitudes, std::size_t looks);
+    KeptWaves(const HogelLayout& hogels, const HogelWaves& waves, View<const float, 2> amplitudes);
 
-    /// Bytes for one look.
     static std::size_t bytes(const HogelLayout& hogels);
-
-    std::size_t looks() const { return looks_; }
 
     struct Tile {
         const std::uint16_t* rows = nullptr;  ///< [row][column][part][lane]; null if they are not kept
@@ -34,17 +31,16 @@ class KeptWaves {
         float scale = 1;                      ///< of all values
     };
     /// The tile whose first hogel is (s, t), multiples of tile_side.
-    Tile tile(std::size_t look, std::size_t s, std::size_t t) const {
-        if (look >= looks_) return {};
-        const std::size_t number = (look * down_ + t / tile_side) * across_ + s / tile_side;
+    Tile tile(std::size_t s, std::size_t t) const {
+        const std::size_t number = t / tile_side * across_ + s / tile_side;
         return {&rows_(number, 0), &lit_(number, 0), scales_[number]};
     }
 
   private:
-    std::size_t looks_, across_, down_;  // tiles
-    Array<std::uint16_t, 2> rows_;       // [look, tile][row, column, part, lane]
-    Array<std::uint8_t, 2> lit_;         // [look, tile][row]
-    std::vector<float> scales_;          // [look, tile]
+    std::size_t across_, down_;     // tiles
+    Array<std::uint16_t, 2> rows_;  // [tile][row, column, part, lane]
+    Array<std::uint8_t, 2> lit_;    // [tile][row]
+    std::vector<float> scales_;     // [tile]
 };
 
 }  // namespace hogel::hologram::eye

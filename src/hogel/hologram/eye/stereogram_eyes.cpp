@@ -194,8 +194,8 @@ class ColourEyes {
         };
         for (std::size_t t0 = 0; t0 < some.nt; t0 += tile)
             for (std::size_t s0 = 0; s0 < some.ns; s0 += tile) {
-                if (keeps_tiles_ && looks.count == 1)
-                    kept = hogels_.kept_waves->tile(looks.first, some.s0 + s0, some.t0 + t0);
+                if (keeps_tiles_ && looks.first == 0 && looks.count == 1)
+                    kept = hogels_.kept_waves->tile(some.s0 + s0, some.t0 + t0);
                 for (std::size_t t = t0; t < std::min(t0 + tile, some.nt); ++t)
                     for (std::size_t s = s0; s < std::min(s0 + tile, some.ns); ++s) {
                         hogels.push_back(t * some.ns + s);

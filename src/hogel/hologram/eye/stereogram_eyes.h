@@ -22,7 +22,7 @@ struct Hogels : HogelLayout {
     std::function<void(const HogelRange&, View<float, 2>)> prepare;
     /// The prepared values of all hogels of the grid, row by row, where they are kept; otherwise no elements.
     View<const float, 2> kept = {};
-    /// Waves of the first looks, where they are kept; otherwise null.
+    /// Waves of the first look, where they are kept; otherwise null.
     const KeptWaves* kept_waves = nullptr;
 };
 
