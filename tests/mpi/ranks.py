@@ -118,6 +118,7 @@ def same_photographs(run):
         "rays.exr": ["photo", "rays.h5", *camera, "--pupil-samples", "16", "--focus", "20mm"],
         "scene.exr": ["photo", "tower", *SIZE, *camera, "--geometric", "--pupil-samples", "8"],
         "eye.exr": ["photo", "rays.h5", *camera, "--wave", "--looks", "3", "--camera", "eye"],
+        "colours.exr": ["photo", "tower", *SIZE, *camera, "--wave", "--looks", "2", "--camera", "eye"],
         "expected.exr": ["photo", "rays.h5", *camera, "--looks", "expected", "--wave", "--focus", "3mm"],
         "narrow.exr": ["photo", "hologram.h5", *camera],
         "full.exr": ["photo", "hologram.h5", *camera, "--camera", "full", "--focus", "1mm"],
