@@ -21,10 +21,6 @@ namespace {
 
 using Complex = std::complex<float>;
 
-void roots_of(View<const float, 2> radiances, View<float, 2> roots) {
-    for (std::size_t i = 0; i < radiances.size(); ++i) roots.data()[i] = std::sqrt(std::max(radiances.data()[i], 0.0f));
-}
-
 constexpr double max_bytes = 4.0 * (std::size_t{1} << 30);
 
 // A hogel is a sum of fringes, one for each basis function of a transform of the directions of a face, weighted with

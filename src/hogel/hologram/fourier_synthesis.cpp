@@ -13,6 +13,10 @@ constexpr std::size_t max_side_in_lanes = 256;
 
 }  // namespace
 
+void roots_of(View<const float, 2> radiances, View<float, 2> roots) {
+    for (std::size_t i = 0; i < radiances.size(); ++i) roots.data()[i] = std::sqrt(std::max(radiances.data()[i], 0.0f));
+}
+
 FourierSynthesis::FourierSynthesis(FrequencyGrid frequencies, std::size_t lines, const HologramOptions& options,
                                    DirectionPhases directions, LobeAverage average)
     : options_(options),
@@ -32,7 +36,7 @@ FourierSynthesis::FourierSynthesis(FrequencyGrid frequencies, std::size_t lines,
 void FourierSynthesis::prepare(View<const float, 2> radiances, View<const float, 2>, View<float, 2> prepared) const {
     if (average_ == LobeAverage::radiance) return prepare(radiances, false, prepared);
     Array<float, 2> roots(radiances.shape());
-    for (std::size_t i = 0; i < roots.size(); ++i) roots.data()[i] = std::sqrt(std::max(radiances.data()[i], 0.0f));
+    roots_of(radiances, roots);
     prepare(roots, true, prepared);
 }
 

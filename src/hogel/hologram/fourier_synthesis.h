@@ -14,6 +14,9 @@
 
 namespace hogel::hologram {
 
+/// Amplitudes √L of radiances, of which a decoded light field may have small negative ones, which count as zero.
+void roots_of(View<const float, 2> radiances, View<float, 2> roots);
+
 /// Amplitudes on the frequency grid j/d with random phases or with those that all hogels share, then one FFT, or for
 /// horizontal parallax only one for each line: [K] (4.2), (3.23).
 class FourierSynthesis final : public HogelSynthesis, public HogelWaves {

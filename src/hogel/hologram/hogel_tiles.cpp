@@ -25,15 +25,20 @@ void random_waves_plain(const PhaseSeries& series, std::size_t first_row, const 
         }
 }
 
+PhaseSeries series_of_lane(const SeriesOfLanes& series, std::size_t lane) {
+    PhaseSeries own{series.key, {}};
+    for (std::size_t word = 0; word < 3; ++word)
+        own.position[word] = static_cast<std::uint32_t>(series.position[word][lane]);
+    return own;
+}
+
 void random_row_plain(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,
                       std::size_t columns, float* out) {
     const PhaseRoots& roots = phase_roots();
     const std::size_t step = 128 - 128 / columns;
     std::array<std::uint8_t, 16> bytes;
     for (std::size_t lane = 0; lane < rows_at_once; ++lane) {
-        PhaseSeries own{series.key, {}};
-        for (std::size_t word = 0; word < 3; ++word)
-            own.position[word] = static_cast<std::uint32_t>(series.position[word][lane]);
+        const PhaseSeries own = series_of_lane(series, lane);
         for (std::size_t x = 0; x < columns; ++x) {
             if (x % 16 == 0) random_bytes_plain(own, static_cast<std::uint32_t>((row * columns + x) / 16), bytes);
             const std::size_t byte = (bytes[x % 16] + (row + x) * step) % 256;
@@ -60,9 +65,7 @@ void random_row_of_any_side_plain(const SeriesOfLanes& series, std::size_t row, 
     const PhaseRoots& roots = phase_roots();
     std::array<std::uint8_t, 16> bytes;
     for (std::size_t lane = 0; lane < rows_at_once; ++lane) {
-        PhaseSeries own{series.key, {}};
-        for (std::size_t word = 0; word < 3; ++word)
-            own.position[word] = static_cast<std::uint32_t>(series.position[word][lane]);
+        const PhaseSeries own = series_of_lane(series, lane);
         for (std::size_t x = 0; x < columns; ++x) {
             const std::size_t at = row * columns + x;
             if (x == 0 || at % 16 == 0) random_bytes_plain(own, static_cast<std::uint32_t>(at / 16), bytes);

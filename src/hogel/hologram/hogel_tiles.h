@@ -32,6 +32,9 @@ struct SeriesOfLanes {
     alignas(64) std::uint64_t position[3][rows_at_once];  ///< [word][lane]
 };
 
+/// The series of one of them.
+PhaseSeries series_of_lane(const SeriesOfLanes& series, std::size_t lane);
+
 /// Whether phases from the middle of a hogel with so many samples a side are bytes, too: (m + m′)(n − 1)/2n is a whole
 /// number of 256ths of a cycle.
 constexpr bool middle_is_a_byte(std::size_t columns) { return columns % 16 == 0 && 128 % columns == 0; }

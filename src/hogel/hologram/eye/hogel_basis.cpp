@@ -137,7 +137,7 @@ HogelBasis::HogelBasis(std::size_t samples, std::size_t nodes_per_hogel, double 
     tabulate(functions, quadrature.points, quadrature.weights);
 }
 
-// Of ½ + ½ cos 2πx and of its square, ⅜ + ½ cos 2πx + ⅛ cos 4πx: a cosine of the window moves the kernel by its
+// The window is ½ + ½ cos 2πx and its square ⅜ + ½ cos 2πx + ⅛ cos 4πx: a cosine of the window moves the kernel by its
 // frequency.
 double HogelBasis::window_at(double y) const {
     const double middle = dirichlet(y, samples_);

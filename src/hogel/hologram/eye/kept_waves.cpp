@@ -11,7 +11,7 @@ namespace hogel::hologram::eye {
 namespace {
 
 // The largest value of a tile is stored as one of this order, so that dim waves beside it are exact, too.
-constexpr float largest_stored = 4096;
+constexpr float max_stored = 4096;
 
 std::size_t tiles(std::size_t samples, std::size_t hop) { return (samples / hop + tile_side - 1) / tile_side; }
 
@@ -46,7 +46,7 @@ KeptWaves::KeptWaves(const HogelLayout& hogels, const HogelWaves& waves, View<co
                     largest = std::max(largest, *std::ranges::max_element(own));
                 }
             const std::size_t tile = strip * across_ + s0 / tile_side;
-            scales_[tile] = largest > 0 ? std::exp2(std::ceil(std::log2(largest / largest_stored))) : 1.0f;
+            scales_[tile] = largest > 0 ? std::exp2(std::ceil(std::log2(largest / max_stored))) : 1.0f;
             const SeriesOfLanes series = waves.series_of_lanes(places);
             for (std::size_t row = 0; row < hogels.rows; ++row) {
                 if (row % HogelWaves::rows_together == 0) waves.gather_lanes(sources, row, gathered.data());

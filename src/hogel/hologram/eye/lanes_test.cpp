@@ -182,9 +182,7 @@ TEST_P(EyeLanes, have_the_random_phases_of_single_hogels) {
                 for (std::size_t y = 0; y < n; ++y)
                     for (std::size_t x = 0; x < n; ++x)
                         of_lane((y / 16 * n + x) * 16 + y % 16) = moduli((y * n + x) * lanes + (shared ? 0 : lane));
-                PhaseSeries one{series.key, {}};
-                for (std::size_t word = 0; word < 3; ++word)
-                    one.position[word] = static_cast<std::uint32_t>(series.position[word][lane]);
+                const PhaseSeries one = series_of_lane(series, lane);
                 for (std::size_t row = 0; row < n; row += 16)
                     random_waves_plain(one, row, &of_lane(row * n), n, &waves(2 * row * n));
                 middle.apply_plain(waves.data());
@@ -199,7 +197,7 @@ TEST_P(EyeLanes, have_the_random_phases_of_single_hogels) {
     }
 }
 
-// Of sides that are no powers of two, too.
+// The same for sides that are no powers of two.
 TEST_P(EyeLanes, have_the_random_phases_of_single_hogels_of_any_side) {
     for (const std::size_t n : {17, 32, 50, 107}) {
         const std::vector<float> phases = middle_phases(n);
@@ -225,9 +223,7 @@ TEST_P(EyeLanes, have_the_random_phases_of_single_hogels_of_any_side) {
             for (const std::size_t lane : {0, 15}) {
                 std::vector<float> of_lane(n * n);
                 for (std::size_t i = 0; i < n * n; ++i) of_lane[i] = moduli(i * lanes + (shared ? 0 : lane));
-                PhaseSeries one{series.key, {}};
-                for (std::size_t word = 0; word < 3; ++word)
-                    one.position[word] = static_cast<std::uint32_t>(series.position[word][lane]);
+                const PhaseSeries one = series_of_lane(series, lane);
                 Array<std::complex<float>, 2> values({n, n});
                 spread_random_phases(one, of_lane, values.elements());
                 Array<float, 1> waves({HogelWaves::size(n, n)});

@@ -94,7 +94,7 @@ struct GroupWeights {
                 for (std::size_t k = 0; k < TwelvePoint::taps; ++k) to[k] += own[k];
             }
         }
-        // Of the polynomial a + b t + c t², t = 0 … 1.
+        // They become those of the polynomial a + b t + c t², t = 0 … 1.
         for (std::size_t k = 0; k < taps; ++k) {
             const float start = nodes[0][k], middle = nodes[1][k], end = nodes[2][k];
             nodes[1][k] = -3 * start + 4 * middle - end;
