@@ -13,7 +13,9 @@ struct NearRows {
     std::size_t first = 0, count = std::numeric_limits<std::size_t>::max();
 
     /// @param rows  of all waves
-    bool has(std::size_t row, std::size_t rows) const { return (row + rows - first) % rows < count; }
+    bool has(std::size_t row, std::size_t rows) const {
+        return (row >= first ? row - first : row + rows - first) < count;
+    }
     /// Whether one of `some` rows from `row` on is among them.
     bool has_any(std::size_t row, std::size_t some, std::size_t rows) const {
         for (std::size_t end = std::min(row + some, rows); row < end; ++row)

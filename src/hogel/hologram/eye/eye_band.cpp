@@ -112,9 +112,10 @@ HogelView EyeBand::view(const HogelLayout& hogels, std::size_t s, std::size_t t,
     const double width = static_cast<double>(hogels.columns) * plane.pitch_x,
                  height = static_cast<double>(hogels.rows) * plane.pitch_y, wavelength = geometry.wavelength();
     HogelView view;
-    view.columns = across_->weights(geometry.sine_x(x, y) * width / wavelength);
-    view.rows = down_->weights(-geometry.sine_y(x, y) * height / wavelength);
-    set_phases({x, y, width, height, view.columns.frequency, view.rows.frequency}, phases);
+    const double distance = geometry.distance(x, y), cycles = 1 / (distance * wavelength);
+    view.columns = across_->weights((x - geometry.eye().x) * width * cycles);
+    view.rows = down_->weights((geometry.eye().y - y) * height * cycles);
+    set_phases({x, y, distance, width, height, view.columns.frequency, view.rows.frequency}, phases);
     view.phases = phases;
     view.near = rows_near(view.rows.frequency);
     return view;
@@ -133,15 +134,14 @@ NearRows EyeBand::rows_near(double frequency) const {
 void EyeBand::set_phases(const Place& hogel, View<float, 3> phases) const {
     const optics::ViewGeometry& geometry = grid_.geometry;
     const double reach = places_.back();
-    const double distance = geometry.distance(hogel.x, hogel.y), size = reach * std::max(hogel.width, hogel.height);
+    const double distance = hogel.distance, size = reach * std::max(hogel.width, hogel.height);
+    const double x = hogel.x - geometry.eye().x, y = hogel.y - geometry.eye().y, z = geometry.eye().z;
     // r grows by −n_x n_y/r along both axes, and rows run down.
-    const double bend = geometry.sine_x(hogel.x, hogel.y) * geometry.sine_y(hogel.x, hogel.y) * hogel.width *
-                        hogel.height / (distance * geometry.wavelength());
+    const double bend = x * y * hogel.width * hogel.height / (distance * distance * distance * geometry.wavelength());
     // The next terms of the series, in cycles, and the angle up to which its root is exact.
     const bool small = size * size * size / (distance * distance * geometry.wavelength()) < 2e-4 &&
                        2 * std::numbers::pi * std::abs(bend) * reach * reach < 0.1;
     if (!small) return set_phases_one_by_one(hogel, phases);
-    const double x = hogel.x - geometry.eye().x, y = hogel.y - geometry.eye().y, z = geometry.eye().z;
     const double frequency = 1 / geometry.wavelength();
     const NodeLine across{x, hogel.width, y * y + z * z, frequency, hogel.columns, distance * frequency},
         down{y, -hogel.height, x * x + z * z, frequency, hogel.rows, 0};

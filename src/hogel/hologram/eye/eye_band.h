@@ -57,9 +57,10 @@ class EyeBand {
 
   private:
     explicit EyeBand(const optics::ViewGeometry& geometry) : grid_{geometry, {}} {}
-    // A hogel: its middle, its size, and the frequencies that its weights have taken from the demodulation.
+    // A hogel: its middle and the distance from there to the eye, its size, and the frequencies that its weights have
+    // taken from the demodulation.
     struct Place {
-        double x, y, width, height, columns, rows;
+        double x, y, distance, width, height, columns, rows;
     };
     void set_phases(const Place& hogel, View<float, 3> phases) const;
     void set_phases_one_by_one(const Place& hogel, View<float, 3> phases) const;

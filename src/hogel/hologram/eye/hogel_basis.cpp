@@ -205,20 +205,23 @@ void HogelBasis::make_pairs() {
                 }
             }
             alone_[fraction] = alone.size();
+            if (begin == 0) count_[fraction] = pairs_[fraction].size() + alone.size();
             pairs_[fraction].insert(pairs_[fraction].end(), alone.begin(), alone.end());
         }
 }
 
 HogelBasis::Weights HogelBasis::weights(double frequency) const {
-    const auto floored = [](std::int64_t a, std::int64_t b) { return (a - (a % b + b) % b) / b; };
-    const auto n = static_cast<std::int64_t>(samples_), parts = static_cast<std::int64_t>(fractions);
-    const auto steps = static_cast<std::int64_t>(std::floor(frequency * static_cast<double>(fractions) + 0.5));
-    const std::int64_t whole = floored(steps, parts), turns = floored(whole, n);
+    // Whole numbers, of at most some thousands.
+    const auto floored = [](std::int32_t a, std::int32_t b) { return (a < 0 ? a - b + 1 : a) / b; };
+    const auto n = static_cast<std::int32_t>(samples_);
+    constexpr auto parts = static_cast<std::int32_t>(fractions);
+    const auto steps = static_cast<std::int32_t>(std::floor(frequency * parts + 0.5));
+    const std::int32_t whole = floored(steps, parts), turns = floored(whole, n);
     const auto fraction = static_cast<std::size_t>(steps - whole * parts);
     const auto first = static_cast<std::size_t>(whole - turns * n);
     const bool opposite = samples_ % 2 == 0 && turns % 2 != 0;
-    const std::size_t count = pairs_[fraction].size() / samples_;
-    return {static_cast<double>(steps) / static_cast<double>(fractions),
+    const std::size_t count = count_[fraction];
+    return {static_cast<double>(steps) / parts,
             opposite ? -1.0f : 1.0f,
             &table_(fraction, 0, first),
             2 * samples_,

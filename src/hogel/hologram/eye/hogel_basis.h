@@ -86,10 +86,10 @@ class HogelBasis {
     Window window_;
     double error_ = 0;
     Array<float, 2> spread_;
-    Array<float, 3> table_;                   // [halves of ν][function][0 … 2n − 1]
-    Array<float, 3> folded_;                  // [halves of ν][0 … n/2][function]
-    std::vector<WavePair> pairs_[fractions];  // [whole part of ν][pair], those with one wave last
-    std::size_t alone_[fractions] = {};
+    Array<float, 3> table_;                                      // [halves of ν][function][0 … 2n − 1]
+    Array<float, 3> folded_;                                     // [halves of ν][0 … n/2][function]
+    std::vector<WavePair> pairs_[fractions];                     // [whole part of ν][pair], those with one wave last
+    std::size_t count_[fractions] = {}, alone_[fractions] = {};  // of one whole part
 };
 
 }  // namespace hogel::hologram::eye

@@ -3,16 +3,34 @@
 
 #include <complex>
 
+#include "hogel/core/half.h"
+
 namespace hogel::hologram::eye {
 
-void sum_row_plain(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line) {
+namespace {
+
+template <class Value>
+void sum_columns(const HogelBasis& basis, const HogelBasis::Weights& columns, const Value& value, float* line) {
     for (std::size_t k = 0; k < basis.functions(); ++k)
         for (std::size_t i = 0; i < 2 * lanes; ++i) {
             float sum = 0;
             for (std::size_t column = 0; column < basis.samples(); ++column)
-                sum += columns.first[k * columns.stride + column] * waves[column * 2 * lanes + i];
+                sum += columns.first[k * columns.stride + column] * value(column * 2 * lanes + i);
             line[k * 2 * lanes + i] = sum;
         }
+}
+
+}  // namespace
+
+void sum_row_plain(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line) {
+    sum_columns(
+        basis, columns, [&](std::size_t i) { return waves[i]; }, line);
+}
+
+void sum_row_of_halves_plain(const HogelBasis& basis, const HogelBasis::Weights& columns, const std::uint16_t* waves,
+                             float* line) {
+    sum_columns(
+        basis, columns, [&](std::size_t i) { return core::float_of(waves[i]); }, line);
 }
 
 void sum_rows_plain(const HogelBasis& basis, const HogelBasis::Weights& rows, float sign, const float* lines,
@@ -21,8 +39,11 @@ void sum_rows_plain(const HogelBasis& basis, const HogelBasis::Weights& rows, fl
     for (std::size_t l = 0; l < functions; ++l)
         for (std::size_t i = 0; i < line; ++i) {
             float sum = 0;
-            for (std::size_t row = 0; row < basis.samples(); ++row)
-                sum += rows.first[l * rows.stride + row] * lines[row * line + i];
+            const auto add = [&](std::size_t row) { sum += rows.first[l * rows.stride + row] * lines[row * line + i]; };
+            for (const HogelBasis::WavePair& pair : rows.pairs) {
+                add(pair.one);
+                if (pair.other != pair.one) add(pair.other);
+            }
             if (chosen[i % lanes] != 0) numbers[l * line + i] = sign * sum;
         }
 }

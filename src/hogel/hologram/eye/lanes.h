@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "hogel/hologram/eye/project.h"
@@ -15,8 +16,15 @@ namespace hogel::hologram::eye {
 /// Sums a row of waves over its columns: line[function][part][lane] = Σ_column D_k waves[column][part][lane].
 void sum_row_plain(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line);
 void sum_row(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line);
+/// The same for waves in binary16.
+/// @param next  the row that will be summed next, which is fetched meanwhile; any address
+void sum_row_of_halves_plain(const HogelBasis& basis, const HogelBasis::Weights& columns, const std::uint16_t* waves,
+                             float* line);
+void sum_row_of_halves(const HogelBasis& basis, const HogelBasis::Weights& columns, const std::uint16_t* waves,
+                       const std::uint16_t* next, float* line);
 
-/// Sums all rows: numbers[down][across][part][lane] = sign · Σ_row D_l lines[row][function][part][lane].
+/// Sums all rows of the pairs in `rows`, from which dark ones may be missing: numbers[down][across][part][lane] =
+/// sign · Σ_row D_l lines[row][function][part][lane].
 /// @param chosen  for each lane, whether it is stored (1) or left as it is (0)
 void sum_rows_plain(const HogelBasis& basis, const HogelBasis::Weights& rows, float sign, const float* lines,
                     const float* chosen, float* numbers);

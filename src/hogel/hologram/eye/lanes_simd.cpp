@@ -4,11 +4,14 @@
 #define HWY_TARGET_INCLUDE "hogel/hologram/eye/lanes_simd.cpp"
 #include <hwy/foreach_target.h>
 // Must be included after foreach_target.h:
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
+#include "hogel/core/half.h"
 #include "hogel/core/with_count.h"
 #include "hogel/hologram/eye/add_nodes-inl.h"
 #include "hogel/hologram/eye/lanes.h"
@@ -24,6 +27,10 @@ using math::HWY_NAMESPACE::transpose_sixteen;
 #if HWY_TARGET == HWY_SCALAR
 void SumRow(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line) {
     sum_row_plain(basis, columns, waves, line);
+}
+void SumRowOfHalves(const HogelBasis& basis, const HogelBasis::Weights& columns, const std::uint16_t* waves,
+                    const std::uint16_t*, float* line) {
+    sum_row_of_halves_plain(basis, columns, waves, line);
 }
 void SumRows(const HogelBasis& basis, const HogelBasis::Weights& rows, float sign, const float* lines,
              const float* chosen, float* numbers) {
@@ -43,11 +50,25 @@ constexpr std::size_t parts_together = HWY_ARCH_X86 && HWY_TARGET > HWY_AVX3 ? 1
 // Floats of a complex number of all lanes.
 constexpr std::size_t both = 2 * lanes;
 
-// Sums over pairs of items, `stride` floats apart, of weights of some functions from `first` on; store(k, part, i,
-// sum).
-template <std::size_t functions, class Store>
-HWY_INLINE void sum_pairs(const float* items, std::size_t stride, const HogelBasis::Weights& weights, std::size_t first,
-                          const Store& store) {
+// Numbers of sixteen lanes; binary16 becomes single precision.
+HWY_INLINE V load(const float* numbers) { return hn::Load(D(), numbers); }
+HWY_INLINE V load(const std::uint16_t* numbers) {
+    const D d;
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
+    const hn::Rebind<hwy::float16_t, D> halves;
+    return hn::PromoteTo(d, hn::BitCast(halves, hn::Load(hn::Rebind<std::uint16_t, D>(), numbers)));
+#else
+    HWY_ALIGN float values[lanes];
+    for (std::size_t i = 0; i < hn::Lanes(d); ++i) values[i] = core::float_of(numbers[i]);
+    return hn::Load(d, values);
+#endif
+}
+
+// Sums over pairs of items, `stride` numbers apart, of weights of some functions from `first` on; store(k, part, i,
+// sum). advance() is called once for each pair.
+template <std::size_t functions, class Number, class Advance, class Store>
+HWY_INLINE void sum_pairs(const Number* items, std::size_t stride, const HogelBasis::Weights& weights,
+                          std::size_t first, const Advance& advance, const Store& store) {
     const D d;
     const std::size_t two = weights.pairs.size() - weights.alone;
     for (std::size_t at = 0; at < both; at += parts_together * lanes)
@@ -56,12 +77,12 @@ HWY_INLINE void sum_pairs(const float* items, std::size_t stride, const HogelBas
             for (auto& part : sums)
                 for (V& sum : part) sum = hn::Zero(d);
             for (const WavePair& pair : weights.pairs.first(two)) {
-                const float *one = items + stride * pair.one + at + i, *other = items + stride * pair.other + at + i;
+                if (at + i == 0) advance();
+                const Number *one = items + stride * pair.one + at + i, *other = items + stride * pair.other + at + i;
                 const V sign = hn::Set(d, pair.sign_one), sign_other = hn::Set(d, pair.sign_other);
                 V even[parts_together], odd[parts_together];
                 for (std::size_t p = 0; p < parts_together; ++p) {
-                    const V a = hn::Xor(hn::Load(d, one + p * lanes), sign),
-                            b = hn::Xor(hn::Load(d, other + p * lanes), sign_other);
+                    const V a = hn::Xor(load(one + p * lanes), sign), b = hn::Xor(load(other + p * lanes), sign_other);
                     even[p] = hn::Add(a, b);
                     odd[p] = hn::Sub(a, b);
                 }
@@ -73,10 +94,10 @@ HWY_INLINE void sum_pairs(const float* items, std::size_t stride, const HogelBas
                 }
             }
             for (const WavePair& pair : weights.pairs.subspan(two)) {
-                const float* one = items + stride * pair.one + at + i;
+                const Number* one = items + stride * pair.one + at + i;
                 const V sign = hn::Set(d, pair.sign_one);
                 for (std::size_t p = 0; p < parts_together; ++p) {
-                    const V a = hn::Xor(hn::Load(d, one + p * lanes), sign);
+                    const V a = hn::Xor(load(one + p * lanes), sign);
                     for (std::size_t k = 0; k < functions; ++k)
                         sums[p][k] = hn::MulAdd(hn::Set(d, pair.weights[first + k]), a, sums[p][k]);
                 }
@@ -86,14 +107,32 @@ HWY_INLINE void sum_pairs(const float* items, std::size_t stride, const HogelBas
         }
 }
 
-void SumRow(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line) {
+template <class Number, class Advance>
+HWY_INLINE void sum_numbers(const HogelBasis& basis, const HogelBasis::Weights& columns, const Number* waves,
+                            const Advance& advance, float* line) {
     const std::size_t functions = basis.functions();
     for (std::size_t first = 0; first < functions; first += together)
         with_count<together>(std::min(together, functions - first), [&](auto some) HWY_ATTR {
-            sum_pairs<some()>(waves, both, columns, first,
+            sum_pairs<some()>(waves, both, columns, first, advance,
                               [&](std::size_t k, std::size_t at, std::size_t, V sum)
                                   HWY_ATTR { hn::Store(sum, D(), line + (first + k) * both + at); });
         });
+}
+
+void SumRow(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line) {
+    sum_numbers(
+        basis, columns, waves, [] {}, line);
+}
+
+void SumRowOfHalves(const HogelBasis& basis, const HogelBasis::Weights& columns, const std::uint16_t* waves,
+                    const std::uint16_t* next, float* line) {
+    // Pairs are not in the order of memory, which therefore has to be told which numbers come next.
+    const auto advance = [&] HWY_ATTR {
+        hwy::Prefetch(next);
+        hwy::Prefetch(next + both);
+        next += 2 * both;
+    };
+    sum_numbers(basis, columns, waves, advance, line);
 }
 
 void SumRows(const HogelBasis& basis, const HogelBasis::Weights& rows, float sign, const float* lines,
@@ -105,15 +144,15 @@ void SumRows(const HogelBasis& basis, const HogelBasis::Weights& rows, float sig
     for (std::size_t first = 0; first < functions; first += together)
         with_count<together>(std::min(together, functions - first), [&](auto some) HWY_ATTR {
             for (std::size_t k = 0; k < functions; ++k)
-                sum_pairs<some()>(lines + k * both, line, rows, first,
-                                  [&](std::size_t l, std::size_t at, std::size_t i, V sum) HWY_ATTR {
-                                      float* to = numbers + (first + l) * line + k * both + at;
-                                      sum = hn::Mul(sum, factor);
-                                      if (!all)
-                                          sum = hn::IfThenElse(hn::Ne(hn::Load(d, chosen + i), hn::Zero(d)), sum,
-                                                               hn::Load(d, to));
-                                      hn::Store(sum, d, to);
-                                  });
+                sum_pairs<some()>(
+                    lines + k * both, line, rows, first, [] {},
+                    [&](std::size_t l, std::size_t at, std::size_t i, V sum) HWY_ATTR {
+                        float* to = numbers + (first + l) * line + k * both + at;
+                        sum = hn::Mul(sum, factor);
+                        if (!all)
+                            sum = hn::IfThenElse(hn::Ne(hn::Load(d, chosen + i), hn::Zero(d)), sum, hn::Load(d, to));
+                        hn::Store(sum, d, to);
+                    });
         });
 }
 
@@ -237,11 +276,16 @@ HWY_AFTER_NAMESPACE();
 namespace hogel::hologram::eye {
 
 HWY_EXPORT(SumRow);
+HWY_EXPORT(SumRowOfHalves);
 HWY_EXPORT(SumRows);
 HWY_EXPORT(AddLanes);
 
 void sum_row(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line) {
     HWY_DYNAMIC_DISPATCH(SumRow)(basis, columns, waves, line);
+}
+void sum_row_of_halves(const HogelBasis& basis, const HogelBasis::Weights& columns, const std::uint16_t* waves,
+                       const std::uint16_t* next, float* line) {
+    HWY_DYNAMIC_DISPATCH(SumRowOfHalves)(basis, columns, waves, next, line);
 }
 void sum_rows(const HogelBasis& basis, const HogelBasis::Weights& rows, float sign, const float* lines,
               const float* chosen, float* numbers) {

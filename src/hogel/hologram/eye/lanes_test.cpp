@@ -9,6 +9,7 @@
 #include <random>
 #include <vector>
 
+#include "hogel/core/half.h"
 #include "hogel/core/test_targets.h"
 #include "hogel/hologram/eye/node_phases.h"
 #include "hogel/hologram/hogel_synthesis.h"
@@ -123,6 +124,57 @@ TEST_P(EyeLanes, are_projections_of_single_hogels) {
                 }
             }
         }
+}
+
+TEST_P(EyeLanes, of_binary16_are_those_of_its_values) {
+    for (const std::size_t n : {32, 27}) {
+        const HogelBasis basis(n, 4, 1.2);
+        const Array<float, 1> values = noise(n * both, 4);
+        std::vector<std::uint16_t, CacheLineAllocator<std::uint16_t>> halves(n * both);
+        Array<float, 1> rounded({n * both});
+        for (std::size_t i = 0; i < halves.size(); ++i) {
+            halves[i] = core::half_of(values(i));
+            rounded(i) = core::float_of(halves[i]);
+        }
+        const std::size_t line = basis.functions() * both;
+        Array<float, 1> expected({line}), fast({line}), plain({line});
+        const HogelBasis::Weights columns = basis.weights(3.4);
+        sum_row(basis, columns, rounded.data(), expected.data());
+        sum_row_of_halves(basis, columns, halves.data(), nullptr, fast.data());
+        sum_row_of_halves_plain(basis, columns, halves.data(), plain.data());
+        for (std::size_t i = 0; i < line; ++i) {
+            ASSERT_EQ(fast(i), expected(i)) << i;
+            ASSERT_NEAR(plain(i), expected(i), 3e-5) << i;
+        }
+    }
+}
+
+// Rows whose pairs are left out count as zero.
+TEST_P(EyeLanes, need_no_dark_rows) {
+    const HogelBasis basis(32, 4, 1.2);
+    const std::size_t line = basis.functions() * both;
+    const Array<float, 1> lines = noise(32 * line, 3);
+    Array<float, 1> dark = lines;
+    HogelBasis::Weights rows = basis.weights(0.5);
+    std::vector<HogelBasis::WavePair> pairs(rows.pairs.begin(), rows.pairs.end());
+    for (const std::size_t left_out : {std::size_t{3}, std::size_t{5}}) {
+        std::fill_n(&dark(pairs[left_out].one * line), line, 0.0f);
+        std::fill_n(&dark(pairs[left_out].other * line), line, 0.0f);
+    }
+    pairs.erase(pairs.begin() + 5);
+    pairs.erase(pairs.begin() + 3);
+    const HogelBasis::Weights all = rows;
+    rows.pairs = pairs;
+    alignas(64) float chosen[lanes];
+    std::ranges::fill(chosen, 1.0f);
+    Array<float, 1> expected({basis.functions() * line}), fast(expected.shape()), plain(expected.shape());
+    sum_rows_plain(basis, all, 1, dark.data(), chosen, expected.data());
+    sum_rows(basis, rows, 1, lines.data(), chosen, fast.data());
+    sum_rows_plain(basis, rows, 1, lines.data(), chosen, plain.data());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        ASSERT_NEAR(fast(i), expected(i), 1e-4) << i;
+        ASSERT_NEAR(plain(i), expected(i), 1e-4) << i;
+    }
 }
 
 // Only the lanes that are chosen are stored.

@@ -5,7 +5,6 @@
 #include <mutex>
 #include <utility>
 
-#include "hogel/core/half.h"
 #include "hogel/core/object_pool.h"
 #include "hogel/core/parallel.h"
 #include "hogel/core/shared_order.h"
@@ -18,6 +17,7 @@ namespace {
 using Complex = std::complex<float>;
 
 constexpr std::size_t tile = tile_side;
+constexpr std::size_t both = 2 * HogelWaves::lanes;  // floats of a complex number of all lanes
 
 // Rows of tiles between which the light of hogels does not meet: nodes reach at most eight beyond either end of a
 // hogel, or of its window, which has at least one to a hogel.
@@ -68,6 +68,18 @@ class ColourEyes {
         std::size_t first, count;
     };
 
+    // A hogel of a block and a look, one lane.
+    struct Item {
+        std::size_t hogel, look;
+    };
+
+    // Lanes that an eye sees with the same weights.
+    struct Group {
+        HogelBasis::Weights columns, rows;
+        NearRows near;
+        alignas(64) float chosen[HogelWaves::lanes];
+    };
+
     // Buffers for a block of hogels.
     struct Scratch {
         Array<float, 2> prepared;          // unless it is kept
@@ -76,6 +88,10 @@ class ColourEyes {
         std::vector<Array<float, 4>> phases;              // [eye][hogel][node down][2][phase_row]
         std::vector<std::vector<HogelView>> views;        // [eye][hogel]
         std::vector<std::vector<Array<float, 1>>> lines;  // [eye][weights]: [row][function][part][lane]
+        std::vector<std::vector<Group>> groups;           // [eye]
+        std::vector<HogelBasis::WavePair> pairs;
+        std::vector<char> lit;  // [row]
+        std::vector<HogelPlace> places;
         std::vector<const float*> sources;
         EyeBands strip;
     };
@@ -172,19 +188,15 @@ class ColourEyes {
             }
     }
 
-    // A hogel of a block and a look, one lane.
-    struct Item {
-        std::size_t hogel, look;
-    };
-
     // Batches are parts of tiles of hogels, in an order that depends neither on the eyes nor on the number of looks.
     void draw_in_lanes(const HogelRange& some, const Looks& looks, Scratch& scratch, EyeBands& bands) const {
         const std::size_t together = std::max<std::size_t>(1, HogelWaves::lanes / looks.count);
         std::vector<std::size_t> hogels;
+        std::vector<Item> items;
         KeptWaves::Tile kept;
         const auto flush = [&] {
             for (std::size_t look = 0; !hogels.empty() && look < looks.count; look += HogelWaves::lanes) {
-                std::vector<Item> items;
+                items.clear();
                 for (const std::size_t hogel : hogels)
                     for (std::size_t l = look; l < std::min(look + HogelWaves::lanes, looks.count); ++l)
                         items.push_back({hogel, l});
@@ -205,15 +217,9 @@ class ColourEyes {
             }
     }
 
-    // Lanes that an eye sees with the same weights.
-    struct Group {
-        HogelBasis::Weights columns, rows;
-        NearRows near;
-        alignas(64) float chosen[HogelWaves::lanes];
-    };
-
-    std::vector<Group> groups_of(const std::vector<Item>& items, const std::vector<HogelView>& views) const {
-        std::vector<Group> groups;
+    static void set_groups(std::span<const Item> items, const std::vector<HogelView>& views,
+                           std::vector<Group>& groups) {
+        groups.clear();
         for (std::size_t lane = 0; lane < items.size(); ++lane) {
             const HogelView& view = views[items[lane].hogel];
             auto group = std::ranges::find_if(groups, [&](const Group& other) {
@@ -224,76 +230,34 @@ class ColourEyes {
         }
         // Lanes that are not used may hold anything.
         if (groups.size() == 1) std::ranges::fill(groups.front().chosen, 1.0f);
-        return groups;
     }
 
     // @param kept  the waves of these hogels, if they are kept
-    void draw_batch(const HogelRange& some, const std::vector<Item>& items, std::size_t first_look,
+    void draw_batch(const HogelRange& some, std::span<const Item> items, std::size_t first_look,
                     const KeptWaves::Tile& kept, Scratch& scratch, EyeBands& bands) const {
-        constexpr std::size_t both = 2 * HogelWaves::lanes;
-        const std::size_t n = hogels_.columns;
-        std::vector<HogelPlace> places;
-        for (const Item& item : items)
-            places.push_back({some.s0 + item.hogel % some.ns, some.t0 + item.hogel / some.ns, first_look + item.look});
-        const bool shared = items.front().hogel == items.back().hogel;
-        const float* prepared = scratch.moduli[items.front().hogel];
-        if (!shared && kept.rows == nullptr) {
-            scratch.sources.clear();
-            for (const Item& item : items) scratch.sources.push_back(scratch.moduli[item.hogel]);
-            const std::size_t size = HogelWaves::powers_size(n) * HogelWaves::lanes;
-            if (scratch.gathered.size() != size) scratch.gathered = Array<float, 1>({size});
-            prepared = scratch.gathered.data();
-        }
-        const SeriesOfLanes series = kept.rows == nullptr ? hogels_.waves->series_of_lanes(places) : SeriesOfLanes{};
-        if (scratch.waves.size() != n * both) scratch.waves = Array<float, 1>({n * both});
-        std::vector<std::vector<Group>> groups(eyes_.size());
+        scratch.groups.resize(eyes_.size());
         scratch.lines.resize(eyes_.size());
         for (std::size_t e = 0; e < eyes_.size(); ++e) {
-            groups[e] = groups_of(items, scratch.views[e]);
-            if (scratch.lines[e].size() < groups[e].size()) scratch.lines[e].resize(groups[e].size());
+            set_groups(items, scratch.views[e], scratch.groups[e]);
+            const std::size_t count = scratch.groups[e].size();
+            if (scratch.lines[e].size() < count) scratch.lines[e].resize(count);
             for (Array<float, 1>& lines : scratch.lines[e])
-                if (const std::size_t size = n * eyes_[e].bases().across.functions() * both; lines.size() != size)
+                if (const std::size_t size = hogels_.rows * eyes_[e].bases().across.functions() * both;
+                    lines.size() != size)
                     lines = Array<float, 1>({size});
         }
-        const auto counts = [&](std::size_t row) {
-            return std::ranges::any_of(groups, [&](const std::vector<Group>& eye) {
-                return std::ranges::any_of(eye, [&](const Group& group) { return group.near.has(row, n); });
-            });
-        };
-        std::size_t gathered = 0;  // rows
-        for (std::size_t row = 0; row < n; ++row) {
-            const bool lit = kept.lit != nullptr ? kept.lit[row] != 0 : hogels_.waves->has_light(row);
-            if (lit && counts(row)) {
-                if (kept.rows != nullptr) {
-                    core::to_float(kept.rows + row * n * both, scratch.waves.data(), n * both);
-                } else {
-                    if (!shared && row >= gathered) {
-                        const std::size_t block = row / HogelWaves::rows_together * HogelWaves::rows_together;
-                        hogels_.waves->gather_lanes(scratch.sources, block, scratch.gathered.data());
-                        gathered = block + HogelWaves::rows_together;
-                    }
-                    hogels_.waves->row_of_lanes(series, row, shared, prepared, scratch.waves.data());
-                }
-            }
-            for (std::size_t e = 0; e < eyes_.size(); ++e) {
-                const HogelBasis& basis = eyes_[e].bases().across;
-                const std::size_t size = basis.functions() * both;
-                for (std::size_t g = 0; g < groups[e].size(); ++g) {
-                    float* line = &scratch.lines[e][g](row * size);
-                    if (lit && groups[e][g].near.has(row, n))
-                        sum_row(basis, groups[e][g].columns, scratch.waves.data(), line);
-                    else
-                        std::fill_n(line, size, 0.0f);
-                }
-            }
-        }
+        if (kept.rows != nullptr)
+            sum_kept_rows(kept, scratch);
+        else
+            sum_rows_of_waves(some, items, first_look, scratch);
         for (std::size_t e = 0; e < eyes_.size(); ++e) {
-            const HogelBasis& basis = eyes_[e].bases().across;
-            if (const std::size_t size = basis.functions() * basis.functions() * both; scratch.numbers.size() < size)
+            const HogelBases bases = eyes_[e].bases();
+            if (const std::size_t size = bases.across.functions() * bases.across.functions() * both;
+                scratch.numbers.size() < size)
                 scratch.numbers = Array<float, 1>({size});
-            for (std::size_t g = 0; g < groups[e].size(); ++g) {
-                const Group& group = groups[e][g];
-                sum_rows(basis, group.rows, kept.scale * group.columns.sign * group.rows.sign,
+            for (std::size_t g = 0; g < scratch.groups[e].size(); ++g) {
+                const Group& group = scratch.groups[e][g];
+                sum_rows(bases.across, lit_rows(e, g, scratch), kept.scale * group.columns.sign * group.rows.sign,
                          scratch.lines[e][g].data(), group.chosen, scratch.numbers.data());
             }
             LaneTarget targets[HogelWaves::lanes];
@@ -302,8 +266,89 @@ class ColourEyes {
                 targets[lane] = {scratch.views[e][item.hogel].phases.data(),
                                  place(e, some, item.hogel, bands[e][item.look])};
             }
-            add_lanes(basis, scratch.numbers.data(), {targets, items.size()});
+            add_lanes(bases.across, scratch.numbers.data(), {targets, items.size()});
         }
+    }
+
+    // Calls sum(weights, line) for each line of a row of waves that is lit and near to an eye.
+    template <class Sum>
+    void for_lines(std::size_t row, Scratch& scratch, const Sum& sum) const {
+        for (std::size_t e = 0; e < eyes_.size(); ++e)
+            for (std::size_t g = 0; g < scratch.groups[e].size(); ++g) {
+                const Group& group = scratch.groups[e][g];
+                const HogelBasis& basis = eyes_[e].bases().across;
+                if (group.near.has(row, hogels_.rows))
+                    sum(basis, group.columns, &scratch.lines[e][g](row * basis.functions() * both));
+            }
+    }
+
+    void sum_kept_rows(const KeptWaves::Tile& kept, Scratch& scratch) const {
+        const std::size_t size = hogels_.columns * both;
+        scratch.lit.assign(kept.lit, kept.lit + hogels_.rows);
+        for (std::size_t row = 0; row < hogels_.rows; ++row) {
+            if (!scratch.lit[row]) continue;
+            const std::uint16_t* waves = kept.rows + row * size;
+            for_lines(row, scratch, [&](const HogelBasis& basis, const HogelBasis::Weights& columns, float* line) {
+                sum_row_of_halves(basis, columns, waves, waves + size, line);
+            });
+        }
+    }
+
+    void sum_rows_of_waves(const HogelRange& some, std::span<const Item> items, std::size_t first_look,
+                           Scratch& scratch) const {
+        const std::size_t n = hogels_.columns;
+        const bool shared = items.front().hogel == items.back().hogel;
+        const float* prepared = scratch.moduli[items.front().hogel];
+        if (!shared) {
+            scratch.sources.clear();
+            for (const Item& item : items) scratch.sources.push_back(scratch.moduli[item.hogel]);
+            const std::size_t size = HogelWaves::powers_size(n) * HogelWaves::lanes;
+            if (scratch.gathered.size() != size) scratch.gathered = Array<float, 1>({size});
+            prepared = scratch.gathered.data();
+        }
+        scratch.places.clear();
+        for (const Item& item : items)
+            scratch.places.push_back(
+                {some.s0 + item.hogel % some.ns, some.t0 + item.hogel / some.ns, first_look + item.look});
+        const SeriesOfLanes series = hogels_.waves->series_of_lanes(scratch.places);
+        if (scratch.waves.size() != n * both) scratch.waves = Array<float, 1>({n * both});
+        scratch.lit.resize(hogels_.rows);
+        std::size_t gathered = 0;  // rows
+        for (std::size_t row = 0; row < hogels_.rows; ++row) {
+            scratch.lit[row] = hogels_.waves->has_light(row);
+            bool made = false;
+            for_lines(row, scratch, [&](const HogelBasis& basis, const HogelBasis::Weights& columns, float* line) {
+                if (!scratch.lit[row]) return;
+                if (!made && !shared && row >= gathered) {
+                    const std::size_t block = row / HogelWaves::rows_together * HogelWaves::rows_together;
+                    hogels_.waves->gather_lanes(scratch.sources, block, scratch.gathered.data());
+                    gathered = block + HogelWaves::rows_together;
+                }
+                if (!made) hogels_.waves->row_of_lanes(series, row, shared, prepared, scratch.waves.data());
+                made = true;
+                sum_row(basis, columns, scratch.waves.data(), line);
+            });
+        }
+    }
+
+    // The weights of the rows that are lit and near to an eye. The dark one of a pair counts as zero.
+    HogelBasis::Weights lit_rows(std::size_t e, std::size_t g, Scratch& scratch) const {
+        const Group& group = scratch.groups[e][g];
+        HogelBasis::Weights weights = group.rows;
+        const std::size_t size = eyes_[e].bases().across.functions() * both;
+        const auto is_lit = [&](std::size_t row) { return scratch.lit[row] && group.near.has(row, hogels_.rows); };
+        scratch.pairs.clear();
+        for (std::size_t i = 0; i < group.rows.pairs.size(); ++i) {
+            const HogelBasis::WavePair& pair = group.rows.pairs[i];
+            const bool one = is_lit(pair.one), other = is_lit(pair.other);
+            if (one || other)
+                scratch.pairs.push_back(pair);
+            else if (i >= group.rows.pairs.size() - group.rows.alone)
+                --weights.alone;
+            if (one != other) std::fill_n(&scratch.lines[e][g]((one ? pair.other : pair.one) * size), size, 0.0f);
+        }
+        weights.pairs = scratch.pairs;
+        return weights;
     }
 
     Hogels hogels_;

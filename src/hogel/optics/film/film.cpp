@@ -148,12 +148,11 @@ PupilWave Film::pupil_wave(View<const Complex, 2> band) const {
 void Film::resample_rows(View<const Complex, 2> band, std::vector<char>& is_lit, Scratch& scratch) const {
     const Grid& plane = band_.plane;
     const SineGrid& sines = size_.sines;
-    const std::size_t lit_columns = size_.lit_right - size_.lit_left;
-    Array<Complex, 2>& columns = scratch.columns;
-    if (columns.size() == 0) columns = Array<Complex, 2>({lit_columns, plane.height});
+    const std::size_t lit_columns = size_.lit_right - size_.lit_left, row_blocks = blocks_of(plane.height);
+    if (scratch.columns.size() == 0)
+        scratch.columns = Array<float, 3>({blocks_of(lit_columns), row_blocks, lines_together * both});
     const Vec3 eye = band_.geometry.eye();
-    const double left = sines.first_x + static_cast<double>(size_.lit_left) * sines.step;
-    core::parallel_for(blocks_of(plane.height), [&](std::size_t block) {
+    core::parallel_for(row_blocks, [&](std::size_t block) {
         const std::size_t first = block * lines_together, count = std::min(lines_together, plane.height - first);
         // Most rows are dark where the lines of a hologram are photographed apart.
         bool all_dark = true;
@@ -162,21 +161,25 @@ void Film::resample_rows(View<const Complex, 2> band, std::vector<char>& is_lit,
             all_dark = all_dark && !is_lit[r];
         }
         if (all_dark) {
-            for (std::size_t i = 0; i < lit_columns; ++i) std::fill_n(&columns(i, first), count, Complex(0));
+            for (std::size_t i = 0; i < scratch.columns.extent(0); ++i)
+                std::ranges::fill(scratch.columns[i][block].elements(), 0.0f);
             return;
         }
-        thread_local Array<Complex, 2> lines;
-        const Shape<2> shape{lines_together, stride_of(lit_columns)};
-        if (lines.shape() != shape) lines = Array<Complex, 2>(shape);
-        for (std::size_t r = 0; r < count; ++r) {
-            // On a row the point of sine n_x lies at x = c_x + n_x/√(1 − n_x²) · √((y − c_y)² + c_z²).
-            const double reach = std::hypot(plane.y(static_cast<double>(first + r)) - eye.y, eye.z);
-            resample_tangents({&band(first + r, 0), plane.width},
-                              {left, sines.step, 1, reach / plane.pitch_x, plane.column(eye.x)}, interpolation(),
-                              {&lines(r, 0), lit_columns});
+        thread_local Array<float, 1> lines;
+        if (lines.size() < plane.width * both) lines = Array<float, 1>({plane.width * both});
+        side_by_side(reinterpret_cast<const float*>(&band(first, 0)), plane.width, plane.width, count, lines.data());
+        // On a row the point of sine n_x lies at x = c_x + n_x/√(1 − n_x²) · √((y − c_y)² + c_z²).
+        TangentPlaces places{0, sines.step, plane.column(eye.x), {}, {}};
+        places.squares.fill(1);
+        for (std::size_t r = 0; r < lines_together; ++r) {
+            const auto row = static_cast<double>(first + std::min(r, count - 1));
+            places.scales[r] = std::hypot(plane.y(row) - eye.y, eye.z) / plane.pitch_x;
         }
-        for (std::size_t i = 0; i < lit_columns; ++i)
-            for (std::size_t r = 0; r < count; ++r) columns(i, first + r) = lines(r, i);
+        for (std::size_t i = 0; i < lit_columns; i += lines_together) {
+            places.first = sines.first_x + static_cast<double>(size_.lit_left + i) * sines.step;
+            resample_lines(lines.data(), plane.width, places, interpolation(),
+                           std::min(lines_together, lit_columns - i), &scratch.columns(i / lines_together, block, 0));
+        }
     });
 }
 
@@ -185,43 +188,48 @@ void Film::transform_columns(const std::vector<char>& is_lit, Scratch& scratch) 
     const SineGrid& sines = size_.sines;
     const std::size_t lit_columns = size_.lit_right - size_.lit_left, lit_rows = size_.lit_high - size_.lit_low;
     const Vec3 eye = band_.geometry.eye();
-    const double left = sines.first_x + static_cast<double>(size_.lit_left) * sines.step,
-                 low = sines.first_y + static_cast<double>(size_.lit_low) * sines.step;
+    const double low = sines.first_y + static_cast<double>(size_.lit_low) * sines.step;
     const std::vector<LitRows> lit = lit_rows_of(is_lit);
     Array<float, 2>& half = scratch.half;
     if (half.size() == 0) half = Array<float, 2>({blocks_of(across(size_.reach_y)), lit_columns * both});
     // Transforms each column and keeps only the frequencies within the pupil.
     core::parallel_for(blocks_of(lit_columns), [&](std::size_t block) {
         const std::size_t first = block * lines_together, count = std::min(lines_together, lit_columns - first);
-        thread_local Array<Complex, 2> lines;
-        thread_local Array<float, 1> together;
-        const Shape<2> shape{lines_together, stride_of(lit_rows)};
-        if (lines.shape() != shape) lines = Array<Complex, 2>(shape);
+        thread_local Array<float, 1> lines, together;
+        const std::size_t padded_rows = padded(plane.height);
+        if (lines.size() < padded_rows * both) lines = Array<float, 1>({padded_rows * both});
         if (together.size() < sines.size_y * both) together = Array<float, 1>({sines.size_y * both});
-        for (std::size_t c = 0; c < count; ++c) {
-            const double nx = left + static_cast<double>(first + c) * sines.step;
-            const double row_of_eye = plane.row(eye.y), rows_per_tangent = -eye.z / plane.pitch_y;
-            // The sine of the row at the tangent v is v √(1 − n_x²)/√(1 + v²).
-            const auto place = [&](double row) {
-                const double tangent = (row - row_of_eye) / rows_per_tangent;
-                const double sine = tangent * std::sqrt(1 - nx * nx) / std::hypot(1.0, tangent);
-                return std::clamp((sine - low) / sines.step, 0.0, static_cast<double>(lit_rows));
-            };
-            std::fill_n(&lines(c, 0), lit_rows, Complex(0));
-            for (const LitRows& rows : lit) {
-                const bool all = rows.begin < 0 && rows.end > static_cast<double>(plane.height);
-                const std::size_t from = all ? 0 : static_cast<std::size_t>(place(rows.end)),
-                                  to = all ? lit_rows : static_cast<std::size_t>(std::ceil(place(rows.begin)));
-                resample_tangents({&scratch.columns(first + c, 0), plane.height},
-                                  {low + static_cast<double>(from) * sines.step, sines.step, 1 - nx * nx,
-                                   rows_per_tangent, row_of_eye},
-                                  interpolation(), {&lines(c, from), to - from});
-            }
+        for (std::size_t rows = 0; rows < padded_rows; rows += lines_together)
+            for (const std::size_t part : {std::size_t{0}, lines_together})
+                turn_sixteen(&scratch.columns(block, rows / lines_together, part), both, both,
+                             &lines(rows * both + part));
+        // The point of sine n_y on the column of sine n_x is at the tangent n_y/√(1 − n_x² − n_y²).
+        const double row_of_eye = plane.row(eye.y), rows_per_tangent = -eye.z / plane.pitch_y;
+        TangentPlaces places{0, sines.step, row_of_eye, {}, {}};
+        places.scales.fill(rows_per_tangent);
+        for (std::size_t c = 0; c < lines_together; ++c) {
+            const auto column = static_cast<double>(size_.lit_left + first + std::min(c, count - 1));
+            const double sine = sines.first_x + column * sines.step;
+            places.squares[c] = 1 - sine * sine;
         }
-        std::fill_n(together.data(), size_.lit_low * both, 0.0f);
-        side_by_side(reinterpret_cast<const float*>(lines.data()), lines.extent(1), lit_rows, count,
-                     &together(size_.lit_low * both));
-        std::fill_n(together.data() + size_.lit_high * both, (sines.size_y - size_.lit_high) * both, 0.0f);
+        const auto [least, most] = std::ranges::minmax(places.squares);
+        // The sine of a row at the tangent v is v √(1 − n_x²)/√(1 + v²).
+        const auto sine_of = [&](double row, double square) {
+            const double tangent = (row - row_of_eye) / rows_per_tangent;
+            const double sine = tangent * std::sqrt(square) / std::hypot(1.0, tangent);
+            return std::clamp((sine - low) / sines.step, 0.0, static_cast<double>(lit_rows));
+        };
+        std::fill_n(together.data(), sines.size_y * both, 0.0f);
+        for (const LitRows& rows : lit) {
+            const bool all = rows.begin < 0 && rows.end > static_cast<double>(plane.height);
+            const double lowest = std::min(sine_of(rows.end, least), sine_of(rows.end, most)),
+                         highest = std::max(sine_of(rows.begin, least), sine_of(rows.begin, most));
+            const std::size_t from = all ? 0 : static_cast<std::size_t>(lowest),
+                              to = all ? lit_rows : static_cast<std::size_t>(std::ceil(highest));
+            places.first = low + static_cast<double>(from) * sines.step;
+            resample_lines(lines.data(), plane.height, places, interpolation(), to - from,
+                           &together((size_.lit_low + from) * both));
+        }
         down_.transform(together.data());
         turn_rows(together.data(), frequencies_y_, count, &half(0, first * both), half.extent(1));
     });

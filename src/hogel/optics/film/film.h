@@ -83,9 +83,10 @@ class Film {
   private:
     // Arrays that are used again for each look, because new ones would be cleared.
     struct Scratch {
-        Array<std::complex<float>, 2> columns;  // [sine x][row of the band]
-        Array<float, 2> half;                   // [frequency y / 16][sine x that is lit][part][frequency y mod 16]
-        Array<float, 2> film_columns;           // [column of the film / 16][frequency y][part][column mod 16]
+        // [sine x that is lit / 16][row of the band / 16][sine x mod 16][part][row mod 16]
+        Array<float, 3> columns;
+        Array<float, 2> half;          // [frequency y / 16][sine x that is lit][part][frequency y mod 16]
+        Array<float, 2> film_columns;  // [column of the film / 16][frequency y][part][column mod 16]
     };
 
     // A camera's lens for light from the middle of a part of the film, and the share of the part in the film's light.

@@ -14,30 +14,30 @@
 namespace hogel::optics::film {
 
 /// A windowed sinc as an interpolation kernel, tabulated by the fraction of a sample: twelve taps around a position
-/// between two samples, each stored twice, for the real and the imaginary part. A band-limited signal changes by less
-/// than 1e-3 of its value over half a table step.
+/// between two samples. A band-limited signal changes by less than 1e-3 of its value over half a table step.
 class InterpolationTable {
   public:
-    static constexpr std::ptrdiff_t taps = 12;   ///< twice as many fill vectors of eight
+    static constexpr std::ptrdiff_t taps = 12;
     static constexpr std::ptrdiff_t before = 5;  ///< taps before the sample left of a place
     static constexpr double half_width = 6;
     /// Cycles per sample that are passed; their images, from 1 − pass on, are stopped.
     static constexpr double pass = 0.3125;
     static constexpr std::size_t phases = 1024;
 
-    InterpolationTable() : weights_((phases + 1) * 2 * taps) {
+    InterpolationTable() : weights_((phases + 1) * taps) {
         for (std::size_t phase = 0; phase <= phases; ++phase)
             for (std::ptrdiff_t k = 0; k < taps; ++k) {
                 const double distance =
                     static_cast<double>(k - before) - static_cast<double>(phase) / static_cast<double>(phases);
-                float* both = &weights_[phase * 2 * taps + 2 * static_cast<std::size_t>(k)];
-                both[0] = both[1] = static_cast<float>(kaiser_sinc(distance, half_width));
+                weights_[phase * taps + static_cast<std::size_t>(k)] =
+                    static_cast<float>(kaiser_sinc(distance, half_width));
             }
     }
 
-    /// The weights for a fraction of a sample, each twice.
+    /// The weights for a fraction of a sample, in steps of the table: 0 … phases.
+    const float* weights_of_phase(std::size_t phase) const { return &weights_[phase * taps]; }
     const float* weights(double fraction) const {
-        return &weights_[static_cast<std::size_t>(fraction * phases + 0.5) * 2 * taps];
+        return weights_of_phase(static_cast<std::size_t>(fraction * phases + 0.5));
     }
 
     /// The value of line[…] (count values, zero outside) at a position between samples.
@@ -51,8 +51,8 @@ class InterpolationTable {
         float re = 0, im = 0;
         for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, -first);
              k < std::min(taps, static_cast<std::ptrdiff_t>(count) - first); ++k) {
-            re += w[2 * k] * line[first + k].real();
-            im += w[2 * k] * line[first + k].imag();
+            re += w[k] * line[first + k].real();
+            im += w[k] * line[first + k].imag();
         }
         return {re, im};
     }

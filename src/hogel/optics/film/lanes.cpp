@@ -44,4 +44,9 @@ void side_by_side_plain(const float* lines, std::size_t stride, std::size_t leng
                 to[i * row + part * together + lane] = lane < count ? lines[2 * (lane * stride + i) + part] : 0;
 }
 
+void turn_sixteen_plain(const float* rows, std::size_t from_row, std::size_t to_row, float* to) {
+    for (std::size_t line = 0; line < together; ++line)
+        for (std::size_t i = 0; i < together; ++i) to[i * to_row + line] = rows[line * from_row + i];
+}
+
 }  // namespace hogel::optics::film

@@ -35,4 +35,8 @@ void add_intensities(const float* rows, std::span<const std::uint32_t> places, c
 void side_by_side_plain(const float* lines, std::size_t stride, std::size_t length, std::size_t count, float* to);
 void side_by_side(const float* lines, std::size_t stride, std::size_t length, std::size_t count, float* to);
 
+/// The transpose of sixteen rows: to[i][row] = rows[row][i], with so many floats from row to row.
+void turn_sixteen_plain(const float* rows, std::size_t from_row, std::size_t to_row, float* to);
+void turn_sixteen(const float* rows, std::size_t from_row, std::size_t to_row, float* to);
+
 }  // namespace hogel::optics::film

@@ -68,6 +68,11 @@ void SideBySide(const float* lines, std::size_t stride, std::size_t length, std:
     if (i < length) side_by_side_plain(lines + 2 * i, stride, length - i, count, to + i * row);
 }
 
+void TurnSixteen(const float* rows, std::size_t from_row, std::size_t to_row, float* to) {
+    transpose_sixteen([&](std::size_t line) { return rows + line * from_row; }, together,
+                      [&](std::size_t i) { return to + i * to_row; });
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace hogel::optics::film
 HWY_AFTER_NAMESPACE();
@@ -79,6 +84,7 @@ HWY_EXPORT(TimesLens);
 HWY_EXPORT(TurnRows);
 HWY_EXPORT(AddIntensities);
 HWY_EXPORT(SideBySide);
+HWY_EXPORT(TurnSixteen);
 
 void times_lens(const float* wave, const float* lens, std::size_t rows, float* to) {
     HWY_DYNAMIC_DISPATCH(TimesLens)(wave, lens, rows, to);
@@ -93,6 +99,9 @@ void add_intensities(const float* rows, std::span<const std::uint32_t> places, c
 }
 void side_by_side(const float* lines, std::size_t stride, std::size_t length, std::size_t count, float* to) {
     HWY_DYNAMIC_DISPATCH(SideBySide)(lines, stride, length, count, to);
+}
+void turn_sixteen(const float* rows, std::size_t from_row, std::size_t to_row, float* to) {
+    HWY_DYNAMIC_DISPATCH(TurnSixteen)(rows, from_row, to_row, to);
 }
 
 }  // namespace hogel::optics::film

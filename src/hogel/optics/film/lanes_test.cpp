@@ -80,5 +80,14 @@ TEST_P(FilmLanes, vector_and_plain_lines_side_by_side_agree) {
         }
 }
 
+TEST_P(FilmLanes, vector_and_plain_transposes_agree) {
+    const Array<float, 1> rows = noise(16 * 40, 7);
+    Array<float, 1> fast({16 * 24}), plain({16 * 24});
+    turn_sixteen(rows.data(), 40, 24, fast.data());
+    turn_sixteen_plain(rows.data(), 40, 24, plain.data());
+    expect_near(fast, plain);
+    EXPECT_EQ(plain(3 * 24 + 5), rows(5 * 40 + 3));
+}
+
 }  // namespace
 }  // namespace hogel::optics::film

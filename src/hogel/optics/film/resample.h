@@ -1,26 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <complex>
+#include <array>
 #include <cstddef>
-#include <span>
 
 #include "hogel/optics/film/interpolation.h"
+#include "hogel/optics/lines.h"
 
 namespace hogel::optics::film {
 
-/// The places on a line of samples at uniform steps of a direction sine: value i is at
-/// offset + scale · s/√(square − s²), s = first + i · step.
+/// The places on sixteen lines of samples at uniform steps of a direction sine: value i of a line is at
+/// offset + scale · s/√(square − s²), s = first + i · step. Either the scale or the square is the same for all lines.
 struct TangentPlaces {
-    double first = 0, step = 0, square = 1;
-    double scale = 0, offset = 0;
+    double first = 0, step = 0;
+    double offset = 0;
+    std::array<double, lines_together> squares, scales;
 };
 
-/// out[i] = the value of `line` (zero outside) at place i, interpolated by `table`. Plain and fast twins agree to
-/// rounding.
-void resample_tangents_plain(std::span<const std::complex<float>> line, const TangentPlaces& places,
-                             const InterpolationTable& table, std::span<std::complex<float>> out);
-void resample_tangents(std::span<const std::complex<float>> line, const TangentPlaces& places,
-                       const InterpolationTable& table, std::span<std::complex<float>> out);
+/// out[i] = the values of the lines (zero outside) at place i, interpolated by `table`; lines and values are complex
+/// numbers side by side, [i][part][line].
+/// The fast twin takes the weights of all lines from those of a few of them (line_shares.h). Of signals that the table
+/// passes, both are within 2·10⁻³.
+/// @param size  samples of a line
+void resample_lines_plain(const float* lines, std::size_t size, const TangentPlaces& places,
+                          const InterpolationTable& table, std::size_t count, float* out);
+void resample_lines(const float* lines, std::size_t size, const TangentPlaces& places, const InterpolationTable& table,
+                    std::size_t count, float* out);
+
+/// Some of sixteen lines and the values of t = −1 … 1 that say where each lies between `nodes` of them: see
+/// line_shares(). The step of the fast twin.
+struct TangentNodes {
+    static constexpr std::size_t max = 5;
+    std::size_t nodes = 0;
+    double squares[max], scales[max];
+    alignas(64) float t[lines_together], chosen[lines_together];  ///< chosen: 1 for lines whose values are stored
+};
+void resample_nodes(const float* lines, std::size_t size, const TangentPlaces& places, const TangentNodes& nodes,
+                    const InterpolationTable& table, std::size_t count, float* out);
 
 }  // namespace hogel::optics::film

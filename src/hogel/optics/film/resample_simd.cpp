@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twins of resample.cpp, compiled for every SIMD target and chosen when first called.
+// The vector step of resample.cpp, compiled for every SIMD target and chosen when first called.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "hogel/optics/film/resample_simd.cpp"
 #include <hwy/foreach_target.h>
@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "hogel/optics/film/line_shares-inl.h"
 #include "hogel/optics/film/resample.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -16,97 +17,109 @@ namespace hogel::optics::film {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-#if HWY_TARGET == HWY_SCALAR
-// A vector of one lane cannot hold a complex number.
-void ResampleTangents(std::span<const std::complex<float>> line, const TangentPlaces& places,
-                      const InterpolationTable& table, std::span<std::complex<float>> out) {
-    resample_tangents_plain(line, places, table, out);
-}
-#else
-using Doubles = hn::ScalableTag<double>;
-// Weights and samples of a place, no more lanes than half of them.
-using Floats = hn::CappedTag<float, 8>;
+using D = hn::CappedTag<float, lines_together>;
+using V = hn::Vec<D>;
 
-// The sums over all taps k = j modulo half the lanes, for each j.
-HWY_INLINE hn::Vec<Floats> sums_of_pairs(const float* z, const float* weights) {
-    const Floats d;
-    const std::size_t lanes = hn::Lanes(d);
-    auto sum = hn::Mul(hn::LoadU(d, z), hn::LoadU(d, weights));
-    for (std::size_t k = lanes; k < 2 * InterpolationTable::taps; k += lanes)
-        sum = hn::MulAdd(hn::LoadU(d, z + k), hn::LoadU(d, weights + k), sum);
-    return sum;
-}
+constexpr std::size_t both = 2 * lines_together;
+constexpr std::size_t taps = InterpolationTable::taps;
+constexpr std::size_t together = 64;  // values whose places are computed at once
+constexpr double far_away = 1e9;      // a place beyond any line
 
-// out[i] = the sum of the complex numbers i · lanes/2 … of `sums`, whose count is a multiple of four.
-HWY_INLINE void add_up(const float* sums, std::size_t count, float* out) {
-    const Floats d;
-    const hn::Repartition<double, Floats> pairs;
-    const std::size_t lanes = hn::Lanes(d);
-    if (lanes == 8) {
-        // Four complex numbers of each of four places, which become the lanes.
-        for (std::size_t i = 0; i < count; i += 4) {
-            hn::Vec<decltype(pairs)> a, b, c, e;
-            hn::LoadInterleaved4(pairs, reinterpret_cast<const double*>(sums + 8 * i), a, b, c, e);
-            hn::StoreU(
-                hn::Add(hn::Add(hn::BitCast(d, a), hn::BitCast(d, c)), hn::Add(hn::BitCast(d, b), hn::BitCast(d, e))),
-                d, out + 2 * i);
+// The first samples and the table's phases of a node, of some values.
+struct Node {
+    HWY_ALIGN std::int32_t first[together], phase[together];
+
+    void set(const TangentPlaces& places, double square, double scale, std::size_t begin, std::size_t count) {
+        const hn::ScalableTag<double> d;
+        const hn::Rebind<std::int32_t, decltype(d)> di;
+        const auto steps = hn::Iota(d, 0);
+        for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+            const auto s = hn::MulAdd(hn::Add(steps, hn::Set(d, static_cast<double>(begin + i))),
+                                      hn::Set(d, places.step), hn::Set(d, places.first));
+            const auto root = hn::Sqrt(hn::Max(hn::NegMulAdd(s, s, hn::Set(d, square)), hn::Set(d, 1e-12)));
+            const auto exact = hn::MulAdd(hn::Div(s, root), hn::Set(d, scale), hn::Set(d, places.offset));
+            const auto place = hn::Clamp(exact, hn::Set(d, -far_away), hn::Set(d, far_away));
+            const auto whole = hn::Floor(place), fraction = hn::Sub(place, whole);
+            hn::Store(hn::DemoteTo(di, hn::Sub(whole, hn::Set(d, InterpolationTable::before))), di, first + i);
+            hn::Store(hn::DemoteTo(di, hn::MulAdd(fraction, hn::Set(d, InterpolationTable::phases), hn::Set(d, 0.5))),
+                      di, phase + i);
         }
-        return;
     }
-    for (std::size_t i = 0; i < 2 * count; ++i) {
-        const float* own = sums + i / 2 * lanes + i % 2;
-        out[i] = lanes == 2 ? own[0] : own[0] + own[2];
+};
+
+// The sums over `count` samples of the lines, with the weights of each node.
+template <std::size_t nodes>
+HWY_INLINE void sum_taps(const float* samples, const float* const (&weights)[nodes], std::size_t count,
+                         const TangentNodes& lines, bool all, float* out) {
+    const D d;
+    for (std::size_t i = 0; i < lines_together; i += hn::Lanes(d)) {
+        V shares[nodes];
+        line_shares(d, hn::Load(d, lines.t + i), shares);
+        V re = hn::Zero(d), im = hn::Zero(d);
+        for (std::size_t k = 0; k < count; ++k) {
+            V weight = hn::Mul(shares[0], hn::Set(d, weights[0][k]));
+            for (std::size_t node = 1; node < nodes; ++node)
+                weight = hn::MulAdd(shares[node], hn::Set(d, weights[node][k]), weight);
+            re = hn::MulAdd(weight, hn::Load(d, samples + k * both + i), re);
+            im = hn::MulAdd(weight, hn::Load(d, samples + k * both + lines_together + i), im);
+        }
+        if (!all) {
+            const auto chosen = hn::Ne(hn::Load(d, lines.chosen + i), hn::Zero(d));
+            re = hn::IfThenElse(chosen, re, hn::Load(d, out + i));
+            im = hn::IfThenElse(chosen, im, hn::Load(d, out + lines_together + i));
+        }
+        hn::Store(re, d, out + i);
+        hn::Store(im, d, out + lines_together + i);
     }
 }
 
-void ResampleTangents(std::span<const std::complex<float>> line, const TangentPlaces& places,
-                      const InterpolationTable& table, std::span<std::complex<float>> out) {
-    const Doubles dd;
-    const Floats df;
-    const hn::Rebind<std::int32_t, Doubles> di;
-    constexpr std::size_t together = 64;
-    HWY_ALIGN double wholes[together], fractions[together];
-    HWY_ALIGN std::int32_t first_taps[together], phases[together];
-    HWY_ALIGN float sums[together * 8], values[2 * together];
-    const std::size_t lanes = hn::Lanes(dd), floats = hn::Lanes(df);
-    const auto steps = hn::Iota(dd, 0);
-    // The first taps of places whose taps are all on the line; places are rounded to whole numbers of 32 bits.
-    const auto last = static_cast<std::int32_t>(
-        std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(line.size()) - InterpolationTable::taps, INT32_MAX - 1));
-    const float* weights = table.weights(0);
-    for (std::size_t begin = 0; begin < out.size(); begin += together) {
-        const std::size_t count = std::min(together, out.size() - begin);
-        for (std::size_t i = 0; i < count; i += lanes) {
-            const auto s = hn::MulAdd(hn::Add(steps, hn::Set(dd, static_cast<double>(begin + i))),
-                                      hn::Set(dd, places.step), hn::Set(dd, places.first));
-            const auto root = hn::Sqrt(hn::NegMulAdd(s, s, hn::Set(dd, places.square)));
-            const auto place = hn::MulAdd(hn::Div(s, root), hn::Set(dd, places.scale), hn::Set(dd, places.offset));
-            const auto whole = hn::Floor(place);
-            const auto first_tap = hn::Sub(whole, hn::Set(dd, InterpolationTable::before));
-            const auto fraction = hn::Sub(place, whole);
-            hn::Store(whole, dd, wholes + i);
-            hn::Store(fraction, dd, fractions + i);
-            hn::Store(hn::DemoteTo(di, first_tap), di, first_taps + i);
-            hn::Store(hn::DemoteTo(di, hn::MulAdd(fraction, hn::Set(dd, InterpolationTable::phases), hn::Set(dd, 0.5))),
-                      di, phases + i);
-        }
-        for (std::size_t i = 0; i < count; ++i) {
-            if (first_taps[i] >= 0 && first_taps[i] <= last) {
-                hn::Store(sums_of_pairs(reinterpret_cast<const float*>(line.data() + first_taps[i]),
-                                        weights + phases[i] * std::int32_t{2 * InterpolationTable::taps}),
-                          df, sums + floats * i);
-            } else {
-                hn::Store(hn::Zero(df), df, sums + floats * i);
-                const std::complex<float> value = table.at(line.data(), line.size(), wholes[i], fractions[i]);
-                sums[floats * i] = value.real();
-                sums[floats * i + 1] = value.imag();
+template <std::size_t nodes>
+HWY_INLINE void resample(const float* lines, std::size_t size, const TangentPlaces& places, const TangentNodes& between,
+                         const InterpolationTable& table, std::size_t count, float* out) {
+    Node own[nodes];
+    const bool all = std::all_of(between.chosen, between.chosen + lines_together, [](float one) { return one != 0; });
+    for (std::size_t begin = 0; begin < count; begin += together) {
+        const std::size_t some = std::min(together, count - begin);
+        for (std::size_t node = 0; node < nodes; ++node)
+            own[node].set(places, between.squares[node], between.scales[node], begin, some);
+        for (std::size_t i = 0; i < some; ++i, out += both) {
+            const float* weights[nodes];
+            std::int32_t first = own[0].first[i], last = first;
+            for (std::size_t node = 0; node < nodes; ++node) {
+                weights[node] = table.weights_of_phase(static_cast<std::size_t>(own[node].phase[i]));
+                first = std::min(first, own[node].first[i]);
+                last = std::max(last, own[node].first[i]);
             }
+            const auto end = static_cast<std::int32_t>(size);
+            if (first == last && first >= 0 && first + static_cast<std::int32_t>(taps) <= end) {
+                sum_taps<nodes>(lines + static_cast<std::size_t>(first) * both, weights, taps, between, all, out);
+                continue;
+            }
+            // Nodes on both sides of a sample, or at an end of the lines: weights from one sample on for all nodes.
+            float shifted[nodes][taps + 1] = {};
+            const float* from[nodes];
+            const std::int32_t begin_of_all = std::clamp(first, 0, end),
+                               end_of_all =
+                                   std::clamp(last + static_cast<std::int32_t>(taps), begin_of_all,
+                                              std::min(end, begin_of_all + static_cast<std::int32_t>(taps) + 1));
+            for (std::size_t node = 0; node < nodes; ++node) {
+                for (std::int32_t k = begin_of_all; k < end_of_all; ++k)
+                    if (const std::int32_t tap = k - own[node].first[i];
+                        tap >= 0 && tap < static_cast<std::int32_t>(taps))
+                        shifted[node][k - begin_of_all] = weights[node][tap];
+                from[node] = shifted[node];
+            }
+            sum_taps<nodes>(lines + static_cast<std::size_t>(begin_of_all) * both, from,
+                            static_cast<std::size_t>(end_of_all - begin_of_all), between, all, out);
         }
-        add_up(sums, (count + 3) / 4 * 4, values);
-        std::copy_n(values, 2 * count, reinterpret_cast<float*>(out.data() + begin));
     }
 }
-#endif
+
+void ResampleNodes(const float* lines, std::size_t size, const TangentPlaces& places, const TangentNodes& nodes,
+                   const InterpolationTable& table, std::size_t count, float* out) {
+    with_nodes(nodes.nodes,
+               [&](auto number) HWY_ATTR { resample<number()>(lines, size, places, nodes, table, count, out); });
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace hogel::optics::film
@@ -115,11 +128,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace hogel::optics::film {
 
-HWY_EXPORT(ResampleTangents);
+HWY_EXPORT(ResampleNodes);
 
-void resample_tangents(std::span<const std::complex<float>> line, const TangentPlaces& places,
-                       const InterpolationTable& table, std::span<std::complex<float>> out) {
-    HWY_DYNAMIC_DISPATCH(ResampleTangents)(line, places, table, out);
+void resample_nodes(const float* lines, std::size_t size, const TangentPlaces& places, const TangentNodes& nodes,
+                    const InterpolationTable& table, std::size_t count, float* out) {
+    HWY_DYNAMIC_DISPATCH(ResampleNodes)(lines, size, places, nodes, table, count, out);
 }
 
 }  // namespace hogel::optics::film
