@@ -152,8 +152,15 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
 
     void read_powers(const Region& part, View<float, 2> out) const override {
         const HogelRange hogels{part.x0, part.y0, part.width, part.height};
-        auto scratch = scratch_pool_.take();
         const HogelWaves& waves = *synthesis_->hogel_waves();
+        if (kept_.size() > 0) {
+            for (std::size_t h = 0; h < hogels.hogels(); ++h)
+                waves.powers(
+                    kept_[(hogels.t0 + h / hogels.ns) * front().hogels_s + hogels.s0 + h % hogels.ns].elements(),
+                    &out(h, 0));
+            return;
+        }
+        auto scratch = scratch_pool_.take();
         const Shape<2> shape{hogels.hogels(), waves.prepared_size()};
         if (scratch->prepared.size() < shape[0] * shape[1]) scratch->prepared = Array<float, 2>(shape);
         const View<float, 2> prepared(scratch->prepared.data(), shape);

@@ -253,7 +253,7 @@ class Photographer {
         if (t < first || t >= end) return;
         for (Exposure& exposure : eye.exposures) {
             const std::span<const float> tails = exposure.spots[exposure.spots.size() / 2].tails();
-            exposure.tails(t, s) = sum_products({numbers, tails.data(), 0, 0, 1, tails.size()});
+            exposure.tails(t, s) = sum_products(numbers, tails.data(), tails.size());
         }
     }
 
@@ -284,27 +284,62 @@ class Photographer {
             return (static_cast<double>(base) + 0.5) / extent;
         };
         const double down = position(exposure.rows.base[row], static_cast<double>(hogels_.plane.height));
+        // Pixels whose spots have the same weights are summed together.
+        struct Pixel {
+            std::size_t column, place;
+            std::ptrdiff_t left, right;  // hogels
+        };
+        thread_local std::vector<Pixel> pixels;
+        pixels.clear();
         for (std::size_t column = first; column < end; ++column) {
             const std::ptrdiff_t base = exposure.columns.base[column];
-            const std::ptrdiff_t left = std::max<std::ptrdiff_t>(0, base - reach),
-                                 right = std::min(width, base + reach + 1);
-            if (exposure.columns.seen[column] == 0) continue;
-            const double across = position(base, static_cast<double>(width));
-            float light = 0;
-            for (std::size_t i = 0; i < exposure.spots.size(); ++i) {
-                const float weight = share(across, i % exposure.parts_x, exposure.parts_x) *
-                                     share(down, i / exposure.parts_x, exposure.parts_y);
-                if (weight == 0) continue;
-                const View<const float, 4> spots = exposure.spots[i].weights();
-                const float* weights =
-                    &spots(exposure.rows.place[row], exposure.columns.place[column], top - base_y + reach,
-                           static_cast<std::size_t>(left - base + reach) * pairs);
-                light += weight *
-                         sum_products({&eye.numbers(top, static_cast<std::size_t>(left) * pairs), weights,
-                                       eye.numbers.extent(1), spots.extent(3), static_cast<std::size_t>(bottom - top),
-                                       static_cast<std::size_t>(right - left) * pairs});
+            if (exposure.columns.seen[column] > 0)
+                pixels.push_back({column, exposure.columns.place[column], std::max<std::ptrdiff_t>(0, base - reach),
+                                  std::min(width, base + reach + 1)});
+        }
+        const auto first_weight = [&](const Pixel& pixel) {
+            return pixel.left - exposure.columns.base[pixel.column] + reach;
+        };
+        for (auto begin = pixels.begin(); begin != pixels.end();) {
+            const Pixel one = *begin;
+            const auto same = std::partition(begin, pixels.end(), [&](const Pixel& other) {
+                return other.place == one.place && first_weight(other) == first_weight(one) &&
+                       other.right - other.left == one.right - one.left;
+            });
+            for (; begin != same;) {
+                const float* numbers[products_together];
+                std::size_t count = 0;
+                for (; count < products_together && begin + static_cast<std::ptrdiff_t>(count) != same; ++count)
+                    numbers[count] = &eye.numbers(
+                        top, static_cast<std::size_t>((begin + static_cast<std::ptrdiff_t>(count))->left) * pairs);
+                for (std::size_t i = 0; i < exposure.spots.size(); ++i) {
+                    const float share_down = share(down, i / exposure.parts_x, exposure.parts_y);
+                    const View<const float, 4> spots = exposure.spots[i].weights();
+                    const float* weights = &spots(exposure.rows.place[row], one.place, top - base_y + reach,
+                                                  static_cast<std::size_t>(first_weight(one)) * pairs);
+                    float light[products_together], shares[products_together], any = 0;
+                    for (std::size_t k = 0; k < count; ++k) {
+                        const std::size_t column = (begin + static_cast<std::ptrdiff_t>(k))->column;
+                        const double across = position(exposure.columns.base[column], static_cast<double>(width));
+                        shares[k] = share(across, i % exposure.parts_x, exposure.parts_x) * share_down;
+                        any = std::max(any, shares[k]);
+                    }
+                    if (any == 0) continue;
+                    sum_products({{numbers, count},
+                                  weights,
+                                  eye.numbers.extent(1),
+                                  spots.extent(3),
+                                  static_cast<std::size_t>(bottom - top),
+                                  static_cast<std::size_t>(one.right - one.left) * pairs},
+                                 light);
+                    for (std::size_t k = 0; k < count; ++k) {
+                        const std::size_t column = (begin + static_cast<std::ptrdiff_t>(k))->column;
+                        picture.pixels(row, column, 0) +=
+                            exposure.rows.seen[row] * exposure.columns.seen[column] * shares[k] * light[k];
+                    }
+                }
+                begin += static_cast<std::ptrdiff_t>(count);
             }
-            picture.pixels(row, column, 0) += exposure.rows.seen[row] * exposure.columns.seen[column] * light;
         }
     }
 

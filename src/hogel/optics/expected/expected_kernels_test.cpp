@@ -41,10 +41,16 @@ TEST_P(ExpectedKernels, vector_and_plain_sums_of_powers_agree) {
 
 TEST_P(ExpectedKernels, vector_and_plain_sums_of_products_agree) {
     const std::vector<float> values = noise(4000);
-    for (const std::size_t length : {1, 15, 64, 81, 333}) {
-        const Lines lines{values.data(), values.data() + 17, 340, 350, 7, length};
-        EXPECT_NEAR(sum_products(lines), sum_products_plain(lines), 2e-3f) << length;
-    }
+    for (const std::size_t length : {1, 15, 64, 81, 333})
+        for (std::size_t count = 1; count <= products_together; ++count) {
+            std::vector<const float*> a;
+            for (std::size_t i = 0; i < count; ++i) a.push_back(values.data() + 5 * i);
+            const Lines lines{a, values.data() + 17, 340, 350, 7, length};
+            std::vector<float> fast(count), plain(count);
+            sum_products(lines, fast.data());
+            sum_products_plain(lines, plain.data());
+            for (std::size_t i = 0; i < count; ++i) EXPECT_NEAR(fast[i], plain[i], 2e-3f) << length << " " << count;
+        }
 }
 
 // Over pairs of points of the pupil, the product of the lights of any wave is that of the basis's.

@@ -18,12 +18,14 @@ void sum_powers_plain(const SpotBasis& basis, const SpotBasis::Weights& columns,
         }
 }
 
-float sum_products_plain(const Lines& lines) {
-    float sum = 0;
-    for (std::size_t row = 0; row < lines.rows; ++row)
-        for (std::size_t i = 0; i < lines.length; ++i)
-            sum += lines.a[row * lines.a_row + i] * lines.b[row * lines.b_row + i];
-    return sum;
+void sum_products_plain(const Lines& lines, float* sums) {
+    for (const float* a : lines.a) {
+        float sum = 0;
+        for (std::size_t row = 0; row < lines.rows; ++row)
+            for (std::size_t i = 0; i < lines.length; ++i)
+                sum += a[row * lines.a_row + i] * lines.b[row * lines.b_row + i];
+        *sums++ = sum;
+    }
 }
 
 }  // namespace hogel::optics::expected

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "hogel/optics/expected/spot_basis.h"
 
@@ -18,14 +19,23 @@ void sum_powers_plain(const SpotBasis& basis, const SpotBasis::Weights& columns,
 void sum_powers(const SpotBasis& basis, const SpotBasis::Weights& columns, const SpotBasis::Weights& rows,
                 const float* powers, float* out);
 
-/// Two arrays of the same shape in memory, `rows` of `length` numbers, with the distances from row to row.
+/// Arrays of the same shape in memory, `rows` of `length` numbers, with the distances from row to row.
 struct Lines {
-    const float *a, *b;
+    std::span<const float* const> a;
+    const float* b;
     std::size_t a_row, b_row;
     std::size_t rows, length;
 };
-/// Σ a b.
-float sum_products_plain(const Lines& lines);
-float sum_products(const Lines& lines);
+/// Arrays whose sums are computed at once, so that b is read once for them.
+inline constexpr std::size_t products_together = 8;
+/// sums[i] = Σ a[i] b, for at most products_together arrays a.
+void sum_products_plain(const Lines& lines, float* sums);
+void sum_products(const Lines& lines, float* sums);
+/// Σ a b of two arrays.
+inline float sum_products(const float* a, const float* b, std::size_t length) {
+    float sum = 0;
+    sum_products({{&a, 1}, b, 0, 0, 1, length}, &sum);
+    return sum;
+}
 
 }  // namespace hogel::optics::expected

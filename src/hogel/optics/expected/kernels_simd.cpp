@@ -22,8 +22,8 @@ using D = hn::CappedTag<float, SpotBasis::lanes>;
 using V = hn::Vec<D>;
 constexpr std::size_t lanes = SpotBasis::lanes;
 
-// Sums that are held in registers.
-constexpr std::size_t together = 8;
+// Sums that are held in registers, of which some targets have 32.
+constexpr std::size_t together = HWY_ARCH_X86 && HWY_TARGET > HWY_AVX3 ? 8 : 12;
 
 // out[i][…] = Σ_j weights[j · stride + i] in[j][…], sixteen numbers in a row.
 template <std::size_t count>
@@ -60,26 +60,42 @@ void SumPowers(const SpotBasis& basis, const SpotBasis::Weights& columns, const 
         });
 }
 
-float SumProducts(const Lines& lines) {
+// A sum has several parts where there are few of them, because an addition waits for the one before.
+template <std::size_t count>
+HWY_INLINE void products(const Lines& lines, float* sums) {
+    constexpr std::size_t parts = count >= 4 ? 1 : 4 / count;
     const D d;
     const std::size_t width = hn::Lanes(d);
-    V first = hn::Zero(d), second = first, third = first, fourth = first;
-    float rest = 0;
+    V sum[count][parts];
+    for (auto& one : sum)
+        for (V& part : one) part = hn::Zero(d);
+    float rest[count] = {};
     for (std::size_t row = 0; row < lines.rows; ++row) {
-        const float *a = lines.a + row * lines.a_row, *b = lines.b + row * lines.b_row;
+        const float* b = lines.b + row * lines.b_row;
+        const float* a[count];
+        for (std::size_t k = 0; k < count; ++k) a[k] = lines.a[k] + row * lines.a_row;
         std::size_t i = 0;
-        for (; i + 4 * width <= lines.length; i += 4 * width) {
-            first = hn::MulAdd(hn::LoadU(d, a + i), hn::LoadU(d, b + i), first);
-            second = hn::MulAdd(hn::LoadU(d, a + i + width), hn::LoadU(d, b + i + width), second);
-            third = hn::MulAdd(hn::LoadU(d, a + i + 2 * width), hn::LoadU(d, b + i + 2 * width), third);
-            fourth = hn::MulAdd(hn::LoadU(d, a + i + 3 * width), hn::LoadU(d, b + i + 3 * width), fourth);
-        }
+        for (; i + parts * width <= lines.length; i += parts * width)
+            for (std::size_t part = 0; part < parts; ++part) {
+                const V factor = hn::LoadU(d, b + i + part * width);
+                for (std::size_t k = 0; k < count; ++k)
+                    sum[k][part] = hn::MulAdd(hn::LoadU(d, a[k] + i + part * width), factor, sum[k][part]);
+            }
         for (; i + width <= lines.length; i += width)
-            first = hn::MulAdd(hn::LoadU(d, a + i), hn::LoadU(d, b + i), first);
-        for (; i < lines.length; ++i) rest += a[i] * b[i];
+            for (std::size_t k = 0; k < count; ++k)
+                sum[k][0] = hn::MulAdd(hn::LoadU(d, a[k] + i), hn::LoadU(d, b + i), sum[k][0]);
+        for (; i < lines.length; ++i)
+            for (std::size_t k = 0; k < count; ++k) rest[k] += a[k][i] * b[i];
     }
-    const V sum = hn::Add(hn::Add(first, second), hn::Add(third, fourth));
-    return hn::GetLane(hn::SumOfLanes(d, sum)) + rest;
+    for (std::size_t k = 0; k < count; ++k) {
+        V all = sum[k][0];
+        for (std::size_t part = 1; part < parts; ++part) all = hn::Add(all, sum[k][part]);
+        sums[k] = hn::GetLane(hn::SumOfLanes(d, all)) + rest[k];
+    }
+}
+
+void SumProducts(const Lines& lines, float* sums) {
+    with_count<products_together>(lines.a.size(), [&](auto count) HWY_ATTR { products<count()>(lines, sums); });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -96,7 +112,7 @@ void sum_powers(const SpotBasis& basis, const SpotBasis::Weights& columns, const
                 const float* powers, float* out) {
     HWY_DYNAMIC_DISPATCH(SumPowers)(basis, columns, rows, powers, out);
 }
-float sum_products(const Lines& lines) { return HWY_DYNAMIC_DISPATCH(SumProducts)(lines); }
+void sum_products(const Lines& lines, float* sums) { HWY_DYNAMIC_DISPATCH(SumProducts)(lines, sums); }
 
 }  // namespace hogel::optics::expected
 #endif

@@ -262,7 +262,7 @@ struct Opening {
         for (std::size_t q = 0; q < across.extent(0); ++q) {
             for (std::size_t i = 0; i < side; ++i) powers[i] = std::norm(across(q, i));
             for (std::size_t row = 0; row < side; ++row)
-                light(q, row) = sum_products({powers.data(), &energy(row, 0), 0, 0, 1, side});
+                light(q, row) = sum_products(powers.data(), &energy(row, 0), side);
         }
         return light;
     }
@@ -333,12 +333,11 @@ Spots::Spots(const HogelGrid& hogels, const Camera& camera, const SpotBasis& bas
             spot.data()[i] = static_cast<float>(radiance) * std::norm(film.data()[i]);
         Array<float, 2> turned({across_all, size});
         for (std::size_t c = 0; c < across_all; ++c)
-            for (std::size_t k = 0; k < size; ++k)
-                turned(c, k) = sum_products({&spot(k, 0), &means_x(c, 0), 0, 0, 1, size});
+            for (std::size_t k = 0; k < size; ++k) turned(c, k) = sum_products(&spot(k, 0), &means_x(c, 0), size);
         double followed = 0;
         for (std::size_t r = 0; r < down_all; ++r)
             for (std::size_t c = 0; c < across_all; ++c) {
-                const float sum = sum_products({&means_y(r, 0), &turned(c, 0), 0, 0, 1, size});
+                const float sum = sum_products(&means_y(r, 0), &turned(c, 0), size);
                 weights_(r / taps(), c / taps(), r % taps(), c % taps() * pairs.padded_count() + pair) = sum;
                 followed += sum;
             }
