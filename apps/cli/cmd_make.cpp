@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <functional>
+#include <future>
 #include <sstream>
 
 #include "camera_options.h"
@@ -90,18 +93,45 @@ void timed(const Session& session, Report& report, const std::string& name, Work
     session.say(fmt::format("{:<24} {:8.1f} s", name, stage.seconds()));
 }
 
+// Calls work(i) for all i below `count` on as many threads as there are; an error of one is thrown in the end.
+void on_all_threads(std::size_t count, const std::function<void(std::size_t)>& work) {
+    std::atomic<std::size_t> next = 0;
+    std::vector<std::future<void>> threads;
+    for (std::size_t thread = 0; thread < std::min(count, thread_count()); ++thread)
+        threads.push_back(std::async(std::launch::async, [&] {
+            for (std::size_t i = next++; i < count; i = next++) work(i);
+        }));
+    for (std::future<void>& thread : threads) thread.wait();
+    for (std::future<void>& thread : threads) thread.get();
+}
+
+void compare_pictures(Report& report) {
+    on_all_threads(report.pairs.size(), [&](std::size_t i) {
+        PhotographPair& pair = report.pairs[i];
+        if (report.looks > 0) pair.comparison = compare(pair.geometric, pair.wave, report.exposure);
+        if (report.expected) pair.expected_comparison = compare(pair.geometric, pair.expected, report.exposure);
+    });
+}
+
 void write_pictures(const std::filesystem::path& folder, const Report& report) {
-    for (const PhotographPair& pair : report.pairs) {
-        const std::pair<std::string, std::string> exposure{"exposure", fmt::format("{:.9g}", report.exposure)};
-        Metadata wave = report.waves_run, expected = report.expected_run, rays = report.rays_run;
-        for (Metadata* metadata : {&wave, &expected, &rays}) metadata->push_back(exposure);
+    const auto with_exposure = [&](Metadata metadata) {
+        metadata.emplace_back("exposure", fmt::format("{:.9g}", report.exposure));
+        return metadata;
+    };
+    const Metadata wave = with_exposure(report.waves_run), expected = with_exposure(report.expected_run),
+                   rays = with_exposure(report.rays_run);
+    std::vector<std::function<void()>> works;
+    for (const PhotographPair& pair : report.pairs)
         for (const char* extension : {".png", ".exr"}) {
-            if (report.looks > 0) write_image(folder / (pair.wave_file + extension), pair.wave, report.exposure, wave);
-            if (report.expected)
-                write_image(folder / (pair.expected_file + extension), pair.expected, report.exposure, expected);
-            write_image(folder / (pair.geometric_file + extension), pair.geometric, report.exposure, rays);
+            const auto add = [&](const std::string& file, const Image& image, const Metadata& metadata) {
+                works.push_back(
+                    [&, path = folder / (file + extension)] { write_image(path, image, report.exposure, metadata); });
+            };
+            if (report.looks > 0) add(pair.wave_file, pair.wave, wave);
+            if (report.expected) add(pair.expected_file, pair.expected, expected);
+            add(pair.geometric_file, pair.geometric, rays);
         }
-    }
+    on_all_threads(works.size(), [&](std::size_t i) { works[i](); });
 }
 
 // Prints the resources that the work needs, and returns the camera that is chosen. Throws if they are not available.
@@ -277,13 +307,10 @@ int make(const Options& options, const Session& session) {
     if (!is_first_process()) return 0;
     // One exposure for all pictures, from the view from above.
     report.exposure = automatic_exposure(report.pairs[1].geometric);
-    for (PhotographPair& pair : report.pairs) {
-        if (report.looks > 0) pair.comparison = compare(pair.geometric, pair.wave, report.exposure);
-        if (report.expected) pair.expected_comparison = compare(pair.geometric, pair.expected, report.exposure);
-    }
+    compare_pictures(report);
     write_pictures(folder.path(), report);
     write_text(folder.path() / "report.json", report_json(report));
-    write_text(folder.path() / "report.html", report_html(report));
+    write_text(folder.path() / "report.html", report_html(report, folder.path()));
     session.say(fmt::format("\n{}", (folder.path() / "report.html").string()));
     session.result(result_of(report, options.output, session));
     return 0;

@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "hogel/error.h"
 #include "hogel/units.h"
 #include "report_page.h"
 
@@ -94,16 +97,27 @@ std::string eye_title(const Vec3& eye) {
     return "From " + x + (x.empty() || y.empty() ? "" : ", ") + y;
 }
 
-std::string picture(const Image& image, const std::string& file, const std::string& label, const std::string& alt,
-                    double exposure) {
+// A picture and the name of its file in the folder, without extension.
+struct Picture {
+    const Image& image;
+    std::filesystem::path folder;
+    std::string file;
+};
+
+std::string html_of(const Picture& picture, const std::string& label, const std::string& alt) {
+    const std::string file = picture.file + ".png";
+    std::ifstream png(picture.folder / file, std::ios::binary);
+    const std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(png), {}};
+    if (bytes.empty())
+        throw Error(ErrorCode::bad_input, fmt::format("{}: cannot be read", (picture.folder / file).string()));
     return fmt::format(
-        "<a href=\"{}.png\"><img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">"
+        "<a href=\"{}\"><img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">"
         "<span>{}</span></a>",
-        escape(file), base64(encode_png(image, exposure)), image.width(), image.height(), escape(alt), label);
+        escape(file), base64(bytes), picture.image.width(), picture.image.height(), escape(alt), label);
 }
 
 // A heading for each focus, with the views from all eyes below it.
-std::string pictures_html(const Report& report) {
+std::string pictures_html(const Report& report, const std::filesystem::path& folder) {
     std::string html, open_focus;
     for (const PhotographPair& pair : report.pairs) {
         if (pair.focus_name != open_focus) {
@@ -115,7 +129,7 @@ std::string pictures_html(const Report& report) {
         std::string pictures, numbers;
         const auto add = [&](const Image& image, const std::string& file, const std::string& label,
                              const std::string& by) {
-            pictures += picture(image, file, label, eye + ", photographed by " + by, report.exposure);
+            pictures += html_of({image, folder, file}, label, eye + ", photographed by " + by);
         };
         const auto compare = [&](const std::string& name, const ImageComparison& comparison) {
             numbers += fmt::format("<span class=\"soft num\">{}: PSNR {} · SSIM {:.3f}</span>", name,
@@ -205,7 +219,7 @@ std::string run_value(const Report& report, const std::string& name) {
 
 }  // namespace
 
-std::string report_html(const Report& report) {
+std::string report_html(const Report& report, const std::filesystem::path& folder) {
     const LightFieldGrid& grid = report.light_field;
     const Camera& camera = report.pairs.front().camera;
     return fill(report_page, {{"scene", escape(report.scene)},
@@ -215,7 +229,7 @@ std::string report_html(const Report& report) {
                               {"hogels", fmt::format("{} × {}", grid.hogels_s, grid.hogels_t)},
                               {"pupil", format_length(camera.pupil)},
                               {"eye_distance", format_length(camera.eye.z)},
-                              {"pictures", pictures_html(report)},
+                              {"pictures", pictures_html(report, folder)},
                               {"tables", tables_html(report)},
                               {"software", escape(run_value(report, "software"))},
                               {"command", escape(run_value(report, "command") + " " + report.scene)}});

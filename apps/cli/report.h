@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,7 +48,8 @@ struct Report {
 };
 
 /// A self-contained HTML page with embedded pictures.
-std::string report_html(const Report& report);
+/// @param folder  holds the PNG files of the pictures
+std::string report_html(const Report& report, const std::filesystem::path& folder);
 /// The same numbers as JSON, in SI units.
 std::string report_json(const Report& report);
 

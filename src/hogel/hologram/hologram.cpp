@@ -101,9 +101,9 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
     std::unique_ptr<optics::EyeDrawing> eye_drawing_of_colours(std::span<const optics::EyeLight* const> colours,
                                                                const Region& part,
                                                                std::span<const optics::Eye> eyes) const override {
-        // The blocks of the strips that all threads draw.
-        const std::size_t blocks = thread_count() * (front().hogels_s / eye::block_across + 2);
-        const double bytes = static_cast<double>(blocks * eye::block_across * eye::tile_side * rays_ *
+        // The blocks of the parts that all threads draw.
+        const std::size_t blocks = thread_count() * (eye::part_down / eye::tile_side + 2);
+        const double bytes = static_cast<double>(blocks * eye::part_across * eye::tile_side * rays_ *
                                                  (front().channels + (with_depth_ ? 1 : 0)) * sizeof(float));
         if (bytes > max_shared_bytes) return nullptr;
         const auto shared = std::make_shared<SharedRays>(blocks);

@@ -94,6 +94,18 @@ double camera_bytes_of(const FieldGrid& hologram, std::span<const Camera> camera
     return camera.bytes + std::min(more * camera.bytes_a_look, memory);
 }
 
+// Bytes of a look in the bands of all eyes, from hogels.
+double band_bytes(const LightFieldGrid& light_field, const hologram::eye::HogelLayout& layout,
+                  std::span<const Camera> cameras) {
+    double bytes = 0;
+    for (const optics::SharedEye& eye : eyes_of(cameras)) {
+        const auto per_hogel = static_cast<double>(
+            hologram::eye::band_samples_per_hogel(layout, {cameras[eye.members.front()].eye, eye.pupil}));
+        bytes += static_cast<double>(light_field.hogels()) * per_hogel * per_hogel * sizeof(std::complex<float>);
+    }
+    return bytes;
+}
+
 // Seconds of the films of one set of lines behind a vertical diffuser.
 double seconds_of_films(const FieldGrid& hologram, std::span<const Camera> cameras) {
     double seconds = 0;
@@ -136,7 +148,8 @@ Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramReque
     plan.disk = 0;
     const bool from_hogels = choose_light(faces, request, cameras, options).from == LightFrom::hogels;
     const auto eyes = static_cast<double>(eyes_of(cameras).size());
-    double seconds = 0, camera_bytes = 0;
+    const auto memory = static_cast<double>(options.memory);
+    double seconds = 0, camera_bytes = 0, film_bytes = 0, look_bytes = 0;
     for (const Channel& channel : request.channels) {
         const FieldGrid hologram = hologram_grid(faces, request.options(channel, faces));
         if (options.expected) {
@@ -147,12 +160,21 @@ Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramReque
             camera_bytes = std::max(camera_bytes, work.bytes);
             continue;
         }
-        seconds += from_hogels ? seconds_from_hogels(faces.front(), *layout_of(request.method, faces.front(), hologram),
-                                                     cameras, request.looks)
-                               : static_cast<double>(hologram.plane.samples()) * static_cast<double>(request.looks) *
-                                     (seconds_a_sample + eyes * seconds_a_sample_and_eye);
+        if (from_hogels) {
+            const hologram::eye::HogelLayout layout = *layout_of(request.method, faces.front(), hologram);
+            seconds += seconds_from_hogels(faces.front(), layout, cameras, request.looks);
+            look_bytes += band_bytes(faces.front(), layout, cameras);
+            film_bytes = std::max(film_bytes, optics::plan_photographs(hologram, cameras, memory).bytes);
+        } else {
+            seconds += static_cast<double>(hologram.plane.samples()) * static_cast<double>(request.looks) *
+                       (seconds_a_sample + eyes * seconds_a_sample_and_eye);
+        }
         camera_bytes = std::max(camera_bytes, camera_bytes_of(hologram, cameras, options, request.looks));
     }
+    // All looks of all colours are drawn together where there is memory for them.
+    if (request.channels.size() > 1)
+        camera_bytes =
+            std::max(camera_bytes, std::min(memory, film_bytes + static_cast<double>(request.looks) * look_bytes));
     plan.seconds = on_all_threads(seconds);
     plan.memory += camera_bytes;
     return plan;

@@ -3,31 +3,22 @@
 
 #include <algorithm>
 #include <mutex>
+#include <numeric>
 #include <utility>
 
-#include "hogel/core/object_pool.h"
 #include "hogel/core/parallel.h"
 #include "hogel/core/shared_order.h"
-#include "hogel/hologram/eye/lanes.h"
-#include "hogel/hologram/eye/project.h"
 
 namespace hogel::hologram::eye {
 namespace {
 
 using Complex = std::complex<float>;
 
-constexpr std::size_t tile = tile_side;
-constexpr std::size_t both = 2 * HogelWaves::lanes;  // floats of a complex number of all lanes
-
-// Rows of tiles between which the light of hogels does not meet: nodes reach at most eight beyond either end of a
-// hogel, or of its window, which has at least one to a hogel.
-constexpr std::size_t strips_apart(std::size_t overlap) { return (tile + overlap - 1 + 2 * 8 + tile - 1) / tile; }
-
-// By how much the demodulation's frequency may grow from hogel to hogel, in cycles per hogel, for lanes to share
-// weights often enough.
-constexpr double max_bend_in_lanes = 0.15;
-
-using EyeBands = std::vector<std::vector<Array<Complex, 2>>>;  // [eye][look]
+// From a part to the next one along an axis whose light does not meet its own: nodes reach at most eight beyond either
+// end of a hogel, or of its window, which has at least one to a hogel.
+constexpr std::size_t parts_apart(std::size_t side, std::size_t overlap) {
+    return (side + overlap - 1 + 2 * 8 + side - 1) / side;
+}
 
 core::Sent<EyeBands> sent_bands() {
     return {[](core::MessageWriter& to, const EyeBands& eyes) {
@@ -47,320 +38,7 @@ core::Sent<EyeBands> sent_bands() {
             }};
 }
 
-// Eyes that see the light of one colour.
-class ColourEyes {
-  public:
-    ColourEyes(const Hogels& hogels, const HogelRange& range, std::vector<EyeBand> eyes)
-        : hogels_(hogels),
-          range_(range),
-          eyes_(std::move(eyes)),
-          middle_(hogels.rows, hogels.columns),
-          in_lanes_(hogels.waves->has_lanes()),
-          keeps_tiles_(hogels.kept_waves != nullptr && range.ns * hogels.across() == hogels.grid.plane.width &&
-                       range.nt * hogels.down() == hogels.grid.plane.height) {
-        for (const EyeBand& eye : eyes_) in_lanes_ = in_lanes_ && eye.bend() <= max_bend_in_lanes;
-    }
-
-    const std::vector<EyeBand>& eyes() const { return eyes_; }
-    std::size_t overlap() const { return hogels_.overlap; }
-
-    struct Looks {
-        std::size_t first, count;
-    };
-
-    // A hogel of a block and a look, one lane.
-    struct Item {
-        std::size_t hogel, look;
-    };
-
-    // Lanes that an eye sees with the same weights.
-    struct Group {
-        HogelBasis::Weights columns, rows;
-        NearRows near;
-        alignas(64) float chosen[HogelWaves::lanes];
-    };
-
-    // Buffers for a block of hogels.
-    struct Scratch {
-        Array<float, 2> prepared;          // unless it is kept
-        std::vector<const float*> moduli;  // prepared, [hogel]
-        Array<float, 1> waves, gathered, numbers;
-        std::vector<Array<float, 4>> phases;              // [eye][hogel][node down][2][phase_row]
-        std::vector<std::vector<HogelView>> views;        // [eye][hogel]
-        std::vector<std::vector<Array<float, 1>>> lines;  // [eye][weights]: [row][function][part][lane]
-        std::vector<std::vector<Group>> groups;           // [eye]
-        std::vector<HogelBasis::WavePair> pairs;
-        std::vector<char> lit;  // [row]
-        std::vector<HogelPlace> places;
-        std::vector<const float*> sources;
-        EyeBands strip;
-    };
-    auto scratch() const { return scratch_pool_.take(); }
-
-    // Draws the light of a row of tiles, from row t of the hogels on, into scratch.strip: the rows of each band that it
-    // reaches.
-    void draw_strip(std::size_t t, const Looks& looks, Scratch& scratch) const {
-        const HogelRange strip{range_.s0, range_.t0 + t, range_.ns, std::min(tile, range_.nt - t)};
-        scratch.strip.resize(eyes_.size());
-        for (std::size_t e = 0; e < eyes_.size(); ++e) {
-            const EyeBand& eye = eyes_[e];
-            const Shape<2> shape{eye.samples(strip.nt), eye.grid().plane.width};
-            scratch.strip[e].resize(looks.count);
-            for (Array<Complex, 2>& own : scratch.strip[e])
-                if (own.shape() == shape)
-                    std::ranges::fill(own.elements(), Complex(0));
-                else
-                    own = Array<Complex, 2>(shape);
-        }
-        for (std::size_t s = 0; s < strip.ns; s += block_across)
-            draw({strip.s0 + s, strip.t0, std::min(block_across, strip.ns - s), strip.nt}, looks, scratch,
-                 scratch.strip);
-    }
-
-    // Adds the light of a strip to the bands of these eyes.
-    void add(std::span<const std::vector<Array<Complex, 2>>> strip, std::size_t t,
-             std::span<std::vector<Array<Complex, 2>>> bands) const {
-        for (std::size_t e = 0; e < eyes_.size(); ++e)
-            for (std::size_t look = 0; look < strip[e].size(); ++look) {
-                const Array<Complex, 2>& own = strip[e][look];
-                const auto* from = reinterpret_cast<const float*>(own.data());
-                auto* to = reinterpret_cast<float*>(&bands[e][look](t * eyes_[e].per_hogel(), 0));
-                for (std::size_t i = 0; i < 2 * own.size(); ++i) to[i] += from[i];
-            }
-    }
-
-  private:
-    // Adds the light of some hogels to all bands.
-    void draw(const HogelRange& some, const Looks& looks, Scratch& scratch, EyeBands& bands) const {
-        prepare(some, scratch);
-        scratch.views.resize(eyes_.size());
-        scratch.phases.resize(eyes_.size());
-        for (std::size_t e = 0; e < eyes_.size(); ++e) {
-            const EyeBand& eye = eyes_[e];
-            const std::size_t nodes = eye.nodes();
-            Array<float, 4>& phases = scratch.phases[e];
-            const Shape<4> shape{some.hogels(), nodes, 2, phase_row(nodes)};
-            if (phases.shape() != shape) phases = Array<float, 4>(shape);
-            scratch.views[e].clear();
-            for (std::size_t h = 0; h < some.hogels(); ++h)
-                scratch.views[e].push_back(eye.view(hogels_, some.s0 + h % some.ns, some.t0 + h / some.ns, phases[h]));
-        }
-        if (in_lanes_)
-            draw_in_lanes(some, looks, scratch, bands);
-        else
-            draw_one_by_one(some, looks, scratch, bands);
-    }
-
-    void prepare(const HogelRange& some, Scratch& scratch) const {
-        scratch.moduli.resize(some.hogels());
-        if (hogels_.kept.size() > 0) {
-            const std::size_t across = hogels_.grid.plane.width / hogels_.across();
-            for (std::size_t h = 0; h < some.hogels(); ++h)
-                scratch.moduli[h] = &hogels_.kept((some.t0 + h / some.ns) * across + some.s0 + h % some.ns, 0);
-            return;
-        }
-        Array<float, 2>& prepared = scratch.prepared;
-        if (prepared.shape() != Shape<2>{some.hogels(), hogels_.waves->prepared_size()})
-            prepared = Array<float, 2>({some.hogels(), hogels_.waves->prepared_size()});
-        hogels_.prepare(some, prepared);
-        for (std::size_t h = 0; h < some.hogels(); ++h) scratch.moduli[h] = &prepared(h, 0);
-    }
-
-    // The place in a strip of an eye's band of the first node of a hogel.
-    BandPlace place(std::size_t e, const HogelRange& some, std::size_t hogel, Array<Complex, 2>& band) const {
-        const std::size_t s = some.s0 + hogel % some.ns - range_.s0, t = hogel / some.ns;
-        return {&band(t * eyes_[e].per_hogel(), s * eyes_[e].per_hogel()), band.extent(1)};
-    }
-
-    void draw_one_by_one(const HogelRange& some, const Looks& looks, Scratch& scratch, EyeBands& bands) const {
-        Array<float, 1>& waves = scratch.waves;
-        const std::size_t size = HogelWaves::size(hogels_.rows, hogels_.columns);
-        if (waves.size() != size) waves = Array<float, 1>({size});
-        for (std::size_t look = 0; look < looks.count; ++look)
-            for (std::size_t h = 0; h < some.hogels(); ++h) {
-                const NearRows rows = eyes_.size() == 1 ? scratch.views[0][h].near : NearRows{};
-                hogels_.waves->waves({scratch.moduli[h], hogels_.waves->prepared_size()},
-                                     {some.s0 + h % some.ns, some.t0 + h / some.ns, looks.first + look}, rows,
-                                     waves.data());
-                middle_.apply(waves.data(), rows);
-                for (std::size_t e = 0; e < eyes_.size(); ++e)
-                    project(eyes_[e].bases(), scratch.views[e][h], waves.data(), place(e, some, h, bands[e][look]));
-            }
-    }
-
-    // Batches are parts of tiles of hogels, in an order that depends neither on the eyes nor on the number of looks.
-    void draw_in_lanes(const HogelRange& some, const Looks& looks, Scratch& scratch, EyeBands& bands) const {
-        const std::size_t together = std::max<std::size_t>(1, HogelWaves::lanes / looks.count);
-        std::vector<std::size_t> hogels;
-        std::vector<Item> items;
-        KeptWaves::Tile kept;
-        const auto flush = [&] {
-            for (std::size_t look = 0; !hogels.empty() && look < looks.count; look += HogelWaves::lanes) {
-                items.clear();
-                for (const std::size_t hogel : hogels)
-                    for (std::size_t l = look; l < std::min(look + HogelWaves::lanes, looks.count); ++l)
-                        items.push_back({hogel, l});
-                draw_batch(some, items, looks.first, kept, scratch, bands);
-            }
-            hogels.clear();
-        };
-        for (std::size_t t0 = 0; t0 < some.nt; t0 += tile)
-            for (std::size_t s0 = 0; s0 < some.ns; s0 += tile) {
-                if (keeps_tiles_ && looks.first == 0 && looks.count == 1)
-                    kept = hogels_.kept_waves->tile(some.s0 + s0, some.t0 + t0);
-                for (std::size_t t = t0; t < std::min(t0 + tile, some.nt); ++t)
-                    for (std::size_t s = s0; s < std::min(s0 + tile, some.ns); ++s) {
-                        hogels.push_back(t * some.ns + s);
-                        if (hogels.size() == together) flush();
-                    }
-                flush();
-            }
-    }
-
-    static void set_groups(std::span<const Item> items, const std::vector<HogelView>& views,
-                           std::vector<Group>& groups) {
-        groups.clear();
-        for (std::size_t lane = 0; lane < items.size(); ++lane) {
-            const HogelView& view = views[items[lane].hogel];
-            auto group = std::ranges::find_if(groups, [&](const Group& other) {
-                return other.columns.frequency == view.columns.frequency && other.rows.frequency == view.rows.frequency;
-            });
-            if (group == groups.end()) group = groups.insert(groups.end(), {view.columns, view.rows, view.near, {}});
-            group->chosen[lane] = 1;
-        }
-        // Lanes that are not used may hold anything.
-        if (groups.size() == 1) std::ranges::fill(groups.front().chosen, 1.0f);
-    }
-
-    // @param kept  the waves of these hogels, if they are kept
-    void draw_batch(const HogelRange& some, std::span<const Item> items, std::size_t first_look,
-                    const KeptWaves::Tile& kept, Scratch& scratch, EyeBands& bands) const {
-        scratch.groups.resize(eyes_.size());
-        scratch.lines.resize(eyes_.size());
-        for (std::size_t e = 0; e < eyes_.size(); ++e) {
-            set_groups(items, scratch.views[e], scratch.groups[e]);
-            const std::size_t count = scratch.groups[e].size();
-            if (scratch.lines[e].size() < count) scratch.lines[e].resize(count);
-            for (Array<float, 1>& lines : scratch.lines[e])
-                if (const std::size_t size = hogels_.rows * eyes_[e].bases().across.functions() * both;
-                    lines.size() != size)
-                    lines = Array<float, 1>({size});
-        }
-        if (kept.rows != nullptr)
-            sum_kept_rows(kept, scratch);
-        else
-            sum_rows_of_waves(some, items, first_look, scratch);
-        for (std::size_t e = 0; e < eyes_.size(); ++e) {
-            const HogelBases bases = eyes_[e].bases();
-            if (const std::size_t size = bases.across.functions() * bases.across.functions() * both;
-                scratch.numbers.size() < size)
-                scratch.numbers = Array<float, 1>({size});
-            for (std::size_t g = 0; g < scratch.groups[e].size(); ++g) {
-                const Group& group = scratch.groups[e][g];
-                sum_rows(bases.across, lit_rows(e, g, scratch), kept.scale * group.columns.sign * group.rows.sign,
-                         scratch.lines[e][g].data(), group.chosen, scratch.numbers.data());
-            }
-            LaneTarget targets[HogelWaves::lanes];
-            for (std::size_t lane = 0; lane < items.size(); ++lane) {
-                const Item& item = items[lane];
-                targets[lane] = {scratch.views[e][item.hogel].phases.data(),
-                                 place(e, some, item.hogel, bands[e][item.look])};
-            }
-            add_lanes(bases.across, scratch.numbers.data(), {targets, items.size()});
-        }
-    }
-
-    // Calls sum(weights, line) for each line of a row of waves that is lit and near to an eye.
-    template <class Sum>
-    void for_lines(std::size_t row, Scratch& scratch, const Sum& sum) const {
-        for (std::size_t e = 0; e < eyes_.size(); ++e)
-            for (std::size_t g = 0; g < scratch.groups[e].size(); ++g) {
-                const Group& group = scratch.groups[e][g];
-                const HogelBasis& basis = eyes_[e].bases().across;
-                if (group.near.has(row, hogels_.rows))
-                    sum(basis, group.columns, &scratch.lines[e][g](row * basis.functions() * both));
-            }
-    }
-
-    void sum_kept_rows(const KeptWaves::Tile& kept, Scratch& scratch) const {
-        const std::size_t size = hogels_.columns * both;
-        scratch.lit.assign(kept.lit, kept.lit + hogels_.rows);
-        for (std::size_t row = 0; row < hogels_.rows; ++row) {
-            if (!scratch.lit[row]) continue;
-            const std::uint16_t* waves = kept.rows + row * size;
-            for_lines(row, scratch, [&](const HogelBasis& basis, const HogelBasis::Weights& columns, float* line) {
-                sum_row_of_halves(basis, columns, waves, waves + size, line);
-            });
-        }
-    }
-
-    void sum_rows_of_waves(const HogelRange& some, std::span<const Item> items, std::size_t first_look,
-                           Scratch& scratch) const {
-        const std::size_t n = hogels_.columns;
-        const bool shared = items.front().hogel == items.back().hogel;
-        const float* prepared = scratch.moduli[items.front().hogel];
-        if (!shared) {
-            scratch.sources.clear();
-            for (const Item& item : items) scratch.sources.push_back(scratch.moduli[item.hogel]);
-            const std::size_t size = HogelWaves::powers_size(n) * HogelWaves::lanes;
-            if (scratch.gathered.size() != size) scratch.gathered = Array<float, 1>({size});
-            prepared = scratch.gathered.data();
-        }
-        scratch.places.clear();
-        for (const Item& item : items)
-            scratch.places.push_back(
-                {some.s0 + item.hogel % some.ns, some.t0 + item.hogel / some.ns, first_look + item.look});
-        const SeriesOfLanes series = hogels_.waves->series_of_lanes(scratch.places);
-        if (scratch.waves.size() != n * both) scratch.waves = Array<float, 1>({n * both});
-        scratch.lit.resize(hogels_.rows);
-        std::size_t gathered = 0;  // rows
-        for (std::size_t row = 0; row < hogels_.rows; ++row) {
-            scratch.lit[row] = hogels_.waves->has_light(row);
-            bool made = false;
-            for_lines(row, scratch, [&](const HogelBasis& basis, const HogelBasis::Weights& columns, float* line) {
-                if (!scratch.lit[row]) return;
-                if (!made && !shared && row >= gathered) {
-                    const std::size_t block = row / HogelWaves::rows_together * HogelWaves::rows_together;
-                    hogels_.waves->gather_lanes(scratch.sources, block, scratch.gathered.data());
-                    gathered = block + HogelWaves::rows_together;
-                }
-                if (!made) hogels_.waves->row_of_lanes(series, row, shared, prepared, scratch.waves.data());
-                made = true;
-                sum_row(basis, columns, scratch.waves.data(), line);
-            });
-        }
-    }
-
-    // The weights of the rows that are lit and near to an eye. The dark one of a pair counts as zero.
-    HogelBasis::Weights lit_rows(std::size_t e, std::size_t g, Scratch& scratch) const {
-        const Group& group = scratch.groups[e][g];
-        HogelBasis::Weights weights = group.rows;
-        const std::size_t size = eyes_[e].bases().across.functions() * both;
-        const auto is_lit = [&](std::size_t row) { return scratch.lit[row] && group.near.has(row, hogels_.rows); };
-        scratch.pairs.clear();
-        for (std::size_t i = 0; i < group.rows.pairs.size(); ++i) {
-            const HogelBasis::WavePair& pair = group.rows.pairs[i];
-            const bool one = is_lit(pair.one), other = is_lit(pair.other);
-            if (one || other)
-                scratch.pairs.push_back(pair);
-            else if (i >= group.rows.pairs.size() - group.rows.alone)
-                --weights.alone;
-            if (one != other) std::fill_n(&scratch.lines[e][g]((one ? pair.other : pair.one) * size), size, 0.0f);
-        }
-        weights.pairs = scratch.pairs;
-        return weights;
-    }
-
-    Hogels hogels_;
-    HogelRange range_;
-    std::vector<EyeBand> eyes_;
-    MiddlePhases middle_;
-    bool in_lanes_;
-    bool keeps_tiles_;  // whether tiles of the range are those of kept waves
-    mutable core::ObjectPool<Scratch> scratch_pool_;
-};
-
-// Eyes that see several colours of the same hogels, strip by strip, so that these may share rays.
+// Eyes that see several colours of the same hogels, part by part, so that these may share rays.
 class StereogramEyes final : public optics::EyeDrawing {
   public:
     StereogramEyes(std::vector<std::unique_ptr<ColourEyes>> colours, const HogelRange& range)
@@ -377,51 +55,50 @@ class StereogramEyes final : public optics::EyeDrawing {
             const Grid& plane = band(i / looks).plane;
             bands[i / looks][i % looks] = Array<Complex, 2>({plane.height, plane.width});
         });
-        // Strips of hogels in an order in which those that follow each other do not meet.
-        std::vector<std::size_t> strips;
-        const std::size_t apart = strips_apart(colours_.front()->overlap()) * tile;
-        for (std::size_t first = 0; first < apart; first += tile)
-            for (std::size_t t = first; t < range_.nt; t += apart) strips.push_back(t);
+        // Parts of the hogels, so that those of each set do not meet and threads may add them in any order.
+        const std::vector<std::vector<HogelPart>> sets = parts();
+        const std::size_t count = std::accumulate(sets.begin(), sets.end(), std::size_t{0},
+                                                  [](std::size_t sum, const auto& set) { return sum + set.size(); });
         const auto report = [&](std::size_t done) {
-            progress.report(static_cast<double>(done) / static_cast<double>(strips.size()));
+            progress.report(static_cast<double>(done) / static_cast<double>(count));
         };
         const ColourEyes::Looks some{first_look, looks};
-        const auto add = [&](std::size_t colour, std::span<const std::vector<Array<Complex, 2>>> strip, std::size_t t) {
-            colours_[colour]->add(strip, t, std::span(bands).subspan(colour * each, each));
+        const auto add = [&](std::size_t colour, std::span<const std::vector<Array<Complex, 2>>> light,
+                             const HogelPart& part) {
+            colours_[colour]->add(light, part, std::span(bands).subspan(colour * each, each));
         };
         if (core::team_of_several() != nullptr) {
+            std::vector<HogelPart> all_parts;
+            for (const auto& set : sets) all_parts.insert(all_parts.end(), set.begin(), set.end());
             core::shared_ordered<EyeBands>(
-                strips.size(), core::default_in_flight(), sent_bands(),
+                count, core::default_in_flight(), sent_bands(),
                 [&](std::size_t i) {
                     EyeBands all;
                     for (const auto& colour : colours_) {
                         auto scratch = colour->scratch();
-                        colour->draw_strip(strips[i], some, *scratch);
-                        all.insert(all.end(), scratch->strip.begin(), scratch->strip.end());
+                        const EyeBands& light = colour->draw(all_parts[i], some, *scratch);
+                        all.insert(all.end(), light.begin(), light.end());
                     }
                     return all;
                 },
                 [&](std::size_t i, const EyeBands& all) {
                     for (std::size_t c = 0; c < colours_.size(); ++c)
-                        add(c, std::span(all).subspan(c * each, each), strips[i]);
+                        add(c, std::span(all).subspan(c * each, each), all_parts[i]);
                     report(i + 1);
                 });
             return bands;
         }
         std::mutex mutex;
         std::size_t done = 0;
-        for (std::size_t first = 0, end = 0; first < strips.size(); first = end) {
-            while (end < strips.size() && strips[end] % apart == strips[first] % apart) ++end;
-            core::parallel_for(end - first, [&](std::size_t i) {
+        for (const auto& set : sets)
+            core::parallel_for(set.size(), [&](std::size_t i) {
                 for (std::size_t c = 0; c < colours_.size(); ++c) {
                     auto scratch = colours_[c]->scratch();
-                    colours_[c]->draw_strip(strips[first + i], some, *scratch);
-                    add(c, scratch->strip, strips[first + i]);
+                    add(c, colours_[c]->draw(set[i], some, *scratch), set[i]);
                 }
                 const std::lock_guard lock(mutex);
                 report(++done);
             });
-        }
         return bands;
     }
 
@@ -429,6 +106,18 @@ class StereogramEyes final : public optics::EyeDrawing {
     const EyeBand& eye_band(std::size_t eye) const {
         const std::size_t each = colours_.front()->eyes().size();
         return colours_[eye / each]->eyes()[eye % each];
+    }
+
+    // Every second part along an axis, or every third, is a set.
+    std::vector<std::vector<HogelPart>> parts() const {
+        const std::size_t overlap = colours_.front()->overlap();
+        const std::size_t apart_x = parts_apart(part_across, overlap), apart_y = parts_apart(part_down, overlap);
+        std::vector<std::vector<HogelPart>> sets(apart_x * apart_y);
+        for (std::size_t t = 0; t < range_.nt; t += part_down)
+            for (std::size_t s = 0; s < range_.ns; s += part_across)
+                sets[t / part_down % apart_y * apart_x + s / part_across % apart_x].push_back(
+                    {s, t, std::min(part_across, range_.ns - s), std::min(part_down, range_.nt - t)});
+        return sets;
     }
 
     std::vector<std::unique_ptr<ColourEyes>> colours_;

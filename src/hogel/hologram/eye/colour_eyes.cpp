@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/hologram/eye/colour_eyes.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace hogel::hologram::eye {
+namespace {
+
+using Complex = std::complex<float>;
+
+constexpr std::size_t both = 2 * HogelWaves::lanes;  // floats of a complex number of all lanes
+
+// By how much the demodulation's frequency may grow from hogel to hogel, in cycles per hogel, for lanes to share
+// weights often enough.
+constexpr double max_bend_in_lanes = 0.15;
+
+}  // namespace
+
+ColourEyes::ColourEyes(const Hogels& hogels, const HogelRange& range, std::vector<EyeBand> eyes)
+    : hogels_(hogels),
+      range_(range),
+      eyes_(std::move(eyes)),
+      middle_(hogels.rows, hogels.columns),
+      in_lanes_(hogels.waves->has_lanes()),
+      keeps_tiles_(hogels.kept_waves != nullptr && range.ns * hogels.across() == hogels.grid.plane.width &&
+                   range.nt * hogels.down() == hogels.grid.plane.height) {
+    for (const EyeBand& eye : eyes_) in_lanes_ = in_lanes_ && eye.bend() <= max_bend_in_lanes;
+}
+
+// Draws the light of a part of the hogels into scratch.bands: what it reaches of each band.
+const EyeBands& ColourEyes::draw(const HogelPart& part, const Looks& looks, Scratch& scratch) const {
+    scratch.bands.resize(eyes_.size());
+    for (std::size_t e = 0; e < eyes_.size(); ++e) {
+        const Shape<2> shape{eyes_[e].samples(part.nt), eyes_[e].samples(part.ns)};
+        scratch.bands[e].resize(looks.count);
+        for (Array<Complex, 2>& own : scratch.bands[e])
+            if (own.shape() == shape)
+                std::ranges::fill(own.elements(), Complex(0));
+            else
+                own = Array<Complex, 2>(shape);
+    }
+    for (std::size_t t = 0; t < part.nt; t += tile_side)
+        draw_tiles({range_.s0 + part.s, range_.t0 + part.t + t, part.ns, std::min(tile_side, part.nt - t)}, t, looks,
+                   scratch);
+    return scratch.bands;
+}
+
+// Adds the light of a part to the bands of these eyes.
+void ColourEyes::add(std::span<const std::vector<Array<Complex, 2>>> light, const HogelPart& part,
+                     std::span<std::vector<Array<Complex, 2>>> bands) const {
+    for (std::size_t e = 0; e < eyes_.size(); ++e)
+        for (std::size_t look = 0; look < light[e].size(); ++look) {
+            const Array<Complex, 2>& own = light[e][look];
+            const std::size_t per_hogel = eyes_[e].per_hogel();
+            for (std::size_t row = 0; row < own.extent(0); ++row) {
+                const auto* from = reinterpret_cast<const float*>(&own(row, 0));
+                auto* to = reinterpret_cast<float*>(&bands[e][look](part.t * per_hogel + row, part.s * per_hogel));
+                for (std::size_t i = 0; i < 2 * own.extent(1); ++i) to[i] += from[i];
+            }
+        }
+}
+
+// Adds the light of a row of tiles, the row `first` of a part, to scratch.bands.
+void ColourEyes::draw_tiles(const HogelRange& some, std::size_t first, const Looks& looks, Scratch& scratch) const {
+    scratch.first_row = first;
+    prepare(some, scratch);
+    scratch.views.resize(eyes_.size());
+    scratch.phases.resize(eyes_.size());
+    for (std::size_t e = 0; e < eyes_.size(); ++e) {
+        const EyeBand& eye = eyes_[e];
+        const std::size_t nodes = eye.nodes();
+        Array<float, 4>& phases = scratch.phases[e];
+        const Shape<4> shape{some.hogels(), nodes, 2, phase_row(nodes)};
+        if (phases.shape() != shape) phases = Array<float, 4>(shape);
+        scratch.views[e].clear();
+        for (std::size_t h = 0; h < some.hogels(); ++h)
+            scratch.views[e].push_back(eye.view(hogels_, some.s0 + h % some.ns, some.t0 + h / some.ns, phases[h]));
+    }
+    if (in_lanes_)
+        draw_in_lanes(some, looks, scratch);
+    else
+        draw_one_by_one(some, looks, scratch);
+}
+
+void ColourEyes::prepare(const HogelRange& some, Scratch& scratch) const {
+    scratch.moduli.resize(some.hogels());
+    if (hogels_.kept.size() > 0) {
+        const std::size_t across = hogels_.grid.plane.width / hogels_.across();
+        for (std::size_t h = 0; h < some.hogels(); ++h)
+            scratch.moduli[h] = &hogels_.kept((some.t0 + h / some.ns) * across + some.s0 + h % some.ns, 0);
+        return;
+    }
+    Array<float, 2>& prepared = scratch.prepared;
+    if (prepared.shape() != Shape<2>{some.hogels(), hogels_.waves->prepared_size()})
+        prepared = Array<float, 2>({some.hogels(), hogels_.waves->prepared_size()});
+    hogels_.prepare(some, prepared);
+    for (std::size_t h = 0; h < some.hogels(); ++h) scratch.moduli[h] = &prepared(h, 0);
+}
+
+// The place in the light of a part of the first node of a hogel.
+BandPlace ColourEyes::place(std::size_t e, const HogelRange& some, std::size_t hogel, std::size_t look,
+                            Scratch& scratch) const {
+    const std::size_t s = hogel % some.ns, t = scratch.first_row + hogel / some.ns;
+    Array<Complex, 2>& band = scratch.bands[e][look];
+    return {&band(t * eyes_[e].per_hogel(), s * eyes_[e].per_hogel()), band.extent(1)};
+}
+
+void ColourEyes::draw_one_by_one(const HogelRange& some, const Looks& looks, Scratch& scratch) const {
+    Array<float, 1>& waves = scratch.waves;
+    const std::size_t size = HogelWaves::size(hogels_.rows, hogels_.columns);
+    if (waves.size() != size) waves = Array<float, 1>({size});
+    for (std::size_t look = 0; look < looks.count; ++look)
+        for (std::size_t h = 0; h < some.hogels(); ++h) {
+            const NearRows rows = eyes_.size() == 1 ? scratch.views[0][h].near : NearRows{};
+            hogels_.waves->waves({scratch.moduli[h], hogels_.waves->prepared_size()},
+                                 {some.s0 + h % some.ns, some.t0 + h / some.ns, looks.first + look}, rows,
+                                 waves.data());
+            middle_.apply(waves.data(), rows);
+            for (std::size_t e = 0; e < eyes_.size(); ++e)
+                project(eyes_[e].bases(), scratch.views[e][h], waves.data(), place(e, some, h, look, scratch));
+        }
+}
+
+// Batches are parts of tiles of hogels, in an order that depends neither on the eyes nor on the number of looks.
+void ColourEyes::draw_in_lanes(const HogelRange& some, const Looks& looks, Scratch& scratch) const {
+    const std::size_t together = std::max<std::size_t>(1, HogelWaves::lanes / looks.count);
+    std::vector<std::size_t> hogels;
+    std::vector<Item> items;
+    KeptWaves::Tile kept;
+    const auto flush = [&] {
+        for (std::size_t look = 0; !hogels.empty() && look < looks.count; look += HogelWaves::lanes) {
+            items.clear();
+            for (const std::size_t hogel : hogels)
+                for (std::size_t l = look; l < std::min(look + HogelWaves::lanes, looks.count); ++l)
+                    items.push_back({hogel, l});
+            draw_batch(some, items, looks.first, kept, scratch);
+        }
+        hogels.clear();
+    };
+    for (std::size_t t0 = 0; t0 < some.nt; t0 += tile_side)
+        for (std::size_t s0 = 0; s0 < some.ns; s0 += tile_side) {
+            if (keeps_tiles_ && looks.first == 0 && looks.count == 1)
+                kept = hogels_.kept_waves->tile(some.s0 + s0, some.t0 + t0);
+            for (std::size_t t = t0; t < std::min(t0 + tile_side, some.nt); ++t)
+                for (std::size_t s = s0; s < std::min(s0 + tile_side, some.ns); ++s) {
+                    hogels.push_back(t * some.ns + s);
+                    if (hogels.size() == together) flush();
+                }
+            flush();
+        }
+}
+
+void ColourEyes::set_groups(std::span<const Item> items, const std::vector<HogelView>& views,
+                            std::vector<Group>& groups) {
+    groups.clear();
+    for (std::size_t lane = 0; lane < items.size(); ++lane) {
+        const HogelView& view = views[items[lane].hogel];
+        auto group = std::ranges::find_if(groups, [&](const Group& other) {
+            return other.columns.frequency == view.columns.frequency && other.rows.frequency == view.rows.frequency;
+        });
+        if (group == groups.end()) group = groups.insert(groups.end(), {view.columns, view.rows, view.near, {}});
+        group->chosen[lane] = 1;
+    }
+    // Lanes that are not used may hold anything.
+    if (groups.size() == 1) std::ranges::fill(groups.front().chosen, 1.0f);
+}
+
+// @param kept  the waves of these hogels, if they are kept
+void ColourEyes::draw_batch(const HogelRange& some, std::span<const Item> items, std::size_t first_look,
+                            const KeptWaves::Tile& kept, Scratch& scratch) const {
+    scratch.groups.resize(eyes_.size());
+    scratch.lines.resize(eyes_.size());
+    for (std::size_t e = 0; e < eyes_.size(); ++e) {
+        set_groups(items, scratch.views[e], scratch.groups[e]);
+        const std::size_t count = scratch.groups[e].size();
+        if (scratch.lines[e].size() < count) scratch.lines[e].resize(count);
+        for (Array<float, 1>& lines : scratch.lines[e])
+            if (const std::size_t size = hogels_.rows * eyes_[e].bases().across.functions() * both;
+                lines.size() != size)
+                lines = Array<float, 1>({size});
+    }
+    if (kept.rows != nullptr)
+        sum_kept_rows(kept, scratch);
+    else
+        sum_rows_of_waves(some, items, first_look, scratch);
+    for (std::size_t e = 0; e < eyes_.size(); ++e) {
+        const HogelBases bases = eyes_[e].bases();
+        if (const std::size_t size = bases.across.functions() * bases.across.functions() * both;
+            scratch.numbers.size() < size)
+            scratch.numbers = Array<float, 1>({size});
+        for (std::size_t g = 0; g < scratch.groups[e].size(); ++g) {
+            const Group& group = scratch.groups[e][g];
+            sum_rows(bases.across, lit_rows(e, g, scratch), kept.scale * group.columns.sign * group.rows.sign,
+                     scratch.lines[e][g].data(), group.chosen, scratch.numbers.data());
+        }
+        LaneTarget targets[HogelWaves::lanes];
+        for (std::size_t lane = 0; lane < items.size(); ++lane) {
+            const Item& item = items[lane];
+            targets[lane] = {scratch.views[e][item.hogel].phases.data(),
+                             place(e, some, item.hogel, item.look, scratch)};
+        }
+        add_lanes(bases.across, scratch.numbers.data(), {targets, items.size()});
+    }
+}
+
+// Calls sum(weights, line) for each line of a row of waves that is lit and near to an eye.
+template <class Sum>
+void ColourEyes::for_lines(std::size_t row, Scratch& scratch, const Sum& sum) const {
+    for (std::size_t e = 0; e < eyes_.size(); ++e)
+        for (std::size_t g = 0; g < scratch.groups[e].size(); ++g) {
+            const Group& group = scratch.groups[e][g];
+            const HogelBasis& basis = eyes_[e].bases().across;
+            if (group.near.has(row, hogels_.rows))
+                sum(basis, group.columns, &scratch.lines[e][g](row * basis.functions() * both));
+        }
+}
+
+void ColourEyes::sum_kept_rows(const KeptWaves::Tile& kept, Scratch& scratch) const {
+    const std::size_t size = hogels_.columns * both;
+    scratch.lit.assign(kept.lit, kept.lit + hogels_.rows);
+    for (std::size_t row = 0; row < hogels_.rows; ++row) {
+        if (!scratch.lit[row]) continue;
+        const std::uint16_t* waves = kept.rows + row * size;
+        for_lines(row, scratch, [&](const HogelBasis& basis, const HogelBasis::Weights& columns, float* line) {
+            sum_row_of_halves(basis, columns, waves, waves + size, line);
+        });
+    }
+}
+
+void ColourEyes::sum_rows_of_waves(const HogelRange& some, std::span<const Item> items, std::size_t first_look,
+                                   Scratch& scratch) const {
+    const std::size_t n = hogels_.columns;
+    const bool shared = items.front().hogel == items.back().hogel;
+    const float* prepared = scratch.moduli[items.front().hogel];
+    if (!shared) {
+        scratch.sources.clear();
+        for (const Item& item : items) scratch.sources.push_back(scratch.moduli[item.hogel]);
+        const std::size_t size = HogelWaves::powers_size(n) * HogelWaves::lanes;
+        if (scratch.gathered.size() != size) scratch.gathered = Array<float, 1>({size});
+        prepared = scratch.gathered.data();
+    }
+    scratch.places.clear();
+    for (const Item& item : items)
+        scratch.places.push_back(
+            {some.s0 + item.hogel % some.ns, some.t0 + item.hogel / some.ns, first_look + item.look});
+    const SeriesOfLanes series = hogels_.waves->series_of_lanes(scratch.places);
+    if (scratch.waves.size() != n * both) scratch.waves = Array<float, 1>({n * both});
+    scratch.lit.resize(hogels_.rows);
+    std::size_t gathered = 0;  // rows
+    for (std::size_t row = 0; row < hogels_.rows; ++row) {
+        scratch.lit[row] = hogels_.waves->has_light(row);
+        bool made = false;
+        for_lines(row, scratch, [&](const HogelBasis& basis, const HogelBasis::Weights& columns, float* line) {
+            if (!scratch.lit[row]) return;
+            if (!made && !shared && row >= gathered) {
+                const std::size_t block = row / HogelWaves::rows_together * HogelWaves::rows_together;
+                hogels_.waves->gather_lanes(scratch.sources, block, scratch.gathered.data());
+                gathered = block + HogelWaves::rows_together;
+            }
+            if (!made) hogels_.waves->row_of_lanes(series, row, shared, prepared, scratch.waves.data());
+            made = true;
+            sum_row(basis, columns, scratch.waves.data(), line);
+        });
+    }
+}
+
+// The weights of the rows that are lit and near to an eye. The dark one of a pair counts as zero.
+HogelBasis::Weights ColourEyes::lit_rows(std::size_t e, std::size_t g, Scratch& scratch) const {
+    const Group& group = scratch.groups[e][g];
+    HogelBasis::Weights weights = group.rows;
+    const std::size_t size = eyes_[e].bases().across.functions() * both;
+    const auto is_lit = [&](std::size_t row) { return scratch.lit[row] && group.near.has(row, hogels_.rows); };
+    scratch.pairs.clear();
+    for (std::size_t i = 0; i < group.rows.pairs.size(); ++i) {
+        const HogelBasis::WavePair& pair = group.rows.pairs[i];
+        const bool one = is_lit(pair.one), other = is_lit(pair.other);
+        if (one || other)
+            scratch.pairs.push_back(pair);
+        else if (i >= group.rows.pairs.size() - group.rows.alone)
+            --weights.alone;
+        if (one != other) std::fill_n(&scratch.lines[e][g]((one ? pair.other : pair.one) * size), size, 0.0f);
+    }
+    weights.pairs = scratch.pairs;
+    return weights;
+}
+
+}  // namespace hogel::hologram::eye
