@@ -36,9 +36,9 @@ struct PhotographOptions {
     /// all heights, as displays with horizontal parallax only do ([K] 3.9): see photograph(). Not with `expected`, nor
     /// from hogels.
     bool vertical_diffuser = false;
-    /// A quick look: of stereograms whose light is computed from hogels, waves that pass far above or below the pupil
-    /// are left out, of which it receives only what a hogel's edges diffract. No effect on other light, nor with
-    /// `expected`.
+    /// A quick look: of stereograms whose light is computed from hogels, waves that pass far from the pupil are left
+    /// out, of which it receives only what a hogel's edges diffract, and films are coarser. No effect on other light,
+    /// nor with `expected`.
     bool preview = false;
 };
 

@@ -63,7 +63,8 @@ struct EyePhotographer::State {
             SeenColour colour;
             colour.drawing =
                 draw_eyes(*hologram, {0, 0, plane.width, plane.height}, *hologram, {&eye, 1}, options.from);
-            colour.film.emplace(colour.drawing->band(0), hologram->grid(), seen.pupil, seen.blur);
+            colour.film.emplace(colour.drawing->band(0), hologram->grid(), seen.pupil, seen.blur,
+                                film::film_samples(options.preview));
             colours.push_back(std::move(colour));
         }
         seen.colours = std::move(colours);

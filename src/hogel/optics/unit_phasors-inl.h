@@ -15,13 +15,13 @@ namespace hogel::optics {
 namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
-// e^{2πi cycles} for any number of cycles of double precision, to single precision.
-template <class DD, class F>
-HWY_INLINE void unit_phasors(DD, hwy::HWY_NAMESPACE::Vec<DD> cycles, F& cosine, F& sine) {
+// e^{2πi cycles} for −1/2 … 1/2 cycles.
+template <class F>
+HWY_INLINE void unit_phasors_within(F cycles, F& cosine, F& sine) {
     namespace hn = hwy::HWY_NAMESPACE;
-    const hn::Rebind<float, DD> df;
+    const hn::DFromV<F> df;
     // Half of the angle, −π/2 … π/2, by the series of its sine and cosine, and doubled.
-    const auto half = hn::Mul(hn::DemoteTo(df, hn::Sub(cycles, hn::Round(cycles))), hn::Set(df, 3.14159265f));
+    const auto half = hn::Mul(cycles, hn::Set(df, 3.14159265f));
     const auto square = hn::Mul(half, half);
     auto s = hn::Set(df, -1.0f / 39916800), c = hn::Set(df, 1.0f / 479001600);
     for (float term : {1.0f / 362880, -1.0f / 5040, 1.0f / 120, -1.0f / 6, 1.0f})
@@ -32,6 +32,14 @@ HWY_INLINE void unit_phasors(DD, hwy::HWY_NAMESPACE::Vec<DD> cycles, F& cosine, 
     const auto twice = hn::Add(s, s);
     cosine = hn::NegMulAdd(twice, s, hn::Set(df, 1.0f));
     sine = hn::Mul(twice, c);
+}
+
+// e^{2πi cycles} for any number of cycles of double precision, to single precision.
+template <class DD, class F>
+HWY_INLINE void unit_phasors(DD, hwy::HWY_NAMESPACE::Vec<DD> cycles, F& cosine, F& sine) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const hn::Rebind<float, DD> df;
+    unit_phasors_within(hn::DemoteTo(df, hn::Sub(cycles, hn::Round(cycles))), cosine, sine);
 }
 #endif
 

@@ -15,6 +15,18 @@ constexpr std::size_t both = 2 * HogelWaves::lanes;  // floats of a complex numb
 // weights often enough.
 constexpr double max_bend_in_lanes = 0.15;
 
+// The pairs of which a wave is among some, in their order.
+void keep_pairs(const auto& is_kept, HogelBasis::Weights& weights, std::vector<HogelBasis::WavePair>& kept) {
+    kept.clear();
+    const std::size_t first_alone = weights.pairs.size() - weights.alone;
+    for (std::size_t i = 0; i < weights.pairs.size(); ++i)
+        if (is_kept(weights.pairs[i].one) || is_kept(weights.pairs[i].other))
+            kept.push_back(weights.pairs[i]);
+        else if (i >= first_alone)
+            --weights.alone;
+    weights.pairs = kept;
+}
+
 }  // namespace
 
 ColourEyes::ColourEyes(const Hogels& hogels, const HogelRange& range, std::vector<EyeBand> eyes)
@@ -73,9 +85,14 @@ void ColourEyes::draw_tiles(const HogelRange& some, std::size_t first, const Loo
         Array<float, 4>& phases = scratch.phases[e];
         const Shape<4> shape{some.hogels(), nodes, 2, phase_row(nodes)};
         if (phases.shape() != shape) phases = Array<float, 4>(shape);
-        scratch.views[e].clear();
-        for (std::size_t h = 0; h < some.hogels(); ++h)
-            scratch.views[e].push_back(eye.view(hogels_, some.s0 + h % some.ns, some.t0 + h / some.ns, phases[h]));
+        std::vector<HogelView>& views = scratch.views[e];
+        views.resize(some.hogels());
+        HogelView view;
+        for (std::size_t t = 0, h = 0; t < some.nt; ++t)
+            for (std::size_t s = 0; s < some.ns; ++s, ++h) {
+                eye.view(hogels_, some.s0 + s, some.t0 + t, phases[h], view);
+                views[h] = view;
+            }
     }
     if (in_lanes_)
         draw_in_lanes(some, looks, scratch);
@@ -151,7 +168,7 @@ void ColourEyes::draw_in_lanes(const HogelRange& some, const Looks& looks, Scrat
         }
 }
 
-void ColourEyes::set_groups(std::span<const Item> items, const std::vector<HogelView>& views,
+void ColourEyes::set_groups(std::span<const Item> items, const std::vector<HogelView>& views, std::size_t waves,
                             std::vector<Group>& groups) {
     groups.clear();
     for (std::size_t lane = 0; lane < items.size(); ++lane) {
@@ -159,7 +176,14 @@ void ColourEyes::set_groups(std::span<const Item> items, const std::vector<Hogel
         auto group = std::ranges::find_if(groups, [&](const Group& other) {
             return other.columns.frequency == view.columns.frequency && other.rows.frequency == view.rows.frequency;
         });
-        if (group == groups.end()) group = groups.insert(groups.end(), {view.columns, view.rows, view.near, {}});
+        if (group == groups.end()) {
+            group = groups.insert(groups.end(), {view.columns, view.rows, view.near, 0, {}, {}});
+            if (view.near_columns.count < waves) {
+                group->first_column = view.near_columns.first;
+                keep_pairs([&](std::size_t column) { return view.near_columns.has(column, waves); }, group->columns,
+                           group->pairs);
+            }
+        }
         group->chosen[lane] = 1;
     }
     // Lanes that are not used may hold anything.
@@ -172,7 +196,7 @@ void ColourEyes::draw_batch(const HogelRange& some, std::span<const Item> items,
     scratch.groups.resize(eyes_.size());
     scratch.lines.resize(eyes_.size());
     for (std::size_t e = 0; e < eyes_.size(); ++e) {
-        set_groups(items, scratch.views[e], scratch.groups[e]);
+        set_groups(items, scratch.views[e], hogels_.columns, scratch.groups[e]);
         const std::size_t count = scratch.groups[e].size();
         if (scratch.lines[e].size() < count) scratch.lines[e].resize(count);
         for (Array<float, 1>& lines : scratch.lines[e])
@@ -204,7 +228,7 @@ void ColourEyes::draw_batch(const HogelRange& some, std::span<const Item> items,
     }
 }
 
-// Calls sum(weights, line) for each line of a row of waves that is lit and near to an eye.
+// Calls sum(basis, group, line) for each line of a row of waves that is near to an eye.
 template <class Sum>
 void ColourEyes::for_lines(std::size_t row, Scratch& scratch, const Sum& sum) const {
     for (std::size_t e = 0; e < eyes_.size(); ++e)
@@ -212,18 +236,26 @@ void ColourEyes::for_lines(std::size_t row, Scratch& scratch, const Sum& sum) co
             const Group& group = scratch.groups[e][g];
             const HogelBasis& basis = eyes_[e].bases().across;
             if (group.near.has(row, hogels_.rows))
-                sum(basis, group.columns, &scratch.lines[e][g](row * basis.functions() * both));
+                sum(basis, group, &scratch.lines[e][g](row * basis.functions() * both));
         }
 }
 
 void ColourEyes::sum_kept_rows(const KeptWaves::Tile& kept, Scratch& scratch) const {
     const std::size_t size = hogels_.columns * both;
     scratch.lit.assign(kept.lit, kept.lit + hogels_.rows);
-    for (std::size_t row = 0; row < hogels_.rows; ++row) {
-        if (!scratch.lit[row]) continue;
-        const std::uint16_t* waves = kept.rows + row * size;
-        for_lines(row, scratch, [&](const HogelBasis& basis, const HogelBasis::Weights& columns, float* line) {
-            sum_row_of_halves(basis, columns, waves, waves + size, line);
+    scratch.rows.clear();
+    for (std::size_t row = 0; row < hogels_.rows; ++row)
+        if (scratch.lit[row] && std::ranges::any_of(scratch.groups, [&](const std::vector<Group>& eye) {
+                return std::ranges::any_of(eye, [&](const Group& group) { return group.near.has(row, hogels_.rows); });
+            }))
+            scratch.rows.push_back(row);
+    for (std::size_t i = 0; i < scratch.rows.size(); ++i) {
+        const std::uint16_t* waves = kept.rows + scratch.rows[i] * size;
+        // The row after the next one, of this tile or probably of the next.
+        const std::size_t soon = i + 2, count = scratch.rows.size();
+        const std::size_t next = soon < count ? scratch.rows[soon] : hogels_.rows + scratch.rows[soon % count];
+        for_lines(scratch.rows[i], scratch, [&](const HogelBasis& basis, const Group& group, float* line) {
+            sum_row_of_halves(basis, group.columns, waves, {kept.rows + next * size, group.first_column}, line);
         });
     }
 }
@@ -251,7 +283,7 @@ void ColourEyes::sum_rows_of_waves(const HogelRange& some, std::span<const Item>
     for (std::size_t row = 0; row < hogels_.rows; ++row) {
         scratch.lit[row] = hogels_.waves->has_light(row);
         bool made = false;
-        for_lines(row, scratch, [&](const HogelBasis& basis, const HogelBasis::Weights& columns, float* line) {
+        for_lines(row, scratch, [&](const HogelBasis& basis, const Group& group, float* line) {
             if (!scratch.lit[row]) return;
             if (!made && !shared && row >= gathered) {
                 const std::size_t block = row / HogelWaves::rows_together * HogelWaves::rows_together;
@@ -260,7 +292,7 @@ void ColourEyes::sum_rows_of_waves(const HogelRange& some, std::span<const Item>
             }
             if (!made) hogels_.waves->row_of_lanes(series, row, shared, prepared, scratch.waves.data());
             made = true;
-            sum_row(basis, columns, scratch.waves.data(), line);
+            sum_row(basis, group.columns, scratch.waves.data(), line);
         });
     }
 }
@@ -271,17 +303,10 @@ HogelBasis::Weights ColourEyes::lit_rows(std::size_t e, std::size_t g, Scratch& 
     HogelBasis::Weights weights = group.rows;
     const std::size_t size = eyes_[e].bases().across.functions() * both;
     const auto is_lit = [&](std::size_t row) { return scratch.lit[row] && group.near.has(row, hogels_.rows); };
-    scratch.pairs.clear();
-    for (std::size_t i = 0; i < group.rows.pairs.size(); ++i) {
-        const HogelBasis::WavePair& pair = group.rows.pairs[i];
-        const bool one = is_lit(pair.one), other = is_lit(pair.other);
-        if (one || other)
-            scratch.pairs.push_back(pair);
-        else if (i >= group.rows.pairs.size() - group.rows.alone)
-            --weights.alone;
-        if (one != other) std::fill_n(&scratch.lines[e][g]((one ? pair.other : pair.one) * size), size, 0.0f);
-    }
-    weights.pairs = scratch.pairs;
+    for (const HogelBasis::WavePair& pair : group.rows.pairs)
+        if (const bool one = is_lit(pair.one); one != is_lit(pair.other))
+            std::fill_n(&scratch.lines[e][g]((one ? pair.other : pair.one) * size), size, 0.0f);
+    keep_pairs(is_lit, weights, scratch.pairs);
     return weights;
 }
 

@@ -54,6 +54,8 @@ class ColourEyes {
     struct Group {
         HogelBasis::Weights columns, rows;
         NearRows near;
+        std::size_t first_column;                 // of those that are near
+        std::vector<HogelBasis::WavePair> pairs;  // of columns, unless all are near
         alignas(64) float chosen[HogelWaves::lanes];
     };
 
@@ -67,7 +69,8 @@ class ColourEyes {
         std::vector<std::vector<Array<float, 1>>> lines;  // [eye][weights]: [row][function][part][lane]
         std::vector<std::vector<Group>> groups;           // [eye]
         std::vector<HogelBasis::WavePair> pairs;
-        std::vector<char> lit;  // [row]
+        std::vector<char> lit;          // [row]
+        std::vector<std::size_t> rows;  // that are summed
         std::vector<HogelPlace> places;
         std::vector<const float*> sources;
         EyeBands bands;             // of a part
@@ -92,7 +95,7 @@ class ColourEyes {
     void prepare(const HogelRange& some, Scratch& scratch) const;
     BandPlace place(std::size_t e, const HogelRange& some, std::size_t hogel, std::size_t look, Scratch& scratch) const;
     void draw_one_by_one(const HogelRange& some, const Looks& looks, Scratch& scratch) const;
-    static void set_groups(std::span<const Item> items, const std::vector<HogelView>& views,
+    static void set_groups(std::span<const Item> items, const std::vector<HogelView>& views, std::size_t waves,
                            std::vector<Group>& groups);
     void draw_in_lanes(const HogelRange& some, const Looks& looks, Scratch& scratch) const;
     void draw_batch(const HogelRange& some, std::span<const Item> items, std::size_t first_look,

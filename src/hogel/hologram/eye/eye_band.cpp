@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <tuple>
@@ -18,8 +19,12 @@ namespace {
 // A fraction by which a pupil's band is widened, because its width varies slightly over the hologram.
 constexpr double guard = 0.1;
 
-// The waves to a hogel on either side of the pupil's band that a preview takes.
-constexpr double near_waves = 3;
+// How exact the light of an eye is. A preview takes only waves so near to the pupil's band, on either side of it, in
+// waves to a hogel, and fewer functions and samples.
+struct Exactness {
+    double guard_of_samples = guard, tolerance = 6e-4, near = std::numeric_limits<double>::infinity();
+};
+constexpr Exactness whole_light, of_preview{0, 3e-2, 5};
 
 // Bands of frequencies, in cycles per hogel, where the hologram is nearest to the eye.
 struct Bands {
@@ -33,17 +38,20 @@ struct Bands {
         return pupil * (1 + guard) + bend * reach + 0.5 / static_cast<double>(HogelBasis::fractions);
     }
     // Enough for the film's interpolation to pass the pupil's light, and for samples to hold a hogel's.
-    std::size_t per_hogel() const {
+    std::size_t per_hogel(const Exactness& light) const {
         std::size_t count = 1;
-        while (static_cast<double>(count) <
-               std::max(pupil * (1 + guard) / optics::film::InterpolationTable::pass, 2.5 * held(count)))
+        while (
+            static_cast<double>(count) <
+            std::max(pupil * (1 + light.guard_of_samples) / optics::film::InterpolationTable::pass, 2.5 * held(count)))
             ++count;
         return count;
     }
 };
 
 // Hogels of windows take as many samples each.
-std::size_t per_hop(const Bands& bands, std::size_t overlap) { return (bands.per_hogel() + overlap - 1) / overlap; }
+std::size_t per_hop(const Bands& bands, std::size_t overlap, const Exactness& light) {
+    return (bands.per_hogel(light) + overlap - 1) / overlap;
+}
 
 Bands bands_of(const Grid& plane, const HogelLayout& hogels, const optics::Eye& eye) {
     const double x =
@@ -59,7 +67,7 @@ Bands bands_of(const Grid& plane, const HogelLayout& hogels, const optics::Eye& 
 }  // namespace
 
 std::size_t band_samples_per_hogel(const HogelLayout& hogels, const optics::Eye& eye) {
-    return per_hop(bands_of(hogels.grid.plane, hogels, eye), hogels.overlap);
+    return per_hop(bands_of(hogels.grid.plane, hogels, eye), hogels.overlap, eye.preview ? of_preview : whole_light);
 }
 
 std::vector<EyeBand> EyeBand::of(const HogelLayout& hogels, const HogelRange& range,
@@ -68,17 +76,18 @@ std::vector<EyeBand> EyeBand::of(const HogelLayout& hogels, const HogelRange& ra
     const Grid whole =
         hogel::part(hogels.grid.plane, {range.s0 * across, range.t0 * down, range.ns * across, range.nt * down});
     using Bases = std::pair<std::shared_ptr<const HogelBasis>, std::shared_ptr<const HogelBasis>>;
-    std::map<std::pair<std::size_t, double>, Bases> known;
+    std::map<std::tuple<std::size_t, double, bool>, Bases> known;
     std::vector<EyeBand> bands;
     for (const optics::Eye& eye : eyes) {
         const Bands band = bands_of(whole, hogels, eye);
-        const std::size_t per_hogel = per_hop(band, hogels.overlap), nodes = per_hogel * hogels.overlap;
+        const Exactness& light = eye.preview ? of_preview : whole_light;
+        const std::size_t per_hogel = per_hop(band, hogels.overlap, light), nodes = per_hogel * hogels.overlap;
         const double half = band.held(nodes);
         if (!band_is_cheaper(per_hogel, hogels)) return {};
-        Bases& bases = known[{per_hogel, half}];
+        Bases& bases = known[{per_hogel, half, eye.preview}];
         if (!bases.first) {
             const auto basis = [&](std::size_t samples, std::size_t before) {
-                return std::make_shared<const HogelBasis>(samples, nodes, half, hogels.window, before);
+                return std::make_shared<const HogelBasis>(samples, nodes, half, hogels.window, before, light.tolerance);
             };
             bases.first = basis(hogels.columns, 1);
             bases.second = hogels.rows == hogels.columns ? bases.first : basis(hogels.rows, bases.first->before());
@@ -90,7 +99,7 @@ std::vector<EyeBand> EyeBand::of(const HogelLayout& hogels, const HogelRange& ra
         own.per_hogel_ = per_hogel;
         own.overlap_ = hogels.overlap;
         own.bend_ = band.bend;
-        own.reach_ = eye.preview ? half + near_waves : static_cast<double>(hogels.rows);
+        own.reach_ = half + light.near;
         const auto step = [&](double pitch, std::size_t samples) {
             return pitch * (static_cast<double>(samples) / static_cast<double>(per_hogel));
         };
@@ -102,7 +111,8 @@ std::vector<EyeBand> EyeBand::of(const HogelLayout& hogels, const HogelRange& ra
     return bands;
 }
 
-HogelView EyeBand::view(const HogelLayout& hogels, std::size_t s, std::size_t t, View<float, 3> phases) const {
+void EyeBand::view(const HogelLayout& hogels, std::size_t s, std::size_t t, View<float, 3> phases,
+                   HogelView& view) const {
     const optics::ViewGeometry& geometry = grid_.geometry;
     const Grid& plane = hogels.grid.plane;
     const auto middle = [](std::size_t hogel, std::size_t samples) {
@@ -111,19 +121,22 @@ HogelView EyeBand::view(const HogelLayout& hogels, std::size_t s, std::size_t t,
     const double x = plane.x(middle(s, hogels.across())), y = plane.y(middle(t, hogels.down()));
     const double width = static_cast<double>(hogels.columns) * plane.pitch_x,
                  height = static_cast<double>(hogels.rows) * plane.pitch_y, wavelength = geometry.wavelength();
-    HogelView view;
     const double distance = geometry.distance(x, y), cycles = 1 / (distance * wavelength);
-    view.columns = across_->weights((x - geometry.eye().x) * width * cycles);
-    view.rows = down_->weights((geometry.eye().y - y) * height * cycles);
+    const auto set = [&](double frequency, const HogelBasis& basis, HogelBasis::Weights& weights, NearRows& near_ones) {
+        if (weights.first != nullptr && HogelBasis::rounded(frequency) == weights.frequency) return;
+        weights = basis.weights(frequency);
+        near_ones = near(weights.frequency, basis.samples());
+    };
+    set((x - geometry.eye().x) * width * cycles, *across_, view.columns, view.near_columns);
+    set((geometry.eye().y - y) * height * cycles, *down_, view.rows, view.near);
     set_phases({x, y, distance, width, height, view.columns.frequency, view.rows.frequency}, phases);
     view.phases = phases;
-    view.near = rows_near(view.rows.frequency);
-    return view;
 }
 
-// The rows m of waves with |m + frequency| ≤ reach, modulo n.
-NearRows EyeBand::rows_near(double frequency) const {
-    const auto n = static_cast<double>(down_->samples());
+// The waves m of n with |m + frequency| ≤ reach, modulo n.
+NearRows EyeBand::near(double frequency, std::size_t waves) const {
+    const auto n = static_cast<double>(waves);
+    if (2 * reach_ + 1 >= n) return {};
     const double first = std::ceil(-frequency - reach_), count = std::floor(reach_ - frequency) - first + 1;
     if (count >= n) return {};
     return {static_cast<std::size_t>(first - n * std::floor(first / n)), static_cast<std::size_t>(count)};

@@ -51,9 +51,9 @@ class EyeBand {
         return (hogels + overlap_ - 1) * per_hogel_ + 2 * across_->before();
     }
 
-    /// A hogel as the eye sees it.
+    /// Sets a view, which may be that of a hogel beside, to a hogel as the eye sees it.
     /// @param phases  receives those of the view, [node down][2][phase_row(nodes)]
-    HogelView view(const HogelLayout& hogels, std::size_t s, std::size_t t, View<float, 3> phases) const;
+    void view(const HogelLayout& hogels, std::size_t s, std::size_t t, View<float, 3> phases, HogelView& view) const;
 
   private:
     explicit EyeBand(const optics::ViewGeometry& geometry) : grid_{geometry, {}} {}
@@ -64,13 +64,13 @@ class EyeBand {
     };
     void set_phases(const Place& hogel, View<float, 3> phases) const;
     void set_phases_one_by_one(const Place& hogel, View<float, 3> phases) const;
-    NearRows rows_near(double frequency) const;
+    NearRows near(double frequency, std::size_t waves) const;
 
     optics::narrow_band::BandGrid grid_;
     std::shared_ptr<const HogelBasis> across_, down_;
     std::size_t per_hogel_ = 0, overlap_ = 1;
     double bend_ = 0;
-    double reach_ = 0;            // rows of waves on either side of the eye's direction that count
+    double reach_ = 0;            // waves on either side of the eye's direction that count, across and down
     std::vector<double> places_;  // of the nodes
 };
 

@@ -17,10 +17,6 @@ using optics::dirichlet;
 
 constexpr double pi = std::numbers::pi;
 
-// Relative to the strongest, the amplitude below which a function is left out, and the error of the band's samples up
-// to which nodes are added.
-constexpr double tolerance = 6e-4;
-
 // Nodes beyond either end of a hogel, at most.
 constexpr std::size_t max_beyond = 8;
 
@@ -92,7 +88,7 @@ Eigensystem prolate(const Quadrature& quadrature, double sign, const Kernel& ker
 }  // namespace
 
 HogelBasis::HogelBasis(std::size_t samples, std::size_t nodes_per_hogel, double half_band, Window window,
-                       std::size_t before)
+                       std::size_t before, double tolerance)
     : samples_(samples), per_hogel_(nodes_per_hogel), window_(window) {
     const Quadrature quadrature =
         math::gauss_legendre(20 + static_cast<std::size_t>(std::ceil(6 * half_band)), half_band);

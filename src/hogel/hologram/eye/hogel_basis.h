@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -32,8 +33,10 @@ class HogelBasis {
     /// @param nodes_per_hogel  samples of the band to a hogel, more than 4 κ_m
     /// @param half_band        κ_m
     /// @param before           samples of the band before the hogel, at least
+    /// @param tolerance        relative to the strongest, the amplitude below which a function is left out, and the
+    ///                         error of the band's samples up to which nodes are added
     HogelBasis(std::size_t samples, std::size_t nodes_per_hogel, double half_band, Window window = Window::none,
-               std::size_t before = 1);
+               std::size_t before = 1, double tolerance = 6e-4);
 
     std::size_t samples() const { return samples_; }
     std::size_t functions() const { return functions_; }
@@ -69,8 +72,10 @@ class HogelBasis {
         std::span<const WavePair> pairs;
         std::size_t alone;  ///< the last pairs, which have one wave only
     };
-    Weights weights(double frequency) const;
     static constexpr std::size_t fractions = 2;
+    Weights weights(double frequency) const;
+    /// The same frequencies have the same weights.
+    static double rounded(double frequency) { return std::floor(frequency * fractions + 0.5) / fractions; }
 
     /// The relative error of S over |κ| ≤ κ_m, root mean square over waves of all frequencies.
     double error() const { return error_; }

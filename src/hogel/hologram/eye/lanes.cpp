@@ -9,13 +9,24 @@ namespace hogel::hologram::eye {
 
 namespace {
 
+// The sum of value(wave) over the waves of some pairs.
+template <class Value>
+float sum_of(const HogelBasis::Weights& weights, const Value& value) {
+    float sum = 0;
+    for (const HogelBasis::WavePair& pair : weights.pairs) {
+        sum += value(pair.one);
+        if (pair.other != pair.one) sum += value(pair.other);
+    }
+    return sum;
+}
+
 template <class Value>
 void sum_columns(const HogelBasis& basis, const HogelBasis::Weights& columns, const Value& value, float* line) {
     for (std::size_t k = 0; k < basis.functions(); ++k)
         for (std::size_t i = 0; i < 2 * lanes; ++i) {
-            float sum = 0;
-            for (std::size_t column = 0; column < basis.samples(); ++column)
-                sum += columns.first[k * columns.stride + column] * value(column * 2 * lanes + i);
+            const float* weights = columns.first + k * columns.stride;
+            const float sum =
+                sum_of(columns, [&](std::size_t wave) { return weights[wave] * value(wave * 2 * lanes + i); });
             line[k * 2 * lanes + i] = sum;
         }
 }
@@ -38,12 +49,8 @@ void sum_rows_plain(const HogelBasis& basis, const HogelBasis::Weights& rows, fl
     const std::size_t functions = basis.functions(), line = functions * 2 * lanes;
     for (std::size_t l = 0; l < functions; ++l)
         for (std::size_t i = 0; i < line; ++i) {
-            float sum = 0;
-            const auto add = [&](std::size_t row) { sum += rows.first[l * rows.stride + row] * lines[row * line + i]; };
-            for (const HogelBasis::WavePair& pair : rows.pairs) {
-                add(pair.one);
-                if (pair.other != pair.one) add(pair.other);
-            }
+            const float* weights = rows.first + l * rows.stride;
+            const float sum = sum_of(rows, [&](std::size_t row) { return weights[row] * lines[row * line + i]; });
             if (chosen[i % lanes] != 0) numbers[l * line + i] = sign * sum;
         }
 }

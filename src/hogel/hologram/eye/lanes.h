@@ -13,15 +13,20 @@ namespace hogel::hologram::eye {
 /// before the end, and no lane is empty. Lanes do not mix, so that the light of each is the same in any company.
 /// Plain and fast twins agree to rounding.
 
-/// Sums a row of waves over its columns: line[function][part][lane] = Σ_column D_k waves[column][part][lane].
+/// Sums a row of waves over the columns of the pairs in `columns`, from which some may be missing:
+/// line[function][part][lane] = Σ_column D_k waves[column][part][lane].
 void sum_row_plain(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line);
 void sum_row(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line);
+/// A row in binary16 that will be summed soon, from the first column that counts on: it is fetched meanwhile.
+struct NextRow {
+    const std::uint16_t* waves = nullptr;
+    std::size_t first_column = 0;
+};
 /// The same for waves in binary16.
-/// @param next  the row that will be summed next, which is fetched meanwhile; any address
 void sum_row_of_halves_plain(const HogelBasis& basis, const HogelBasis::Weights& columns, const std::uint16_t* waves,
                              float* line);
 void sum_row_of_halves(const HogelBasis& basis, const HogelBasis::Weights& columns, const std::uint16_t* waves,
-                       const std::uint16_t* next, float* line);
+                       const NextRow& next, float* line);
 
 /// Sums all rows of the pairs in `rows`, from which dark ones may be missing: numbers[down][across][part][lane] =
 /// sign · Σ_row D_l lines[row][function][part][lane].

@@ -29,7 +29,7 @@ void SumRow(const HogelBasis& basis, const HogelBasis::Weights& columns, const f
     sum_row_plain(basis, columns, waves, line);
 }
 void SumRowOfHalves(const HogelBasis& basis, const HogelBasis::Weights& columns, const std::uint16_t* waves,
-                    const std::uint16_t*, float* line) {
+                    const NextRow&, float* line) {
     sum_row_of_halves_plain(basis, columns, waves, line);
 }
 void SumRows(const HogelBasis& basis, const HogelBasis::Weights& rows, float sign, const float* lines,
@@ -65,10 +65,10 @@ HWY_INLINE V load(const std::uint16_t* numbers) {
 }
 
 // Sums over pairs of items, `stride` numbers apart, of weights of some functions from `first` on; store(k, part, i,
-// sum). advance() is called once for each pair.
-template <std::size_t functions, class Number, class Advance, class Store>
+// sum). fetch() is called once for each pair.
+template <std::size_t functions, class Number, class Fetch, class Store>
 HWY_INLINE void sum_pairs(const Number* items, std::size_t stride, const HogelBasis::Weights& weights,
-                          std::size_t first, const Advance& advance, const Store& store) {
+                          std::size_t first, const Fetch& fetch, const Store& store) {
     const D d;
     const std::size_t two = weights.pairs.size() - weights.alone;
     for (std::size_t at = 0; at < both; at += parts_together * lanes)
@@ -77,7 +77,7 @@ HWY_INLINE void sum_pairs(const Number* items, std::size_t stride, const HogelBa
             for (auto& part : sums)
                 for (V& sum : part) sum = hn::Zero(d);
             for (const WavePair& pair : weights.pairs.first(two)) {
-                if (at + i == 0) advance();
+                if (at + i == 0) fetch();
                 const Number *one = items + stride * pair.one + at + i, *other = items + stride * pair.other + at + i;
                 const V sign = hn::Set(d, pair.sign_one), sign_other = hn::Set(d, pair.sign_other);
                 V even[parts_together], odd[parts_together];
@@ -107,13 +107,13 @@ HWY_INLINE void sum_pairs(const Number* items, std::size_t stride, const HogelBa
         }
 }
 
-template <class Number, class Advance>
+template <class Number, class Fetch>
 HWY_INLINE void sum_numbers(const HogelBasis& basis, const HogelBasis::Weights& columns, const Number* waves,
-                            const Advance& advance, float* line) {
+                            const Fetch& fetch, float* line) {
     const std::size_t functions = basis.functions();
     for (std::size_t first = 0; first < functions; first += together)
         with_count<together>(std::min(together, functions - first), [&](auto some) HWY_ATTR {
-            sum_pairs<some()>(waves, both, columns, first, advance,
+            sum_pairs<some()>(waves, both, columns, first, fetch,
                               [&](std::size_t k, std::size_t at, std::size_t, V sum)
                                   HWY_ATTR { hn::Store(sum, D(), line + (first + k) * both + at); });
         });
@@ -125,14 +125,17 @@ void SumRow(const HogelBasis& basis, const HogelBasis::Weights& columns, const f
 }
 
 void SumRowOfHalves(const HogelBasis& basis, const HogelBasis::Weights& columns, const std::uint16_t* waves,
-                    const std::uint16_t* next, float* line) {
-    // Pairs are not in the order of memory, which therefore has to be told which numbers come next.
-    const auto advance = [&] HWY_ATTR {
-        hwy::Prefetch(next);
-        hwy::Prefetch(next + both);
-        next += 2 * both;
+                    const NextRow& next, float* line) {
+    // Pairs are not in the order of memory, in which the waves of the next row are fetched, two for each pair.
+    const std::size_t n = basis.samples();
+    std::size_t column = next.first_column;
+    const auto fetch = [&]() HWY_ATTR {
+        for (int wave = 0; wave < 2; ++wave) {
+            hwy::Prefetch(next.waves + column * both);
+            column = column + 1 == n ? 0 : column + 1;
+        }
     };
-    sum_numbers(basis, columns, waves, advance, line);
+    sum_numbers(basis, columns, waves, fetch, line);
 }
 
 void SumRows(const HogelBasis& basis, const HogelBasis::Weights& rows, float sign, const float* lines,
@@ -284,7 +287,7 @@ void sum_row(const HogelBasis& basis, const HogelBasis::Weights& columns, const 
     HWY_DYNAMIC_DISPATCH(SumRow)(basis, columns, waves, line);
 }
 void sum_row_of_halves(const HogelBasis& basis, const HogelBasis::Weights& columns, const std::uint16_t* waves,
-                       const std::uint16_t* next, float* line) {
+                       const NextRow& next, float* line) {
     HWY_DYNAMIC_DISPATCH(SumRowOfHalves)(basis, columns, waves, next, line);
 }
 void sum_rows(const HogelBasis& basis, const HogelBasis::Weights& rows, float sign, const float* lines,

@@ -140,7 +140,7 @@ TEST_P(EyeLanes, of_binary16_are_those_of_its_values) {
         Array<float, 1> expected({line}), fast({line}), plain({line});
         const HogelBasis::Weights columns = basis.weights(3.4);
         sum_row(basis, columns, rounded.data(), expected.data());
-        sum_row_of_halves(basis, columns, halves.data(), nullptr, fast.data());
+        sum_row_of_halves(basis, columns, halves.data(), {halves.data(), 3}, fast.data());
         sum_row_of_halves_plain(basis, columns, halves.data(), plain.data());
         for (std::size_t i = 0; i < line; ++i) {
             ASSERT_EQ(fast(i), expected(i)) << i;
@@ -201,7 +201,7 @@ TEST_P(EyeLanes, have_the_phases_of_the_exact_path) {
         node_phases_plain(across, down, -2e-4, places, plain.data());
         for (std::size_t y = 0; y < 2 * count; ++y)
             for (std::size_t x = 0; x < 2 * count; ++x)
-                ASSERT_NEAR(fast(y * row + x), plain(y * row + x), 2e-6) << count << " " << y << " " << x;
+                ASSERT_NEAR(fast(y * row + x), plain(y * row + x), 2e-5) << count << " " << y << " " << x;
     }
 }
 

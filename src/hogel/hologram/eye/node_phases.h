@@ -15,7 +15,7 @@ struct NodeLine {
 
 /// What is left of the demodulation at the nodes of a hogel, as in HogelView: e^{2πi (across + down + bend · right ·
 /// below)} for nodes at the places `right` and `below`. The bend is small: 2π bend times both places is below 0.1.
-/// Plain and fast twins agree to 1e-6.
+/// Plain and fast twins agree to 1e-6 of the phase by which a line changes.
 /// @param places  of the nodes, the same across and down; the vector twin reads up to padded(places) of them
 /// @param phases  [node down][2][phase_row(nodes)], aligned to a cache line
 void node_phases_plain(const NodeLine& across, const NodeLine& down, double bend, std::span<const double> places,

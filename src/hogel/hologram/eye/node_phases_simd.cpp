@@ -7,6 +7,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <vector>
 
@@ -25,20 +26,24 @@ void NodePhases(const NodeLine& across, const NodeLine& down, double bend, std::
     node_phases_plain(across, down, bend, places, phases);
 }
 #else
-// A line's phases, real and imaginary parts.
-void line_phases(const NodeLine& line, const double* places, std::size_t count, float* re, float* im) {
-    const hn::CappedTag<double, lanes> dd;
-    const hn::Rebind<float, decltype(dd)> df;
-    for (std::size_t i = 0; i < count; i += hn::Lanes(dd)) {
-        const auto place = hn::LoadU(dd, places + i);
-        const auto along = hn::MulAdd(place, hn::Set(dd, line.step), hn::Set(dd, line.first));
-        const auto distance = hn::Sqrt(hn::MulAdd(along, along, hn::Set(dd, line.square)));
-        const auto rest = hn::MulAdd(place, hn::Set(dd, line.tilt), hn::Set(dd, line.off));
-        const auto cycles = hn::MulSub(distance, hn::Set(dd, line.frequency), rest);
-        hn::Vec<decltype(df)> cosine, sine;
-        optics::HWY_NAMESPACE::unit_phasors(dd, cycles, cosine, sine);
-        hn::StoreU(cosine, df, re + i);
-        hn::StoreU(sine, df, im + i);
+// A line's phases, real and imaginary parts: √(r² + c) − r = c/(√(r² + c) + r) needs no double precision.
+void line_phases(const NodeLine& line, const float* places, std::size_t count, float* re, float* im) {
+    const hn::CappedTag<float, lanes> d;
+    const double square = line.first * line.first + line.square, distance = std::sqrt(square);
+    const double turns = distance * line.frequency - line.off;
+    const auto set = [&](double value) HWY_ATTR { return hn::Set(d, static_cast<float>(value)); };
+    const auto start = set(turns - std::round(turns)), r = set(distance), r_square = set(square);
+    const auto slope = set(2 * line.first * line.step), bend = set(line.step * line.step);
+    const auto frequency = set(line.frequency), tilt = set(line.tilt);
+    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+        const auto place = hn::Load(d, places + i);
+        const auto change = hn::Mul(hn::MulAdd(bend, place, slope), place);
+        const auto longer = hn::Div(change, hn::Add(hn::Sqrt(hn::Add(r_square, change)), r));
+        const auto cycles = hn::MulAdd(longer, frequency, hn::NegMulAdd(tilt, place, start));
+        hn::Vec<decltype(d)> cosine, sine;
+        optics::HWY_NAMESPACE::unit_phasors_within(hn::Sub(cycles, hn::Round(cycles)), cosine, sine);
+        hn::Store(cosine, d, re + i);
+        hn::Store(sine, d, im + i);
     }
 }
 
@@ -48,18 +53,14 @@ void NodePhases(const NodeLine& across, const NodeLine& down, double bend, std::
     constexpr std::size_t most = 64;  // nodes of a tile of the square
     const std::size_t nodes = places.size(), row = phase_row(nodes);
     if (nodes > most) return node_phases_plain(across, down, bend, places, phases);
-    HWY_ALIGN double all[most];
     HWY_ALIGN float right[most], across_re[most], across_im[most], down_re[most], down_im[most];
     const std::size_t count = padded(nodes);
-    for (std::size_t i = 0; i < count; ++i) {
-        all[i] = places[std::min(i, nodes - 1)];
-        right[i] = static_cast<float>(all[i]);
-    }
-    line_phases(across, all, count, across_re, across_im);
-    line_phases(down, all, count, down_re, down_im);
+    for (std::size_t i = 0; i < count; ++i) right[i] = static_cast<float>(places[std::min(i, nodes - 1)]);
+    line_phases(across, right, count, across_re, across_im);
+    line_phases(down, right, count, down_re, down_im);
     for (std::size_t y = 0; y < nodes; ++y) {
         float* to = phases + 2 * y * row;
-        const auto angle = hn::Set(d, static_cast<float>(2 * std::numbers::pi * bend * all[y]));
+        const auto angle = hn::Set(d, static_cast<float>(2 * std::numbers::pi * bend) * right[y]);
         const auto c = hn::Set(d, down_re[y]), s = hn::Set(d, down_im[y]);
         for (std::size_t x = 0; 2 * x < row; x += hn::Lanes(d)) {
             // e^{iθ} for a small θ

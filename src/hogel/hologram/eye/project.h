@@ -37,12 +37,13 @@ constexpr std::size_t phase_row(std::size_t nodes) { return padded(2 * nodes); }
 
 /// What is the same for all looks of a hogel seen by an eye.
 struct HogelView {
-    HogelBasis::Weights columns, rows;  ///< of the direction of the eye, along a row and down a column
+    HogelBasis::Weights columns{}, rows{};  ///< of the direction of the eye, along a row and down a column
     /// What is left of the demodulation, c + is, by which nodes are multiplied: [node down][2][phase_row(nodes)], for
     /// each node across c twice, and then −s and s.
     View<const float, 3> phases;
-    /// Blocks of sixteen rows of waves without any of these are dark to the eye.
-    NearRows near = {};
+    /// Rows and columns of waves near the eye's direction. Blocks of sixteen rows without any of these are dark to the
+    /// eye; other waves may be.
+    NearRows near = {}, near_columns = {};
 };
 
 /// A place in a band, whose rows are `row` complex numbers apart.

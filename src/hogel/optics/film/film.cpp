@@ -32,9 +32,9 @@ constexpr std::size_t padded(std::size_t lines) { return blocks_of(lines) * line
 constexpr std::size_t both = math::SplitFft::row;
 static_assert(both == 2 * lines_together);
 
-FilmAxis film_axis(double first, double period, const SineGrid::Range& seen, std::size_t frequencies, double cells) {
+FilmAxis film_axis(double first, double period, const SineGrid::Range& seen, std::size_t frequencies, double samples) {
     FilmAxis axis;
-    const double wanted = std::ceil(samples_a_cell * period * cells);
+    const double wanted = std::ceil(samples * period);
     axis.size = math::good_fft_size(std::max(frequencies, static_cast<std::size_t>(wanted)));
     axis.step = period / static_cast<double>(axis.size);
     const double last = static_cast<double>(axis.size);
@@ -66,7 +66,8 @@ std::vector<LitRows> lit_rows_of(const std::vector<char>& is_lit) {
 
 }  // namespace
 
-FilmSize::FilmSize(const narrow_band::BandGrid& band, const FieldGrid& hologram, double pupil, double blur)
+FilmSize::FilmSize(const narrow_band::BandGrid& band, const FieldGrid& hologram, double pupil, double blur,
+                   double samples)
     : sines(sine_grid(band, hologram.plane, pupil, blur)), band_rows(band.plane.height) {
     const double wavelength = hologram.wavelength;
     const PupilEdge edge(spread_window(sines, wavelength, pupil, blur), wavelength);
@@ -77,8 +78,8 @@ FilmSize::FilmSize(const narrow_band::BandGrid& band, const FieldGrid& hologram,
     };
     reach_x = reach(sines.period_x(), sines.size_x);
     reach_y = reach(sines.period_y(), sines.size_y);
-    x = film_axis(sines.first_x, sines.period_x(), sines.x, across(reach_x), pupil / wavelength);
-    y = film_axis(sines.first_y, sines.period_y(), sines.y, across(reach_y), pupil / wavelength);
+    x = film_axis(sines.first_x, sines.period_x(), sines.x, across(reach_x), samples * pupil / wavelength);
+    y = film_axis(sines.first_y, sines.period_y(), sines.y, across(reach_y), samples * pupil / wavelength);
     // The kernel of the resampling reaches a few samples beyond the band.
     Grid around = band.plane;
     around.width += 2 * InterpolationTable::taps;
@@ -106,10 +107,10 @@ double FilmSize::work_bytes() const {
 
 double FilmSize::intensity_bytes() const { return static_cast<double>(sizeof(float) * padded(x.count) * y.count); }
 
-Film::Film(const narrow_band::BandGrid& band, const FieldGrid& hologram, double pupil, double blur)
+Film::Film(const narrow_band::BandGrid& band, const FieldGrid& hologram, double pupil, double blur, double samples)
     : band_(band),
       hologram_(hologram),
-      size_(band, hologram, pupil, blur),
+      size_(band, hologram, pupil, blur, samples),
       along_(size_.sines.size_x),
       down_(size_.sines.size_y),
       film_along_(size_.x.size),
@@ -256,18 +257,8 @@ void Film::expose(std::span<const PupilWave> pupil_waves, const Camera& camera, 
     for (std::size_t b = 0; b < lens.nodes_y; ++b)
         for (std::size_t a = 0; a < lens.nodes_x; ++a) {
             core::parallel_for(node.lens.extent(0), [&](std::size_t block) {
-                std::ranges::fill(node.lens[block].elements(), 0.0f);
-                for (std::size_t lane = 0; lane < lines_together; ++lane) {
-                    const std::size_t y = (node.first_block + block) * lines_together + lane;
-                    if (y < first_row || y >= end_row) continue;
-                    lens.row(lens.node_x(a), lens.node_y(b), static_cast<std::ptrdiff_t>(y) - size_.reach_y,
-                             [&](std::ptrdiff_t column, Complex factor) {
-                                 if (std::abs(column) > node.reach_x) return;
-                                 const auto x = static_cast<std::size_t>(column + node.reach_x);
-                                 node.lens(block, x * both + lane) = factor.real();
-                                 node.lens(block, x * both + lines_together + lane) = factor.imag();
-                             });
-                }
+                const auto first = static_cast<std::ptrdiff_t>((node.first_block + block) * lines_together);
+                lens.rows(lens.node_x(a), lens.node_y(b), first - size_.reach_y, node.reach_x, &node.lens(block, 0));
             });
             for (std::size_t i = 0; i < size_.x.count; ++i)
                 node.share_x(i) = share(size_.x, size_.sines.x, i, a, lens.nodes_x);

@@ -21,6 +21,8 @@ namespace hogel::optics::film {
 /// Samples of a film per resolution cell. The intensity of a pupil's wave varies no faster than once in a cell, so two
 /// hold it all; TwelvePoint interpolates between a few more.
 inline constexpr double samples_a_cell = 2.4;
+/// The same of a picture or a preview: means over pixels that are wider than a cell hardly see the finest speckle.
+constexpr double film_samples(bool preview) { return preview ? 1.6 : samples_a_cell; }
 
 /// One axis of the film that is exposed: samples of a transform of `size` over the period of the sines, of which those
 /// that see the hologram are kept.
@@ -39,7 +41,8 @@ struct FilmSize {
     std::size_t lit_left = 0, lit_right = 0, lit_low = 0, lit_high = 0;
     std::size_t band_rows = 0;
 
-    FilmSize(const narrow_band::BandGrid& band, const FieldGrid& hologram, double pupil, double blur);
+    FilmSize(const narrow_band::BandGrid& band, const FieldGrid& hologram, double pupil, double blur,
+             double samples = samples_a_cell);
     /// Bytes of a pupil's wave, and the maximum that Film::pupil_wave() and expose() need in addition to their results.
     double pupil_bytes() const;
     double work_bytes() const;
@@ -60,7 +63,9 @@ class Film {
   public:
     /// @param pupil  the widest of the cameras that will be used, at most that of the band
     /// @param blur   the widest defocus_blur() of these cameras
-    Film(const narrow_band::BandGrid& band, const FieldGrid& hologram, double pupil, double blur);
+    /// @param samples  of the film per resolution cell
+    Film(const narrow_band::BandGrid& band, const FieldGrid& hologram, double pupil, double blur,
+         double samples = samples_a_cell);
 
     /// A film that is not exposed yet: blocks of sixteen columns, [column / 16][row · 16 + column mod 16].
     Array<float, 2> unexposed() const {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "hogel/camera.h"
-#include "hogel/optics/phase_walk.h"
+#include "hogel/optics/film/lens_stretch.h"
 #include "hogel/optics/pupil_edge.h"
 #include "hogel/optics/sine_grid.h"
 
@@ -78,61 +78,48 @@ class FilmLens {
         return std::numbers::pi * radius_ * radius_ * (1 - lost);
     }
 
-    // Calls emit(column offset, factor) along a row of the pupil, for light from the direction (n_x, n_y).
-    template <class Emit>
-    void row(double nx, double ny, std::ptrdiff_t row, const Emit& emit) const {
+    // Sixteen rows of the pupil from `first` on, for light from the direction (n_x, n_y), at the columns −reach …
+    // reach: [column][part][row], zero outside the disc.
+    void rows(double nx, double ny, std::ptrdiff_t first, std::ptrdiff_t reach, float* out) const {
         const Direction from(nx, ny);
         const double scale = 1 / (static_cast<double>(sines_.size_x) * static_cast<double>(sines_.size_y));
-        const double dy = step_y_ * static_cast<double>(row);
-        const double widest = frequency_radius(camera_.pupil, camera_.eye.z) + edge_.reach();
-        if (std::abs(dy) > widest) return;
-        const auto last =
-            std::min(reach_x(), static_cast<std::ptrdiff_t>(std::sqrt(widest * widest - dy * dy) / step_x_));
-        // All that changes along the row is smooth: the square of the distance from the middle of the pupil, the weight
+        const double widest = frequency_radius(camera_.pupil, camera_.eye.z) + edge_.reach(), in_focus = ratio(nx, ny);
+        LensStretch stretch;
+        stretch.inner = std::max(0.0, radius_ - edge_.reach());
+        // All that changes along a row is smooth: the square of the distance from the middle of the pupil, the weight
         // of what passes and the phase are parabolas over a stretch of at most 32 steps and a hundredth of the
         // distance.
-        const double steps = std::clamp(0.01 * camera_.eye.z / step_x_, 2.0, 32.0);
-        const auto stretch = static_cast<std::size_t>(steps);
-        const double in_focus = ratio(nx, ny), inner = std::max(0.0, radius_ - edge_.reach());
-        const auto count = static_cast<std::size_t>(2 * last + 1);
-        for (std::size_t begin = 0; begin < count; begin += stretch) {
-            double squares[3], weights[3], cycles[3];
-            for (std::size_t i = 0; i < 3; ++i) {
-                const double step = static_cast<double>(begin) + 0.5 * static_cast<double>(stretch * i);
-                const Place at = place(from, step_x_ * (step - static_cast<double>(last)), dy);
-                squares[i] = at.x * at.x + at.y * at.y;
-                weights[i] = scale * from.cosine * from.cosine / (at.cosine * at.cosine);
-                cycles[i] = defocus(nx, ny, in_focus, at.x, at.y);
+        const auto longest = static_cast<std::size_t>(std::clamp(0.01 * camera_.eye.z / step_x_, 2.0, 32.0));
+        const auto columns = static_cast<std::size_t>(2 * reach + 1);
+        for (std::size_t begin = 0; begin < columns; begin += longest) {
+            stretch.columns = std::min(longest, columns - begin);
+            bool any = false;
+            for (std::size_t row = 0; row < lines_together; ++row) {
+                const double dy = step_y_ * static_cast<double>(first + static_cast<std::ptrdiff_t>(row));
+                double squares[3], weights[3], cycles[3];
+                for (std::size_t i = 0; i < 3; ++i) {
+                    const double step = static_cast<double>(begin) + 0.5 * static_cast<double>(longest * i);
+                    const double dx = step_x_ * (step - static_cast<double>(reach));
+                    const Place at = place(from, dx, dy);
+                    squares[i] = at.x * at.x + at.y * at.y;
+                    // The amplitude transmission within the disc is (cos θ_n/cos θ_m)², which combines the density of
+                    // frequencies there and the intensity of light from a nearer point.
+                    weights[i] = scale * from.cosine * from.cosine / (at.cosine * at.cosine);
+                    cycles[i] = defocus(nx, ny, in_focus, at.x, at.y);
+                    any = any || dx * dx + dy * dy <= widest * widest;
+                }
+                stretch.set(row, squares, weights, cycles, static_cast<double>(longest));
             }
-            const double length = static_cast<double>(stretch);
-            const Parabola square(squares, length), weight(weights, length), phase(cycles, length);
-            std::complex<double> value = unit_phasor(phase.start), step = unit_phasor(phase.slope + phase.bend);
-            const std::complex<double> bend = unit_phasor(2 * phase.bend);
-            for (std::size_t i = 0; i < std::min(stretch, count - begin); ++i) {
-                const double t = static_cast<double>(i), distance = square.at(t);
-                // The amplitude transmission within the disc is (cos θ_n/cos θ_m)², which combines the density of
-                // frequencies there and the intensity of light from a nearer point.
-                const double passes =
-                    distance < inner * inner ? 1 : edge_.transmission(radius_ - std::sqrt(std::max(0.0, distance)));
-                emit(static_cast<std::ptrdiff_t>(begin + i) - last, std::complex<float>(weight.at(t) * passes * value));
-                value = times(value, step);
-                step = times(step, bend);
-            }
+            float* const to = out + 2 * lines_together * begin;
+            if (any)
+                lens_stretch(stretch, edge_, radius_, to);
+            else
+                std::fill_n(to, 2 * lines_together * stretch.columns, 0.0f);
         }
     }
 
   private:
     static constexpr double max_nodes = 33;
-
-    // Through values at 0, length/2 and length.
-    struct Parabola {
-        Parabola(const double (&values)[3], double length)
-            : start(values[0]),
-              bend((values[2] - 2 * values[1] + values[0]) * 2 / (length * length)),
-              slope((values[2] - values[0]) / length - bend * length) {}
-        double start, bend, slope;
-        double at(double t) const { return (bend * t + slope) * t + start; }
-    };
 
     struct Direction {
         Direction(double nx, double ny) : x(nx), y(ny), cosine(std::sqrt(1 - nx * nx - ny * ny)) {}
