@@ -22,10 +22,12 @@ constexpr std::size_t max_kept = 0;
 #else
 constexpr std::size_t max_kept = std::size_t{1} << 30;
 #endif
+// A few tiles of a light field.
+constexpr std::size_t spare = std::size_t{32} << 20;
 
 // Never destroyed, because other objects that live until the program ends may own blocks.
 core::FreedBlocks& freed_blocks() {
-    static auto* blocks = new core::FreedBlocks(max_kept);
+    static auto* blocks = new core::FreedBlocks(max_kept, spare);
     return *blocks;
 }
 

@@ -35,10 +35,12 @@ FreedBlocks::~FreedBlocks() {
     for (const auto& [bytes, memory] : blocks_) std::free(memory);
 }
 
-// The smallest kept block that is large enough, unless more than a quarter of it would be idle.
+// The smallest kept block that is large enough, unless more than a quarter of it would be idle; of several, the one
+// that was used last.
 void* FreedBlocks::take(std::size_t bytes) {
-    const auto block = blocks_.lower_bound(bytes);
-    if (block == blocks_.end() || block->first - bytes > block->first / 4) return nullptr;
+    const auto smallest = blocks_.lower_bound(bytes);
+    if (smallest == blocks_.end() || smallest->first - bytes > smallest->first / 4) return nullptr;
+    const auto block = std::prev(blocks_.upper_bound(smallest->first));
     void* memory = block->second;
     kept_ -= block->first;
     in_use_ += block->first;
@@ -66,7 +68,7 @@ void* FreedBlocks::allocate(std::size_t bytes) {
         const std::lock_guard lock(mutex_);
         if (void* memory = take(bytes)) return memory;
         in_use_ += bytes;
-        gone = overflow(max_in_use_ > in_use_ ? max_in_use_ - in_use_ : 0);
+        gone = overflow(spare_ + (max_in_use_ > in_use_ ? max_in_use_ - in_use_ : 0));
     }
     for (void* block : gone) std::free(block);
     void* memory = fresh(bytes);

@@ -11,11 +11,12 @@ namespace hogel::core {
 /// Large blocks of memory, kept when they are freed and handed out again, because the system clears every new page:
 /// about a second for each gigabyte on a virtual machine. Thread-safe.
 ///
-/// A program needs no more memory for it: blocks in use and blocks kept are together never more than was in use at
-/// some time before, and what is kept is never more than max_kept. The largest blocks go first.
+/// A program needs hardly more memory for it: blocks in use and blocks kept are together never more than was in use at
+/// some time before and `spare`, and what is kept is never more than max_kept. The largest blocks go first. Without
+/// anything to spare, blocks of two sizes that are needed in turns would drive out each other.
 class FreedBlocks {
   public:
-    explicit FreedBlocks(std::size_t max_kept) : max_kept_(max_kept) {}
+    explicit FreedBlocks(std::size_t max_kept, std::size_t spare = 0) : max_kept_(max_kept), spare_(spare) {}
     FreedBlocks(const FreedBlocks&) = delete;
     FreedBlocks& operator=(const FreedBlocks&) = delete;
     ~FreedBlocks();
@@ -38,7 +39,7 @@ class FreedBlocks {
     void* take(std::size_t bytes);
     std::vector<void*> overflow(std::size_t max_kept);
 
-    std::size_t max_kept_;
+    std::size_t max_kept_, spare_;
     mutable std::mutex mutex_;
     std::multimap<std::size_t, void*> blocks_;  // kept, by their bytes
     std::size_t kept_ = 0, in_use_ = 0, max_in_use_ = 0;

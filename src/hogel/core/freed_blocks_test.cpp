@@ -29,6 +29,19 @@ TEST(FreedBlocks, are_handed_out_again) {
     blocks.free(second);
 }
 
+TEST(FreedBlocks, that_were_used_last_are_handed_out_first) {
+    FreedBlocks blocks(64 * mega);
+    void* first = blocks.allocate(10 * mega);
+    void* second = blocks.allocate(10 * mega);
+    blocks.free(first);
+    blocks.free(second);
+    for (int turn = 0; turn < 3; ++turn) {
+        void* again = blocks.allocate(10 * mega);
+        EXPECT_EQ(again, second);
+        blocks.free(again);
+    }
+}
+
 TEST(FreedBlocks, are_aligned_and_large_enough) {
     FreedBlocks blocks(64 * mega);
     for (std::size_t bytes : {std::size_t{1}, 2 * mega - 1, 2 * mega, 4 * mega, 7 * mega + 3}) {
@@ -66,6 +79,25 @@ TEST(FreedBlocks, kept_and_used_are_no_more_than_was_used_before) {
     EXPECT_EQ(blocks.kept(), 0u);
     blocks.free(third);
     blocks.free(fourth);
+}
+
+TEST(FreedBlocks, that_are_needed_in_turns_do_not_drive_out_each_other) {
+    FreedBlocks blocks(1000 * mega, 30 * mega);
+    void* result = blocks.allocate(100 * mega);
+    void* large = blocks.allocate(20 * mega);
+    blocks.free(large);
+    void* small = blocks.allocate(10 * mega);
+    blocks.free(small);
+    for (int turn = 0; turn < 3; ++turn) {
+        void* again = blocks.allocate(20 * mega);
+        EXPECT_EQ(again, large);
+        blocks.free(again);
+        again = blocks.allocate(10 * mega);
+        EXPECT_EQ(again, small);
+        blocks.free(again);
+    }
+    EXPECT_LE(blocks.in_use() + blocks.kept(), 150 * mega);
+    blocks.free(result);
 }
 
 TEST(FreedBlocks, no_more_are_kept_than_allowed) {
