@@ -57,20 +57,27 @@ std::optional<hologram::eye::HogelLayout> layout_of(const HologramMethod& method
     return hologram::eye::HogelLayout{hologram, samples_a_side(light_field, hologram), rows};
 }
 
+// Samples of a look in the bands of all eyes, from hogels.
+double band_samples(const LightFieldGrid& light_field, const hologram::eye::HogelLayout& layout,
+                    std::span<const Camera> cameras) {
+    double samples = 0;
+    for (const optics::SharedEye& eye : eyes_of(cameras)) {
+        const auto per_hogel = static_cast<double>(
+            hologram::eye::band_samples_per_hogel(layout, {cameras[eye.members.front()].eye, eye.pupil}));
+        samples += static_cast<double>(light_field.hogels()) * per_hogel * per_hogel;
+    }
+    return samples;
+}
+
 // Seconds for one colour of photographs from hogels.
 double seconds_from_hogels(const LightFieldGrid& light_field, const hologram::eye::HogelLayout& layout,
                            std::span<const Camera> cameras, std::size_t looks) {
     const FieldGrid& hologram = layout.grid;
     const auto hogels = static_cast<double>(light_field.hogels()),
                waves = hogels * static_cast<double>(layout.columns * layout.rows), count = static_cast<double>(looks);
-    const std::vector<optics::SharedEye> eyes = eyes_of(cameras);
-    double seconds = waves * (seconds_an_amplitude +
-                              count * (seconds_a_wave + static_cast<double>(eyes.size()) * seconds_a_wave_and_eye));
-    for (const optics::SharedEye& eye : eyes) {
-        const auto per_hogel = static_cast<double>(
-            hologram::eye::band_samples_per_hogel(layout, {cameras[eye.members.front()].eye, eye.pupil}));
-        seconds += count * hogels * per_hogel * per_hogel * seconds_a_band_sample;
-    }
+    const auto eyes = static_cast<double>(eyes_of(cameras).size());
+    double seconds = waves * (seconds_an_amplitude + count * (seconds_a_wave + eyes * seconds_a_wave_and_eye));
+    seconds += count * band_samples(light_field, layout, cameras) * seconds_a_band_sample;
     for (const Camera& camera : cameras) {
         const double cell = resolution_cell(camera, hologram.wavelength) / optics::film::samples_a_cell;
         seconds += count * hologram.plane.size_x() * hologram.plane.size_y() / (cell * cell) * seconds_a_film_sample;
@@ -92,18 +99,6 @@ double camera_bytes_of(const FieldGrid& hologram, std::span<const Camera> camera
     const optics::PhotographPlan camera = optics::plan_photographs(hologram, cameras, memory);
     const auto more = static_cast<double>(camera.looks_at_once(memory, looks, 1) - 1);
     return camera.bytes + std::min(more * camera.bytes_a_look, memory);
-}
-
-// Bytes of a look in the bands of all eyes, from hogels.
-double band_bytes(const LightFieldGrid& light_field, const hologram::eye::HogelLayout& layout,
-                  std::span<const Camera> cameras) {
-    double bytes = 0;
-    for (const optics::SharedEye& eye : eyes_of(cameras)) {
-        const auto per_hogel = static_cast<double>(
-            hologram::eye::band_samples_per_hogel(layout, {cameras[eye.members.front()].eye, eye.pupil}));
-        bytes += static_cast<double>(light_field.hogels()) * per_hogel * per_hogel * sizeof(std::complex<float>);
-    }
-    return bytes;
 }
 
 // Seconds of the films of one set of lines behind a vertical diffuser.
@@ -163,7 +158,7 @@ Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramReque
         if (from_hogels) {
             const hologram::eye::HogelLayout layout = *layout_of(request.method, faces.front(), hologram);
             seconds += seconds_from_hogels(faces.front(), layout, cameras, request.looks);
-            look_bytes += band_bytes(faces.front(), layout, cameras);
+            look_bytes += band_samples(faces.front(), layout, cameras) * sizeof(std::complex<float>);
             film_bytes = std::max(film_bytes, optics::plan_photographs(hologram, cameras, memory).bytes);
         } else {
             seconds += static_cast<double>(hologram.plane.samples()) * static_cast<double>(request.looks) *

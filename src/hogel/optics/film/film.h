@@ -21,7 +21,8 @@ namespace hogel::optics::film {
 /// Samples of a film per resolution cell. The intensity of a pupil's wave varies no faster than once in a cell, so two
 /// hold it all; TwelvePoint interpolates between a few more.
 inline constexpr double samples_a_cell = 2.4;
-/// The same of a picture or a preview: means over pixels that are wider than a cell hardly see the finest speckle.
+/// As many for a picture, fewer for a preview: means over pixels that are wider than a cell hardly see the finest
+/// speckle.
 constexpr double film_samples(bool preview) { return preview ? 1.6 : samples_a_cell; }
 
 /// One axis of the film that is exposed: samples of a transform of `size` over the period of the sines, of which those
