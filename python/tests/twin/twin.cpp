@@ -36,7 +36,7 @@ Field loaded(const FieldSource& source) {
 }
 
 Camera camera() {
-    Camera camera = camera_for(buffer->grid().width(), buffer->grid().height(), 100);
+    Camera camera = camera_for(buffer->grid().width(), buffer->grid().height(), 300);
     camera.eye = {10e-3, 0, 300e-3};
     camera.pupil = 20e-3;
     return camera;
