@@ -39,6 +39,15 @@ void require_resolution(const FieldGrid& hologram, const Camera& camera, double 
 PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camera> cameras, double memory,
                                 PhotographPlan::Windows windows = PhotographPlan::Windows::many);
 
+/// Whether colours are drawn together, from rays that are made once, with the bands of all colours in memory; otherwise
+/// one is drawn after the other, which makes the rays again and needs a third of the memory. New memory is not free:
+/// the system clears it at one to three nanoseconds a byte, and a ray, of which a hologram has about as many as
+/// samples, is made in one to four.
+/// @param band_bytes  of all eyes and looks of a colour
+inline bool colours_together(double band_bytes, const Grid& hologram) {
+    return band_bytes <= static_cast<double>(hologram.samples());
+}
+
 /// The cameras of one pass with one eye: they share its narrow band.
 struct SharedEye {
     std::vector<std::size_t> members;  ///< indices of cameras

@@ -22,7 +22,8 @@ struct Light {
     std::size_t looks_at_once = 1;
 };
 
-// None where colours cannot share rays, or where their bands do not fit into memory together.
+// None where colours cannot share rays, or where their bands do not fit into memory together or take more time than
+// rays.
 std::optional<Light> light_of_colours(std::span<const std::shared_ptr<const FieldSource>> colours,
                                       std::span<const Camera> cameras, const PhotographOptions& options) {
     if (colours.size() < 2 || cameras.empty() || options.expected || options.vertical_diffuser ||
@@ -49,8 +50,10 @@ std::optional<Light> light_of_colours(std::span<const std::shared_ptr<const Fiel
     double a_look = 0;
     for (std::size_t band = 0; band < colours.size() * light.eyes.size(); ++band)
         a_look += static_cast<double>(light.drawing->band(band).plane.samples() * sizeof(std::complex<float>));
-    if (plan.bytes + a_look > memory) return {};
-    light.looks_at_once = std::min(colours.front()->looks(), static_cast<std::size_t>((memory - plan.bytes) / a_look));
+    const std::size_t looks = colours.front()->looks();
+    const double a_colour = a_look * static_cast<double>(looks) / static_cast<double>(colours.size());
+    if (!colours_together(a_colour, plane) || plan.bytes + a_look > memory) return {};
+    light.looks_at_once = std::min(looks, static_cast<std::size_t>((memory - plan.bytes) / a_look));
     return light;
 }
 

@@ -145,8 +145,10 @@ Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramReque
     const auto eyes = static_cast<double>(eyes_of(cameras).size());
     const auto memory = static_cast<double>(options.memory);
     double seconds = 0, camera_bytes = 0, film_bytes = 0, look_bytes = 0;
+    Grid plane;
     for (const Channel& channel : request.channels) {
         const FieldGrid hologram = hologram_grid(faces, request.options(channel, faces));
+        plane = hologram.plane;
         if (options.expected) {
             const optics::expected::Work work = optics::expected::work(
                 hologram, {faces.front().hogels_s, faces.front().hogels_t, samples_a_side(faces.front(), hologram)},
@@ -166,10 +168,10 @@ Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramReque
         }
         camera_bytes = std::max(camera_bytes, camera_bytes_of(hologram, cameras, options, request.looks));
     }
-    // All looks of all colours are drawn together where there is memory for them.
-    if (request.channels.size() > 1)
-        camera_bytes =
-            std::max(camera_bytes, std::min(memory, film_bytes + static_cast<double>(request.looks) * look_bytes));
+    const double band_bytes = static_cast<double>(request.looks) * look_bytes;
+    if (from_hogels && request.channels.size() > 1 &&
+        optics::colours_together(band_bytes / static_cast<double>(request.channels.size()), plane))
+        camera_bytes = std::max(camera_bytes, std::min(memory, film_bytes + band_bytes));
     plan.seconds = on_all_threads(seconds);
     plan.memory += camera_bytes;
     return plan;

@@ -129,11 +129,17 @@ TEST(PhotographTogether, makes_rays_once_for_all_colours) {
     for (std::size_t i = 0; i < rays.radiance.size(); ++i)
         rays.radiance.data()[i] = static_cast<float>(1 + std::sin(0.001 * static_cast<double>(i)));
     const auto source = std::make_shared<Counted>(std::move(rays));
-    std::vector<std::shared_ptr<const FieldSource>> colours;
-    for (std::size_t c = 0; c < 3; ++c)
-        colours.push_back(make_hologram(LightField(LightField::Source(source)),
-                                        {{630_nm - 80_nm * static_cast<double>(c), c}, 1.5_um, Fourier{}, 3, 7}));
+    const auto in_colours = [&](std::size_t looks) {
+        std::vector<std::shared_ptr<const FieldSource>> colours;
+        for (std::size_t c = 0; c < 3; ++c)
+            colours.push_back(
+                make_hologram(LightField(LightField::Source(source)),
+                              {{630_nm - 80_nm * static_cast<double>(c), c}, 1.5_um, Fourier{}, looks, 7}));
+        return colours;
+    };
+    const auto colours = in_colours(3);
     std::vector<Camera> cameras(3, Setting().camera());
+    for (Camera& camera : cameras) camera.pupil = 0.5_mm;
     cameras[1].focus_depth = -1_mm;
     cameras[2].eye.x = -2_mm;
     std::vector<std::vector<Image>> alone;
@@ -147,9 +153,10 @@ TEST(PhotographTogether, makes_rays_once_for_all_colours) {
     for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t i = 0; i < cameras.size(); ++i)
             EXPECT_TRUE(std::ranges::equal((*together)[c][i].pixels.elements(), alone[c][i].pixels.elements()));
-    // Not from samples, nor of one colour.
+    // Not from samples, nor of one colour, nor of so many looks that new memory takes more time than rays.
     EXPECT_FALSE(optics::photograph_together(colours, cameras, {.from = LightFrom::samples}, {}));
     EXPECT_FALSE(optics::photograph_together({colours.data(), 1}, cameras, {}, {}));
+    EXPECT_FALSE(optics::photograph_together(in_colours(40), cameras, {}, {}));
 }
 
 }  // namespace
