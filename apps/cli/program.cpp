@@ -2,9 +2,8 @@
 #include "program.h"
 
 #include <fcntl.h>
-#include <malloc.h>
-
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -65,8 +64,11 @@ void print_failure(std::string message) {
 
 int run_program(std::span<const CommandInfo> commands, int argc, char** argv, Processes* processes) {
     // Large blocks go back to the system when they are freed. By default malloc keeps those of up to 32 MiB as soon as
-    // one has been freed, in pieces that later blocks do not fit.
+    // one has been freed, in pieces that later blocks do not fit. That fixes the other threshold, too, whose default
+    // would give what is at the end of each thread's memory back at once: pages that the next block needs cleared
+    // again.
     mallopt(M_MMAP_THRESHOLD, 4 << 20);
+    mallopt(M_TRIM_THRESHOLD, 64 << 20);
     open_closed_streams();
     const Outcome outcome = outcome_of(commands, argc, argv, processes);
     if (!outcome.message.empty()) print_failure(outcome.message);
