@@ -34,6 +34,13 @@ std::string tail_of(const std::string& bytes, std::size_t numbers) {
     return bytes.substr(std::min(bytes.size(), numbers * sizeof(std::uint64_t)));
 }
 
+std::uint64_t take_last_number(std::string& bytes) {
+    const std::size_t rest = bytes.size() - std::min(bytes.size(), sizeof(std::uint64_t));
+    const std::uint64_t number = number_at(bytes.substr(rest), 0);
+    bytes.resize(rest);
+    return number;
+}
+
 std::string to_bytes(const Report& report) {
     return pack(report.failed ? 1 : 0, report.status, static_cast<int>(report.code), report.number) + report.text;
 }
@@ -119,15 +126,15 @@ bool RankTeam::serve_first() {
             {message->from, number_at(message->bytes, 0), number_at(message->bytes, 1), number_at(message->bytes, 2)});
         answer_requests();
     }
-    if (const auto message = link_.receive(Kind::post)) {
+    if (auto message = link_.receive(Kind::post)) {
         any = true;
         const std::lock_guard lock(listening_);
-        const std::uint64_t channel = number_at(message->bytes, 0);
+        const std::uint64_t channel = take_last_number(message->bytes);
         const auto listener = listeners_.find(channel);
         if (listener == listeners_.end())
-            early_[channel].push_back(tail_of(message->bytes, 1));
+            early_[channel].push_back(std::move(message->bytes));
         else if (listener->second)
-            listener->second(tail_of(message->bytes, 1));
+            listener->second(std::move(message->bytes));
     }
     if (const auto message = link_.receive(Kind::report)) {
         any = true;
@@ -270,15 +277,17 @@ Team::Tiles RankTeam::next_tiles(std::uint64_t queue, std::uint64_t tiles, std::
     return given;
 }
 
-void RankTeam::send(std::uint64_t channel, const std::string& bytes) {
-    link_.send(0, Kind::post, pack(channel) + bytes);
+// The channel is at the end, because messages may be large, and have room there.
+void RankTeam::send(std::uint64_t channel, std::string bytes) {
+    bytes += pack(channel);
+    link_.send(0, Kind::post, std::move(bytes));
 }
 
-void RankTeam::listen(std::uint64_t channel, std::function<void(const std::string& bytes)> take) {
+void RankTeam::listen(std::uint64_t channel, std::function<void(std::string bytes)> take) {
     const std::lock_guard lock(listening_);
-    const auto early = early_.extract(channel);
+    auto early = early_.extract(channel);
     if (take && !early.empty())
-        for (const std::string& bytes : early.mapped()) take(bytes);
+        for (std::string& bytes : early.mapped()) take(std::move(bytes));
     listeners_[channel] = std::move(take);
 }
 

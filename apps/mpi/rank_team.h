@@ -46,8 +46,8 @@ class RankTeam final : public Team {
     void pass(std::uint64_t queue, std::uint64_t done) override;
     std::uint64_t sum(std::uint64_t number) override;
     std::string share(const std::string& of_first) override;
-    void send(std::uint64_t channel, const std::string& bytes) override;
-    void listen(std::uint64_t channel, std::function<void(const std::string& bytes)> take) override;
+    void send(std::uint64_t channel, std::string bytes) override;
+    void listen(std::uint64_t channel, std::function<void(std::string bytes)> take) override;
     void send_to(std::size_t process, std::string bytes) override;
     std::string receive_from(std::size_t process) override;
 
@@ -92,9 +92,9 @@ class RankTeam final : public Team {
     std::set<std::uint64_t> asked_;           // queues of whose tiles the first process was asked
     std::map<std::uint64_t, Tiles> answers_;  // that came and were not waited for
     std::mutex listening_;
-    std::map<std::uint64_t, std::function<void(const std::string&)>> listeners_;  // null: ended
-    std::map<std::uint64_t, std::list<std::string>> early_;  // what came before a channel's listener
-    std::map<std::size_t, std::list<std::string>> direct_;   // what came of a process before it was waited for
+    std::map<std::uint64_t, std::function<void(std::string)>> listeners_;  // null: ended
+    std::map<std::uint64_t, std::list<std::string>> early_;                // what came before a channel's listener
+    std::map<std::size_t, std::list<std::string>> direct_;  // what came of a process before it was waited for
     std::jthread server_;
 };
 

@@ -49,10 +49,10 @@ class HOGEL_API Team {
     void meet() { sum(0); }
 
     /// Sends bytes to the first process, in order, without waiting. Called from any thread of the others.
-    virtual void send(std::uint64_t channel, const std::string& bytes) = 0;
+    virtual void send(std::uint64_t channel, std::string bytes) = 0;
     /// In the first process: what is called, on another thread, with all that is sent to a channel, also before this
     /// call; nothing to call ends the channel.
-    virtual void listen(std::uint64_t channel, std::function<void(const std::string& bytes)> take) = 0;
+    virtual void listen(std::uint64_t channel, std::function<void(std::string bytes)> take) = 0;
 
     /// Sends bytes to any other process, in order, without waiting.
     virtual void send_to(std::size_t process, std::string bytes) = 0;

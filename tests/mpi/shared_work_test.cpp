@@ -93,25 +93,54 @@ TEST_P(SharedWorkTest, AFailureEndsAll) {
 std::complex<float> value(std::size_t y, std::size_t x) { return {static_cast<float>(y), static_cast<float>(x)}; }
 
 TEST_P(SharedWorkTest, PlanesTurn) {
-    for (const auto& [rows, later_rows, columns] : {std::array<std::size_t, 3>{100, 60, 75}, {33, 90, 16}, {5, 2, 3}})
+    for (const auto& [rows, later_rows, columns] :
+         {std::array<std::size_t, 3>{100, 60, 75}, {33, 90, 16}, {5, 2, 3}, {900, 1100, 1200}})
         run_ranks(GetParam(), [&, rows = rows, later_rows = later_rows, columns = columns](RankTeam& team) {
             core::SharedPlane plane(std::max(rows, later_rows), columns, 6, 16, ScratchOptions(), &team);
             plane.begin_rows(rows);
             const core::LineRange own = plane.own_rows(rows);
-            for (std::size_t y = own.first; y < own.end(); ++y)
-                for (std::size_t x = 0; x < columns; ++x) plane.row(y)[x] = value(y, x);
+            std::vector<std::complex<float>> row(columns);
+            for (std::size_t y = own.first; y < own.end(); ++y) {
+                for (std::size_t x = 0; x < columns; ++x) row[x] = value(y, x);
+                plane.put_row(y, row.data());
+            }
             plane.to_columns(rows);
             const core::LineRange across = plane.own_columns();
+            const core::OwnColumns later_places = plane.in_columns(later_rows);
             for (std::size_t x = across.first; x < across.end(); ++x) {
                 for (std::size_t y = 0; y < rows; ++y) ASSERT_EQ(plane.at(y, x), value(y, x));
-                for (std::size_t y = 0; y < later_rows; ++y) plane.at(y, x) = 2.0F * value(y, x);
+                for (std::size_t y = 0; y < later_rows; ++y) later_places(y, x) = 2.0F * value(y, x);
             }
             plane.to_rows(later_rows);
             const core::LineRange later = plane.own_rows(later_rows);
-            for (std::size_t y = later.first; y < later.end(); ++y)
-                for (std::size_t x = 0; x < columns; ++x) ASSERT_EQ(plane.row(y)[x], 2.0F * value(y, x));
+            for (std::size_t y = later.first; y < later.end(); ++y) {
+                plane.get_row(y, row.data());
+                for (std::size_t x = 0; x < columns; ++x) ASSERT_EQ(row[x], 2.0F * value(y, x));
+            }
             EXPECT_FALSE(team.settle({}, patience)->failed);
         });
+}
+
+// Each process wants rows that others want, too, and more than a message holds.
+TEST_P(SharedWorkTest, RowsGoToAllThatWantThem) {
+    constexpr std::size_t rows = 900, columns = 1500;
+    run_ranks(GetParam(), [&](RankTeam& team) {
+        const auto wanted = [&](std::size_t process) {
+            const core::LineRange own = core::lines_of(process, team.size(), rows, 4);
+            return core::common_lines({own.first - std::min<std::size_t>(own.first, 50), own.count + 100}, {0, rows});
+        };
+        const core::LineRange mine = wanted(team.rank());
+        std::vector<std::complex<float>> got(mine.count * columns);
+        core::send_rows(
+            team, {rows, columns}, 16, wanted,
+            [&](std::size_t y, std::complex<float>* row) {
+                for (std::size_t x = 0; x < columns; ++x) row[x] = value(y, x);
+            },
+            [&](std::size_t y) { return &got[(y - mine.first) * columns]; });
+        for (std::size_t y = 0; y < mine.count; ++y)
+            for (std::size_t x = 0; x < columns; ++x) ASSERT_EQ(got[y * columns + x], value(mine.first + y, x));
+        EXPECT_FALSE(team.settle({}, patience)->failed);
+    });
 }
 
 TEST(SharedPlane, LinesAreDividedEvenlyInGroups) {

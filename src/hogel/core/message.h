@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <string>
 #include <string_view>
@@ -12,6 +13,19 @@
 #include "hogel/error.h"
 
 namespace hogel::core {
+
+/// What goes with a message on its way is added at its end, where large ones have room, and taken from there. A message
+/// that is too short has the number 0.
+inline void append_number(std::string& bytes, std::uint64_t number) {
+    bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+inline std::uint64_t take_last_number(std::string& bytes) {
+    std::uint64_t number = 0;
+    if (bytes.size() < sizeof number) return number;
+    std::memcpy(&number, bytes.data() + bytes.size() - sizeof number, sizeof number);
+    bytes.resize(bytes.size() - sizeof number);
+    return number;
+}
 
 /// Writes values one after the other into a message between processes of a team, which run the same program.
 class MessageWriter {
@@ -30,6 +44,8 @@ class MessageWriter {
         put(array.data(), array.size());
     }
     std::string take() { return std::move(bytes_); }
+    /// Makes room at once for so many bytes, and for what is added on the way.
+    void reserve(std::size_t bytes) { bytes_.reserve(bytes + 64); }
 
   private:
     template <class Value>

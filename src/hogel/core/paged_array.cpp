@@ -48,14 +48,14 @@ void PagedArray::Release::operator()(Complex* data) const {
         CacheLineAllocator<Complex>().deallocate(data, 0);
 }
 
-PagedArray::PagedArray(const Shape<2>& shape, const ScratchOptions& scratch) : shape_(shape) {
+PagedArray::PagedArray(const Shape<2>& shape, const ScratchOptions& scratch, Contents contents) : shape_(shape) {
     constexpr std::size_t max_samples = std::numeric_limits<std::size_t>::max() / (4 * sizeof(Complex));
     if (shape[0] == 0 || shape[1] == 0 || shape[0] > max_samples / shape[1])
         throw Error(ErrorCode::usage, fmt::format("an array of {}x{} samples cannot be made", shape[1], shape[0]));
     const std::size_t bytes = count(shape) * sizeof(Complex);
     if (bytes <= scratch.memory) {
         data_ = {CacheLineAllocator<Complex>().allocate(count(shape)), Release()};
-        std::fill_n(data_.get(), count(shape), Complex(0));
+        if (contents == Contents::zero) std::fill_n(data_.get(), count(shape), Complex(0));
     } else if (!scratch.folder.empty()) {
         data_ = {map_file(bytes, scratch.folder), Release(bytes)};
     } else {

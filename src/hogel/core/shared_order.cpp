@@ -30,11 +30,10 @@ class Merger {
     Merger(Team& team, std::uint64_t queue, std::size_t n,
            const std::function<void(std::size_t, std::string_view)>& merge)
         : team_(team), queue_(queue), n_(n), merge_(merge) {
-        team_.listen(queue_, [this](const std::string& bytes) {
+        team_.listen(queue_, [this](std::string bytes) {
             if (bytes.empty()) return open();
-            MessageReader message(bytes);
-            const auto i = message.get<std::size_t>();
-            put(i, bytes.substr(sizeof i));
+            const std::uint64_t i = take_last_number(bytes);
+            put(i, std::move(bytes));
         });
         thread_ = std::jthread([this] { run(); });
     }
@@ -142,9 +141,9 @@ void ordered_in_team(Team& team, std::size_t n, std::size_t in_flight,
         const std::optional<std::size_t> i = queue.next();
         if (!i) return;
         try {
-            MessageWriter message;
-            message.put(*i);
-            team.send(number, message.take() + body(*i));
+            std::string bytes = body(*i);
+            append_number(bytes, *i);
+            team.send(number, std::move(bytes));
         } catch (...) {
             team.send(number, "");
             throw;

@@ -13,19 +13,38 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// Bytes of a message between processes, few so that what is under way takes little memory.
-constexpr std::size_t max_message = std::size_t{1} << 20;
+// Samples of a message between processes, and the messages that are sent before one is waited for: few, so that what is
+// under way takes little memory.
+constexpr std::size_t max_message = (std::size_t{1} << 20) / sizeof(Complex), messages_ahead = 4;
 
-// A rectangle of a plane, and the row and column that are the first of an array.
-struct Part {
-    LineRange rows, columns;
-};
-
-std::size_t rows_at_once(const Part& part) {
-    return std::max<std::size_t>(1, max_message / (sizeof(Complex) * std::max<std::size_t>(1, part.columns.count)));
+std::size_t messages_of(std::size_t items, std::size_t items_in_one) {
+    return (items + items_in_one - 1) / items_in_one;
 }
 
+// Sends another process as many messages as it sends to this one; few are under way. Message i is taken after all
+// before it, and itself, have been packed.
+template <class Pack, class Take>
+void swap_messages(Team& team, std::size_t other, std::size_t count, const Pack& pack, const Take& take) {
+    for (std::size_t sent = 0, taken = 0; taken < count; ++taken) {
+        for (; sent < std::min(count, taken + messages_ahead); ++sent) team.send_to(other, pack(sent));
+        take(taken, team.receive_from(other));
+    }
+}
+
+void require_size(const std::string& bytes, std::size_t samples) {
+    if (bytes.size() != samples * sizeof(Complex))
+        throw Error(ErrorCode::internal, "a message from another process has another size than expected");
+}
+
+// The process that a process swaps with in a step, of as many as there are: itself in one of them.
+std::size_t partner(const Team& team, std::size_t step) { return (step + team.size() - team.rank()) % team.size(); }
+
 }  // namespace
+
+LineRange common_lines(const LineRange& a, const LineRange& b) {
+    const std::size_t first = std::max(a.first, b.first), end = std::min(a.end(), b.end());
+    return {first, std::max(first, end) - first};
+}
 
 LineRange lines_of(std::size_t process, std::size_t processes, std::size_t lines, std::size_t together) {
     const std::size_t groups = (lines + together - 1) / together;
@@ -35,115 +54,137 @@ LineRange lines_of(std::size_t process, std::size_t processes, std::size_t lines
 
 SharedPlane::SharedPlane(std::size_t rows, std::size_t columns, std::size_t rows_together, std::size_t columns_together,
                          const ScratchOptions& scratch, Team* team)
-    : team_(team),
-      rows_(rows),
-      columns_(columns),
-      rows_together_(rows_together),
-      columns_together_(columns_together),
-      scratch_(scratch),
-      now_(&in_rows_) {
-    if (team_ != nullptr && team_->size() > 1) {
-        rank_ = team_->rank();
-        size_ = team_->size();
+    : rows_(rows), columns_(columns), rows_together_(rows_together), columns_together_(columns_together) {
+    if (team != nullptr && team->size() > 1) {
+        team_ = team;
+        rank_ = team->rank();
+        size_ = team->size();
     }
-    if (size_ == 1) in_rows_ = PagedArray({rows, columns}, scratch);
+    // For any number of rows up to this one.
+    const std::size_t groups = (rows + rows_together - 1) / rows_together;
+    const std::size_t most_rows = std::min(rows, (groups + size_ - 1) / size_ * rows_together);
+    std::size_t samples = 0;
+    for (std::size_t process = 0; process < size_; ++process) {
+        block_starts_.push_back(samples);
+        samples += most_rows * std::max(lines_of(process, size_, columns, columns_together).count, own_columns().count);
+    }
+    samples_ = size_ == 1 ? PagedArray({rows, columns}, scratch, Contents::unset)
+                          : PagedArray({1, std::max<std::size_t>(samples, 1)}, scratch, Contents::unset);
+    begin_columns(rows);
 }
 
-void SharedPlane::begin_rows(std::size_t rows) {
-    if (size_ == 1) return;
-    const LineRange own = own_rows(rows);
-    first_ = own.first;
-    reserve(*now_, own.count, columns_);
+void SharedPlane::begin_columns(std::size_t rows) {
+    rows_ = rows;
+    places_ = in_columns(rows);
 }
 
-// Memory that is there is used again, because the system clears new memory.
-void SharedPlane::reserve(PagedArray& array, std::size_t rows, std::size_t columns) const {
-    rows = std::max<std::size_t>(rows, 1);
-    columns = std::max<std::size_t>(columns, 1);
-    if (array.extent(0) < rows || array.extent(1) != columns) array = PagedArray({rows, columns}, scratch_);
+OwnColumns SharedPlane::in_columns(std::size_t rows) {
+    const LineRange across = own_columns();
+    std::vector<Complex*> starts;
+    starts.reserve(rows);
+    for (std::size_t process = 0; process < size_; ++process) {
+        const std::size_t count = lines_of(process, size_, rows, rows_together_).count;
+        for (std::size_t y = 0; y < count; ++y)
+            starts.push_back(samples_.view().data() + block_starts_[process] + y * across.count);
+    }
+    return {std::move(starts), across.first};
 }
 
-void SharedPlane::to_columns(std::size_t rows) { turn(rows, true); }
-void SharedPlane::to_rows(std::size_t rows) { turn(rows, false); }
+void SharedPlane::put_row(std::size_t y, const Complex* from) {
+    const std::size_t own = y - own_rows(rows_).first;
+    for (std::size_t process = 0; process < size_; ++process) {
+        const LineRange columns = lines_of(process, size_, columns_, columns_together_);
+        std::copy_n(from + columns.first, columns.count,
+                    samples_.view().data() + block_starts_[process] + own * columns.count);
+    }
+}
 
-void SharedPlane::turn(std::size_t rows, bool columns) {
-    if (size_ == 1) return;
-    // What this process has of what another gets, and the other way round.
-    const auto crossing = [&](std::size_t of_rows, std::size_t of_columns) {
-        return Part{lines_of(of_rows, size_, rows, rows_together_),
-                    lines_of(of_columns, size_, columns_, columns_together_)};
-    };
-    PagedArray& next = columns ? in_columns_ : in_rows_;
-    const LineRange mine = columns ? own_columns() : own_rows(rows);
-    reserve(next, columns ? rows_ : mine.count, columns ? mine.count : columns_);
-    const auto place = [&](PagedArray& array, bool by_columns, std::size_t first, std::size_t y, std::size_t x) {
-        return by_columns ? &array.view()(y, x - first) : &array.view()(y - first, x);
-    };
-    const Part kept = crossing(rank_, rank_);
-    for (std::size_t y = kept.rows.first; y < kept.rows.end() && kept.columns.count > 0; ++y)
-        std::copy_n(place(*now_, !columns, first_, y, kept.columns.first), kept.columns.count,
-                    place(next, columns, mine.first, y, kept.columns.first));
-    for (std::size_t step = 1; step < size_; ++step) {
-        const std::size_t to = (rank_ + step) % size_, from = (rank_ + size_ - step) % size_;
-        const Part sent = columns ? crossing(rank_, to) : crossing(to, rank_);
-        const Part got = columns ? crossing(from, rank_) : crossing(rank_, from);
-        const auto pack = [&](std::size_t y0, std::size_t count) {
-            std::string bytes(count * sent.columns.count * sizeof(Complex), '\0');
-            for (std::size_t y = 0; y < count && sent.columns.count > 0; ++y)
-                std::memcpy(bytes.data() + y * sent.columns.count * sizeof(Complex),
-                            place(*now_, !columns, first_, y0 + y, sent.columns.first),
-                            sent.columns.count * sizeof(Complex));
-            return bytes;
+void SharedPlane::get_row(std::size_t y, Complex* to) const {
+    const std::size_t own = y - own_rows(rows_).first;
+    for (std::size_t process = 0; process < size_; ++process) {
+        const LineRange columns = lines_of(process, size_, columns_, columns_together_);
+        std::copy_n(samples_.view().data() + block_starts_[process] + own * columns.count, columns.count,
+                    to + columns.first);
+    }
+}
+
+void SharedPlane::to_columns(std::size_t rows) {
+    rows_ = rows;
+    turn(false);
+    begin_columns(rows);
+}
+
+void SharedPlane::to_rows(std::size_t rows) {
+    rows_ = rows;
+    turn(true);
+}
+
+// Samples of the block for another process.
+std::size_t SharedPlane::block_size(std::size_t process, bool columns) const {
+    return columns ? lines_of(process, size_, rows_, rows_together_).count * own_columns().count
+                   : own_rows(rows_).count * lines_of(process, size_, columns_, columns_together_).count;
+}
+
+// Each two processes swap the blocks that they have for each other. What comes takes the place of what was sent before.
+void SharedPlane::turn(bool columns) {
+    for (std::size_t step = 0; step < size_; ++step) {
+        const std::size_t other = team_ != nullptr ? partner(*team_, step) : 0;
+        if (other == rank_) continue;
+        Complex* const block = samples_.view().data() + block_starts_[other];
+        const std::size_t to_send = block_size(other, columns), to_get = block_size(other, !columns);
+        const auto part = [](std::size_t message, std::size_t samples) {
+            const std::size_t first = std::min(samples, message * max_message);
+            return LineRange{first, std::min(max_message, samples - first)};
         };
-        const auto unpack = [&](std::size_t y0, std::size_t count, const std::string& bytes) {
-            if (bytes.size() != count * got.columns.count * sizeof(Complex))
-                throw Error(ErrorCode::internal, "a message from another process has another size than it must have");
-            for (std::size_t y = 0; y < count && got.columns.count > 0; ++y)
-                std::memcpy(static_cast<void*>(place(next, columns, mine.first, y0 + y, got.columns.first)),
-                            bytes.data() + y * got.columns.count * sizeof(Complex),
-                            got.columns.count * sizeof(Complex));
-        };
-        const std::size_t sent_at_once = rows_at_once(sent), got_at_once = rows_at_once(got);
-        std::size_t sending = sent.rows.first, getting = got.rows.first;
-        while (sending < sent.rows.end() || getting < got.rows.end()) {
-            if (sending < sent.rows.end()) {
-                const std::size_t count = std::min(sent_at_once, sent.rows.end() - sending);
-                team_->send_to(to, pack(sending, count));
-                sending += count;
-            }
-            if (getting < got.rows.end()) {
-                const std::size_t count = std::min(got_at_once, got.rows.end() - getting);
-                unpack(getting, count, team_->receive_from(from));
-                getting += count;
-            }
-        }
+        swap_messages(
+            *team_, other, messages_of(std::max(to_send, to_get), max_message),
+            [&](std::size_t i) {
+                const LineRange sent = part(i, to_send);
+                return std::string(reinterpret_cast<const char*>(block + sent.first), sent.count * sizeof(Complex));
+            },
+            [&](std::size_t i, const std::string& bytes) {
+                const LineRange got = part(i, to_get);
+                require_size(bytes, got.count);
+                std::memcpy(static_cast<void*>(block + got.first), bytes.data(), bytes.size());
+            });
     }
-    now_ = &next;
-    first_ = mine.first;
 }
 
-PagedArray gather_rows(Team& team, const PagedArray& own, std::size_t rows, std::size_t rows_together,
-                       const ScratchOptions& scratch) {
-    const std::size_t columns = own.extent(1), bytes = columns * sizeof(Complex);
-    const std::size_t at_once = std::max<std::size_t>(1, max_message / bytes);
-    PagedArray all;
-    if (team.is_first()) all = PagedArray({rows, columns}, scratch);
-    for (std::size_t process = 0; process < team.size(); ++process) {
-        const LineRange range = lines_of(process, team.size(), rows, rows_together);
-        for (std::size_t y = range.first; y < range.end(); y += at_once) {
-            const std::size_t count = std::min(at_once, range.end() - y);
-            if (team.rank() == process && process != 0) {
-                team.receive_from(0);  // asks for them
-                team.send_to(0, {reinterpret_cast<const char*>(&own.view()(y - range.first, 0)), count * bytes});
-            } else if (team.is_first() && process != 0) {
-                team.send_to(process, "");
-                std::memcpy(static_cast<void*>(&all.view()(y, 0)), team.receive_from(process).data(), count * bytes);
-            } else if (team.is_first()) {
-                std::copy_n(&own.view()(y - range.first, 0), count * columns, &all.view()(y, 0));
-            }
+void send_rows(Team& team, const Shape<2>& shape, std::size_t rows_together,
+               const std::function<LineRange(std::size_t)>& wanted,
+               const std::function<void(std::size_t, Complex*)>& get_row,
+               const std::function<Complex*(std::size_t)>& place) {
+    const std::size_t columns = shape[1], at_once = std::max<std::size_t>(1, max_message / columns);
+    const auto rows_from_to = [&](std::size_t from, std::size_t to) {
+        return common_lines(lines_of(from, team.size(), shape[0], rows_together), wanted(to));
+    };
+    for (std::size_t step = 0; step < team.size(); ++step) {
+        const std::size_t other = partner(team, step);
+        const LineRange sent = rows_from_to(team.rank(), other), got = rows_from_to(other, team.rank());
+        if (other == team.rank()) {
+            for (std::size_t y = sent.first; y < sent.end(); ++y) get_row(y, place(y));
+            continue;
         }
+        const auto part = [&](std::size_t message, const LineRange& rows) {
+            return common_lines({rows.first + message * at_once, at_once}, rows);
+        };
+        swap_messages(
+            team, other, messages_of(std::max(sent.count, got.count), at_once),
+            [&](std::size_t i) {
+                const LineRange rows = part(i, sent);
+                std::string bytes(rows.count * columns * sizeof(Complex), '\0');
+                for (std::size_t y = 0; y < rows.count; ++y)
+                    get_row(rows.first + y, reinterpret_cast<Complex*>(bytes.data()) + y * columns);
+                return bytes;
+            },
+            [&](std::size_t i, const std::string& bytes) {
+                const LineRange rows = part(i, got);
+                require_size(bytes, rows.count * columns);
+                for (std::size_t y = 0; y < rows.count; ++y)
+                    std::memcpy(static_cast<void*>(place(rows.first + y)), bytes.data() + y * columns * sizeof(Complex),
+                                columns * sizeof(Complex));
+            });
     }
-    return all;
 }
 
 }  // namespace hogel::core

@@ -3,7 +3,9 @@
 
 #include <complex>
 #include <cstddef>
+#include <functional>
 #include <utility>
+#include <vector>
 
 #include "hogel/core/paged_array.h"
 #include "hogel/team.h"
@@ -16,56 +18,86 @@ struct LineRange {
     std::size_t end() const { return first + count; }
 };
 
+/// Lines that are in both.
+LineRange common_lines(const LineRange& a, const LineRange& b);
+
 /// The lines of one of several processes: about equally many, in groups of `together`.
 LineRange lines_of(std::size_t process, std::size_t processes, std::size_t lines, std::size_t together);
 
+/// Places in the own columns of a plane, [row][column].
+class OwnColumns {
+  public:
+    OwnColumns() = default;
+    OwnColumns(std::vector<std::complex<float>*> rows, std::size_t first) : rows_(std::move(rows)), first_(first) {}
+    /// The row's places in other own columns follow it.
+    std::complex<float>& operator()(std::size_t y, std::size_t x) const { return rows_[y][x - first_]; }
+
+  private:
+    std::vector<std::complex<float>*> rows_;  // of each row, the place in the first own column
+    std::size_t first_ = 0;
+};
+
 /// A plane of complex numbers that is transformed along rows and along columns in turn. Alone, a process has it in one
-/// array. The processes of a team have parts, first rows and then columns or the other way round, and send each other
-/// what crosses: none of them needs memory for more than two parts. Each process works on its own lines.
+/// array. The processes of a team have rows and then columns or the other way round, and exchange what crosses: each of
+/// them keeps one N-th part, in place. Each process works on its own lines.
 class SharedPlane {
   public:
-    /// The number of rows may differ before and after the columns are transformed.
-    /// @param rows           the larger of both
+    SharedPlane() = default;
+    /// In columns, with any samples. The number of rows may change while the plane is in columns.
+    /// @param rows           the largest number
     /// @param rows_together  rows that a process has together, as far as the last ones allow
     SharedPlane(std::size_t rows, std::size_t columns, std::size_t rows_together, std::size_t columns_together,
                 const ScratchOptions& scratch, Team* team = hogel::team());
 
+    std::size_t rows() const { return rows_; }
+    std::size_t columns() const { return columns_; }
     LineRange own_rows(std::size_t rows) const { return lines_of(rank_, size_, rows, rows_together_); }
     LineRange own_columns() const { return lines_of(rank_, size_, columns_, columns_together_); }
 
-    /// To be called before the first rows are written.
-    void begin_rows(std::size_t rows);
-    /// While the plane is in rows: an own row.
-    std::complex<float>* row(std::size_t y) { return &now_->view()(y - first_, 0); }
-    /// While it is in columns: a place in an own column.
-    std::complex<float>& at(std::size_t y, std::size_t x) { return now_->view()(y, x - first_); }
+    /// To be called before the first rows, or columns, are written.
+    void begin_rows(std::size_t rows) { rows_ = rows; }
+    void begin_columns(std::size_t rows);
 
-    /// The array of the own rows, which leaves the plane.
-    PagedArray take_rows(std::size_t rows) {
-        now_->keep_rows(own_rows(rows).count);
-        return std::exchange(*now_, PagedArray());
-    }
+    /// While the plane is in rows: writes and reads an own row.
+    void put_row(std::size_t y, const std::complex<float>* from);
+    void get_row(std::size_t y, std::complex<float>* to) const;
+
+    /// While it is in columns: the places of so many rows. Writing those of other numbers of rows overwrites only what
+    /// is in the same column.
+    OwnColumns in_columns(std::size_t rows);
+    std::complex<float>& at(std::size_t y, std::size_t x) { return places_(y, x); }
+    const std::complex<float>& at(std::size_t y, std::size_t x) const { return places_(y, x); }
+
+    /// Alone: all of it.
+    View<std::complex<float>, 2> view() { return {samples_.view().data(), {rows_, columns_}}; }
+    View<const std::complex<float>, 2> view() const { return {samples_.view().data(), {rows_, columns_}}; }
 
     /// Both wait for all processes, and throw Error(cancelled) if one has failed.
+    /// @param rows  the plane's number of rows from now on
     void to_columns(std::size_t rows);
     void to_rows(std::size_t rows);
 
   private:
-    void reserve(PagedArray& array, std::size_t rows, std::size_t columns) const;
-    void turn(std::size_t rows, bool columns);
+    std::size_t block_size(std::size_t process, bool columns) const;
+    void turn(bool columns);
 
-    Team* team_;
+    Team* team_ = nullptr;
     std::size_t rank_ = 0, size_ = 1;
-    std::size_t rows_, columns_, rows_together_, columns_together_;
-    ScratchOptions scratch_;
-    PagedArray in_rows_, in_columns_;  // alone: the first alone
-    PagedArray* now_;
-    std::size_t first_ = 0;  // own row or column that is now the array's first
+    std::size_t rows_ = 0, columns_ = 0, rows_together_ = 1, columns_together_ = 1;
+    // A block for each process: in rows the own rows' places in its columns, in columns its rows' in the own columns.
+    PagedArray samples_;
+    std::vector<std::size_t> block_starts_;
+    OwnColumns places_;
 };
 
-/// In the first process, all rows of a plane that the processes of a team have by rows; in others an array without
-/// elements. They come in messages that the first one asks for, so that few are under way.
-PagedArray gather_rows(Team& team, const PagedArray& own, std::size_t rows, std::size_t rows_together,
-                       const ScratchOptions& scratch);
+/// Gives processes of a team rows of a plane that all have by rows, as lines_of() of these says. Few messages are under
+/// way. All call it with the same arguments.
+/// @param wanted   the rows that a process gets, of any other and of itself
+/// @param get_row  writes an own row
+/// @param place    where a row goes that this process gets
+void send_rows(Team& team, const Shape<2>& shape, std::size_t rows_together,
+               const std::function<LineRange(std::size_t process)>& wanted,
+               const std::function<void(std::size_t y, std::complex<float>* to)>& get_row,
+               const std::function<std::complex<float>*(std::size_t y)>& place);
 
 }  // namespace hogel::core

@@ -26,8 +26,8 @@ class ThirdOfATeam final : public Team, public SharedSink {
     void pass(std::uint64_t, std::uint64_t) override {}
     std::uint64_t sum(std::uint64_t number) override { return number; }
     std::string share(const std::string& text) override { return text; }
-    void send(std::uint64_t, const std::string&) override {}
-    void listen(std::uint64_t, std::function<void(const std::string&)>) override {}
+    void send(std::uint64_t, std::string) override {}
+    void listen(std::uint64_t, std::function<void(std::string)>) override {}
     void send_to(std::size_t, std::string) override {}
     std::string receive_from(std::size_t) override { return {}; }
     std::unique_ptr<TileQueue> share_tiles(std::size_t tiles) override {

@@ -92,6 +92,17 @@ Spectrum wave_at_lens(const Chain& chain, std::span<const Camera> cameras, const
     return waves;
 }
 
+// The rows of a picture that a process of a team makes. Of a plane that is tilted the first one has all.
+core::LineRange rows_of(std::size_t process, const Camera& camera, const Team* team) {
+    if (team == nullptr) return {0, camera.picture.height};
+    if (is_tilted(camera)) return {0, process == 0 ? camera.picture.height : 0};
+    return core::lines_of(process, team->size(), camera.picture.height, 1);
+}
+
+core::LineRange own_rows(const Camera& camera, const Team* team) {
+    return rows_of(team != nullptr ? team->rank() : 0, camera, team);
+}
+
 // The wave that makes the picture, and the mapping of points in focus to it: the window's centre plus `scale` times the
 // offset of the point from `origin` along the axes.
 struct Focused {
@@ -144,9 +155,27 @@ Wave on_tilted_plane(const Spectrum& waves, const Camera& camera, const Grid& ho
     return wave_of(tilt(waves, axes, window, band, scratch), width, height, scratch);
 }
 
+// The rows of a film, which is parallel to the hologram, that some rows of a picture show, with those around.
+core::LineRange film_rows(const Grid& plane, double scale, Vec3 origin, const Camera& camera,
+                          const core::LineRange& picture) {
+    if (picture.count == 0) return {};
+    constexpr double around = 8;
+    const auto row = [&](double of_picture) {
+        const Vec3 p = in_focus(camera, camera.picture.center_x, camera.picture.y(of_picture));
+        return plane.row(plane.center_y + scale * (p.y - origin.y));
+    };
+    const auto [low, high] =
+        std::minmax({row(static_cast<double>(picture.first) - 1), row(static_cast<double>(picture.end()))});
+    const auto within = [&](double place) {
+        return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(plane.height)));
+    };
+    const std::size_t first = within(std::floor(low - around));
+    return {first, within(std::ceil(high + around)) - first};
+}
+
 // The wave on the film. A perfect lens images the plane in focus: the wave in the opening is propagated back to that
-// plane through empty space. A thin lens bends the light towards a film behind it, with aberrations. In a team the
-// first process has it.
+// plane through empty space. A thin lens bends the light towards a film behind it, with aberrations. In a team
+// each process has the rows that own_rows() of the picture show.
 std::optional<Focused> wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid& hologram,
                                      const PlaneWaveCameraOptions& options, Team* team) {
     const double wavelength = at_lens.wavelength, R = camera.eye.z;
@@ -200,13 +229,20 @@ std::optional<Focused> wave_in_focus(const Spectrum& at_lens, const Camera& came
         return Focused{on_tilted_plane(behind, camera, hologram, origin, axes, options.scratch), area, origin, axes};
     }
     Wave film = wave_of(behind, width, height, options.scratch, team);
-    if (team != nullptr) film = gathered(std::move(film), *team, options.scratch);
-    if (!is_first_process()) return std::nullopt;
-    return Focused{std::move(film), area, origin, {}, b > 0 ? -b / (m * R) : 1};
+    const double scale = b > 0 ? -b / (m * R) : 1;
+    if (team != nullptr) {
+        const Grid plane = film.grid().plane;
+        const auto wanted = [&](std::size_t process) {
+            return film_rows(plane, scale, origin, camera, rows_of(process, camera, team));
+        };
+        film = with_rows(std::move(film), *team, wanted, options.scratch);
+    }
+    return Focused{std::move(film), area, origin, {}, scale};
 }
 
-// Adds the picture, as radiance: see docs/notation.md, section 4.
-void expose(const Focused& focused, const Camera& camera, const Rectangle& shown, double weight, Image& image) {
+// Adds rows of the picture, as radiance: see docs/notation.md, section 4.
+void expose(const Focused& focused, const Camera& camera, const core::LineRange& rows, const Rectangle& shown,
+            double weight, Image& image) {
     const Grid& picture = camera.picture;
     const Grid& plane = focused.wave.grid().plane;
     const double R = camera.eye.z, m = focus_ratio(camera, picture.center_x, picture.center_y);
@@ -216,8 +252,10 @@ void expose(const Focused& focused, const Camera& camera, const Rectangle& shown
     };
     const std::size_t sub_x = points(picture.pitch_x, plane.pitch_x), sub_y = points(picture.pitch_y, plane.pitch_y);
     const View<const std::complex<float>, 2> samples = focused.wave.samples.view();
-    const auto intensity = [&](std::size_t row, std::size_t column) { return std::norm(samples(row, column)); };
-    core::parallel_for(picture.height, [&](std::size_t row) {
+    const std::size_t first = focused.wave.rows.first;
+    const auto intensity = [&](std::size_t row, std::size_t column) { return std::norm(samples(row - first, column)); };
+    core::parallel_for(rows.count, [&](std::size_t i) {
+        const std::size_t row = rows.first + i;
         for (std::size_t column = 0; column < picture.width; ++column) {
             double sum = 0;
             for (std::size_t b = 0; b < sub_y; ++b)
@@ -227,11 +265,10 @@ void expose(const Focused& focused, const Camera& camera, const Rectangle& shown
                     if (!shown.holds(x, y)) continue;
                     const Vec3 p = in_focus(camera, x, y), aside = focused.scale * (p - focused.origin);
                     // Interpolation may fall below zero between dark samples.
-                    const double value =
-                        std::max(0.0f, film::smooth_at<film::SixPoint>(
-                                           samples.extent(0), samples.extent(1),
-                                           plane.row(plane.center_y + dot(aside, focused.axes.y)),
-                                           plane.column(plane.center_x + dot(aside, focused.axes.x)), intensity));
+                    const double value = std::max(
+                        0.0f, film::smooth_at<film::SixPoint>(
+                                  plane.height, plane.width, plane.row(plane.center_y + dot(aside, focused.axes.y)),
+                                  plane.column(plane.center_x + dot(aside, focused.axes.x)), intensity));
                     const double r = length(p - camera.eye), along = R * focus_ratio(camera, x, y);
                     sum += value * focused.scale * focused.scale * r * r * r / (along * focused.pupil_area);
                 }
@@ -245,8 +282,9 @@ std::complex<float> phasor(double cycles) {
     return std::polar(1.0f, static_cast<float>(2 * std::numbers::pi * (cycles - std::floor(cycles))));
 }
 
-// The wave at the points in focus that the pixels' centres show, see waves_in_focus().
-Array<std::complex<float>, 2> wave_at_pixels(const Focused& focused, const Camera& camera, const Rectangle& shown) {
+// The wave at the points in focus that the pixels' centres show, of rows of the picture, see waves_in_focus().
+Array<std::complex<float>, 2> wave_at_pixels(const Focused& focused, const Camera& camera, const core::LineRange& rows,
+                                             const Rectangle& shown) {
     const Grid& picture = camera.picture;
     const Wave& wave = focused.wave;
     const Grid& plane = wave.grid().plane;
@@ -258,16 +296,17 @@ Array<std::complex<float>, 2> wave_at_pixels(const Focused& focused, const Camer
     for (std::size_t j = 0; j < plane.height; ++j)
         up[j] = phasor(-wave.carrier_y * (plane.y(static_cast<double>(j)) - plane.center_y));
     Array<std::complex<float>, 2> result({picture.height, picture.width});
-    core::parallel_for(picture.height, [&](std::size_t row) {
+    const std::size_t first = wave.rows.first;
+    core::parallel_for(rows.count, [&](std::size_t line) {
+        const std::size_t row = rows.first + line;
         for (std::size_t column = 0; column < picture.width; ++column) {
             const double x = picture.x(static_cast<double>(column)), y = picture.y(static_cast<double>(row));
             if (!shown.holds(x, y)) continue;
             const Vec3 p = in_focus(camera, x, y), aside = p - focused.origin;
             const double right = dot(aside, focused.axes.x), above = dot(aside, focused.axes.y);
             const std::complex<float> slow = film::smooth_at<film::SixPoint>(
-                samples.extent(0), samples.extent(1), plane.row(plane.center_y + above),
-                plane.column(plane.center_x + right),
-                [&](std::size_t j, std::size_t i) { return up[j] * across[i] * samples(j, i); });
+                plane.height, plane.width, plane.row(plane.center_y + above), plane.column(plane.center_x + right),
+                [&](std::size_t j, std::size_t i) { return up[j] * across[i] * samples(j - first, i); });
             const double cycles =
                 wave.carrier_x * right + wave.carrier_y * above + length(p - camera.eye) / wave.grid().wavelength;
             result(row, column) = slow * phasor(cycles);
@@ -289,6 +328,19 @@ void require_photographable(const FieldSource& hologram, std::span<const Camera>
         if (film > 0 && is_tilted(camera))
             throw Error(ErrorCode::usage,
                         "behind a thin lens the film is parallel to the hologram; it cannot be tilted");
+    }
+}
+
+// Gives all processes of a team the rows of a picture that each has made.
+template <class Value>
+void share_rows(Team& team, const Camera& camera, Value* picture, std::size_t width) {
+    const core::LineRange own = own_rows(camera, &team);
+    core::MessageWriter message;
+    message.put(std::vector<Value>(picture + own.first * width, picture + own.end() * width));
+    const std::vector<std::string> all = core::all_of(team, message.take());
+    for (std::size_t process = 0; process < team.size(); ++process) {
+        core::MessageReader reader(all[process]);
+        std::ranges::copy(reader.get_vector<Value>(), picture + rows_of(process, camera, &team).first * width);
     }
 }
 
@@ -321,15 +373,18 @@ std::vector<Image> photograph_by_plane_waves(const FieldSource& hologram, std::s
     std::vector<Image> images(cameras.size());
     image::load_film(cameras, 1, hologram.provenance(), images);
     const auto looks = static_cast<double>(hologram.looks());
+    Team* const team = core::team_of_several();
     for (std::size_t look = 0; look < hologram.looks(); ++look) {
         const auto report = [&](double fraction) {
             return !progress || progress((static_cast<double>(look) + fraction) / looks);
         };
-        focus_all({hologram, look, options, core::team_of_several()}, cameras, report,
-                  [&](std::size_t i, const Focused& focused) {
-                      expose(focused, cameras[i], Rectangle(hologram.grid().plane), 1 / looks, images[i]);
-                  });
+        focus_all({hologram, look, options, team}, cameras, report, [&](std::size_t i, const Focused& focused) {
+            expose(focused, cameras[i], own_rows(cameras[i], team), Rectangle(hologram.grid().plane), 1 / looks,
+                   images[i]);
+        });
     }
+    for (std::size_t i = 0; team != nullptr && i < images.size(); ++i)
+        share_rows(*team, cameras[i], images[i].pixels.data(), images[i].pixels.size() / cameras[i].picture.height);
     return images;
 }
 
@@ -342,11 +397,15 @@ std::vector<Array<std::complex<float>, 2>> waves_in_focus(const FieldSource& hol
         throw Error(ErrorCode::usage, "waves in focus are those of a perfect lens, which has no film distance");
     require_photographable(hologram, cameras, 0);
     std::vector<Array<std::complex<float>, 2>> waves(cameras.size());
-    focus_all({hologram, look, options, core::team_of_several()}, cameras, progress,
-              [&](std::size_t i, const Focused& focused) {
-                  waves[i] = wave_at_pixels(focused, cameras[i], Rectangle(hologram.grid().plane));
-              });
-    for (auto& wave : waves) core::share_result(wave, core::sent_array<std::complex<float>, 2>());
+    Team* const team = core::team_of_several();
+    focus_all({hologram, look, options, team}, cameras, progress, [&](std::size_t i, const Focused& focused) {
+        waves[i] = wave_at_pixels(focused, cameras[i], own_rows(cameras[i], team), Rectangle(hologram.grid().plane));
+    });
+    for (std::size_t i = 0; team != nullptr && i < waves.size(); ++i) {
+        const Grid& picture = cameras[i].picture;
+        if (waves[i].size() == 0) waves[i] = Array<std::complex<float>, 2>({picture.height, picture.width});
+        share_rows(*team, cameras[i], waves[i].data(), picture.width);
+    }
     return waves;
 }
 

@@ -83,13 +83,18 @@ class RowOfDirections {
     double frequency_, fy_, reach_x_, reach_y_;
 };
 
-void propagate_row(std::span<Complex> samples, const RowOfDirections& row) {
+// Directions are followed from the first one of each stretch: samples that begin at a multiple of it are the same as
+// those of a whole row.
+constexpr std::size_t stretch = 32;
+static_assert(columns_of_waves_together % stretch == 0);
+
+// The samples of a row from column `first` on.
+void propagate_row(std::span<Complex> samples, std::size_t first, const RowOfDirections& row) {
     using Stays = RowOfDirections::Stays;
-    constexpr std::size_t stretch = 32;
     constexpr double small = 1e-4;  // cycles
     for (std::size_t begin = 0; begin < samples.size(); begin += stretch) {
         const std::size_t count = std::min(stretch, samples.size() - begin);
-        const double at = static_cast<double>(begin);
+        const double at = static_cast<double>(first + begin);
         const Stays all = row.between(at, at + static_cast<double>(count - 1));
         if (all == Stays::lost) {
             std::ranges::fill(samples.subspan(begin, count), Complex(0));
@@ -113,11 +118,11 @@ void propagate_row(std::span<Complex> samples, const RowOfDirections& row) {
 }  // namespace
 
 void propagate(Spectrum& spectrum, const PropagationOptions& options) {
-    const core::LineRange own = spectrum.rows;
-    core::parallel_for(blocks_of(own.count), [&](std::size_t block) {
-        for (std::size_t r = block * lines_together; r < std::min((block + 1) * lines_together, own.count); ++r)
-            propagate_row(spectrum.samples.view()[r].elements(),
-                          RowOfDirections(spectrum, options, static_cast<double>(own.first + r)));
+    const core::LineRange own = spectrum.samples.own_columns();
+    core::parallel_for(own.count > 0 ? blocks_of(spectrum.height()) : 0, [&](std::size_t block) {
+        for (std::size_t r = block * lines_together; r < std::min((block + 1) * lines_together, spectrum.height()); ++r)
+            propagate_row({&spectrum.samples.at(r, own.first), own.count}, own.first,
+                          RowOfDirections(spectrum, options, static_cast<double>(r)));
     });
     spectrum.window.center_x += options.shift_x;
     spectrum.window.center_y += options.shift_y;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
-#include <optional>
 #include <utility>
 
 #include "hogel/core/parallel.h"
@@ -86,9 +85,9 @@ Grid padded(const Grid& plane, double size_x, double size_y) {
 
 namespace {
 
-// Without samples.
+// Without samples, and their rows and columns.
 Spectrum frame_of(const Grid& window, double wavelength, const Band& band, double carrier_x, double carrier_y,
-                  std::size_t& columns) {
+                  Shape<2>& shape) {
     Spectrum result;
     result.window = window;
     result.wavelength = wavelength;
@@ -96,8 +95,8 @@ Spectrum frame_of(const Grid& window, double wavelength, const Band& band, doubl
     const auto [first_row, last_row] = steps(-band.high_y, -band.low_y, window.size_y(), window.height, -carrier_y);
     result.first_column = first_column;
     result.first_row = first_row;
-    result.all_rows = static_cast<std::size_t>(last_row - first_row + 1);
-    columns = static_cast<std::size_t>(last_column - first_column + 1);
+    shape = {static_cast<std::size_t>(last_row - first_row + 1),
+             static_cast<std::size_t>(last_column - first_column + 1)};
     return result;
 }
 
@@ -105,10 +104,11 @@ Spectrum frame_of(const Grid& window, double wavelength, const Band& band, doubl
 
 Spectrum empty_spectrum(const Grid& window, double wavelength, const Band& band, double carrier_x, double carrier_y,
                         const ScratchOptions& scratch) {
-    std::size_t columns = 0;
-    Spectrum result = frame_of(window, wavelength, band, carrier_x, carrier_y, columns);
-    result.samples = core::PagedArray({result.all_rows, columns}, scratch);
-    result.rows = {0, result.all_rows};
+    Shape<2> shape{};
+    Spectrum result = frame_of(window, wavelength, band, carrier_x, carrier_y, shape);
+    result.samples = core::SharedPlane(shape[0], shape[1], 1, 1, scratch, nullptr);
+    core::parallel_for(shape[0],
+                       [&](std::size_t row) { std::fill_n(&result.samples.at(row, 0), shape[1], Complex(0)); });
     return result;
 }
 
@@ -123,16 +123,18 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
         throw Error(ErrorCode::usage,
                     fmt::format("a window of {}x{} samples cannot hold a field of {}x{} in its middle", window.width,
                                 window.height, plane.width, plane.height));
-    std::size_t columns = 0;
-    Spectrum result = frame_of(window, source.grid().wavelength, band, carrier_x, carrier_y, columns);
+    Shape<2> shape{};
+    Spectrum result = frame_of(window, source.grid().wavelength, band, carrier_x, carrier_y, shape);
+    const auto [rows, columns] = shape;
     result.window.center_x = plane.center_x;
     result.window.center_y = plane.center_y;
     const std::ptrdiff_t first_column = result.first_column, first_row = result.first_row;
-    const std::size_t rows = result.height();
 
     // Transforms the rows and keeps the band's columns.
     const std::size_t together = source.alignment() * std::max<std::size_t>(lines_together / source.alignment(), 1);
-    core::SharedPlane kept(std::max(plane.height, rows), columns, together, lines_together, scratch, team);
+    result.samples =
+        core::SharedPlane(std::max(plane.height, rows), columns, together, columns_of_waves_together, scratch, team);
+    core::SharedPlane& kept = result.samples;
     kept.begin_rows(plane.height);
     const core::LineRange own = kept.own_rows(plane.height), across = kept.own_columns();
     const math::Fft1 along(window.width), down(window.height);
@@ -151,13 +153,14 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
         Array<Complex, 2> lines({height, plane.width});
         source.read({0, y0, plane.width, height}, look, lines);
         Array<Complex, 1> line({window.width});
+        std::vector<Complex> row(columns);
         for (std::size_t y = 0; y < height; ++y) {
             std::ranges::fill(line.elements(), Complex(0));
             std::copy_n(&lines(y, 0), plane.width, &line(left));
             along.forward(line.data());
-            Complex* row = kept.row(y0 + y);
-            take_frequencies(line.data(), window.width, first_column, columns, row);
-            narrow_band::multiply(row, centre_x.data(), std::span(row, columns));
+            take_frequencies(line.data(), window.width, first_column, columns, row.data());
+            narrow_band::multiply(row.data(), centre_x.data(), row);
+            kept.put_row(y0 + y, row.data());
         }
         report();
     });
@@ -165,22 +168,21 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
     // Transforms the columns and keeps the band's rows.
     kept.to_columns(plane.height);
     const std::vector<Complex> centre_y = centring(first_row, rows, window.height, -1, 1);
+    const core::OwnColumns before = kept.in_columns(plane.height), after = kept.in_columns(rows);
     core::parallel_for(blocks_of(across.count), [&](std::size_t block) {
         const std::size_t x0 = across.first + block * lines_together,
                           width = std::min(lines_together, across.end() - x0);
         Array<Complex, 2> lines({width, stride_of(window.height)});
         for (std::size_t y = 0; y < plane.height; ++y)
-            for (std::size_t i = 0; i < width; ++i) lines(i, above + y) = kept.at(y, x0 + i);
+            for (std::size_t i = 0; i < width; ++i) lines(i, above + y) = before(y, x0 + i);
         for (std::size_t i = 0; i < width; ++i) down.forward(&lines(i, 0));
         for (std::size_t r = 0; r < rows; ++r) {
             const std::size_t at = wrapped(first_row + static_cast<std::ptrdiff_t>(r), window.height);
-            for (std::size_t i = 0; i < width; ++i) kept.at(r, x0 + i) = times(lines(i, at), centre_y[r]);
+            for (std::size_t i = 0; i < width; ++i) after(r, x0 + i) = times(lines(i, at), centre_y[r]);
         }
         report();
     });
-    kept.to_rows(rows);
-    result.rows = kept.own_rows(rows);
-    result.samples = kept.take_rows(rows);
+    kept.begin_columns(rows);
     return result;
 }
 
@@ -203,21 +205,17 @@ Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, co
     if (width < columns || height < rows)
         throw Error(ErrorCode::usage,
                     fmt::format("{}x{} samples are too few for {}x{} frequencies", width, height, columns, rows));
-    std::optional<core::SharedPlane> kept;
+    core::SharedPlane kept;
     core::LineRange across{0, columns}, own{0, height};
     if (team != nullptr) {
-        kept.emplace(std::max(rows, height), columns, lines_together, lines_together, scratch, team);
-        kept->begin_rows(rows);
-        for (std::size_t r = 0; r < spectrum.rows.count; ++r)
-            std::copy_n(&spectrum.samples.view()(r, 0), columns, kept->row(spectrum.rows.first + r));
-        kept->to_columns(rows);
-        across = kept->own_columns();
-        own = kept->own_rows(height);
+        kept = core::SharedPlane(height, columns, lines_together, columns_of_waves_together, scratch, team);
+        across = kept.own_columns();
+        own = kept.own_rows(height);
     }
     Wave wave({{width, height, window.size_x() / static_cast<double>(width),
                 window.size_y() / static_cast<double>(height), window.center_x, window.center_y},
                spectrum.wavelength},
-              core::PagedArray({std::max<std::size_t>(own.count, 1), width}, scratch), own);
+              core::PagedArray({std::max<std::size_t>(own.count, 1), width}, scratch, core::Contents::unset), own);
     wave.carrier_x = spectrum.frequency_x(static_cast<double>(columns / 2));
     wave.carrier_y = spectrum.frequency_y(static_cast<double>(rows / 2));
     const math::Fft1 along(width), down(height);
@@ -231,22 +229,23 @@ Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, co
         Array<Complex, 2> lines({count, stride_of(height)});
         for (std::size_t r = 0; r < rows; ++r) {
             const std::size_t at = wrapped(spectrum.first_row + static_cast<std::ptrdiff_t>(r), height);
-            const Complex* const row = kept ? &kept->at(r, x0) : &spectrum.samples.view()(r, x0);
+            const Complex* const row = &spectrum.samples.at(r, x0);
             for (std::size_t i = 0; i < count; ++i) lines(i, at) = times(row[i], times(centre_y[r], centre_x[x0 + i]));
         }
         for (std::size_t i = 0; i < count; ++i) down.backward(&lines(i, 0));
         for (std::size_t y = 0; y < height; ++y) {
-            Complex* const row = kept ? &kept->at(y, x0) : &wave.samples.view()(y, x0);
+            Complex* const row = team != nullptr ? &kept.at(y, x0) : &wave.samples.view()(y, x0);
             for (std::size_t i = 0; i < count; ++i) row[i] = lines(i, y);
         }
     });
-    if (kept) kept->to_rows(height);
+    if (team != nullptr) kept.to_rows(height);
     core::parallel_for(blocks_of(own.count), [&](std::size_t block) {
         Array<Complex, 1> line({width});
         for (std::size_t y = block * lines_together; y < std::min((block + 1) * lines_together, own.count); ++y) {
             std::ranges::fill(line.elements(), Complex(0));
             Complex* const row = &wave.samples.view()(y, 0);
-            put_frequencies(kept ? kept->row(own.first + y) : row, columns, line.data(), width, spectrum.first_column);
+            if (team != nullptr) kept.get_row(own.first + y, row);
+            put_frequencies(row, columns, line.data(), width, spectrum.first_column);
             along.backward(line.data());
             std::copy_n(line.data(), width, row);
         }
@@ -255,15 +254,32 @@ Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, co
 }
 
 Spectrum gathered(Spectrum spectrum, Team& team, const ScratchOptions& scratch) {
-    spectrum.samples = core::gather_rows(team, spectrum.samples, spectrum.all_rows, lines_together, scratch);
-    spectrum.rows = {0, team.is_first() ? spectrum.all_rows : 0};
+    core::SharedPlane shared = std::move(spectrum.samples);
+    const std::size_t rows = shared.rows(), columns = shared.columns();
+    shared.to_rows(rows);
+    if (team.is_first()) spectrum.samples = core::SharedPlane(rows, columns, 1, 1, scratch, nullptr);
+    core::send_rows(
+        team, {rows, columns}, lines_together,
+        [&](std::size_t process) {
+            return core::LineRange{0, process == 0 ? rows : 0};
+        },
+        [&](std::size_t y, Complex* row) { shared.get_row(y, row); },
+        [&](std::size_t y) { return &spectrum.samples.at(y, 0); });
     return spectrum;
 }
 
-Wave gathered(Wave wave, Team& team, const ScratchOptions& scratch) {
-    const std::size_t rows = wave.grid().plane.height;
-    wave.samples = core::gather_rows(team, wave.samples, rows, lines_together, scratch);
-    wave.rows = {0, team.is_first() ? rows : 0};
+Wave with_rows(Wave wave, Team& team, const std::function<core::LineRange(std::size_t)>& wanted,
+               const ScratchOptions& scratch) {
+    const Shape<2> shape{wave.grid().plane.height, wave.grid().plane.width};
+    const core::PagedArray own = std::exchange(wave.samples, core::PagedArray());
+    const std::size_t first = wave.rows.first;
+    wave.rows = wanted(team.rank());
+    if (wave.rows.count > 0)
+        wave.samples = core::PagedArray({wave.rows.count, shape[1]}, scratch, core::Contents::unset);
+    core::send_rows(
+        team, shape, lines_together, wanted,
+        [&](std::size_t y, Complex* row) { std::copy_n(&own.view()(y - first, 0), shape[1], row); },
+        [&](std::size_t y) { return &wave.samples.view()(y - wave.rows.first, 0); });
     return wave;
 }
 

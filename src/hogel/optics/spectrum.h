@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+
 #include "hogel/core/shared_plane.h"
 #include "hogel/field.h"
 
@@ -14,6 +16,9 @@ struct Band {
     static Band of(const Grid& plane);
 };
 
+/// The columns of a spectrum that one process of a team has together.
+constexpr std::size_t columns_of_waves_together = 32;
+
 /// A monochromatic wave as the sum of its plane waves: F(x) = Σ S(f) e^{2πi f·(x−c)} δf_x δf_y, with f at steps δf =
 /// 1/size of a window around c that contains the wave. Light that leaves the window at one side wraps around to the
 /// other, so the window must be wide enough, or directions that would leave it are dropped. The functions below
@@ -23,14 +28,13 @@ struct Spectrum {
     double wavelength = 0;  ///< metres
     std::ptrdiff_t first_column = 0,
                    first_row = 0;  ///< frequency of the first sample, in steps; rows are counted downwards
-    core::PagedArray samples;      ///< [row][column] of S, row 0 the highest f_y
-    std::size_t all_rows = 0;
-    core::LineRange rows;  ///< of all rows, those in `samples`: all, unless the processes of a team share the spectrum
+    /// [row][column] of S, row 0 the highest f_y, in columns. The processes of a team may share it.
+    core::SharedPlane samples;
 
     double frequency_x(double column) const { return (static_cast<double>(first_column) + column) / window.size_x(); }
     double frequency_y(double row) const { return -(static_cast<double>(first_row) + row) / window.size_y(); }
-    std::size_t width() const { return samples.extent(1); }
-    std::size_t height() const { return all_rows; }
+    std::size_t width() const { return samples.columns(); }
+    std::size_t height() const { return samples.rows(); }
 };
 
 /// A wave on a plane, as a source; it may be larger than memory. The pitch may be too coarse for the carrier but not
@@ -56,8 +60,8 @@ class Wave final : public FieldSource {
 Grid padded(const Grid& plane, double size_x, double size_y);
 
 /// The plane waves of a field at the frequencies in `band` that its samples represent. The field is read row by row.
-/// Memory: an array of the field's rows and the band's columns, and the result.
-/// @param team    whose processes share the work, all of which call it, and get the spectrum's rows in parts; null:
+/// Memory: an array of the field's or the band's rows, whichever are more, and the band's columns.
+/// @param team    whose processes share the work, all of which call it, and have the spectrum's columns in parts; null:
 /// none
 /// @param window  a grid of the field's pitch and centre, at least as large; see padded()
 /// Throws Error(usage) for a window that is smaller than the field or has another pitch, and for a band without
@@ -76,7 +80,10 @@ Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, co
 
 /// The whole of what the processes of a team have in parts, in the first one; in others something without samples.
 Spectrum gathered(Spectrum spectrum, Team& team, const ScratchOptions& scratch);
-Wave gathered(Wave wave, Team& team, const ScratchOptions& scratch);
+
+/// The wave, which the processes of a team have in parts, with the rows that each wants instead, for any process.
+Wave with_rows(Wave wave, Team& team, const std::function<core::LineRange(std::size_t process)>& wanted,
+               const ScratchOptions& scratch);
 
 /// Propagation to a parallel plane; the window follows the off-axis carrier. All in metres.
 struct PropagationOptions {

@@ -22,6 +22,10 @@ constexpr std::size_t parts_apart(std::size_t side, std::size_t overlap) {
 
 core::Sent<EyeBands> sent_bands() {
     return {[](core::MessageWriter& to, const EyeBands& eyes) {
+                std::size_t bytes = sizeof(std::size_t);
+                for (const auto& looks : eyes)
+                    for (const auto& look : looks) bytes += look.size() * sizeof(Complex) + 4 * sizeof(std::size_t);
+                to.reserve(bytes);
                 to.put(eyes.size());
                 for (const auto& looks : eyes) {
                     to.put(looks.size());

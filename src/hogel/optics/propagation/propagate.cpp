@@ -81,7 +81,7 @@ class TileWork {
             for (std::size_t y = 0; y < rows; ++y) {
                 std::copy_n(&samples(y, 0), width, line[0].data());
                 inward(line[0]);
-                std::copy_n(line[0].data(), inward.outputs(), kept_.row(y0 + y));
+                kept_.put_row(y0 + y, line[0].data());
             }
             done();
         });
@@ -91,6 +91,7 @@ class TileWork {
         const AxisPlan& y = plan_.y;
         const LineTransform inward(y.field, y.frequencies, -1, y.field.step, y.inward);
         const LineTransform outward(y.frequencies, y.output, 1, 1 / (plan_.x.period * y.period), y.outward);
+        const core::OwnColumns before = kept_.in_columns(y.field.count), after = kept_.in_columns(y.output.count);
         const std::size_t blocks = blocks_of(columns_.count);
         std::vector<Transfer::Energy> energies(blocks);
         core::parallel_for(blocks, [&](std::size_t block) {
@@ -98,7 +99,7 @@ class TileWork {
                               count = std::min(lines_together, columns_.end() - x0);
             Lines lines(count, std::max(inward.buffer(), outward.buffer()));
             for (std::size_t row = 0; row < y.field.count; ++row)
-                for (std::size_t i = 0; i < count; ++i) lines[i][row] = kept_.at(row, x0 + i);
+                for (std::size_t i = 0; i < count; ++i) lines[i][row] = before(row, x0 + i);
             for (std::size_t i = 0; i < count; ++i) {
                 inward(lines[i]);
                 const std::span<Complex> frequencies = lines[i].first(y.frequencies.count);
@@ -111,7 +112,7 @@ class TileWork {
                 outward(lines[i]);
             }
             for (std::size_t row = 0; row < y.output.count; ++row)
-                for (std::size_t i = 0; i < count; ++i) kept_.at(row, x0 + i) = lines[i][row];
+                for (std::size_t i = 0; i < count; ++i) after(row, x0 + i) = lines[i][row];
             done();
         });
         require_little_grazing_light(energies);
@@ -149,7 +150,7 @@ class TileWork {
             Lines line(1, outward.buffer());
             Array<Complex, 2> samples({rows, region.width});
             for (std::size_t y = 0; y < rows; ++y) {
-                std::copy_n(kept_.row(y0 + y), outward.inputs(), line[0].data());
+                kept_.get_row(y0 + y, line[0].data());
                 outward(line[0]);
                 std::copy_n(line[0].data(), region.width, &samples(y, 0));
             }
