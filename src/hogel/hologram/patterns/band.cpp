@@ -76,37 +76,21 @@ FieldBand::FieldBand(View<const Complex, 2> field, std::size_t side)
 
 FieldBand::Match FieldBand::match(Array<Complex, 2>& shown) const {
     fft_.forward(shown);
-    const std::size_t rows = shown.extent(0), columns = shown.extent(1);
-    std::vector<std::complex<double>> products(rows);
-    std::vector<double> energies(rows);
-    core::parallel_for(rows, [&](std::size_t y) {
-        for (std::size_t x = 0; x < columns; ++x) {
-            if (lit_[y * columns + x] == 0) continue;
-            products[y] += std::complex<double>(shown(y, x) * std::conj(wanted_(y, x)));
-            energies[y] += std::norm(shown(y, x));
-        }
+    std::vector<Sums> rows(shown.extent(0));
+    core::parallel_for(rows.size(), [&](std::size_t y) {
+        for (std::size_t x = 0; x < shown.extent(1); ++x) add(y, x, shown(y, x), rows[y]);
     });
-    Match match;
-    double energy = 0;
-    std::complex<double> product = 0;
-    for (std::size_t y = 0; y < rows; ++y) {
-        product += products[y];
-        energy += energies[y];
-    }
-    if (!(energy > 0 && energy_ > 0)) return match;
-    match.error = std::max(0.0, 1 - std::norm(product) / (energy * energy_));
-    match.scale = std::conj(product) / energy;
-    return match;
+    Sums all;
+    for (const Sums& row : rows) all += row;
+    return match(all);
 }
 
-void FieldBand::difference(const Match& match, Array<Complex, 2>& shown) const {
-    const Complex scale(match.scale), factor(2.0 * std::conj(match.scale) / energy_);
-    core::parallel_for(shown.extent(0), [&](std::size_t y) {
-        for (std::size_t x = 0; x < shown.extent(1); ++x)
-            shown(y, x) =
-                lit_[y * shown.extent(1) + x] == 0 ? Complex(0) : factor * (scale * shown(y, x) - wanted_(y, x));
-    });
-    fft_.backward(shown);
+FieldBand::Match FieldBand::match(const Sums& sums) const {
+    Match match;
+    if (!(sums.energy > 0 && energy_ > 0)) return match;
+    match.error = std::max(0.0, 1 - std::norm(sums.product) / (sums.energy * energy_));
+    match.scale = std::conj(sums.product) / sums.energy;
+    return match;
 }
 
 }  // namespace hogel::hologram::patterns

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -60,21 +61,29 @@ Array<Complex, 2> fit(const FieldSource& source, const Modulator& modulator) {
     return field;
 }
 
+// Calls element(i) for all elements of an array, row by row on all threads.
+template <class Element>
+void for_rows(const Shape<2>& shape, const Element& element) {
+    core::parallel_for(shape[0], [&](std::size_t y) {
+        for (std::size_t i = y * shape[1]; i < (y + 1) * shape[1]; ++i) element(i);
+    });
+}
+
 // Scales the field so that |F| <= 1 except for the share `clip` of its samples, whose modulus is clipped to 1.
 void normalise(Array<Complex, 2>& field, double clip) {
-    std::vector<float> moduli;
-    moduli.reserve(field.size());
-    for (const Complex& value : field.elements())
-        if (value != Complex(0)) moduli.push_back(std::abs(value));
+    std::vector<float> moduli(field.size());
+    for_rows(field.shape(), [&](std::size_t i) { moduli[i] = std::abs(field.data()[i]); });
+    std::erase(moduli, 0.0f);
     if (moduli.empty()) throw Error(ErrorCode::usage, "the hologram is dark where the modulator is");
     const auto above = static_cast<std::size_t>(clip * static_cast<double>(moduli.size()));
     const auto largest = moduli.end() - 1 - static_cast<std::ptrdiff_t>(above);
     std::nth_element(moduli.begin(), largest, moduli.end());
     const float scale = 1 / *largest;
-    for (Complex& value : field.elements()) {
+    for_rows(field.shape(), [&](std::size_t i) {
+        Complex& value = field.data()[i];
         value *= scale;
         if (const float modulus = std::abs(value); modulus > 1) value /= modulus;
-    }
+    });
 }
 
 float cycles_of(Complex value) {
@@ -83,14 +92,14 @@ float cycles_of(Complex value) {
 }
 
 Array<float, 2> encode_phase(View<const Complex, 2> field, const PatternOptions& options, Convergence& convergence,
-                             const Progress& progress) {
+                             const Progress& progress, Team* team) {
     if (options.encoding == Encoding::gerchberg_saxton) {
         convergence.iterations = options.iterations > 0 ? options.iterations : projections;
         return iterate_phases(field, options, progress);
     }
-    if (options.encoding == Encoding::gradient) return descend_phases(field, options, convergence, progress);
+    if (options.encoding == Encoding::gradient) return descend_phases(field, options, convergence, progress, team);
     Array<float, 2> cycles(field.shape());
-    for (std::size_t y = 0; y < field.extent(0); ++y)
+    core::parallel_for(field.extent(0), [&](std::size_t y) {
         for (std::size_t x = 0; x < field.extent(1); ++x) {
             cycles(y, x) = cycles_of(field(y, x));
             if (options.encoding != Encoding::double_phase) continue;
@@ -99,13 +108,14 @@ Array<float, 2> encode_phase(View<const Complex, 2> field, const PatternOptions&
             cycles(y, x) += (x + y) % 2 == 0 ? spread : -spread;
             cycles(y, x) -= std::floor(cycles(y, x));
         }
+    });
     return cycles;
 }
 
 Array<std::uint8_t, 2> round_to_levels(View<const float, 2> values, unsigned levels, bool phases,
                                        const PhaseCode& code) {
     Array<std::uint8_t, 2> rounded(values.shape());
-    for (std::size_t i = 0; i < values.size(); ++i) {
+    for_rows(values.shape(), [&](std::size_t i) {
         const float value = values.data()[i];
         if (phases) {  // phases wrap around from the last level to the first
             double turns = value;
@@ -118,31 +128,45 @@ Array<std::uint8_t, 2> round_to_levels(View<const float, 2> values, unsigned lev
             const auto level = static_cast<unsigned>(std::lround(value * static_cast<float>(levels - 1)));
             rounded.data()[i] = static_cast<std::uint8_t>(std::lround(level * 255.0 / (levels - 1)));
         }
-    }
+    });
     return rounded;
 }
 
 // The share of the modulator's light that is F times the carrier: |<E, F c>|² / (<F, F> pixels).
 double efficiency_of(View<const Complex, 2> transmitted, View<const Complex, 2> field, const Carrier& carrier) {
-    std::complex<double> product = 0;
-    double energy = 0;
-    for (std::size_t y = 0; y < field.extent(0); ++y)
+    const FieldBand::Sums sums = sum_of_lines(field.extent(0), nullptr, [&](std::size_t y) {
+        FieldBand::Sums row;
         for (std::size_t x = 0; x < field.extent(1); ++x) {
-            const Complex wave = carrier.empty() ? field(y, x) : field(y, x) * carrier[x];
-            product += std::complex<double>(transmitted(y, x) * std::conj(wave));
-            energy += std::norm(wave);
+            const Complex wave = carrier.empty() ? field(y, x) : optics::times(field(y, x), carrier[x]);
+            row.product += std::complex<double>(optics::times(transmitted(y, x), std::conj(wave)));
+            row.energy += std::norm(wave);
         }
-    return std::norm(product) / (energy * static_cast<double>(field.size()));
+        return row;
+    });
+    return std::norm(sums.product) / (sums.energy * static_cast<double>(field.size()));
 }
 
+struct LightShare {
+    double light = 0, all = 0;
+    void operator+=(const LightShare& other) {
+        light += other.light;
+        all += other.all;
+    }
+};
+
 // The share of the modulator's light that reproduces the moduli of the field's local spectra: (Σ|A||B|)²/Σ|B|² of A's
-// energy in each square.
-double light_field_efficiency_of(View<const Complex, 2> transmitted, View<const Complex, 2> field, std::size_t side) {
+// energy in each square. The processes of a team share the squares.
+double light_field_efficiency_of(View<const Complex, 2> transmitted, View<const Complex, 2> field, std::size_t side,
+                                 Team* team) {
     side = std::min({side, field.extent(0), field.extent(1)});
     const math::Fft2 fft(side, side);
-    Array<Complex, 2> shown({side, side}), wanted({side, side});
-    double light = 0, all = 0;
-    for (std::size_t y0 = 0; y0 + side <= field.extent(0); y0 += side)
+    const std::size_t rows = field.extent(0) / side;
+    const core::LineRange own =
+        team != nullptr ? core::lines_of(team->rank(), team->size(), rows, 1) : core::LineRange{0, rows};
+    const LightShare share = sum_of_lines(own.count, team, [&](std::size_t row) {
+        Array<Complex, 2> shown({side, side}), wanted({side, side});
+        LightShare of_row;
+        const std::size_t y0 = (own.first + row) * side;
         for (std::size_t x0 = 0; x0 + side <= field.extent(1); x0 += side) {
             for (std::size_t y = 0; y < side; ++y) {
                 std::copy_n(&transmitted(y0 + y, x0), side, &shown(y, 0));
@@ -154,11 +178,13 @@ double light_field_efficiency_of(View<const Complex, 2> transmitted, View<const 
             for (std::size_t f = 0; f < shown.size(); ++f) {
                 product += std::abs(shown.data()[f]) * std::abs(wanted.data()[f]);
                 energy += std::norm(wanted.data()[f]);
-                all += std::norm(shown.data()[f]);
+                of_row.all += std::norm(shown.data()[f]);
             }
-            if (energy > 0) light += product * product / energy;
+            if (energy > 0) of_row.light += product * product / energy;
         }
-    return all > 0 ? light / all : 0;
+        return of_row;
+    });
+    return share.all > 0 ? share.light / share.all : 0;
 }
 
 }  // namespace
@@ -189,6 +215,11 @@ Table<EncodingInfo>& encodings() {
 }
 
 Pattern encode_pattern(const FieldSource& source, const PatternOptions& options, const Progress& progress) {
+    return encode_by(nullptr, source, options, progress);
+}
+
+Pattern hologram::patterns::encode_by(Team* team, const FieldSource& source, const PatternOptions& options,
+                                      const Progress& progress) {
     const core::StopScope scope(progress);
     require_fitting(source.grid(), options);
     Array<Complex, 2> field = fit(source, options.modulator);
@@ -198,13 +229,13 @@ Pattern encode_pattern(const FieldSource& source, const PatternOptions& options,
     Convergence convergence;
     const bool phases = is_phase_only(options.encoding);
     pattern.values = phases
-                         ? encode_phase(field, options, convergence, progress)
+                         ? encode_phase(field, options, convergence, progress, team)
                          : encode_amplitude(field, options, source.grid().wavelength, carrier, pattern.reference_angle);
     pattern.levels = round_to_levels(pattern.values, options.modulator.levels, phases, options.phase_code);
     const Array<Complex, 2> transmitted = transmission(pattern, options.encoding, options.phase_code);
     pattern.efficiency = efficiency_of(transmitted, field, carrier);
     if (!phases) return pattern;
-    pattern.light_field_efficiency = light_field_efficiency_of(transmitted, field, options.window);
+    pattern.light_field_efficiency = light_field_efficiency_of(transmitted, field, options.window, team);
     pattern.iterations = convergence.iterations;
     Array<Complex, 2> spectrum = transmitted;
     pattern.correlation = std::sqrt(1 - FieldBand(field, options.window).match(spectrum).error);
@@ -215,18 +246,19 @@ Encoding suitable_encoding(const FieldSource& source, const PatternOptions& opti
     require_fitting(source.grid(), options);
     const Array<Complex, 2> field = fit(source, options.modulator);
     Array<Complex, 2> phases(field.shape());
-    for (std::size_t i = 0; i < field.size(); ++i) phases.data()[i] = std::polar(1.0f, std::arg(field.data()[i]));
+    for_rows(field.shape(), [&](std::size_t i) { phases.data()[i] = std::polar(1.0f, std::arg(field.data()[i])); });
     const double error = FieldBand(field, options.window).match(phases).error;
     return std::sqrt(1 - error) >= phase_alone_correlation ? Encoding::phase : Encoding::gradient;
 }
 
 Array<Complex, 2> transmission(const Pattern& pattern, Encoding encoding, const PhaseCode& phase_code) {
     Array<Complex, 2> result(pattern.levels.shape());
-    for (std::size_t i = 0; i < result.size(); ++i) {
-        const double level = pattern.levels.data()[i];
-        result.data()[i] = is_phase_only(encoding) ? Complex(std::polar(1.0, phase_code.phase(level, 255)))
-                                                   : Complex(static_cast<float>(level / 255));
-    }
+    std::array<Complex, 256> of_level;
+    for (std::size_t level = 0; level < of_level.size(); ++level)
+        of_level[level] = is_phase_only(encoding)
+                              ? Complex(std::polar(1.0, phase_code.phase(static_cast<double>(level), 255)))
+                              : Complex(static_cast<float>(static_cast<double>(level) / 255));
+    for_rows(result.shape(), [&](std::size_t i) { result.data()[i] = of_level[pattern.levels.data()[i]]; });
     return result;
 }
 

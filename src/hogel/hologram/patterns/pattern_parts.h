@@ -1,12 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <complex>
 #include <cstdint>
+#include <string>
+#include <vector>
 
+#include "hogel/core/parallel.h"
+#include "hogel/core/shared_order.h"
+#include "hogel/core/shared_plane.h"
 #include "hogel/math/fft.h"
+#include "hogel/optics/phase_walk.h"
 #include "hogel/pattern.h"
+#include "hogel/team.h"
 
 namespace hogel::hologram::patterns {
+
+/// The sum of what each line has, of those of all processes of a team in their order, so that it is the same for any
+/// number of processes.
+template <class Sum>
+Sum sum_in_order(const std::vector<Sum>& own, Team* team) {
+    Sum sum{};
+    if (team == nullptr) {
+        for (const Sum& line : own) sum += line;
+        return sum;
+    }
+    core::MessageWriter message;
+    message.put(own);
+    for (const std::string& bytes : core::all_of(*team, message.take())) {
+        core::MessageReader reader(bytes);
+        for (const Sum& line : reader.get_vector<Sum>()) sum += line;
+    }
+    return sum;
+}
+
+/// The sum of of_line(i) of all own lines, and of those of the other processes of a team; the same for any number of
+/// threads and processes.
+template <class OfLine>
+auto sum_of_lines(std::size_t own, Team* team, const OfLine& of_line) {
+    std::vector<decltype(of_line(own))> lines(own);
+    core::parallel_for(own, [&](std::size_t i) { lines[i] = of_line(i); });
+    return sum_in_order(lines, team);
+}
 
 /// The carrier wave e^{2πi f_x·column}, by column. The useful order of a pattern is F times the carrier.
 using Carrier = std::vector<std::complex<float>>;
@@ -31,8 +66,9 @@ struct Convergence {
 };
 
 /// Encoding::gradient: phases in cycles [0, 1), by descent. Ends when the correlation with the field no longer gains.
+/// @param team  whose processes share the work, all of which call it and get the phases; null: none
 Array<float, 2> descend_phases(View<const std::complex<float>, 2> field, const PatternOptions& options,
-                               Convergence& convergence, const Progress& progress);
+                               Convergence& convergence, const Progress& progress, Team* team);
 /// Iterations where PatternOptions::iterations is 0: alternating projections, and the most of a descent.
 inline constexpr std::size_t projections = 40, max_descent_steps = 200;
 
@@ -43,15 +79,37 @@ class FieldBand {
     /// @param side  of the squares, samples
     FieldBand(View<const std::complex<float>, 2> field, std::size_t side);
 
+    /// Sums over frequencies of the band, of a pattern's spectrum P and the field's F.
+    struct Sums {
+        std::complex<double> product = 0;  ///< Σ P F*
+        double energy = 0;                 ///< Σ|P|²
+        void operator+=(const Sums& other) {
+            product += other.product;
+            energy += other.energy;
+        }
+    };
+    /// Adds frequency x of row y of the spectrum.
+    void add(std::size_t y, std::size_t x, std::complex<float> shown, Sums& sums) const {
+        if (lit_[y * wanted_.extent(1) + x] == 0) return;
+        sums.product += std::complex<double>(optics::times(shown, std::conj(wanted_(y, x))));
+        sums.energy += std::norm(shown);
+    }
+
     /// How a pattern and the field match within the band.
     struct Match {
         double error = 1;                ///< ε = 1 − |Σ P F*|² / (Σ|P|² Σ|F|²) over the band's frequencies
         std::complex<double> scale = 0;  ///< s, for which Σ|s P − F|² is least: ε Σ|F|²
     };
+    /// From the sums over all frequencies.
+    Match match(const Sums& sums) const;
     /// Matches a pattern, which becomes its spectrum.
     Match match(Array<std::complex<float>, 2>& shown) const;
-    /// From that spectrum to the pattern's derivative of the error: the samples of 2 s* (s P − F) / Σ|F|² in the band.
-    void difference(const Match& match, Array<std::complex<float>, 2>& shown) const;
+    /// A frequency of the spectrum of the error's derivative by the pattern: 2 s* (s P − F) / Σ|F|² in the band.
+    std::complex<float> derivative(const Match& match, std::size_t y, std::size_t x, std::complex<float> shown) const {
+        if (lit_[y * wanted_.extent(1) + x] == 0) return 0;
+        const std::complex<float> scale(match.scale), factor(2.0 * std::conj(match.scale) / energy_);
+        return optics::times(factor, optics::times(scale, shown) - wanted_(y, x));
+    }
 
   private:
     math::Fft2 fft_;
@@ -59,6 +117,11 @@ class FieldBand {
     std::vector<std::uint8_t> lit_;         // whether a frequency belongs to the band
     double energy_ = 0;                     // Σ|F|²
 };
+
+/// encode_pattern(), by the processes of a team together where the encoding allows it: see can_be_shared().
+Pattern encode_by(Team* team, const FieldSource& source, const PatternOptions& options, const Progress& progress);
+/// Whether processes can work on one pattern together.
+inline bool can_be_shared(Encoding encoding) { return encoding == Encoding::gradient; }
 
 /// Throws Error(usage) unless squares of this side fit the modulator.
 void require_squares_fit(View<const std::complex<float>, 2> field, std::size_t side);

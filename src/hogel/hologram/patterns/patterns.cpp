@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/core/shared_order.h"
 #include "hogel/core/shared_tiles.h"
+#include "hogel/hologram/patterns/pattern_parts.h"
 #include "hogel/pattern.h"
 
 namespace hogel {
@@ -45,8 +46,10 @@ std::vector<Pattern> encode_patterns(std::span<const std::shared_ptr<const Field
         for (std::size_t i = 0; i < fields.size(); ++i) patterns[i] = encode(i);
         return patterns;
     }
-    // A pattern is encoded as a whole, with all threads of a process.
-    core::TileQueue queue(*all, all->next_number(), fields.size());
+    // As many patterns as go round are encoded by one process each, with all its threads; those that are left by all
+    // together, where the encoding allows it.
+    const std::size_t left = hologram::patterns::can_be_shared(options.encoding) ? fields.size() % all->size() : 0;
+    core::TileQueue queue(*all, all->next_number(), fields.size() - left);
     std::vector<std::size_t> own;
     while (const std::optional<std::size_t> i = queue.next()) {
         patterns[*i] = encode(*i);
@@ -65,6 +68,8 @@ std::vector<Pattern> encode_patterns(std::span<const std::shared_ptr<const Field
                     if (other != process) all->send_to(other, to_message(patterns[i]));
         }
     }
+    for (std::size_t i = fields.size() - left; i < fields.size(); ++i)
+        patterns[i] = hologram::patterns::encode_by(all, *fields[i], options, progress.part(i, fields.size()));
     return patterns;
 }
 
