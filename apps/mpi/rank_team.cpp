@@ -12,8 +12,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// How often messages are looked for: by the first process, for which others wait, and by those that wait for a stop.
-constexpr std::chrono::microseconds between_requests{200}, between_stops{5000}, between_answers{100};
+// How often messages are looked for: by the first process, for which others wait, less often while there are none; by
+// those that wait for an answer; and by those that wait for a stop.
+constexpr std::chrono::microseconds between_requests{200}, between_rare_requests{1600}, between_stops{5000},
+    between_answers{100};
 
 template <class... Numbers>
 std::string pack(Numbers... numbers) {
@@ -66,9 +68,11 @@ const Report* failure_among(const std::vector<std::optional<Report>>& reports) {
 
 RankTeam::RankTeam(Link& link) : link_(link), reports_(link.size()) {
     server_ = std::jthread([this](const std::stop_token& ended) {
-        while (!ended.stop_requested()) {
-            serve();
-            std::this_thread::sleep_for(link_.rank() == 0 ? between_requests : between_stops);
+        for (auto pause = between_requests; !ended.stop_requested(); std::this_thread::sleep_for(pause)) {
+            const bool any = serve();
+            pause = link_.rank() != 0 ? between_stops
+                    : any             ? between_requests
+                                      : std::min<std::chrono::microseconds>(2 * pause, between_rare_requests);
         }
     });
 }
@@ -84,19 +88,21 @@ void RankTeam::stop_with(std::stop_source stop) {
     if (stopping_) stop_.request_stop();
 }
 
-void RankTeam::serve() {
+// Returns whether there was anything to do for others.
+bool RankTeam::serve() {
+    bool any = false;
     if (link_.rank() == 0) {
-        while (serve_first()) {
-        }
+        while (serve_first()) any = true;
     } else if (link_.receive(Kind::stop)) {
         stop_here();
     }
     const std::lock_guard lock(mutex_);
-    if (!stop_.stop_requested() || std::exchange(stop_sent_, true)) return;
+    if (!stop_.stop_requested() || std::exchange(stop_sent_, true)) return any;
     if (link_.rank() == 0)
         stop_all();
     else
         link_.send(0, Kind::please_stop, "");
+    return any;
 }
 
 // Called with the lock.

@@ -67,7 +67,7 @@ class RankTeam final : public Team {
     };
     Report agree(Report own);
     std::optional<Report> exchange(Report own, std::optional<std::chrono::seconds> patience);
-    void serve();
+    bool serve();
     bool serve_first();
     void take_report(std::size_t from, Report report);
     void stop_all();

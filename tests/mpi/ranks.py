@@ -119,6 +119,8 @@ def same_photographs(run):
         "scene.exr": ["photo", "tower", *SIZE, *camera, "--geometric", "--pupil-samples", "8"],
         "eye.exr": ["photo", "rays.h5", *camera, "--wave", "--looks", "3", "--camera", "eye"],
         "colours.exr": ["photo", "tower", *SIZE, *camera, "--wave", "--looks", "2", "--camera", "eye"],
+        "looks.exr": ["photo", "rays.h5", *camera, "--wave", "--looks", "13", "--camera", "eye"],
+        "bent.exr": ["photo", "rays.h5", *camera, "--wave", "--looks", "9", "--camera", "eye", "--focus", "40mm"],
         "expected.exr": ["photo", "rays.h5", *camera, "--looks", "expected", "--wave", "--focus", "3mm"],
         "narrow.exr": ["photo", "hologram.h5", *camera],
         "full.exr": ["photo", "hologram.h5", *camera, "--camera", "full", "--focus", "1mm"],

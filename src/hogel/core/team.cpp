@@ -3,6 +3,7 @@
 
 #include <atomic>
 
+#include "hogel/core/alone.h"
 #include "hogel/error.h"
 
 namespace hogel {
@@ -19,6 +20,10 @@ TeamScope::TeamScope(Team& team) {
 }
 
 TeamScope::~TeamScope() { current = nullptr; }
+
+core::AloneScope::AloneScope() : team_(current.exchange(nullptr)) {}
+
+core::AloneScope::~AloneScope() { current = team_; }
 
 Team* team() { return current; }
 

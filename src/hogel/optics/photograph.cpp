@@ -14,6 +14,7 @@
 #include "hogel/optics/line_diffuser.h"
 #include "hogel/optics/narrow_band/narrow_band.h"
 #include "hogel/optics/photograph_plan.h"
+#include "hogel/optics/shared_looks.h"
 #include "hogel/optics/spectrum.h"
 #include "hogel/team.h"
 #include "hogel/units.h"
@@ -98,17 +99,24 @@ void photograph_window(const FieldSource& whole, const PhotographPlan::Window& p
     const std::size_t looks = window.looks();
     const std::size_t looks_at_once =
         plan.looks_at_once(static_cast<double>(options.memory), looks, share_of_bands(window, *drawing, looking));
-    for (std::size_t first = 0; first < looks; first += looks_at_once) {
-        const std::size_t count = std::min(looks_at_once, looks - first);
+    bool one_lens = true;
+    for (std::size_t e = 0; e < eyes.size(); ++e)
+        for (const std::size_t camera : eyes[e].members) one_lens = one_lens && films[e].has_one_lens(cameras[camera]);
+    const SharedLooks shared(looks, looks_at_once, one_lens);
+    const core::LineRange& own = shared.own();
+    for (std::size_t first = own.first; first < own.end(); first += looks_at_once) {
+        const std::size_t count = std::min(looks_at_once, own.end() - first);
         const auto report = [&](double done) {
-            progress.report((static_cast<double>(first) + done * static_cast<double>(count)) /
-                            static_cast<double>(looks));
+            progress.report((static_cast<double>(first - own.first) + done * static_cast<double>(count)) /
+                            static_cast<double>(own.count));
         };
-        auto drawn = drawing->draw(first, count, [&](double fraction) {
-            report(0.9 * fraction);
-            return true;
+        auto drawn = shared.drawn([&] {
+            return drawing->draw(first, count, [&](double fraction) {
+                report(0.9 * fraction);
+                return true;
+            });
         });
-        if (!is_first_process()) continue;  // the first one has the light of all
+        if (!shared.exposes()) continue;  // the first process has the light of all
         for (std::size_t e = 0; e < eyes.size(); ++e) {
             // Waves of a pupil take less memory than the bands from which they come.
             std::vector<film::PupilWave> waves;
@@ -116,8 +124,11 @@ void photograph_window(const FieldSource& whole, const PhotographPlan::Window& p
                 waves.push_back(films[e].pupil_wave(band));
                 band = {};
             }
-            for (std::size_t c = 0; c < eyes[e].members.size(); ++c)
+            for (std::size_t c = 0; c < eyes[e].members.size(); ++c) {
+                shared.take(intensities[e][c]);
                 films[e].expose(waves, cameras[eyes[e].members[c]], intensities[e][c]);
+                shared.hand_on(intensities[e][c]);
+            }
             report(0.9 + 0.1 * static_cast<double>(e + 1) / static_cast<double>(eyes.size()));
         }
     }
@@ -125,6 +136,7 @@ void photograph_window(const FieldSource& whole, const PhotographPlan::Window& p
     for (std::size_t e = 0; e < eyes.size(); ++e)
         for (std::size_t c = 0; c < eyes[e].members.size(); ++c) {
             const std::size_t camera = eyes[e].members[c];
+            shared.finish(intensities[e][c]);
             films[e].develop(intensities[e][c], cameras[camera], part.shown, 1 / static_cast<double>(looks),
                              images[camera]);
         }

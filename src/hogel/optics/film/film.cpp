@@ -236,6 +236,11 @@ void Film::transform_columns(const std::vector<char>& is_lit, Scratch& scratch) 
     });
 }
 
+bool Film::has_one_lens(const Camera& camera) const {
+    const FilmLens lens(size_.sines, hologram_.wavelength, camera);
+    return lens.nodes_x * lens.nodes_y == 1;
+}
+
 void Film::expose(std::span<const PupilWave> pupil_waves, const Camera& camera, View<float, 2> intensity) const {
     const FilmLens lens(size_.sines, hologram_.wavelength, camera);
     // Between nodes the intensities are blended linearly.

@@ -81,6 +81,10 @@ class Film {
     /// unexposed(). The lens is computed once for all of them.
     void expose(std::span<const PupilWave> pupil_waves, const Camera& camera, View<float, 2> intensity) const;
 
+    /// Whether a camera's lens is the same for light from all over the film, so that looks are exposed one after the
+    /// other.
+    bool has_one_lens(const Camera& camera) const;
+
     /// Adds a camera's picture, in radiance, of the part `shown` of the hologram plane.
     /// @param weight  factor of the intensities: the reciprocal of the number of looks that they sum
     void develop(View<const float, 2> blocks, const Camera& camera, const Rectangle& shown, double weight,

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/optics/shared_looks.h"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include "hogel/core/shared_order.h"
+#include "hogel/error.h"
+
+namespace hogel::optics {
+namespace {
+
+// Looks for each process, because each of them prepares all hogels, which takes as long as one or two looks.
+constexpr std::size_t min_looks = 4;
+
+// Floats of a message: a MiB, because the memory of larger ones is new each time.
+constexpr std::size_t piece = std::size_t{1} << 18;
+
+}  // namespace
+
+SharedLooks::SharedLooks(std::size_t looks, std::size_t at_once, bool can_be_so) : own_{0, looks} {
+    Team* const all = core::team_of_several();
+    if (all == nullptr || !can_be_so || looks < min_looks * all->size() || core::result_log() != nullptr) return;
+    if ((looks + all->size() - 1) / all->size() > at_once) return;
+    team_ = all;
+    own_ = core::lines_of(all->rank(), all->size(), looks, 1);
+}
+
+void SharedLooks::receive(std::size_t process, Array<float, 2>& film) const {
+    for (std::size_t first = 0; first < film.size(); first += piece) {
+        const std::string bytes = team_->receive_from(process);
+        if (bytes.size() != std::min(piece, film.size() - first) * sizeof(float))
+            throw Error(ErrorCode::internal, "a film from another process has another size than expected");
+        std::memcpy(film.data() + first, bytes.data(), bytes.size());
+    }
+}
+
+void SharedLooks::take(Array<float, 2>& film) const {
+    if (is_shared() && !team_->is_first()) receive(team_->rank() - 1, film);
+}
+
+void SharedLooks::hand_on(const Array<float, 2>& film) const {
+    if (!is_shared()) return;
+    for (std::size_t first = 0; first < film.size(); first += piece)
+        team_->send_to((team_->rank() + 1) % team_->size(), {reinterpret_cast<const char*>(film.data() + first),
+                                                             std::min(piece, film.size() - first) * sizeof(float)});
+}
+
+void SharedLooks::finish(Array<float, 2>& film) const {
+    if (is_shared() && team_->is_first()) receive(team_->size() - 1, film);
+}
+
+}  // namespace hogel::optics
