@@ -13,8 +13,8 @@ namespace hogel::core {
 /// What a new array holds: anything, for one that is written before it is read, takes no time.
 enum class Contents { zero, unset };
 
-/// An array of complex values in memory or in a mapped file without a name, which the system pages in
-/// and out and removes with the array. It should be accessed by rows or by blocks of neighbouring columns.
+/// An array of complex values, in memory or in a mapped file without a name, which the system pages in and out and
+/// removes with the array. It should be accessed by rows or by blocks of neighbouring columns.
 class PagedArray {
   public:
     PagedArray() = default;

@@ -62,11 +62,11 @@ SharedPlane::SharedPlane(std::size_t rows, std::size_t columns, std::size_t rows
     }
     // For any number of rows up to this one.
     const std::size_t groups = (rows + rows_together - 1) / rows_together;
-    const std::size_t most_rows = std::min(rows, (groups + size_ - 1) / size_ * rows_together);
+    const std::size_t max_rows = std::min(rows, (groups + size_ - 1) / size_ * rows_together);
     std::size_t samples = 0;
     for (std::size_t process = 0; process < size_; ++process) {
         block_starts_.push_back(samples);
-        samples += most_rows * std::max(lines_of(process, size_, columns, columns_together).count, own_columns().count);
+        samples += max_rows * std::max(lines_of(process, size_, columns, columns_together).count, own_columns().count);
     }
     samples_ = size_ == 1 ? PagedArray({rows, columns}, scratch, Contents::unset)
                           : PagedArray({1, std::max<std::size_t>(samples, 1)}, scratch, Contents::unset);

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <complex>
 #include <cstddef>
 #include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "hogel/core/paged_array.h"
+#include "hogel/core/shared_order.h"
 #include "hogel/team.h"
 
 namespace hogel::core {
@@ -23,6 +26,24 @@ LineRange common_lines(const LineRange& a, const LineRange& b);
 
 /// The lines of one of several processes: about equally many, in groups of `together`.
 LineRange lines_of(std::size_t process, std::size_t processes, std::size_t lines, std::size_t together);
+
+/// Those of this process, one by one: all, where there is no team.
+inline LineRange own_lines(const Team* team, std::size_t lines) {
+    return team != nullptr ? lines_of(team->rank(), team->size(), lines, 1) : LineRange{0, lines};
+}
+
+/// Gives all processes of a team the lines that each has made of an array that each has room for.
+/// @param length  of a line
+/// @param made    the lines that a process has made
+template <class Value, class Made>
+void share_lines(Team& team, Value* lines, std::size_t length, const Made& made) {
+    const LineRange own = made(team.rank());
+    MessageWriter message;
+    message.put(std::vector<Value>(lines + own.first * length, lines + own.end() * length));
+    const std::vector<std::string> all = all_of(team, message.take());
+    for (std::size_t process = 0; process < team.size(); ++process)
+        std::ranges::copy(MessageReader(all[process]).get_vector<Value>(), lines + made(process).first * length);
+}
 
 /// Places in the own columns of a plane, [row][column].
 class OwnColumns {

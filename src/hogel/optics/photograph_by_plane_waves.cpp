@@ -334,14 +334,7 @@ void require_photographable(const FieldSource& hologram, std::span<const Camera>
 // Gives all processes of a team the rows of a picture that each has made.
 template <class Value>
 void share_rows(Team& team, const Camera& camera, Value* picture, std::size_t width) {
-    const core::LineRange own = own_rows(camera, &team);
-    core::MessageWriter message;
-    message.put(std::vector<Value>(picture + own.first * width, picture + own.end() * width));
-    const std::vector<std::string> all = core::all_of(team, message.take());
-    for (std::size_t process = 0; process < team.size(); ++process) {
-        core::MessageReader reader(all[process]);
-        std::ranges::copy(reader.get_vector<Value>(), picture + rows_of(process, camera, &team).first * width);
-    }
+    core::share_lines(team, picture, width, [&](std::size_t process) { return rows_of(process, camera, &team); });
 }
 
 // Calls visit(i, wave) with the wave that makes each camera's picture.

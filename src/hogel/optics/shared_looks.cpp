@@ -24,7 +24,7 @@ SharedLooks::SharedLooks(std::size_t looks, std::size_t at_once, bool can_be_so)
     if (all == nullptr || !can_be_so || looks < min_looks * all->size() || core::result_log() != nullptr) return;
     if ((looks + all->size() - 1) / all->size() > at_once) return;
     team_ = all;
-    own_ = core::lines_of(all->rank(), all->size(), looks, 1);
+    own_ = core::own_lines(all, looks);
 }
 
 void SharedLooks::receive(std::size_t process, Array<float, 2>& film) const {

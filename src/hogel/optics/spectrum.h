@@ -42,7 +42,7 @@ struct Spectrum {
 class Wave final : public FieldSource {
   public:
     Wave(const FieldGrid& grid, const ScratchOptions& scratch);
-    /// Of which this process has these rows.
+    /// A wave that the processes of a team share: the samples are those rows that this one has.
     Wave(const FieldGrid& grid, core::PagedArray samples, const core::LineRange& rows);
     const FieldGrid& grid() const override { return grid_; }
     void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override;

@@ -76,13 +76,11 @@ FieldBand::FieldBand(View<const Complex, 2> field, std::size_t side)
 
 FieldBand::Match FieldBand::match(Array<Complex, 2>& shown) const {
     fft_.forward(shown);
-    std::vector<Sums> rows(shown.extent(0));
-    core::parallel_for(rows.size(), [&](std::size_t y) {
-        for (std::size_t x = 0; x < shown.extent(1); ++x) add(y, x, shown(y, x), rows[y]);
-    });
-    Sums all;
-    for (const Sums& row : rows) all += row;
-    return match(all);
+    return match(sum_of_lines(shown.extent(0), nullptr, [&](std::size_t y) {
+        Sums row;
+        for (std::size_t x = 0; x < shown.extent(1); ++x) add(y, x, shown(y, x), row);
+        return row;
+    }));
 }
 
 FieldBand::Match FieldBand::match(const Sums& sums) const {
@@ -90,6 +88,7 @@ FieldBand::Match FieldBand::match(const Sums& sums) const {
     if (!(sums.energy > 0 && energy_ > 0)) return match;
     match.error = std::max(0.0, 1 - std::norm(sums.product) / (sums.energy * energy_));
     match.scale = std::conj(sums.product) / sums.energy;
+    match.slope = Complex(2.0 * std::conj(match.scale) / energy_);
     return match;
 }
 

@@ -161,8 +161,7 @@ double light_field_efficiency_of(View<const Complex, 2> transmitted, View<const 
     side = std::min({side, field.extent(0), field.extent(1)});
     const math::Fft2 fft(side, side);
     const std::size_t rows = field.extent(0) / side;
-    const core::LineRange own =
-        team != nullptr ? core::lines_of(team->rank(), team->size(), rows, 1) : core::LineRange{0, rows};
+    const core::LineRange own = core::own_lines(team, rows);
     const LightShare share = sum_of_lines(own.count, team, [&](std::size_t row) {
         Array<Complex, 2> shown({side, side}), wanted({side, side});
         LightShare of_row;

@@ -99,6 +99,7 @@ class FieldBand {
     struct Match {
         double error = 1;                ///< ε = 1 − |Σ P F*|² / (Σ|P|² Σ|F|²) over the band's frequencies
         std::complex<double> scale = 0;  ///< s, for which Σ|s P − F|² is least: ε Σ|F|²
+        std::complex<float> slope = 0;   ///< 2 s* / Σ|F|²
     };
     /// From the sums over all frequencies.
     Match match(const Sums& sums) const;
@@ -107,8 +108,7 @@ class FieldBand {
     /// A frequency of the spectrum of the error's derivative by the pattern: 2 s* (s P − F) / Σ|F|² in the band.
     std::complex<float> derivative(const Match& match, std::size_t y, std::size_t x, std::complex<float> shown) const {
         if (lit_[y * wanted_.extent(1) + x] == 0) return 0;
-        const std::complex<float> scale(match.scale), factor(2.0 * std::conj(match.scale) / energy_);
-        return optics::times(factor, optics::times(scale, shown) - wanted_(y, x));
+        return optics::times(match.slope, optics::times(std::complex<float>(match.scale), shown) - wanted_(y, x));
     }
 
   private:
