@@ -12,6 +12,9 @@
 namespace hogel::core {
 namespace {
 
+// The part of a block that may be idle, and of one that would have to go otherwise.
+constexpr double max_idle = 0.25, max_idle_of_last = 0.6;
+
 constexpr std::size_t line = 64, page = 4096, huge_page = std::size_t{2} << 20;
 
 // Whole pages, so that sizes that hardly differ are one size.
@@ -35,11 +38,13 @@ FreedBlocks::~FreedBlocks() {
     for (const auto& [bytes, memory] : blocks_) std::free(memory);
 }
 
-// The smallest kept block that is large enough, unless more than a quarter of it would be idle; of several, the one
-// that was used last.
-void* FreedBlocks::take(std::size_t bytes) {
+// The smallest kept block that is large enough, unless more than a part of it would be idle; of several, the one that
+// was used last.
+void* FreedBlocks::take(std::size_t bytes, double idle) {
     const auto smallest = blocks_.lower_bound(bytes);
-    if (smallest == blocks_.end() || smallest->first - bytes > smallest->first / 4) return nullptr;
+    if (smallest == blocks_.end() ||
+        static_cast<double>(smallest->first - bytes) > idle * static_cast<double>(smallest->first))
+        return nullptr;
     const auto block = std::prev(blocks_.upper_bound(smallest->first));
     void* memory = block->second;
     kept_ -= block->first;
@@ -66,9 +71,14 @@ void* FreedBlocks::allocate(std::size_t bytes) {
     std::vector<void*> gone;
     {
         const std::lock_guard lock(mutex_);
-        if (void* memory = take(bytes)) return memory;
-        in_use_ += bytes;
-        gone = overflow(spare_ + (max_in_use_ > in_use_ ? max_in_use_ - in_use_ : 0));
+        if (void* memory = take(bytes, max_idle)) return memory;
+        const std::size_t needed = in_use_ + bytes;
+        const std::size_t can_stay = spare_ + (max_in_use_ > needed ? max_in_use_ - needed : 0);
+        // Rather than that a larger block goes, it is used.
+        if (kept_ > can_stay)
+            if (void* memory = take(bytes, max_idle_of_last)) return memory;
+        in_use_ = needed;
+        gone = overflow(can_stay);
     }
     for (void* block : gone) std::free(block);
     void* memory = fresh(bytes);

@@ -12,8 +12,9 @@ namespace hogel::core {
 /// about a second for each gigabyte on a virtual machine. Thread-safe.
 ///
 /// A program needs hardly more memory for it: blocks in use and blocks kept are together never more than was in use at
-/// some time before and `spare`, and what is kept is never more than max_kept. The largest blocks go first. Without
-/// anything to spare, blocks of two sizes that are needed in turns would drive out each other.
+/// some time before and `spare`, and what is kept is never more than max_kept. The largest blocks go first, unless one
+/// can be used for what is needed. Without anything to spare, blocks of two sizes that are needed in turns would drive
+/// out each other.
 class FreedBlocks {
   public:
     explicit FreedBlocks(std::size_t max_kept, std::size_t spare = 0) : max_kept_(max_kept), spare_(spare) {}
@@ -36,7 +37,7 @@ class FreedBlocks {
     std::size_t in_use() const;
 
   private:
-    void* take(std::size_t bytes);
+    void* take(std::size_t bytes, double idle);
     std::vector<void*> overflow(std::size_t max_kept);
 
     std::size_t max_kept_, spare_;

@@ -64,10 +64,21 @@ TEST(FreedBlocks, much_larger_ones_are_left_to_larger_requests) {
     blocks.free(small);
 }
 
-TEST(FreedBlocks, kept_and_used_are_no_more_than_was_used_before) {
+TEST(FreedBlocks, larger_ones_are_used_before_they_have_to_go) {
     FreedBlocks blocks(1000 * mega);
     void* first = blocks.allocate(40 * mega);
     void* second = blocks.allocate(20 * mega);
+    blocks.free(first);
+    blocks.free(second);
+    void* third = blocks.allocate(10 * mega);
+    EXPECT_EQ(third, second);
+    blocks.free(third);
+}
+
+TEST(FreedBlocks, kept_and_used_are_no_more_than_was_used_before) {
+    FreedBlocks blocks(1000 * mega);
+    void* first = blocks.allocate(40 * mega);
+    void* second = blocks.allocate(30 * mega);
     const std::size_t peak = blocks.in_use();
     blocks.free(first);
     blocks.free(second);

@@ -142,9 +142,9 @@ std::vector<SharedEye> group_by_eye(std::span<const Camera> cameras, std::span<c
 }
 
 std::size_t PhotographPlan::looks_at_once(double memory, std::size_t looks, double share) const {
-    // More than is kept when it is freed would be cleared by the system each time (core::FreedBlocks), a second for
-    // each gigabyte, and further looks save little.
-    const double spare = std::clamp(memory - bytes, 0.0, 448.0 * 1024 * 1024);
+    // No more than is kept when it is freed (core::FreedBlocks): the system would clear it each time, a second for each
+    // gigabyte.
+    const double spare = std::clamp(memory - bytes, 0.0, 1024.0 * 1024 * 1024);
     const double most = 1 + std::floor(spare / (bytes_a_look * share)), all = static_cast<double>(looks);
     // Equally many in each pass.
     return static_cast<std::size_t>(std::ceil(all / std::max(1.0, std::ceil(all / most))));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "hogel/core/shared_order.h"
@@ -75,17 +76,20 @@ std::vector<Image> photograph_colours(const Fields& holograms, std::span<const C
     std::optional<std::vector<std::vector<Image>>> together;  // [colour][camera]
     if (full == nullptr)
         together = optics::photograph_together(holograms, cameras, std::get<PhotographOptions>(with), progress);
-    for (std::size_t c = 0; c < colours; ++c) {
-        const Progress part = progress.part(c, colours);
+    // Short waves first: their bands have the most samples, and the other colours use the same memory.
+    std::vector<std::size_t> order(colours);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t c) { return holograms[c]->grid().wavelength; });
+    for (std::size_t k = 0; k < colours; ++k) {
+        const std::size_t c = order[k];
+        const Progress part = progress.part(k, colours);
         const std::vector<Image> seen =
             together          ? std::move((*together)[c])
             : full != nullptr ? photograph_by_plane_waves(*holograms[c], cameras, *full, part)
                               : photograph(*holograms[c], cameras, std::get<PhotographOptions>(with), part);
         for (std::size_t i = 0; i < cameras.size(); ++i) {
-            if (c == 0) {
-                pictures[i] = Image(seen[i].width(), seen[i].height(), colours);
-                pictures[i].provenance = seen[i].provenance;
-            }
+            if (k == 0) pictures[i] = Image(seen[i].width(), seen[i].height(), colours);
+            if (c == 0) pictures[i].provenance = seen[i].provenance;
             for (std::size_t pixel = 0; pixel < seen[i].pixels.size(); ++pixel)
                 pictures[i].pixels.data()[pixel * colours + c] = seen[i].pixels.data()[pixel];
         }

@@ -40,64 +40,92 @@ ColourEyes::ColourEyes(const Hogels& hogels, const HogelRange& range, std::vecto
     for (const EyeBand& eye : eyes_) in_lanes_ = in_lanes_ && eye.bend() <= max_bend_in_lanes;
 }
 
-// Draws the light of a part of the hogels into scratch.bands: what it reaches of each band.
-const EyeBands& ColourEyes::draw(const HogelPart& part, const Looks& looks, Scratch& scratch) const {
-    scratch.bands.resize(eyes_.size());
+// Floats of a row of a line, or of the light, of so many hogels. Looks by themselves need columns up to which nodes
+// fill whole vectors.
+std::size_t ColourEyes::line_row(std::size_t e, std::size_t hogels, const Scratch& scratch) const {
+    const std::size_t samples = eyes_[e].samples(hogels);
+    return scratch.side_by_side == 1 ? padded(samples + lanes - 1) : samples * scratch.side_by_side;
+}
+
+void ColourEyes::draw(const HogelPart& part, const Looks& looks, Scratch& scratch) const {
+    // Looks of one hogel fill the lanes.
+    scratch.side_by_side = in_lanes_ && 2 * looks.count > lanes ? lanes : 1;
+    scratch.light.resize(eyes_.size());
+    scratch.phases.resize(eyes_.size());
     for (std::size_t e = 0; e < eyes_.size(); ++e) {
-        const Shape<2> shape{eyes_[e].samples(part.nt), eyes_[e].samples(part.ns)};
-        scratch.bands[e].resize(looks.count);
-        for (Array<Complex, 2>& own : scratch.bands[e])
+        const EyeBand& eye = eyes_[e];
+        const Shape<3> shape{eye.samples(part.nt), 2, line_row(e, part.ns, scratch)};
+        scratch.light[e].resize((looks.count + scratch.side_by_side - 1) / scratch.side_by_side);
+        for (Array<float, 3>& own : scratch.light[e])
             if (own.shape() == shape)
-                std::ranges::fill(own.elements(), Complex(0));
+                std::ranges::fill(own.elements(), 0.0f);
             else
-                own = Array<Complex, 2>(shape);
+                own = Array<float, 3>(shape);
+        const Shape<3> samples{eye.samples(part.nt), 2, padded(eye.samples(part.ns))};
+        if (scratch.phases[e].shape() != samples) scratch.phases[e] = Array<float, 3>(samples);
+        eye.demodulation(part.s * eye.per_hogel(), part.t * eye.per_hogel(), scratch.phases[e]);
     }
     for (std::size_t t = 0; t < part.nt; t += tile_side)
         draw_tiles({range_.s0 + part.s, range_.t0 + part.t + t, part.ns, std::min(tile_side, part.nt - t)}, t, looks,
                    scratch);
-    return scratch.bands;
 }
 
-// Adds the light of a part to the bands of these eyes.
-void ColourEyes::add(std::span<const std::vector<Array<Complex, 2>>> light, const HogelPart& part,
+void ColourEyes::add(const Scratch& scratch, const HogelPart& part,
                      std::span<std::vector<Array<Complex, 2>>> bands) const {
-    for (std::size_t e = 0; e < eyes_.size(); ++e)
-        for (std::size_t look = 0; look < light[e].size(); ++look) {
-            const Array<Complex, 2>& own = light[e][look];
-            const std::size_t per_hogel = eyes_[e].per_hogel();
-            for (std::size_t row = 0; row < own.extent(0); ++row) {
-                const auto* from = reinterpret_cast<const float*>(&own(row, 0));
-                auto* to = reinterpret_cast<float*>(&bands[e][look](part.t * per_hogel + row, part.s * per_hogel));
-                for (std::size_t i = 0; i < 2 * own.extent(1); ++i) to[i] += from[i];
+    for (std::size_t e = 0; e < eyes_.size(); ++e) {
+        const Array<float, 3>& phases = scratch.phases[e];
+        const std::size_t x = part.s * eyes_[e].per_hogel(), y = part.t * eyes_[e].per_hogel();
+        const std::size_t columns = eyes_[e].samples(part.ns), together = scratch.side_by_side;
+        for (std::size_t first = 0; first < bands[e].size(); first += together) {
+            const Array<float, 3>& light = scratch.light[e][first / together];
+            const std::size_t count = std::min(together, bands[e].size() - first);
+            for (std::size_t row = 0; row < light.extent(0); ++row) {
+                const LightRow own{&light(row, 0, 0), light.extent(2), &phases(row, 0, 0), phases.extent(2)};
+                Complex* to[lanes];
+                for (std::size_t look = 0; look < count; ++look) to[look] = &bands[e][first + look](y + row, x);
+                if (together == 1)
+                    add_demodulated(own, columns, to[0]);
+                else
+                    add_demodulated_looks(own, columns, {to, count});
             }
         }
+    }
 }
 
-// Adds the light of a row of tiles, the row `first` of a part, to scratch.bands.
+EyeBands ColourEyes::light(const HogelPart& part, const Looks& looks, const Scratch& scratch) const {
+    EyeBands bands(eyes_.size());
+    for (std::size_t e = 0; e < eyes_.size(); ++e)
+        for (std::size_t look = 0; look < looks.count; ++look)
+            bands[e].emplace_back(Shape<2>{eyes_[e].samples(part.nt), eyes_[e].samples(part.ns)});
+    add(scratch, {0, 0, part.ns, part.nt}, bands);
+    return bands;
+}
+
+// Adds the light of a row of tiles, the row `first` of a part, to that of the part.
 void ColourEyes::draw_tiles(const HogelRange& some, std::size_t first, const Looks& looks, Scratch& scratch) const {
     scratch.first_row = first;
     prepare(some, scratch);
     scratch.views.resize(eyes_.size());
-    scratch.phases.resize(eyes_.size());
     for (std::size_t e = 0; e < eyes_.size(); ++e) {
-        const EyeBand& eye = eyes_[e];
-        const std::size_t nodes = eye.nodes();
-        Array<float, 4>& phases = scratch.phases[e];
-        const Shape<4> shape{some.hogels(), nodes, 2, phase_row(nodes)};
-        if (phases.shape() != shape) phases = Array<float, 4>(shape);
         std::vector<HogelView>& views = scratch.views[e];
         views.resize(some.hogels());
         HogelView view;
         for (std::size_t t = 0, h = 0; t < some.nt; ++t)
             for (std::size_t s = 0; s < some.ns; ++s, ++h) {
-                eye.view(hogels_, some.s0 + s, some.t0 + t, phases[h], view);
+                eyes_[e].view(hogels_, some.s0 + s, some.t0 + t, view);
                 views[h] = view;
             }
     }
-    if (in_lanes_)
-        draw_in_lanes(some, looks, scratch);
-    else
-        draw_one_by_one(some, looks, scratch);
+    // Lines of many looks are drawn row by row, so that they stay in the cache.
+    const std::size_t rows = looks.count == 1 ? some.nt : 1;
+    for (std::size_t row = 0; row < some.nt; row += rows) {
+        choose_lines(some, row, rows, looks, scratch);
+        if (in_lanes_)
+            draw_in_lanes(some, row, rows, looks, scratch);
+        else
+            draw_one_by_one(some, row, looks, scratch);
+        spread_lines(scratch);
+    }
 }
 
 void ColourEyes::prepare(const HogelRange& some, Scratch& scratch) const {
@@ -115,32 +143,88 @@ void ColourEyes::prepare(const HogelRange& some, Scratch& scratch) const {
     for (std::size_t h = 0; h < some.hogels(); ++h) scratch.moduli[h] = &prepared(h, 0);
 }
 
-// The place in the light of a part of the first node of a hogel.
-BandPlace ColourEyes::place(std::size_t e, const HogelRange& some, std::size_t hogel, std::size_t look,
-                            Scratch& scratch) const {
-    const std::size_t s = hogel % some.ns, t = scratch.first_row + hogel / some.ns;
-    Array<Complex, 2>& band = scratch.bands[e][look];
-    return {&band(t * eyes_[e].per_hogel(), s * eyes_[e].per_hogel()), band.extent(1)};
+// A line for hogels of each row that have the same weights down.
+void ColourEyes::choose_lines(const HogelRange& some, std::size_t row, std::size_t rows, const Looks& looks,
+                              Scratch& scratch) const {
+    scratch.band_lines.resize(eyes_.size());
+    for (std::size_t e = 0; e < eyes_.size(); ++e) {
+        BandLines& lines = scratch.band_lines[e];
+        lines.used = 0;
+        lines.of_hogel.resize(some.hogels());
+        const std::size_t together = scratch.side_by_side;
+        const std::size_t blocks = (looks.count + together - 1) / together;
+        const std::size_t nodes = together == 1 ? padded(eyes_[e].nodes()) : eyes_[e].nodes();
+        for (std::size_t hogel = row * some.ns; hogel < (row + rows) * some.ns; ++hogel) {
+            const HogelBasis::Weights& weights = scratch.views[e][hogel].rows;
+            const std::size_t in_part = scratch.first_row + hogel / some.ns, x = hogel % some.ns * eyes_[e].per_hogel();
+            std::size_t own = 0;
+            while (own < lines.used && (lines.all[own].row != in_part || lines.all[own].frequency != weights.frequency))
+                ++own;
+            if (own == lines.used) {
+                if (++lines.used > lines.all.size()) lines.all.emplace_back();
+                BandLine& line = lines.all[own];
+                line.row = in_part;
+                line.frequency = weights.frequency;
+                line.carrier = weights.carrier;
+                line.begin = x / lanes * lanes;
+                const std::size_t size = blocks * 2 * eyes_[e].bases().down.functions() * line_row(e, some.ns, scratch);
+                if (line.numbers.size() != size) line.numbers = Array<float, 1>({size});
+            }
+            lines.all[own].end = together == 1 ? padded(x + nodes) : x + nodes;
+            lines.of_hogel[hogel] = own;
+        }
+    }
 }
 
-void ColourEyes::draw_one_by_one(const HogelRange& some, const Looks& looks, Scratch& scratch) const {
+// The place in its line of the first node of a hogel.
+LinePlace ColourEyes::place(std::size_t e, const HogelRange& some, const Item& item, Scratch& scratch) const {
+    BandLines& lines = scratch.band_lines[e];
+    const std::size_t row = line_row(e, some.ns, scratch), x = item.hogel % some.ns * eyes_[e].per_hogel();
+    const std::size_t together = scratch.side_by_side, block = item.look / together;
+    BandLine& line = lines.all[lines.of_hogel[item.hogel]];
+    return {&line.numbers(block * 2 * eyes_[e].bases().down.functions() * row + x * together), row};
+}
+
+// Adds the light of lines to that of the part, and clears them.
+void ColourEyes::spread_lines(Scratch& scratch) const {
+    for (std::size_t e = 0; e < eyes_.size(); ++e)
+        for (std::size_t i = 0; i < scratch.band_lines[e].used; ++i) {
+            BandLine& line = scratch.band_lines[e].all[i];
+            const HogelBasis& down = eyes_[e].bases().down;
+            const std::size_t together = scratch.side_by_side, begin = line.begin * together;
+            const std::size_t columns = (line.end - line.begin) * together, rows = 2 * down.functions();
+            for (std::size_t block = 0; block < scratch.light[e].size(); ++block) {
+                Array<float, 3>& light = scratch.light[e][block];
+                const std::size_t row = light.extent(2);
+                float* numbers = &line.numbers(block * rows * row + begin);
+                spread_line(down, line.carrier, numbers, row, columns,
+                            &light(line.row * eyes_[e].per_hogel(), 0, begin));
+                for (std::size_t r = 0; r < rows; ++r) std::fill_n(numbers + r * row, columns, 0.0f);
+            }
+        }
+}
+
+void ColourEyes::draw_one_by_one(const HogelRange& some, std::size_t row, const Looks& looks, Scratch& scratch) const {
     Array<float, 1>& waves = scratch.waves;
     const std::size_t size = HogelWaves::size(hogels_.rows, hogels_.columns);
     if (waves.size() != size) waves = Array<float, 1>({size});
+    const std::size_t end = looks.count == 1 ? some.hogels() : (row + 1) * some.ns;
     for (std::size_t look = 0; look < looks.count; ++look)
-        for (std::size_t h = 0; h < some.hogels(); ++h) {
+        for (std::size_t h = row * some.ns; h < end; ++h) {
             const NearRows rows = eyes_.size() == 1 ? scratch.views[0][h].near : NearRows{};
             hogels_.waves->waves({scratch.moduli[h], hogels_.waves->prepared_size()},
                                  {some.s0 + h % some.ns, some.t0 + h / some.ns, looks.first + look}, rows,
                                  waves.data());
             middle_.apply(waves.data(), rows);
             for (std::size_t e = 0; e < eyes_.size(); ++e)
-                project(eyes_[e].bases(), scratch.views[e][h], waves.data(), place(e, some, h, look, scratch));
+                project(eyes_[e].bases(), scratch.views[e][h], waves.data(), place(e, some, {h, look}, scratch));
         }
 }
 
-// Batches are parts of tiles of hogels, in an order that depends neither on the eyes nor on the number of looks.
-void ColourEyes::draw_in_lanes(const HogelRange& some, const Looks& looks, Scratch& scratch) const {
+// Batches are parts of tiles of hogels for one look, which may be kept, and parts of rows for several. Either way,
+// those of a row are added in their order.
+void ColourEyes::draw_in_lanes(const HogelRange& some, std::size_t row, std::size_t rows, const Looks& looks,
+                               Scratch& scratch) const {
     const std::size_t together = std::max<std::size_t>(1, HogelWaves::lanes / looks.count);
     std::vector<std::size_t> hogels;
     std::vector<Item> items;
@@ -155,17 +239,17 @@ void ColourEyes::draw_in_lanes(const HogelRange& some, const Looks& looks, Scrat
         }
         hogels.clear();
     };
-    for (std::size_t t0 = 0; t0 < some.nt; t0 += tile_side)
-        for (std::size_t s0 = 0; s0 < some.ns; s0 += tile_side) {
-            if (keeps_tiles_ && looks.first == 0 && looks.count == 1)
-                kept = hogels_.kept_waves->tile(some.s0 + s0, some.t0 + t0);
-            for (std::size_t t = t0; t < std::min(t0 + tile_side, some.nt); ++t)
-                for (std::size_t s = s0; s < std::min(s0 + tile_side, some.ns); ++s) {
-                    hogels.push_back(t * some.ns + s);
-                    if (hogels.size() == together) flush();
-                }
-            flush();
-        }
+    const std::size_t width = looks.count == 1 ? tile_side : some.ns;
+    for (std::size_t s0 = 0; s0 < some.ns; s0 += width) {
+        if (keeps_tiles_ && looks.first == 0 && looks.count == 1)
+            kept = hogels_.kept_waves->tile(some.s0 + s0, some.t0 + row);
+        for (std::size_t t = row; t < row + rows; ++t)
+            for (std::size_t s = s0; s < std::min(s0 + width, some.ns); ++s) {
+                hogels.push_back(t * some.ns + s);
+                if (hogels.size() == together) flush();
+            }
+        flush();
+    }
 }
 
 void ColourEyes::set_groups(std::span<const Item> items, const std::vector<HogelView>& views, std::size_t waves,
@@ -218,11 +302,15 @@ void ColourEyes::draw_batch(const HogelRange& some, std::span<const Item> items,
             sum_rows(bases.across, lit_rows(e, g, scratch), kept.scale * group.columns.sign * group.rows.sign,
                      scratch.lines[e][g].data(), group.chosen, scratch.numbers.data());
         }
+        if (scratch.side_by_side != 1) {
+            add_looks(bases.across, scratch.numbers.data(), scratch.views[e][items.front().hogel].columns.carrier,
+                      place(e, some, items.front(), scratch));
+            continue;
+        }
         LaneTarget targets[HogelWaves::lanes];
         for (std::size_t lane = 0; lane < items.size(); ++lane) {
             const Item& item = items[lane];
-            targets[lane] = {scratch.views[e][item.hogel].phases.data(),
-                             place(e, some, item.hogel, item.look, scratch)};
+            targets[lane] = {scratch.views[e][item.hogel].columns.carrier, place(e, some, item, scratch)};
         }
         add_lanes(bases.across, scratch.numbers.data(), {targets, items.size()});
     }

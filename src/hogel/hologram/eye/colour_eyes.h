@@ -59,12 +59,26 @@ class ColourEyes {
         alignas(64) float chosen[HogelWaves::lanes];
     };
 
+    /// A line of the band under hogels of a row.
+    struct BandLine {
+        std::size_t row;                 // of the hogels, in the part
+        double frequency;                // of the weights down
+        const float* carrier;            // down
+        std::size_t begin = 0, end = 0;  // columns that are lit
+        Array<float, 1> numbers;         // [looks side by side][function down][part][column, look]
+    };
+    /// The lines of an eye, of which some are used.
+    struct BandLines {
+        std::vector<BandLine> all;
+        std::size_t used = 0;
+        std::vector<std::size_t> of_hogel;  // [hogel]
+    };
+
     /// Buffers for a part.
     struct Scratch {
         Array<float, 2> prepared;          // unless it is kept
         std::vector<const float*> moduli;  // prepared, [hogel]
         Array<float, 1> waves, gathered, numbers;
-        std::vector<Array<float, 4>> phases;              // [eye][hogel][node down][2][phase_row]
         std::vector<std::vector<HogelView>> views;        // [eye][hogel]
         std::vector<std::vector<Array<float, 1>>> lines;  // [eye][weights]: [row][function][part][lane]
         std::vector<std::vector<Group>> groups;           // [eye]
@@ -73,17 +87,23 @@ class ColourEyes {
         std::vector<std::size_t> rows;  // that are summed
         std::vector<HogelPlace> places;
         std::vector<const float*> sources;
-        EyeBands bands;             // of a part
-        std::size_t first_row = 0;  // of the hogels that are drawn, in the part
+        std::size_t side_by_side = 1;                     // looks in lines and in the light
+        std::vector<BandLines> band_lines;                // [eye]
+        std::vector<std::vector<Array<float, 3>>> light;  // [eye][looks side by side]: [row][part][column, look]
+        std::vector<Array<float, 3>> phases;              // [eye]: of the demodulation, [row][part][column]
+        std::size_t first_row = 0;                        // of the hogels that are drawn, in the part
     };
     auto scratch() const { return scratch_pool_.take(); }
 
-    /// The light of a part of the hogels, as far as it reaches in the band of each eye. It stays in the scratch.
-    const EyeBands& draw(const HogelPart& part, const Looks& looks, Scratch& scratch) const;
+    /// Draws the light of a part of the hogels, as far as it reaches in the band of each eye, into the scratch.
+    void draw(const HogelPart& part, const Looks& looks, Scratch& scratch) const;
 
-    /// Adds the light of a part to the bands of these eyes.
-    void add(std::span<const std::vector<Array<std::complex<float>, 2>>> light, const HogelPart& part,
+    /// Adds the light of a part that was drawn to bands of these eyes.
+    void add(const Scratch& scratch, const HogelPart& part,
              std::span<std::vector<Array<std::complex<float>, 2>>> bands) const;
+
+    /// What the light that was drawn reaches of each band.
+    EyeBands light(const HogelPart& part, const Looks& looks, const Scratch& scratch) const;
 
   private:
     // A hogel of a row of tiles and a look, one lane.
@@ -93,11 +113,16 @@ class ColourEyes {
 
     void draw_tiles(const HogelRange& some, std::size_t first, const Looks& looks, Scratch& scratch) const;
     void prepare(const HogelRange& some, Scratch& scratch) const;
-    BandPlace place(std::size_t e, const HogelRange& some, std::size_t hogel, std::size_t look, Scratch& scratch) const;
-    void draw_one_by_one(const HogelRange& some, const Looks& looks, Scratch& scratch) const;
+    std::size_t line_row(std::size_t e, std::size_t hogels, const Scratch& scratch) const;
+    void choose_lines(const HogelRange& some, std::size_t row, std::size_t rows, const Looks& looks,
+                      Scratch& scratch) const;
+    LinePlace place(std::size_t e, const HogelRange& some, const Item& item, Scratch& scratch) const;
+    void spread_lines(Scratch& scratch) const;
+    void draw_one_by_one(const HogelRange& some, std::size_t row, const Looks& looks, Scratch& scratch) const;
     static void set_groups(std::span<const Item> items, const std::vector<HogelView>& views, std::size_t waves,
                            std::vector<Group>& groups);
-    void draw_in_lanes(const HogelRange& some, const Looks& looks, Scratch& scratch) const;
+    void draw_in_lanes(const HogelRange& some, std::size_t row, std::size_t rows, const Looks& looks,
+                       Scratch& scratch) const;
     void draw_batch(const HogelRange& some, std::span<const Item> items, std::size_t first_look,
                     const KeptWaves::Tile& kept, Scratch& scratch) const;
     void sum_kept_rows(const KeptWaves::Tile& kept, Scratch& scratch) const;

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "hogel/hologram/eye/node_phases.h"
+#include "hogel/hologram/eye/demodulation.h"
 #include "hogel/optics/film/interpolation.h"
 #include "hogel/optics/phase_walk.h"
 
@@ -105,14 +105,12 @@ std::vector<EyeBand> EyeBand::of(const HogelLayout& hogels, const HogelRange& ra
         };
         own.grid_.plane = {own.samples(range.ns),     own.samples(range.nt), step(whole.pitch_x, across),
                            step(whole.pitch_y, down), whole.center_x,        whole.center_y};
-        for (std::size_t node = 0; node < own.nodes(); ++node) own.places_.push_back(own.across_->place(node));
         bands.push_back(std::move(own));
     }
     return bands;
 }
 
-void EyeBand::view(const HogelLayout& hogels, std::size_t s, std::size_t t, View<float, 3> phases,
-                   HogelView& view) const {
+void EyeBand::view(const HogelLayout& hogels, std::size_t s, std::size_t t, HogelView& view) const {
     const optics::ViewGeometry& geometry = grid_.geometry;
     const Grid& plane = hogels.grid.plane;
     const auto middle = [](std::size_t hogel, std::size_t samples) {
@@ -121,7 +119,7 @@ void EyeBand::view(const HogelLayout& hogels, std::size_t s, std::size_t t, View
     const double x = plane.x(middle(s, hogels.across())), y = plane.y(middle(t, hogels.down()));
     const double width = static_cast<double>(hogels.columns) * plane.pitch_x,
                  height = static_cast<double>(hogels.rows) * plane.pitch_y, wavelength = geometry.wavelength();
-    const double distance = geometry.distance(x, y), cycles = 1 / (distance * wavelength);
+    const double cycles = 1 / (geometry.distance(x, y) * wavelength);
     const auto set = [&](double frequency, const HogelBasis& basis, HogelBasis::Weights& weights, NearRows& near_ones) {
         if (weights.first != nullptr && HogelBasis::rounded(frequency) == weights.frequency) return;
         weights = basis.weights(frequency);
@@ -129,8 +127,6 @@ void EyeBand::view(const HogelLayout& hogels, std::size_t s, std::size_t t, View
     };
     set((x - geometry.eye().x) * width * cycles, *across_, view.columns, view.near_columns);
     set((geometry.eye().y - y) * height * cycles, *down_, view.rows, view.near);
-    set_phases({x, y, distance, width, height, view.columns.frequency, view.rows.frequency}, phases);
-    view.phases = phases;
 }
 
 // The waves m of n with |m + frequency| ≤ reach, modulo n.
@@ -142,35 +138,39 @@ NearRows EyeBand::near(double frequency, std::size_t waves) const {
     return {static_cast<std::size_t>(first - n * std::floor(first / n)), static_cast<std::size_t>(count)};
 }
 
-// e^{ik|x−c|} at the nodes, without the frequencies that are taken. Exact along the two lines through the middle;
-// elsewhere the product of both, times a bend that is nearly the same for all nodes: ∂²r/∂x∂y.
-void EyeBand::set_phases(const Place& hogel, View<float, 3> phases) const {
+// Squares of samples. Exact along the two lines through the middle of each; elsewhere the product of both, times a bend
+// that is nearly the same for all its samples: ∂²r/∂x∂y.
+void EyeBand::demodulation(std::size_t x0, std::size_t y0, View<float, 3> phases) const {
     const optics::ViewGeometry& geometry = grid_.geometry;
-    const double reach = places_.back();
-    const double distance = hogel.distance, size = reach * std::max(hogel.width, hogel.height);
-    const double x = hogel.x - geometry.eye().x, y = hogel.y - geometry.eye().y, z = geometry.eye().z;
-    // r grows by −n_x n_y/r along both axes, and rows run down.
-    const double bend = x * y * hogel.width * hogel.height / (distance * distance * distance * geometry.wavelength());
-    // The next terms of the series, in cycles, and the angle up to which its root is exact.
-    const bool small = size * size * size / (distance * distance * geometry.wavelength()) < 2e-4 &&
-                       2 * std::numbers::pi * std::abs(bend) * reach * reach < 0.1;
-    if (!small) return set_phases_one_by_one(hogel, phases);
-    const double frequency = 1 / geometry.wavelength();
-    const NodeLine across{x, hogel.width, y * y + z * z, frequency, hogel.columns, distance * frequency},
-        down{y, -hogel.height, x * x + z * z, frequency, hogel.rows, 0};
-    node_phases(across, down, bend, places_, phases.data());
-}
-
-void EyeBand::set_phases_one_by_one(const Place& hogel, View<float, 3> phases) const {
-    for (std::size_t row = 0; row < nodes(); ++row)
-        for (std::size_t column = 0; column < nodes(); ++column) {
-            const double right = places_[column], below = places_[row];
-            const std::complex<float> phase(optics::unit_phasor(
-                grid_.geometry.cycles(hogel.x + right * hogel.width, hogel.y - below * hogel.height) -
-                right * hogel.columns - below * hogel.rows));
-            phases(row, 0, 2 * column) = phases(row, 0, 2 * column + 1) = phase.real();
-            phases(row, 1, 2 * column) = -phase.imag();
-            phases(row, 1, 2 * column + 1) = phase.imag();
+    const Grid& plane = grid_.plane;
+    const double wavelength = geometry.wavelength(), frequency = 1 / wavelength, z = geometry.eye().z;
+    constexpr double reach = 0.5 * static_cast<double>(lanes);
+    const double size = reach * std::max(plane.pitch_x, plane.pitch_y);
+    const std::size_t row = phases.extent(2);
+    for (std::size_t down = 0; down < phases.extent(0); down += lanes)
+        for (std::size_t across = 0; across < row; across += lanes) {
+            const std::size_t rows = std::min(lanes, phases.extent(0) - down);
+            const auto middle = [](std::size_t first) { return static_cast<double>(first) - sample_place(0); };
+            const double at_x = plane.x(middle(x0 + across)), at_y = plane.y(middle(y0 + down));
+            const double x = at_x - geometry.eye().x, y = at_y - geometry.eye().y;
+            const double distance = geometry.distance(at_x, at_y);
+            // r grows by −n_x n_y/r along both axes, and rows run down.
+            const double bend = x * y * plane.pitch_x * plane.pitch_y / (distance * distance * distance * wavelength);
+            float* to = &phases(down, 0, across);
+            // The next terms of the series, in cycles, and the angle up to which its root is exact.
+            if (size * size * size / (distance * distance * wavelength) < 2e-4 &&
+                2 * std::numbers::pi * std::abs(bend) * reach * reach < 0.1) {
+                eye::demodulation({x, plane.pitch_x, y * y + z * z, frequency, distance * frequency},
+                                  {y, -plane.pitch_y, x * x + z * z, frequency, 0}, bend, rows, to, row);
+                continue;
+            }
+            for (std::size_t i = 0; i < rows; ++i)
+                for (std::size_t j = 0; j < lanes; ++j) {
+                    const std::complex<float> phase(optics::unit_phasor(geometry.cycles(
+                        plane.x(static_cast<double>(x0 + across + j)), plane.y(static_cast<double>(y0 + down + i)))));
+                    to[2 * i * row + j] = phase.real();
+                    to[(2 * i + 1) * row + j] = phase.imag();
+                }
         }
 }
 

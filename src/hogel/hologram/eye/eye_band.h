@@ -52,26 +52,22 @@ class EyeBand {
     }
 
     /// Sets a view, which may be that of a hogel beside, to a hogel as the eye sees it.
-    /// @param phases  receives those of the view, [node down][2][phase_row(nodes)]
-    void view(const HogelLayout& hogels, std::size_t s, std::size_t t, View<float, 3> phases, HogelView& view) const;
+    void view(const HogelLayout& hogels, std::size_t s, std::size_t t, HogelView& view) const;
+
+    /// The phases e^{ik|x−c|} of the demodulation, with the eye at c, at the samples of a part of the band.
+    /// @param x, y    the first sample
+    /// @param phases  [row][part][column], a multiple of `lanes` columns
+    void demodulation(std::size_t x, std::size_t y, View<float, 3> phases) const;
 
   private:
     explicit EyeBand(const optics::ViewGeometry& geometry) : grid_{geometry, {}} {}
-    // A hogel: its middle and the distance from there to the eye, its size, and the frequencies that its weights have
-    // taken from the demodulation.
-    struct Place {
-        double x, y, distance, width, height, columns, rows;
-    };
-    void set_phases(const Place& hogel, View<float, 3> phases) const;
-    void set_phases_one_by_one(const Place& hogel, View<float, 3> phases) const;
     NearRows near(double frequency, std::size_t waves) const;
 
     optics::narrow_band::BandGrid grid_;
     std::shared_ptr<const HogelBasis> across_, down_;
     std::size_t per_hogel_ = 0, overlap_ = 1;
     double bend_ = 0;
-    double reach_ = 0;            // waves on either side of the eye's direction that count, across and down
-    std::vector<double> places_;  // of the nodes
+    double reach_ = 0;  // waves on either side of the eye's direction that count, across and down
 };
 
 }  // namespace hogel::hologram::eye

@@ -175,6 +175,19 @@ void HogelBasis::tabulate(View<const double, 2> functions, std::span<const doubl
         for (std::size_t i = 0; i <= samples_ / 2; ++i)
             for (std::size_t k = 0; k < functions_; ++k) folded_(fraction, i, k) = table_(fraction, k, i);
     make_pairs();
+    make_carriers();
+}
+
+// Places are odd multiples of half of a node's share of a hogel, so that carriers repeat.
+void HogelBasis::make_carriers() {
+    carriers_ = Array<float, 3>({2 * fractions * per_hogel_, 2, padded(nodes())});
+    for (std::size_t step = 0; step < carriers_.extent(0); ++step)
+        for (std::size_t node = 0; node < nodes(); ++node) {
+            const double cycles = static_cast<double>(step) / static_cast<double>(fractions) * place(node);
+            const double angle = -2 * pi * (cycles - std::round(cycles));
+            carriers_(step, 0, node) = static_cast<float>(std::cos(angle));
+            carriers_(step, 1, node) = static_cast<float>(std::sin(angle));
+        }
 }
 
 void HogelBasis::make_pairs() {
@@ -217,12 +230,14 @@ HogelBasis::Weights HogelBasis::weights(double frequency) const {
     const auto first = static_cast<std::size_t>(whole - turns * n);
     const bool opposite = samples_ % 2 == 0 && turns % 2 != 0;
     const std::size_t count = count_[fraction];
+    const auto period = static_cast<std::int32_t>(carriers_.extent(0));
     return {static_cast<double>(steps) / parts,
             opposite ? -1.0f : 1.0f,
             &table_(fraction, 0, first),
             2 * samples_,
             std::span(pairs_[fraction]).subspan(first * count, count),
-            alone_[fraction]};
+            alone_[fraction],
+            &carriers_(static_cast<std::size_t>(steps - floored(steps, period) * period), 0, 0)};
 }
 
 }  // namespace hogel::hologram::eye

@@ -11,6 +11,10 @@
 
 namespace hogel::hologram::eye {
 
+/// Numbers that are processed together: hogels, looks, rows of waves, and nodes of a band.
+inline constexpr std::size_t lanes = 16;
+constexpr std::size_t padded(std::size_t count) { return (count + lanes - 1) / lanes * lanes; }
+
 /// The few numbers that a hogel is worth to an eye, along one axis.
 ///
 /// Samples u_j of a hogel, j = 0 … n−1, demodulated towards the eye, send light of frequency κ (cycles per hogel) to a
@@ -22,7 +26,7 @@ namespace hogel::hologram::eye {
 ///   D(y) = sin πy / sin(πy/n).
 /// - With a window w_j, the kernel is Σ_j w_j² e^{2πi(κ−κ')(j−c)/n}, and D the transform of the window.
 /// - A band of `nodes_per_hogel` samples to a hogel has the light s_k v_k if its samples at the nodes b are
-///   i^{k mod 2} s_k spread(b, k).
+///   i^{k mod 2} s_k spread(b, k), times the carrier e^{−2πiνx_b} where weights are those of a frequency ν.
 class HogelBasis {
   public:
     enum class Window {
@@ -70,7 +74,8 @@ class HogelBasis {
         const float* first;
         std::size_t stride;
         std::span<const WavePair> pairs;
-        std::size_t alone;  ///< the last pairs, which have one wave only
+        std::size_t alone;     ///< the last pairs, which have one wave only
+        const float* carrier;  ///< e^{−2πiνx} at the nodes' places x: [part][padded(nodes)], 0 beyond them
     };
     static constexpr std::size_t fractions = 2;
     Weights weights(double frequency) const;
@@ -86,6 +91,7 @@ class HogelBasis {
     double square_at(double y) const;
     void tabulate(View<const double, 2> functions, std::span<const double> points, std::span<const double> shares);
     void make_pairs();
+    void make_carriers();
 
     std::size_t samples_, per_hogel_, functions_ = 0, before_ = 0;
     Window window_;
@@ -94,6 +100,7 @@ class HogelBasis {
     Array<float, 3> table_;                                      // [halves of ν][function][0 … 2n − 1]
     Array<float, 3> folded_;                                     // [halves of ν][0 … n/2][function]
     std::vector<WavePair> pairs_[fractions];                     // [whole part of ν][pair], those with one wave last
+    Array<float, 3> carriers_;                                   // [ν in steps, of a period][part][node]
     std::size_t count_[fractions] = {}, alone_[fractions] = {};  // of one whole part
 };
 

@@ -9,6 +9,8 @@ namespace hogel::hologram::eye {
 
 namespace {
 
+using Complex = std::complex<float>;
+
 // The sum of value(wave) over the waves of some pairs.
 template <class Value>
 float sum_of(const HogelBasis::Weights& weights, const Value& value) {
@@ -29,6 +31,18 @@ void sum_columns(const HogelBasis& basis, const HogelBasis::Weights& columns, co
                 sum_of(columns, [&](std::size_t wave) { return weights[wave] * value(wave * 2 * lanes + i); });
             line[k * 2 * lanes + i] = sum;
         }
+}
+
+// The number of a lane at node x of function l down.
+Complex node_of_lane(const HogelBasis& basis, const float* numbers, const float* carrier, std::size_t lane,
+                     std::size_t l, std::size_t x) {
+    const auto turn = [](std::size_t function) { return function % 2 == 0 ? Complex(1) : Complex(0, 1); };
+    Complex sum = 0;
+    for (std::size_t k = 0; k < basis.functions(); ++k) {
+        const float* number = numbers + (l * basis.functions() + k) * 2 * lanes + lane;
+        sum += basis.spread()(x, k) * turn(k) * turn(l) * Complex(number[0], number[lanes]);
+    }
+    return sum * Complex(carrier[x], carrier[padded(basis.nodes()) + x]);
 }
 
 }  // namespace
@@ -56,24 +70,25 @@ void sum_rows_plain(const HogelBasis& basis, const HogelBasis::Weights& rows, fl
 }
 
 void add_lanes_plain(const HogelBasis& basis, const float* numbers, std::span<const LaneTarget> targets) {
-    using Complex = std::complex<float>;
-    const auto turn = [](std::size_t function) { return function % 2 == 0 ? Complex(1) : Complex(0, 1); };
-    const std::size_t functions = basis.functions(), nodes = basis.nodes();
-    const View<const float, 2> spread = basis.spread();
-    for (std::size_t lane = 0; lane < targets.size(); ++lane) {
-        const LaneTarget& target = targets[lane];
-        for (std::size_t y = 0; y < nodes; ++y)
-            for (std::size_t x = 0; x < nodes; ++x) {
-                Complex sum = 0;
-                for (std::size_t l = 0; l < functions; ++l)
-                    for (std::size_t k = 0; k < functions; ++k) {
-                        const float* number = numbers + (l * functions + k) * 2 * lanes + lane;
-                        sum += spread(y, l) * spread(x, k) * turn(k) * turn(l) * Complex(number[0], number[lanes]);
-                    }
-                const float* phase = target.phases + 2 * y * phase_row(nodes) + 2 * x;
-                target.band.first[y * target.band.row + x] += sum * Complex(phase[0], phase[phase_row(nodes) + 1]);
+    for (std::size_t lane = 0; lane < targets.size(); ++lane)
+        for (std::size_t l = 0; l < basis.functions(); ++l)
+            for (std::size_t x = 0; x < basis.nodes(); ++x) {
+                const Complex sum = node_of_lane(basis, numbers, targets[lane].carrier, lane, l, x);
+                float* to = targets[lane].line.first + 2 * l * targets[lane].line.row + x;
+                to[0] += sum.real();
+                to[targets[lane].line.row] += sum.imag();
             }
-    }
+}
+
+void add_looks_plain(const HogelBasis& basis, const float* numbers, const float* carrier, const LinePlace& line) {
+    for (std::size_t look = 0; look < lanes; ++look)
+        for (std::size_t l = 0; l < basis.functions(); ++l)
+            for (std::size_t x = 0; x < basis.nodes(); ++x) {
+                const Complex sum = node_of_lane(basis, numbers, carrier, look, l, x);
+                float* to = line.first + 2 * l * line.row + x * lanes + look;
+                to[0] += sum.real();
+                to[line.row] += sum.imag();
+            }
 }
 
 }  // namespace hogel::hologram::eye

@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "hogel/hologram/eye/project.h"
+#include "hogel/hologram/eye/band_lines.h"
+#include "hogel/hologram/eye/hogel_basis.h"
 
 namespace hogel::hologram::eye {
 
@@ -36,15 +37,21 @@ void sum_rows_plain(const HogelBasis& basis, const HogelBasis::Weights& rows, fl
 void sum_rows(const HogelBasis& basis, const HogelBasis::Weights& rows, float sign, const float* lines,
               const float* chosen, float* numbers);
 
-/// The place of a lane in its band and what is left of the demodulation, as in HogelView.
+/// The place of a lane in its line, and the carrier across as in HogelBasis::Weights.
 struct LaneTarget {
-    const float* phases;
-    BandPlace band;
+    const float* carrier;
+    LinePlace line;
 };
 
-/// Adds the light of lanes to their bands, one lane after the other in each row: E numbers Eᵀ, times their phases, with
-/// E = basis.spread() with a factor i for odd functions.
+/// Adds the light of lanes to their lines: numbers E_xᵀ, times the carrier, with E = spread() of the basis, and a
+/// factor i for each odd function across or down. padded(nodes) numbers of each row of a line are read and written.
 void add_lanes_plain(const HogelBasis& basis, const float* numbers, std::span<const LaneTarget> targets);
 void add_lanes(const HogelBasis& basis, const float* numbers, std::span<const LaneTarget> targets);
+
+/// The same where lanes are looks of one hogel, for lines that have sixteen looks side by side: [function
+/// down][part][node across][look]. Nothing has to be turned.
+/// @param line  aligned to a cache line; only numbers of nodes are read and written
+void add_looks_plain(const HogelBasis& basis, const float* numbers, const float* carrier, const LinePlace& line);
+void add_looks(const HogelBasis& basis, const float* numbers, const float* carrier, const LinePlace& line);
 
 }  // namespace hogel::hologram::eye

@@ -13,8 +13,8 @@
 
 #include "hogel/core/half.h"
 #include "hogel/core/with_count.h"
-#include "hogel/hologram/eye/add_nodes-inl.h"
 #include "hogel/hologram/eye/lanes.h"
+#include "hogel/hologram/eye/spread_pairs-inl.h"
 #include "hogel/math/transpose-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -38,6 +38,9 @@ void SumRows(const HogelBasis& basis, const HogelBasis::Weights& rows, float sig
 }
 void AddLanes(const HogelBasis& basis, const float* numbers, std::span<const LaneTarget> targets) {
     add_lanes_plain(basis, numbers, targets);
+}
+void AddLooks(const HogelBasis& basis, const float* numbers, const float* carrier, const LinePlace& line) {
+    add_looks_plain(basis, numbers, carrier, line);
 }
 #else
 using D = hn::CappedTag<float, lanes>;
@@ -64,7 +67,7 @@ HWY_INLINE V load(const std::uint16_t* numbers) {
 #endif
 }
 
-// Sums over pairs of items, `stride` numbers apart, of weights of some functions from `first` on; store(k, part, i,
+// Sums over pairs of items, `stride` numbers apart, of weights of some functions from `first` on; store(k, at,
 // sum). fetch() is called once for each pair.
 template <std::size_t functions, class Number, class Fetch, class Store>
 HWY_INLINE void sum_pairs(const Number* items, std::size_t stride, const HogelBasis::Weights& weights,
@@ -103,7 +106,7 @@ HWY_INLINE void sum_pairs(const Number* items, std::size_t stride, const HogelBa
                 }
             }
             for (std::size_t p = 0; p < parts_together; ++p)
-                for (std::size_t k = 0; k < functions; ++k) store(k, at + p * lanes + i, i, sums[p][k]);
+                for (std::size_t k = 0; k < functions; ++k) store(k, at + p * lanes + i, sums[p][k]);
         }
 }
 
@@ -113,9 +116,9 @@ HWY_INLINE void sum_numbers(const HogelBasis& basis, const HogelBasis::Weights& 
     const std::size_t functions = basis.functions();
     for (std::size_t first = 0; first < functions; first += together)
         with_count<together>(std::min(together, functions - first), [&](auto some) HWY_ATTR {
-            sum_pairs<some()>(waves, both, columns, first, fetch,
-                              [&](std::size_t k, std::size_t at, std::size_t, V sum)
-                                  HWY_ATTR { hn::Store(sum, D(), line + (first + k) * both + at); });
+            sum_pairs<some()>(waves, both, columns, first, fetch, [&](std::size_t k, std::size_t at, V sum) HWY_ATTR {
+                hn::Store(sum, D(), line + (first + k) * both + at);
+            });
         });
 }
 
@@ -141,133 +144,99 @@ void SumRowOfHalves(const HogelBasis& basis, const HogelBasis::Weights& columns,
 void SumRows(const HogelBasis& basis, const HogelBasis::Weights& rows, float sign, const float* lines,
              const float* chosen, float* numbers) {
     const D d;
-    const std::size_t functions = basis.functions(), line = functions * both;
+    const std::size_t functions = basis.functions(), line = functions * both, size = functions * line;
+    // Sums of all lanes go elsewhere where only some are stored.
+    thread_local std::vector<float, CacheLineAllocator<float> > scratch;
     const bool all = std::all_of(chosen, chosen + lanes, [](float one) { return one != 0; });
+    if (!all && scratch.size() < size) scratch.resize(size);
+    float* sums = all ? numbers : scratch.data();
     const V factor = hn::Set(d, sign);
     for (std::size_t first = 0; first < functions; first += together)
         with_count<together>(std::min(together, functions - first), [&](auto some) HWY_ATTR {
-            for (std::size_t k = 0; k < functions; ++k)
+            for (std::size_t k = 0; k < functions; ++k) {
+                float* to = sums + first * line + k * both;
                 sum_pairs<some()>(
                     lines + k * both, line, rows, first, [] {},
-                    [&](std::size_t l, std::size_t at, std::size_t i, V sum) HWY_ATTR {
-                        float* to = numbers + (first + l) * line + k * both + at;
-                        sum = hn::Mul(sum, factor);
-                        if (!all)
-                            sum = hn::IfThenElse(hn::Ne(hn::Load(d, chosen + i), hn::Zero(d)), sum, hn::Load(d, to));
-                        hn::Store(sum, d, to);
-                    });
-        });
-}
-
-// Pairs of nodes whose sums are held in registers.
-constexpr std::size_t pairs_together = parts_together == 2 ? 4 : 2;
-
-// Sums over functions for pairs of nodes from `first` on, at the same distance from the middle, which have the same
-// even functions and opposite odd ones: store(pair, i, even re, even im, odd re, odd im).
-template <std::size_t pairs, class Store>
-HWY_INLINE void spread_pairs(const HogelBasis& basis, std::size_t first, const float* in, const Store& store) {
-    const D d;
-    const std::size_t functions = basis.functions();
-    const float* spread = basis.spread().data() + first * functions;
-    for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
-        V sums[2][pairs][2];  // [odd][pair][part]
-        for (auto& parity : sums)
-            for (auto& sum : parity) sum[0] = sum[1] = hn::Zero(d);
-        const auto add = [&](std::size_t k, V(&to)[pairs][2]) HWY_ATTR {
-            const V re = hn::Load(d, in + k * both + i), im = hn::Load(d, in + k * both + lanes + i);
-            for (std::size_t p = 0; p < pairs; ++p) {
-                const V weight = hn::Set(d, spread[p * functions + k]);
-                to[p][0] = hn::MulAdd(weight, re, to[p][0]);
-                to[p][1] = hn::MulAdd(weight, im, to[p][1]);
+                    [=](std::size_t l, std::size_t at, V sum)
+                        HWY_ATTR { hn::Store(hn::Mul(sum, factor), D(), to + l * line + at); });
             }
-        };
-        for (std::size_t k = 0; k + 1 < functions; k += 2) {
-            add(k, sums[0]);
-            add(k + 1, sums[1]);
-        }
-        if (functions % 2 != 0) add(functions - 1, sums[0]);
-        for (std::size_t p = 0; p < pairs; ++p) store(p, i, sums[0][p][0], sums[0][p][1], sums[1][p][0], sums[1][p][1]);
+        });
+    for (std::size_t i = 0; !all && i < size; i += hn::Lanes(d)) {
+        const auto is_chosen = hn::Ne(hn::Load(d, chosen + i % lanes), hn::Zero(d));
+        hn::BlendedStore(hn::Load(d, sums + i), is_chosen, d, numbers + i);
     }
 }
 
-// Row l of the numbers at the nodes across: nodes[x][function down][part][lane], with i for odd functions, also down.
-template <std::size_t pairs>
-HWY_INLINE void spread_across(const HogelBasis& basis, std::size_t first, std::size_t l, const float* row,
-                              float* nodes) {
-    const D d;
-    const std::size_t column = basis.functions() * both, last = basis.nodes() - 1;
-    spread_pairs<pairs>(basis, first, row,
-                        [&](std::size_t p, std::size_t i, V even_re, V even_im, V odd_re, V odd_im) HWY_ATTR {
-                            const auto put = [&](std::size_t x, V re, V im) HWY_ATTR {
-                                float* to = nodes + x * column + l * both + i;
-                                hn::Store(l % 2 == 0 ? re : hn::Neg(im), d, to);
-                                hn::Store(l % 2 == 0 ? im : re, d, to + lanes);
-                            };
-                            put(first + p, hn::Sub(even_re, odd_im), hn::Add(even_im, odd_re));
-                            put(last - first - p, hn::Add(even_re, odd_im), hn::Sub(even_im, odd_re));
-                        });
-}
-
-// Column x of the nodes: rows[mirrored][pair][x][part][lane].
-template <std::size_t pairs>
-HWY_INLINE void spread_down(const HogelBasis& basis, std::size_t first, const float* column, float* to,
-                            std::size_t row) {
-    const D d;
-    spread_pairs<pairs>(basis, first, column,
-                        [&](std::size_t p, std::size_t i, V even_re, V even_im, V odd_re, V odd_im) HWY_ATTR {
-                            float *one = to + p * row + i, *other = one + pairs_together * row;
-                            hn::Store(hn::Add(even_re, odd_re), d, one);
-                            hn::Store(hn::Add(even_im, odd_im), d, one + lanes);
-                            hn::Store(hn::Sub(even_re, odd_re), d, other);
-                            hn::Store(hn::Sub(even_im, odd_im), d, other + lanes);
-                        });
-}
-
-// Turns a row of nodes, [x][part][lane], into rows of each lane, `apart` floats from one lane to the next.
-HWY_INLINE void turn_row(const float* row, std::size_t floats, std::size_t count, float* turned, std::size_t apart) {
-    for (std::size_t i = 0; i < floats; i += lanes)
-        transpose_sixteen([&](std::size_t j) { return row + (i + j) * lanes; }, lanes,
-                          [&](std::size_t lane) { return turned + std::min(lane, count) * apart + i; });
+// Turns numbers of nodes, [node][lane], into rows of each lane, `apart` floats from one lane to the next.
+HWY_INLINE void turn_nodes(const float* nodes, std::size_t across, std::size_t count, float* turned,
+                           std::size_t apart) {
+    for (std::size_t x = 0; x < across; x += lanes)
+        transpose_sixteen([&](std::size_t i) { return nodes + (x + i) * lanes; }, lanes,
+                          [&](std::size_t lane) { return turned + std::min(lane, count) * apart + x; });
 }
 
 void AddLanes(const HogelBasis& basis, const float* numbers, std::span<const LaneTarget> targets) {
-    const std::size_t functions = basis.functions(), nodes = basis.nodes(), line = functions * both;
-    const std::size_t row = phase_row(nodes) * lanes, pairs = (nodes + 1) / 2;
+    const D d;
+    const std::size_t functions = basis.functions(), nodes = basis.nodes(), across = padded(nodes);
     thread_local std::vector<float, CacheLineAllocator<float> > scratch;
-    const std::size_t floats = phase_row(nodes), apart = nodes * floats;  // of a row of one lane, and of one lane
-    const std::size_t needed = nodes * line + 2 * pairs_together * row + (targets.size() + 1) * apart;
+    const std::size_t part = across * lanes, apart = 2 * functions * across;  // of a row of all lanes, of one lane
+    const std::size_t needed = 2 * part + (targets.size() + 1) * apart;
     if (scratch.size() < needed) scratch.resize(needed);
-    float *columns = scratch.data(), *rows = columns + nodes * line, *turned = rows + 2 * pairs_together * row;
-    for (std::size_t l = 0; l < functions; ++l)
-        for (std::size_t first = 0; first < pairs; first += pairs_together)
-            with_count<pairs_together>(std::min(pairs_together, pairs - first), [&](auto some) HWY_ATTR {
-                spread_across<some()>(basis, first, l, numbers + l * line, columns);
-            });
-    for (std::size_t r = 0; r < 2 * pairs_together; ++r)
-        std::fill(rows + r * row + nodes * both, rows + (r + 1) * row, 0.0f);
-    for (std::size_t first = 0; first < pairs; first += pairs_together) {
-        const std::size_t count = std::min(pairs_together, pairs - first);
-        with_count<pairs_together>(count, [&](auto some) HWY_ATTR {
-            for (std::size_t x = 0; x < nodes; ++x)
-                spread_down<some()>(basis, first, columns + x * line, rows + x * both, row);
-        });
-        for (std::size_t p = 0; p < count; ++p) {
-            const std::size_t one = first + p, other = nodes - 1 - one;
-            turn_row(rows + p * row, floats, targets.size(), turned + one * floats, apart);
-            if (other != one)
-                turn_row(rows + (pairs_together + p) * row, floats, targets.size(), turned + other * floats, apart);
-        }
+    float *rows = scratch.data(), *turned = rows + 2 * part;
+    for (std::size_t p = 0; p < 2; ++p) std::fill(rows + p * part + nodes * lanes, rows + (p + 1) * part, 0.0f);
+    for (std::size_t l = 0; l < functions; ++l) {
+        for (std::size_t i = 0; i < lanes; i += hn::Lanes(d))
+            spread_pairs(basis, numbers + l * functions * both + i, lanes,
+                         [&](std::size_t x, V even_re, V even_im, V odd_re, V odd_im) HWY_ATTR {
+                             // i for odd functions, also down.
+                             const auto put = [&](std::size_t node, V re, V im) HWY_ATTR {
+                                 float* to = rows + node * lanes + i;
+                                 hn::Store(l % 2 == 0 ? re : hn::Neg(im), d, to);
+                                 hn::Store(l % 2 == 0 ? im : re, d, to + part);
+                             };
+                             put(x, hn::Sub(even_re, odd_im), hn::Add(even_im, odd_re));
+                             put(nodes - 1 - x, hn::Add(even_re, odd_im), hn::Sub(even_im, odd_re));
+                         });
+        for (std::size_t p = 0; p < 2; ++p)
+            turn_nodes(rows + p * part, across, targets.size(), turned + (2 * l + p) * across, apart);
     }
-    // Lane by lane, so that neighbours that share a band wait for no store.
+    // Lane by lane, so that neighbours that share a line wait for no store.
     for (std::size_t lane = 0; lane < targets.size(); ++lane) {
-        const LaneTarget& target = targets[lane];
-        for (std::size_t y = 0; y < nodes; ++y) {
-            const float *from = turned + lane * apart + y * floats, *phase = target.phases + 2 * y * floats;
-            auto* to = reinterpret_cast<float*>(target.band.first + y * target.band.row);
-            for (std::size_t i = 0; i < 2 * nodes; i += lanes)
-                add_nodes(from + i, phase + i, phase + floats + i, std::min(lanes, 2 * nodes - i), to + i);
+        const auto& [carrier, line] = targets[lane];
+        for (std::size_t x = 0; x < across; x += hn::Lanes(d)) {
+            const V c = hn::Load(d, carrier + x), s = hn::Load(d, carrier + across + x);
+            for (std::size_t l = 0; l < functions; ++l) {
+                const float* from = turned + lane * apart + 2 * l * across + x;
+                const V re = hn::Load(d, from), im = hn::Load(d, from + across);
+                float *real = line.first + 2 * l * line.row + x, *imaginary = real + line.row;
+                hn::StoreU(hn::NegMulAdd(im, s, hn::MulAdd(re, c, hn::LoadU(d, real))), d, real);
+                hn::StoreU(hn::MulAdd(im, c, hn::MulAdd(re, s, hn::LoadU(d, imaginary))), d, imaginary);
+            }
         }
     }
+}
+
+void AddLooks(const HogelBasis& basis, const float* numbers, const float* carrier, const LinePlace& line) {
+    const D d;
+    const std::size_t functions = basis.functions(), nodes = basis.nodes();
+    for (std::size_t l = 0; l < functions; ++l)
+        for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
+            float* to = line.first + 2 * l * line.row + i;
+            const auto add = [=](std::size_t x, V first, V second) HWY_ATTR {
+                // i for odd functions down.
+                const V re = l % 2 == 0 ? first : hn::Neg(second), im = l % 2 == 0 ? second : first;
+                const V c = hn::Set(D(), carrier[x]), s = hn::Set(D(), carrier[padded(nodes) + x]);
+                float *real = to + x * lanes, *imaginary = real + line.row;
+                hn::Store(hn::NegMulAdd(im, s, hn::MulAdd(re, c, hn::Load(D(), real))), D(), real);
+                hn::Store(hn::MulAdd(im, c, hn::MulAdd(re, s, hn::Load(D(), imaginary))), D(), imaginary);
+            };
+            spread_pairs(basis, numbers + l * functions * both + i, lanes,
+                         [=](std::size_t x, V even_re, V even_im, V odd_re, V odd_im) HWY_ATTR {
+                             add(x, hn::Sub(even_re, odd_im), hn::Add(even_im, odd_re));
+                             if (const std::size_t other = nodes - 1 - x; other != x)
+                                 add(other, hn::Add(even_re, odd_im), hn::Sub(even_im, odd_re));
+                         });
+        }
 }
 #endif
 
@@ -282,6 +251,7 @@ HWY_EXPORT(SumRow);
 HWY_EXPORT(SumRowOfHalves);
 HWY_EXPORT(SumRows);
 HWY_EXPORT(AddLanes);
+HWY_EXPORT(AddLooks);
 
 void sum_row(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line) {
     HWY_DYNAMIC_DISPATCH(SumRow)(basis, columns, waves, line);
@@ -296,6 +266,9 @@ void sum_rows(const HogelBasis& basis, const HogelBasis::Weights& rows, float si
 }
 void add_lanes(const HogelBasis& basis, const float* numbers, std::span<const LaneTarget> targets) {
     HWY_DYNAMIC_DISPATCH(AddLanes)(basis, numbers, targets);
+}
+void add_looks(const HogelBasis& basis, const float* numbers, const float* carrier, const LinePlace& line) {
+    HWY_DYNAMIC_DISPATCH(AddLooks)(basis, numbers, carrier, line);
 }
 
 }  // namespace hogel::hologram::eye

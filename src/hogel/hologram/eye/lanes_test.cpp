@@ -11,7 +11,7 @@
 
 #include "hogel/core/half.h"
 #include "hogel/core/test_targets.h"
-#include "hogel/hologram/eye/node_phases.h"
+#include "hogel/hologram/eye/project.h"
 #include "hogel/hologram/hogel_synthesis.h"
 
 namespace hogel::hologram::eye {
@@ -30,22 +30,6 @@ Array<float, 1> noise(std::size_t count, unsigned seed) {
     return values;
 }
 
-// Phases of unit length for a lane.
-Array<float, 1> phases_of(const HogelBasis& basis, unsigned seed) {
-    const std::size_t nodes = basis.nodes(), row = phase_row(nodes);
-    const Array<float, 1> angles = noise(nodes * nodes, seed);
-    Array<float, 1> phases({nodes * 2 * row});
-    for (std::size_t y = 0; y < nodes; ++y)
-        for (std::size_t x = 0; x < nodes; ++x) {
-            float* to = &phases(2 * y * row + 2 * x);
-            const float angle = angles(y * nodes + x);
-            to[0] = to[1] = std::cos(angle);
-            to[row] = -std::sin(angle);
-            to[row + 1] = std::sin(angle);
-        }
-    return phases;
-}
-
 struct Size {
     std::size_t samples, per_hogel;
     double half_band;
@@ -53,77 +37,98 @@ struct Size {
 // Sides of hogels with and without a rest, bands with more functions and nodes than a vector holds.
 constexpr Size sizes[] = {{16, 1, 0.2}, {32, 5, 1.1}, {27, 4, 0.9}, {64, 24, 5.2}, {40, 14, 3.1}};
 
+// Lanes that an eye sees with the same weights, of hogels side by side or of looks.
 struct Batch {
     explicit Batch(const Size& size)
-        : basis(size.samples, size.per_hogel, size.half_band), waves(noise(size.samples * size.samples * both, 5)) {
-        const std::size_t width = basis.nodes() + 3;
-        for (unsigned lane = 0; lane < lanes; ++lane) {
-            phases.push_back(phases_of(basis, lane));
-            bands.emplace_back(Shape<2>{basis.nodes(), width}, Complex(1));
-        }
+        : basis(size.samples, size.per_hogel, size.half_band),
+          columns(basis.weights(3.3)),
+          rows(basis.weights(-77.2)),
+          waves(noise(size.samples * size.samples * both, 5)),
+          numbers({basis.functions() * basis.functions() * both}) {}
+
+    // The numbers by `sum_one` for each row and `sum_all` for all of them.
+    template <class SumRow, class SumRows>
+    void sum(const SumRow& sum_one, const SumRows& sum_all) {
+        const std::size_t n = basis.samples(), line = basis.functions() * both;
+        Array<float, 1> lines({n * line});
+        for (std::size_t row = 0; row < n; ++row) sum_one(basis, columns, &waves(row * n * both), &lines(row * line));
+        alignas(64) float chosen[lanes];
+        std::ranges::fill(chosen, 1.0f);
+        sum_all(basis, rows, columns.sign * rows.sign, lines.data(), chosen, numbers.data());
     }
 
-    std::vector<LaneTarget> targets(std::size_t count) {
-        std::vector<LaneTarget> result;
-        for (std::size_t lane = 0; lane < count; ++lane)
-            result.push_back({phases[lane].data(), {bands[lane].data(), bands[lane].extent(1)}});
-        return result;
+    // What project_plain() adds to a line for one lane.
+    Array<float, 3> line_of(std::size_t lane) const {
+        const std::size_t n = basis.samples(), across = padded(basis.nodes());
+        Array<float, 1> own({HogelWaves::size(n, n)});
+        for (std::size_t y = 0; y < n; ++y)
+            for (std::size_t x = 0; x < n; ++x)
+                for (std::size_t part : {std::size_t{0}, lanes})
+                    own((y / lanes * n + x) * both + part + y % lanes) = waves((y * n + x) * both + part + lane);
+        Array<float, 3> line({basis.functions(), 2, across}, 1.0f);
+        project_plain({basis, basis}, {columns, rows}, own.data(), {line.data(), across});
+        return line;
+    }
+
+    float rounding(const Array<float, 3>& line) const {
+        float largest = 0;
+        for (const float value : line.elements()) largest = std::max(largest, std::abs(value));
+        return 5e-6f * std::sqrt(static_cast<float>(basis.samples())) * (1 + largest);
     }
 
     HogelBasis basis;
+    HogelBasis::Weights columns, rows;
     Array<float, 1> waves;  // [row][column][part][lane]
-    std::vector<Array<float, 1>> phases;
-    std::vector<Array<Complex, 2>> bands;
+    Array<float, 1> numbers;
 };
-
-// The projection of a batch by `sum_row`, `sum_rows` and `add`.
-template <class SumRow, class SumRows, class Add>
-void project_batch(Batch& batch, double columns, double rows, std::size_t count, const SumRow& sum_one,
-                   const SumRows& sum_all, const Add& add) {
-    const HogelBasis& basis = batch.basis;
-    const std::size_t n = basis.samples(), line = basis.functions() * both;
-    const HogelBasis::Weights across = basis.weights(columns), down = basis.weights(rows);
-    Array<float, 1> lines({n * line}), numbers({basis.functions() * line});
-    for (std::size_t row = 0; row < n; ++row) sum_one(basis, across, &batch.waves(row * n * both), &lines(row * line));
-    const std::vector<float> all(lanes, 1.0f);
-    alignas(64) float chosen[lanes];
-    std::ranges::copy(all, chosen);
-    sum_all(basis, down, across.sign * down.sign, lines.data(), chosen, numbers.data());
-    add(basis, numbers.data(), batch.targets(count));
-}
 
 // A lane is what project_plain() makes of its waves.
 TEST_P(EyeLanes, are_projections_of_single_hogels) {
     for (const Size& size : sizes)
         for (const std::size_t count : {std::size_t{16}, std::size_t{5}}) {
             Batch fast(size), plain(size);
-            project_batch(fast, 3.3, -77.2, count, sum_row, sum_rows, add_lanes);
-            project_batch(plain, 3.3, -77.2, count, sum_row_plain, sum_rows_plain, add_lanes_plain);
-            const HogelBasis& basis = fast.basis;
-            const std::size_t n = size.samples, nodes = basis.nodes(), row = phase_row(nodes);
+            fast.sum(sum_row, sum_rows);
+            plain.sum(sum_row_plain, sum_rows_plain);
+            const std::size_t functions = fast.basis.functions(), row = padded(fast.basis.nodes());
+            Array<float, 4> fast_lines({lanes, functions, 2, row}, 1.0f), plain_lines(fast_lines.shape(), 1.0f);
+            const auto targets = [&](Array<float, 4>& lines) {
+                std::vector<LaneTarget> result;
+                for (std::size_t lane = 0; lane < count; ++lane)
+                    result.push_back({fast.columns.carrier, {&lines(lane, 0, 0, 0), row}});
+                return result;
+            };
+            add_lanes(fast.basis, fast.numbers.data(), targets(fast_lines));
+            add_lanes_plain(plain.basis, plain.numbers.data(), targets(plain_lines));
             for (std::size_t lane = 0; lane < lanes; ++lane) {
-                Array<Complex, 2> single(fast.bands[lane].shape(), Complex(1));
-                if (lane < count) {
-                    Array<float, 1> waves({HogelWaves::size(n, n)});
-                    for (std::size_t y = 0; y < n; ++y)
-                        for (std::size_t x = 0; x < n; ++x)
-                            for (std::size_t part : {std::size_t{0}, lanes})
-                                waves((y / lanes * n + x) * both + part + y % lanes) =
-                                    fast.waves((y * n + x) * both + part + lane);
-                    const HogelView view{
-                        basis.weights(3.3), basis.weights(-77.2), {fast.phases[lane].data(), {nodes, 2, row}}};
-                    project_plain({basis, basis}, view, waves.data(), {single.data(), single.extent(1)});
-                }
-                float added = 0;
-                for (const Complex& value : single.elements()) added = std::max(added, std::abs(value - Complex(1)));
-                EXPECT_EQ(added > 0.1f, lane < count) << added;
-                const float rounding = 5e-6f * std::sqrt(static_cast<float>(n)) * (1 + added);
+                Array<float, 3> single({functions, 2, row}, 1.0f);
+                if (lane < count) single = fast.line_of(lane);
                 for (std::size_t i = 0; i < single.size(); ++i) {
-                    ASSERT_LT(std::abs(fast.bands[lane].data()[i] - single.data()[i]), rounding) << n << " " << lane;
-                    ASSERT_LT(std::abs(plain.bands[lane].data()[i] - single.data()[i]), rounding) << n << " " << lane;
+                    ASSERT_NEAR(fast_lines[lane].data()[i], single.data()[i], fast.rounding(single)) << lane;
+                    ASSERT_NEAR(plain_lines[lane].data()[i], single.data()[i], fast.rounding(single)) << lane;
                 }
             }
         }
+}
+
+// So are looks that lie side by side.
+TEST_P(EyeLanes, are_projections_of_looks_side_by_side) {
+    for (const Size& size : sizes) {
+        Batch batch(size);
+        batch.sum(sum_row, sum_rows);
+        const std::size_t functions = batch.basis.functions(), nodes = batch.basis.nodes();
+        Array<float, 4> fast({functions, 2, nodes, lanes}, 1.0f), plain(fast.shape(), 1.0f);
+        add_looks(batch.basis, batch.numbers.data(), batch.columns.carrier, {fast.data(), nodes * lanes});
+        add_looks_plain(batch.basis, batch.numbers.data(), batch.columns.carrier, {plain.data(), nodes * lanes});
+        for (std::size_t look = 0; look < lanes; ++look) {
+            const Array<float, 3> single = batch.line_of(look);
+            for (std::size_t l = 0; l < functions; ++l)
+                for (std::size_t part = 0; part < 2; ++part)
+                    for (std::size_t x = 0; x < nodes; ++x) {
+                        ASSERT_NEAR(fast(l, part, x, look), single(l, part, x), batch.rounding(single)) << look;
+                        ASSERT_NEAR(plain(l, part, x, look), single(l, part, x), batch.rounding(single)) << look;
+                    }
+        }
+    }
 }
 
 TEST_P(EyeLanes, of_binary16_are_those_of_its_values) {
@@ -187,22 +192,6 @@ TEST_P(EyeLanes, that_are_not_chosen_stay) {
     alignas(64) float chosen[lanes] = {0, 1, 1, 0, 0, 1};
     sum_rows(basis, basis.weights(0.5), 1, lines.data(), chosen, numbers.data());
     for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_EQ(numbers(i) == 7.0f, chosen[i % lanes] == 0) << i;
-}
-
-TEST_P(EyeLanes, have_the_phases_of_the_exact_path) {
-    for (const std::size_t count : {3, 13, 16, 21}) {
-        std::vector<double> places;
-        for (std::size_t i = 0; i < count; ++i) places.push_back((double(i) - 6) / 4);
-        const NodeLine across{0.012, 50e-6, 0.09, 1 / 532e-9, 3.5, 564333.25},
-            down{-0.007, -50e-6, 0.0902, 1 / 532e-9, -2, 0};
-        const std::size_t row = phase_row(count);
-        Array<float, 1> fast({2 * count * row}), plain({2 * count * row});
-        node_phases(across, down, -2e-4, places, fast.data());
-        node_phases_plain(across, down, -2e-4, places, plain.data());
-        for (std::size_t y = 0; y < 2 * count; ++y)
-            for (std::size_t x = 0; x < 2 * count; ++x)
-                ASSERT_NEAR(fast(y * row + x), plain(y * row + x), 2e-5) << count << " " << y << " " << x;
-    }
 }
 
 // The waves of lanes are those of single hogels with phases from the middle.

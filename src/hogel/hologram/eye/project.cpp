@@ -37,33 +37,34 @@ void MiddlePhases::apply_plain(float* waves) const {
         }
 }
 
-void project_plain(const HogelBases& bases, const HogelView& view, const float* waves, const BandPlace& band) {
+void project_plain(const HogelBases& bases, const HogelView& view, const float* waves, const LinePlace& line) {
     const HogelBasis &across = bases.across, &down = bases.down;
     const std::size_t rows = down.samples(), columns = across.samples(), nodes = across.nodes();
-    Array<Complex, 2> lines({rows, across.functions()});  // D_x applied: [row][function across]
+    Array<Complex, 2> sums({rows, across.functions()});  // D_x applied: [row][function across]
     for (std::size_t row = 0; row < rows; ++row)
         for (std::size_t column = 0; column < columns && view.near.has_any(row / lanes * lanes, lanes, rows);
              ++column) {
             const float* wave = waves + ((row / lanes * columns + column) * 2) * lanes + row % lanes;
             const Complex value = Complex(wave[0], wave[lanes]);
             for (std::size_t k = 0; k < across.functions(); ++k)
-                lines(row, k) += view.columns.first[k * view.columns.stride + column] * value;
+                sums(row, k) += view.columns.first[k * view.columns.stride + column] * value;
         }
-    Array<Complex, 2> numbers({down.functions(), across.functions()});  // D_y applied, and the signs: [down][across]
-    for (std::size_t l = 0; l < down.functions(); ++l)
+    for (std::size_t l = 0; l < down.functions(); ++l) {
+        std::vector<Complex> numbers(across.functions());  // D_y applied, and the signs
         for (std::size_t k = 0; k < across.functions(); ++k) {
             for (std::size_t row = 0; row < rows; ++row)
-                numbers(l, k) += view.rows.first[l * view.rows.stride + row] * lines(row, k);
-            numbers(l, k) *= view.columns.sign * view.rows.sign * turn(k) * turn(l);
+                numbers[k] += view.rows.first[l * view.rows.stride + row] * sums(row, k);
+            numbers[k] *= view.columns.sign * view.rows.sign * turn(k) * turn(l);
         }
-    for (std::size_t y = 0; y < nodes; ++y)
+        float *real = line.first + 2 * l * line.row, *imaginary = real + line.row;
         for (std::size_t x = 0; x < nodes; ++x) {
             Complex sum = 0;
-            for (std::size_t l = 0; l < down.functions(); ++l)
-                for (std::size_t k = 0; k < across.functions(); ++k)
-                    sum += down.spread()(y, l) * across.spread()(x, k) * numbers(l, k);
-            band.first[y * band.row + x] += sum * Complex(view.phases(y, 0, 2 * x), view.phases(y, 1, 2 * x + 1));
+            for (std::size_t k = 0; k < across.functions(); ++k) sum += across.spread()(x, k) * numbers[k];
+            sum *= Complex(view.columns.carrier[x], view.columns.carrier[padded(nodes) + x]);
+            real[x] += sum.real();
+            imaginary[x] += sum.imag();
         }
+    }
 }
 
 }  // namespace hogel::hologram::eye

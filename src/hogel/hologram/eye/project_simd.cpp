@@ -9,7 +9,6 @@
 #include <algorithm>
 
 #include "hogel/core/with_count.h"
-#include "hogel/hologram/eye/add_nodes-inl.h"
 #include "hogel/hologram/eye/project.h"
 #include "hogel/math/transpose-inl.h"
 
@@ -21,8 +20,8 @@ using core::HWY_NAMESPACE::with_count;
 using math::HWY_NAMESPACE::transpose_sixteen;
 
 #if HWY_TARGET == HWY_SCALAR
-void Project(const HogelBases& bases, const HogelView& view, const float* waves, const BandPlace& band) {
-    project_plain(bases, view, waves, band);
+void Project(const HogelBases& bases, const HogelView& view, const float* waves, const LinePlace& line) {
+    project_plain(bases, view, waves, line);
 }
 
 void Multiply(const float* factors, std::size_t count, float* waves) {
@@ -141,59 +140,7 @@ void sum_all_rows(const float* in, std::size_t rows, std::size_t in_row, const f
         });
 }
 
-// Adds sixteen nodes, from x on, times their phases to row y of the band.
-HWY_INLINE void add_times_phases(const float* re, const float* im, const HogelView& view, std::size_t y, std::size_t x,
-                                 std::size_t nodes, const BandPlace& band) {
-    const D d;
-    HWY_ALIGN float both[2 * lanes];
-    for (std::size_t i = 0; i < lanes; i += hn::Lanes(d))
-        hn::StoreInterleaved2(hn::Load(d, re + i), hn::Load(d, im + i), d, both + 2 * i);
-    auto* to = reinterpret_cast<float*>(band.first + y * band.row + x);
-    for (std::size_t half = 0; half < 2 * lanes && 2 * x + half < 2 * nodes; half += lanes)
-        add_nodes(both + half, &view.phases(y, 0, 2 * x + half), &view.phases(y, 1, 2 * x + half),
-                  std::min(lanes, 2 * (nodes - x) - half), to + half);
-}
-
-// Adds sixteen nodes across, from x on, of `pairs` rows from y on and of as many from the other end to the band: rows
-// at the same distance from the middle have the same even functions and opposite odd ones.
-template <std::size_t pairs>
-HWY_INLINE void add_pairs_of_rows(const float* in, std::size_t across, const HogelBasis& down, const HogelView& view,
-                                  std::size_t y, std::size_t x, const BandPlace& band) {
-    const D d;
-    const std::size_t functions = down.functions(), nodes = down.nodes();
-    const float* spread = down.spread().data() + y * functions;
-    HWY_ALIGN float rows[2][pairs][2][lanes];  // [mirrored][pair][part][node]
-    for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
-        V sums[2][pairs][2];  // [odd][pair][part]
-        for (auto& parity : sums)
-            for (auto& sum : parity) sum[0] = sum[1] = hn::Zero(d);
-        const auto add = [&](std::size_t l, V(&to)[pairs][2]) HWY_ATTR {
-            const V re = hn::Load(d, in + 2 * l * across + x + i), im = hn::Load(d, in + (2 * l + 1) * across + x + i);
-            for (std::size_t p = 0; p < pairs; ++p) {
-                const V weight = hn::Set(d, spread[p * functions + l]);
-                to[p][0] = hn::MulAdd(weight, re, to[p][0]);
-                to[p][1] = hn::MulAdd(weight, im, to[p][1]);
-            }
-        };
-        for (std::size_t l = 0; l + 1 < functions; l += 2) {
-            add(l, sums[0]);
-            add(l + 1, sums[1]);
-        }
-        if (functions % 2 != 0) add(functions - 1, sums[0]);
-        for (std::size_t p = 0; p < pairs; ++p)
-            for (std::size_t part : {std::size_t{0}, std::size_t{1}}) {
-                hn::Store(hn::Add(sums[0][p][part], sums[1][p][part]), d, rows[0][p][part] + i);
-                hn::Store(hn::Sub(sums[0][p][part], sums[1][p][part]), d, rows[1][p][part] + i);
-            }
-    }
-    for (std::size_t p = 0; p < pairs; ++p) {
-        const std::size_t one = y + p, other = nodes - 1 - one;
-        add_times_phases(rows[0][p][0], rows[0][p][1], view, one, x, nodes, band);
-        if (other != one) add_times_phases(rows[1][p][0], rows[1][p][1], view, other, x, nodes, band);
-    }
-}
-
-void Project(const HogelBases& bases, const HogelView& view, const float* waves, const BandPlace& band) {
+void Project(const HogelBases& bases, const HogelView& view, const float* waves, const LinePlace& line) {
     const std::size_t rows = bases.down.samples(), columns = bases.across.samples(), nodes = bases.across.nodes();
     const std::size_t functions = bases.across.functions(), functions_down = bases.down.functions();
     const auto groups_of = [](std::size_t count) { return (count + together - 1) / together; };
@@ -256,13 +203,16 @@ void Project(const HogelBases& bases, const HogelView& view, const float* waves,
                                   return rows_x + (2 * l + part) * across + node;
                               });
     }
-    constexpr std::size_t pairs_together = 4;
-    const std::size_t pairs = (nodes + 1) / 2;
-    for (std::size_t y = 0; y < pairs; y += pairs_together)
-        with_count<pairs_together>(std::min(pairs_together, pairs - y), [&](auto some) {
-            for (std::size_t x = 0; x < across; x += lanes)
-                add_pairs_of_rows<some()>(rows_x, across, bases.down, view, y, x, band);
-        });
+    const D d;
+    for (std::size_t x = 0; x < across; x += hn::Lanes(d)) {
+        const V c = hn::Load(d, view.columns.carrier + x), s = hn::Load(d, view.columns.carrier + across + x);
+        for (std::size_t l = 0; l < functions_down; ++l) {
+            const V re = hn::Load(d, rows_x + 2 * l * across + x), im = hn::Load(d, rows_x + (2 * l + 1) * across + x);
+            float *real = line.first + 2 * l * line.row + x, *imaginary = real + line.row;
+            hn::StoreU(hn::NegMulAdd(im, s, hn::MulAdd(re, c, hn::LoadU(d, real))), d, real);
+            hn::StoreU(hn::MulAdd(im, c, hn::MulAdd(re, s, hn::LoadU(d, imaginary))), d, imaginary);
+        }
+    }
 }
 #endif
 
@@ -283,8 +233,8 @@ void MiddlePhases::apply(float* waves, const NearRows& rows) const {
             HWY_DYNAMIC_DISPATCH(Multiply)(&factors_[row / lanes * block], block, waves + row / lanes * block);
 }
 
-void project(const HogelBases& bases, const HogelView& view, const float* waves, const BandPlace& band) {
-    HWY_DYNAMIC_DISPATCH(Project)(bases, view, waves, band);
+void project(const HogelBases& bases, const HogelView& view, const float* waves, const LinePlace& line) {
+    HWY_DYNAMIC_DISPATCH(Project)(bases, view, waves, line);
 }
 
 }  // namespace hogel::hologram::eye

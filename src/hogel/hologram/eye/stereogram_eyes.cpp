@@ -42,6 +42,15 @@ core::Sent<EyeBands> sent_bands() {
             }};
 }
 
+// Adds samples to a band, from a column and a row of it on.
+void add_at(View<const Complex, 2> some, std::size_t x, std::size_t y, View<Complex, 2> band) {
+    for (std::size_t row = 0; row < some.extent(0); ++row) {
+        const auto* from = reinterpret_cast<const float*>(&some(row, 0));
+        auto* to = reinterpret_cast<float*>(&band(y + row, x));
+        for (std::size_t i = 0; i < 2 * some.extent(1); ++i) to[i] += from[i];
+    }
+}
+
 // Eyes that see several colours of the same hogels, part by part, so that these may share rays.
 class StereogramEyes final : public optics::EyeDrawing {
   public:
@@ -67,10 +76,6 @@ class StereogramEyes final : public optics::EyeDrawing {
             progress.report(static_cast<double>(done) / static_cast<double>(count));
         };
         const ColourEyes::Looks some{first_look, looks};
-        const auto add = [&](std::size_t colour, std::span<const std::vector<Array<Complex, 2>>> light,
-                             const HogelPart& part) {
-            colours_[colour]->add(light, part, std::span(bands).subspan(colour * each, each));
-        };
         if (core::team_of_several() != nullptr) {
             std::vector<HogelPart> all_parts;
             for (const auto& set : sets) all_parts.insert(all_parts.end(), set.begin(), set.end());
@@ -80,14 +85,18 @@ class StereogramEyes final : public optics::EyeDrawing {
                     EyeBands all;
                     for (const auto& colour : colours_) {
                         auto scratch = colour->scratch();
-                        const EyeBands& light = colour->draw(all_parts[i], some, *scratch);
-                        all.insert(all.end(), light.begin(), light.end());
+                        colour->draw(all_parts[i], some, *scratch);
+                        for (auto& light : colour->light(all_parts[i], some, *scratch)) all.push_back(std::move(light));
                     }
                     return all;
                 },
                 [&](std::size_t i, const EyeBands& all) {
-                    for (std::size_t c = 0; c < colours_.size(); ++c)
-                        add(c, std::span(all).subspan(c * each, each), all_parts[i]);
+                    for (std::size_t eye = 0; eye < eyes; ++eye) {
+                        const std::size_t per_hogel = eye_band(eye).per_hogel();
+                        for (std::size_t look = 0; look < looks; ++look)
+                            add_at(all[eye][look], all_parts[i].s * per_hogel, all_parts[i].t * per_hogel,
+                                   bands[eye][look]);
+                    }
                     report(i + 1);
                 });
             return bands;
@@ -98,7 +107,8 @@ class StereogramEyes final : public optics::EyeDrawing {
             core::parallel_for(set.size(), [&](std::size_t i) {
                 for (std::size_t c = 0; c < colours_.size(); ++c) {
                     auto scratch = colours_[c]->scratch();
-                    add(c, colours_[c]->draw(set[i], some, *scratch), set[i]);
+                    colours_[c]->draw(set[i], some, *scratch);
+                    colours_[c]->add(*scratch, set[i], std::span(bands).subspan(c * each, each));
                 }
                 const std::lock_guard lock(mutex);
                 report(++done);

@@ -213,6 +213,23 @@ TEST(StereogramEyes, do_not_depend_on_threads_or_on_other_eyes) {
         EXPECT_TRUE(std::ranges::equal(both[1][look + 1].elements(), one[0][look].elements()));
 }
 
+// Many looks lie side by side in vectors, few beside other hogels.
+TEST(StereogramEyes, do_not_depend_on_other_looks) {
+    const LightField light_field = striped(grid_of(40, 48_um));
+    const auto hologram = make_hologram(light_field, {{532_nm, 0}, 1.5_um, Fourier{}, 18, 1});
+    const optics::Eye eye{{1_mm, 2_mm, 30_mm}, 1_mm};
+    const Region all{0, 0, hologram->grid().plane.width, hologram->grid().plane.height};
+    const auto drawing = eye_light(*hologram).eye_drawing(all, {&eye, 1});
+    const auto together = drawing->draw(0, 18, {}), some = drawing->draw(2, 8, {});
+    for (std::size_t look : {0, 2, 9, 15, 16, 17}) {
+        const auto alone = drawing->draw(look, 1, {});
+        EXPECT_TRUE(std::ranges::equal(together[0][look].elements(), alone[0][0].elements())) << look;
+        if (look >= 2 && look < 10) {
+            EXPECT_TRUE(std::ranges::equal(some[0][look - 2].elements(), alone[0][0].elements())) << look;
+        }
+    }
+}
+
 Camera camera(double pupil) {
     Camera camera;
     camera.eye = {2_mm, -1_mm, 30_mm};

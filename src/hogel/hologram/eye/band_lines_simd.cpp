@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// The vector twins of band_lines.cpp, compiled for every SIMD target and chosen when first called.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "hogel/hologram/eye/band_lines_simd.cpp"
+#include <hwy/foreach_target.h>
+// Must be included after foreach_target.h:
+#include <hwy/highway.h>
+
+#include <vector>
+
+#include "hogel/hologram/eye/band_lines.h"
+#include "hogel/hologram/eye/spread_pairs-inl.h"
+#include "hogel/math/transpose-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace hogel::hologram::eye {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using math::HWY_NAMESPACE::transpose_sixteen;
+
+#if HWY_TARGET == HWY_SCALAR
+void SpreadLine(const HogelBasis& down, const float* carrier, const float* line, std::size_t row, std::size_t columns,
+                float* light) {
+    spread_line_plain(down, carrier, line, row, columns, light);
+}
+void AddDemodulated(const LightRow& row, std::size_t columns, std::complex<float>* band) {
+    add_demodulated_plain(row, columns, band);
+}
+void AddDemodulatedLooks(const LightRow& row, std::size_t columns, std::span<std::complex<float>* const> bands) {
+    add_demodulated_looks_plain(row, columns, bands);
+}
+#else
+using D = hn::CappedTag<float, lanes>;
+using V = hn::Vec<D>;
+
+void SpreadLine(const HogelBasis& down, const float* carrier, const float* line, std::size_t row, std::size_t columns,
+                float* light) {
+    const D d;
+    const std::size_t nodes = down.nodes();
+    for (std::size_t x = 0; x < columns; x += hn::Lanes(d)) {
+        const auto add = [&](std::size_t y, V re, V im) HWY_ATTR {
+            const V c = hn::Set(d, carrier[y]), s = hn::Set(d, carrier[padded(nodes) + y]);
+            float *real = light + 2 * y * row + x, *imaginary = real + row;
+            hn::Store(hn::NegMulAdd(im, s, hn::MulAdd(re, c, hn::Load(d, real))), d, real);
+            hn::Store(hn::MulAdd(im, c, hn::MulAdd(re, s, hn::Load(d, imaginary))), d, imaginary);
+        };
+        spread_pairs(down, line + x, row, [&](std::size_t y, V even_re, V even_im, V odd_re, V odd_im) HWY_ATTR {
+            add(y, hn::Add(even_re, odd_re), hn::Add(even_im, odd_im));
+            if (const std::size_t other = nodes - 1 - y; other != y)
+                add(other, hn::Sub(even_re, odd_re), hn::Sub(even_im, odd_im));
+        });
+    }
+}
+
+// Adds numbers to some of a row of a band, from `x` on.
+HWY_INLINE void add_some(V re, V im, std::size_t x, std::size_t columns, std::complex<float>* band) {
+    const D d;
+    auto* to = reinterpret_cast<float*>(band + x);
+    if (columns - x >= hn::Lanes(d)) {
+        V band_re, band_im;
+        hn::LoadInterleaved2(d, to, band_re, band_im);
+        hn::StoreInterleaved2(hn::Add(band_re, re), hn::Add(band_im, im), d, to);
+    } else {
+        HWY_ALIGN float rest[2 * lanes];
+        hn::StoreInterleaved2(re, im, d, rest);
+        for (std::size_t i = 0; i < 2 * (columns - x); ++i) to[i] += rest[i];
+    }
+}
+
+void AddDemodulated(const LightRow& row, std::size_t columns, std::complex<float>* band) {
+    const D d;
+    for (std::size_t x = 0; x < columns; x += hn::Lanes(d)) {
+        const V a = hn::Load(d, row.light + x), b = hn::Load(d, row.light + row.light_row + x);
+        const V c = hn::Load(d, row.phases + x), s = hn::Load(d, row.phases + row.phase_row + x);
+        add_some(hn::NegMulAdd(b, s, hn::Mul(a, c)), hn::MulAdd(b, c, hn::Mul(a, s)), x, columns, band);
+    }
+}
+
+void AddDemodulatedLooks(const LightRow& row, std::size_t columns, std::span<std::complex<float>* const> bands) {
+    const D d;
+    const std::size_t across = padded(columns), look_row = 2 * across;
+    thread_local std::vector<float, CacheLineAllocator<float> > scratch;
+    if (const std::size_t needed = 2 * lanes * lanes + lanes * look_row; scratch.size() < needed)
+        scratch.resize(needed);
+    float *some = scratch.data(), *turned = some + 2 * lanes * lanes;  // [part][column][look], [look][part][column]
+    for (std::size_t first = 0; first < across; first += lanes) {
+        for (std::size_t x = 0; x < lanes && first + x < columns; ++x) {
+            const float *light = row.light + (first + x) * lanes, *phase = row.phases + first + x;
+            const V c = hn::Set(d, phase[0]), s = hn::Set(d, phase[row.phase_row]);
+            for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
+                const V a = hn::Load(d, light + i), b = hn::Load(d, light + row.light_row + i);
+                hn::Store(hn::NegMulAdd(b, s, hn::Mul(a, c)), d, some + x * lanes + i);
+                hn::Store(hn::MulAdd(b, c, hn::Mul(a, s)), d, some + (lanes + x) * lanes + i);
+            }
+        }
+        for (std::size_t part = 0; part < 2; ++part)
+            transpose_sixteen([&](std::size_t x) { return some + (part * lanes + x) * lanes; }, lanes,
+                              [&](std::size_t look) { return turned + look * look_row + part * across + first; });
+    }
+    for (std::size_t look = 0; look < bands.size(); ++look)
+        for (std::size_t x = 0; x < columns; x += hn::Lanes(d)) {
+            const float* own = turned + look * look_row + x;
+            add_some(hn::Load(d, own), hn::Load(d, own + across), x, columns, bands[look]);
+        }
+}
+#endif
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hogel::hologram::eye
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hogel::hologram::eye {
+
+HWY_EXPORT(SpreadLine);
+HWY_EXPORT(AddDemodulated);
+HWY_EXPORT(AddDemodulatedLooks);
+
+void spread_line(const HogelBasis& down, const float* carrier, const float* line, std::size_t row, std::size_t columns,
+                 float* light) {
+    HWY_DYNAMIC_DISPATCH(SpreadLine)(down, carrier, line, row, columns, light);
+}
+void add_demodulated(const LightRow& row, std::size_t columns, std::complex<float>* band) {
+    HWY_DYNAMIC_DISPATCH(AddDemodulated)(row, columns, band);
+}
+void add_demodulated_looks(const LightRow& row, std::size_t columns, std::span<std::complex<float>* const> bands) {
+    HWY_DYNAMIC_DISPATCH(AddDemodulatedLooks)(row, columns, bands);
+}
+
+}  // namespace hogel::hologram::eye
+#endif

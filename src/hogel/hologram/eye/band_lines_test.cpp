@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/hologram/eye/band_lines.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "hogel/core/test_targets.h"
+#include "hogel/hologram/eye/demodulation.h"
+
+namespace hogel::hologram::eye {
+namespace {
+
+HOGEL_TEST_ON_EVERY_TARGET(BandLines);
+
+using Complex = std::complex<float>;
+
+void fill_with_noise(std::span<float> values, unsigned seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<float> normal;
+    for (float& value : values) value = normal(random);
+}
+
+// The carrier of a frequency is e^{−2πiνx} at the places of the nodes, however large the frequency is.
+TEST(HogelCarriers, are_waves_of_their_frequency) {
+    for (const std::size_t per_hogel : {1, 4, 5}) {
+        const HogelBasis basis(32, per_hogel, 0.2 * static_cast<double>(per_hogel));
+        for (const double frequency : {0.0, 0.5, -0.5, 3.5, -77.0, 1000.5}) {
+            const HogelBasis::Weights weights = basis.weights(frequency);
+            for (std::size_t node = 0; node < basis.nodes(); ++node) {
+                const double angle = -2 * std::numbers::pi * frequency * basis.place(node);
+                EXPECT_NEAR(weights.carrier[node], std::cos(angle), 1e-6) << frequency << " " << node;
+                EXPECT_NEAR(weights.carrier[padded(basis.nodes()) + node], std::sin(angle), 1e-6) << frequency;
+            }
+        }
+    }
+}
+
+TEST_P(BandLines, are_spread_down_as_plainly) {
+    for (const auto& [samples, per_hogel, half_band] : std::vector<std::tuple<std::size_t, std::size_t, double>>{
+             {16, 1, 0.2}, {32, 5, 1.1}, {27, 4, 0.9}, {64, 24, 5.2}}) {
+        const HogelBasis basis(samples, per_hogel, half_band);
+        const std::size_t columns = 48, row = columns + lanes;
+        Array<float, 3> line({basis.functions(), 2, row}), fast({basis.nodes(), 2, row}, 1.0f);
+        fill_with_noise(line.elements(), 3);
+        Array<float, 3> plain = fast;
+        const float* carrier = basis.weights(2.5).carrier;
+        spread_line(basis, carrier, &line(0, 0, lanes), row, columns, &fast(0, 0, lanes));
+        spread_line_plain(basis, carrier, &line(0, 0, lanes), row, columns, &plain(0, 0, lanes));
+        float largest = 0;
+        for (const float value : plain.elements()) largest = std::max(largest, std::abs(value - 1));
+        EXPECT_GT(largest, 0.1f);
+        for (std::size_t i = 0; i < fast.size(); ++i)
+            ASSERT_NEAR(fast.data()[i], plain.data()[i], 1e-5f * (1 + largest)) << samples << " " << i;
+    }
+}
+
+// Light of looks by themselves and side by side is added to bands, to so many columns and no more.
+TEST_P(BandLines, are_demodulated_as_plainly) {
+    for (const std::size_t columns : {std::size_t{5}, std::size_t{16}, std::size_t{43}})
+        for (const std::size_t looks : {std::size_t{16}, std::size_t{11}}) {
+            const std::size_t row = padded(columns);
+            Array<float, 2> phases({2, row}), light({2, row * lanes});
+            fill_with_noise(phases.elements(), 1);
+            fill_with_noise(light.elements(), 2);
+            Array<Complex, 2> fast({looks, columns + 1}, Complex(1)), plain = fast, one_by_one = fast;
+            std::vector<Complex*> fast_rows, plain_rows;
+            for (std::size_t look = 0; look < looks; ++look) {
+                fast_rows.push_back(&fast(look, 0));
+                plain_rows.push_back(&plain(look, 0));
+                Array<float, 2> own({2, row});
+                for (std::size_t part = 0; part < 2; ++part)
+                    for (std::size_t x = 0; x < columns; ++x) own(part, x) = light(part, x * lanes + look);
+                const LightRow single{own.data(), row, phases.data(), row};
+                add_demodulated(single, columns, &one_by_one(look, 0));
+                std::vector<Complex> expected(columns, Complex(1));
+                add_demodulated_plain(single, columns, expected.data());
+                for (std::size_t x = 0; x < columns; ++x)
+                    ASSERT_LT(std::abs(one_by_one(look, x) - expected[x]), 1e-5f) << columns << " " << x;
+            }
+            const LightRow side_by_side{light.data(), row * lanes, phases.data(), row};
+            add_demodulated_looks(side_by_side, columns, fast_rows);
+            add_demodulated_looks_plain(side_by_side, columns, plain_rows);
+            for (std::size_t i = 0; i < fast.size(); ++i) {
+                // A look is the same in any company.
+                ASSERT_EQ(fast.data()[i], one_by_one.data()[i]) << columns << " " << i;
+                ASSERT_LT(std::abs(fast.data()[i] - plain.data()[i]), 1e-5f) << columns << " " << i;
+            }
+            for (std::size_t look = 0; look < looks; ++look) EXPECT_EQ(fast(look, columns), Complex(1));
+        }
+}
+
+TEST_P(BandLines, have_the_phases_of_the_exact_path) {
+    const SampleLine across{0.012, 12e-6, 0.09, 1 / 532e-9, 564333.25}, down{-0.007, -12e-6, 0.0902, 1 / 532e-9, 0};
+    for (const std::size_t rows : {std::size_t{16}, std::size_t{3}}) {
+        const std::size_t row = 2 * lanes;
+        Array<float, 3> fast({lanes, 2, row}, 7.0f), plain(fast.shape(), 7.0f);
+        demodulation(across, down, -2e-4 / 16, rows, fast.data(), row);
+        demodulation_plain(across, down, -2e-4 / 16, rows, plain.data(), row);
+        for (std::size_t i = 0; i < fast.size(); ++i) {
+            ASSERT_NEAR(fast.data()[i], plain.data()[i], 2e-5) << i;
+            EXPECT_EQ(fast.data()[i] == 7.0f, i % row >= lanes || i / row >= 2 * rows) << i;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace hogel::hologram::eye
