@@ -47,9 +47,12 @@ using D = hn::CappedTag<float, lanes>;
 using V = hn::Vec<D>;
 using WavePair = HogelBasis::WavePair;
 
-// Functions whose sums are held in registers: both parts of a number with 32 registers, otherwise one after the other.
+// Functions whose sums are held in registers, of both parts of a number; where there are but 16 registers and more
+// functions than five, one part after the other.
 constexpr std::size_t together = 8;
-constexpr std::size_t parts_together = HWY_ARCH_X86 && HWY_TARGET > HWY_AVX3 ? 1 : 2;
+constexpr std::size_t parts_of(std::size_t functions) {
+    return HWY_ARCH_X86 && HWY_TARGET > HWY_AVX3 && functions > 5 ? 1 : 2;
+}
 // Floats of a complex number of all lanes.
 constexpr std::size_t both = 2 * lanes;
 
@@ -73,6 +76,7 @@ template <std::size_t functions, class Number, class Fetch, class Store>
 HWY_INLINE void sum_pairs(const Number* items, std::size_t stride, const HogelBasis::Weights& weights,
                           std::size_t first, const Fetch& fetch, const Store& store) {
     const D d;
+    constexpr std::size_t parts_together = parts_of(functions);
     const std::size_t two = weights.pairs.size() - weights.alone;
     for (std::size_t at = 0; at < both; at += parts_together * lanes)
         for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
