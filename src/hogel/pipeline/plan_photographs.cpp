@@ -21,16 +21,16 @@
 namespace hogel {
 namespace {
 
-// Processor seconds, measured on two threads of one core of an AMD EPYC (Zen 5) with g++ 12, 2026-11-23, other programs
-// beside it. Per sample of a hologram: for the narrow band of one eye.
+// Processor seconds, measured on two threads of one core of an AMD EPYC (Zen 5) with g++ 12, 2026-11-23 and, from
+// hogels, 2026-11-28, other programs beside it. Per sample of a hologram: for the narrow band of one eye.
 constexpr double seconds_a_sample_and_eye = 1.8e-9;
 // Per wave of a hogel: for its amplitude, once; for its phase, for each look; for its light, for each look and eye; and
 // for its share in the numbers of the mean of infinitely many looks, for each eye.
-constexpr double seconds_an_amplitude = 0.4e-9, seconds_a_wave = 0.3e-9, seconds_a_wave_and_eye = 0.7e-9,
+constexpr double seconds_an_amplitude = 1e-9, seconds_a_wave = 0.25e-9, seconds_a_wave_and_eye = 0.15e-9,
                  seconds_a_power_and_eye = 0.4e-9;
 // Per sample of a band, for each look; per sample of a film, for each look and photograph; and for each product of a
 // number of a hogel with a spot.
-constexpr double seconds_a_band_sample = 25e-9, seconds_a_film_sample = 10e-9, seconds_a_product = 0.11e-9;
+constexpr double seconds_a_band_sample = 15e-9, seconds_a_film_sample = 10e-9, seconds_a_product = 0.11e-9;
 
 // Per sample of the sines and of the film of a set of lines behind a vertical diffuser, most of which are dark
 // (decision 0088).

@@ -1,49 +1,64 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <complex>
 #include <cstddef>
 #include <span>
+#include <vector>
 
+#include "hogel/array.h"
+#include "hogel/hologram/eye/eye_band.h"
 #include "hogel/hologram/eye/hogel_basis.h"
+#include "hogel/hologram/eye/spread_line.h"
 
 namespace hogel::hologram::eye {
 
-/// Hogels of a row that an eye sees with the same weights down share a line: where their nodes meet across, their
-/// numbers are added before they are spread down. A node has 1/overlap of a hogel's columns then, instead of all.
+/// How the looks of a part of a hologram lie in memory: each by itself, or in blocks of some that lie side by side.
+struct LookBlocks {
+    std::size_t looks = 0, together = 1;
 
-/// A place in a line, [function down][part][node across], whose rows are `row` floats apart.
-struct LinePlace {
-    float* first;
-    std::size_t row;
+    std::size_t blocks() const { return (looks + together - 1) / together; }
+    /// Floats of a row of so many hogels, in lines and in light. Looks by themselves need columns up to which nodes
+    /// fill whole vectors.
+    std::size_t row(const EyeBand& eye, std::size_t hogels) const {
+        const std::size_t samples = eye.samples(hogels);
+        return together == 1 ? padded(samples + lanes - 1) : samples * together;
+    }
 };
 
-/// Adds a line's light at the nodes down to rows of light: light[node down][part][column] += E_y line, times the
-/// carrier of these rows, with E = spread() of the basis. A factor i for odd functions is part of the line.
-/// Plain and fast twins agree to rounding.
-/// @param carrier  as in HogelBasis::Weights
-/// @param line     aligned to a cache line, as `light`; rows of both are `row` floats apart
-/// @param columns  a multiple of `lanes`
-void spread_line_plain(const HogelBasis& down, const float* carrier, const float* line, std::size_t row,
-                       std::size_t columns, float* light);
-void spread_line(const HogelBasis& down, const float* carrier, const float* line, std::size_t row, std::size_t columns,
-                 float* light);
+/// The lines of an eye's band under some rows of hogels: one for those of a row that have the same weights down, nearly
+/// always all of them.
+class BandLines {
+  public:
+    /// Lines of rows of `hogels` hogels each, of which there are none yet.
+    void begin(const EyeBand& eye, const LookBlocks& looks, std::size_t hogels);
+    /// Gives a hogel its line. Hogels of a row come in their order.
+    /// @param weights  down
+    void add(std::size_t row, std::size_t column, const HogelBasis::Weights& weights);
+    /// Clears the lines, once each hogel has one.
+    void clear();
 
-/// A row of a part's light, [part][column], or with sixteen looks side by side, [part][column][look], and the phases of
-/// its demodulation, [part][column]. All are aligned to a cache line; parts of light are `light_row` floats apart,
-/// those of phases `phase_row`, a multiple of `lanes`.
-struct LightRow {
-    const float* light;
-    std::size_t light_row;
-    const float* phases;
-    std::size_t phase_row;
+    /// The place of a hogel's first node, for a look of a block, or the first of those that lie side by side.
+    LinePlace place(std::size_t row, std::size_t column, std::size_t look);
+
+    /// Adds what the lines hold to light, of a part in which row 0 of the hogels is the one `first`.
+    /// @param light  [block of looks]: [row][part][column, look]
+    void spread(const HogelBasis& down, std::size_t first, std::span<Array<float, 3>> light) const;
+
+  private:
+    struct Line {
+        std::size_t row;                 // of the hogels
+        double frequency;                // of the weights down
+        const float* carrier;            // down
+        std::size_t begin = 0, end = 0;  // floats of rows that nodes of the hogels fill
+        Array<float, 1> numbers;         // [block of looks][function down][part][column, look]
+    };
+
+    LookBlocks looks_;
+    std::size_t hogels_ = 0, per_hogel_ = 0, nodes_ = 0;  // across
+    std::size_t rows_ = 0, row_ = 0;                      // of one block: how many, and floats of each
+    std::vector<Line> lines_;                             // of which some are used
+    std::size_t used_ = 0;
+    std::vector<std::size_t> of_hogel_;  // [row][column]
 };
-
-/// Adds a row of light, demodulated, to a row of a band. Plain and fast twins agree to rounding.
-void add_demodulated_plain(const LightRow& row, std::size_t columns, std::complex<float>* band);
-void add_demodulated(const LightRow& row, std::size_t columns, std::complex<float>* band);
-/// The same for a row of each of some looks that lie side by side.
-void add_demodulated_looks_plain(const LightRow& row, std::size_t columns, std::span<std::complex<float>* const> bands);
-void add_demodulated_looks(const LightRow& row, std::size_t columns, std::span<std::complex<float>* const> bands);
 
 }  // namespace hogel::hologram::eye

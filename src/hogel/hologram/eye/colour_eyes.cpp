@@ -40,22 +40,15 @@ ColourEyes::ColourEyes(const Hogels& hogels, const HogelRange& range, std::vecto
     for (const EyeBand& eye : eyes_) in_lanes_ = in_lanes_ && eye.bend() <= max_bend_in_lanes;
 }
 
-// Floats of a row of a line, or of the light, of so many hogels. Looks by themselves need columns up to which nodes
-// fill whole vectors.
-std::size_t ColourEyes::line_row(std::size_t e, std::size_t hogels, const Scratch& scratch) const {
-    const std::size_t samples = eyes_[e].samples(hogels);
-    return scratch.side_by_side == 1 ? padded(samples + lanes - 1) : samples * scratch.side_by_side;
-}
-
 void ColourEyes::draw(const HogelPart& part, const Looks& looks, Scratch& scratch) const {
-    // Looks of one hogel fill the lanes.
-    scratch.side_by_side = in_lanes_ && 2 * looks.count > lanes ? lanes : 1;
+    // Side by side where looks of one hogel fill the lanes.
+    scratch.looks = {looks.count, in_lanes_ && 2 * looks.count > lanes ? lanes : 1};
     scratch.light.resize(eyes_.size());
     scratch.phases.resize(eyes_.size());
     for (std::size_t e = 0; e < eyes_.size(); ++e) {
         const EyeBand& eye = eyes_[e];
-        const Shape<3> shape{eye.samples(part.nt), 2, line_row(e, part.ns, scratch)};
-        scratch.light[e].resize((looks.count + scratch.side_by_side - 1) / scratch.side_by_side);
+        const Shape<3> shape{eye.samples(part.nt), 2, scratch.looks.row(eye, part.ns)};
+        scratch.light[e].resize(scratch.looks.blocks());
         for (Array<float, 3>& own : scratch.light[e])
             if (own.shape() == shape)
                 std::ranges::fill(own.elements(), 0.0f);
@@ -75,7 +68,7 @@ void ColourEyes::add(const Scratch& scratch, const HogelPart& part,
     for (std::size_t e = 0; e < eyes_.size(); ++e) {
         const Array<float, 3>& phases = scratch.phases[e];
         const std::size_t x = part.s * eyes_[e].per_hogel(), y = part.t * eyes_[e].per_hogel();
-        const std::size_t columns = eyes_[e].samples(part.ns), together = scratch.side_by_side;
+        const std::size_t columns = eyes_[e].samples(part.ns), together = scratch.looks.together;
         for (std::size_t first = 0; first < bands[e].size(); first += together) {
             const Array<float, 3>& light = scratch.light[e][first / together];
             const std::size_t count = std::min(together, bands[e].size() - first);
@@ -92,10 +85,10 @@ void ColourEyes::add(const Scratch& scratch, const HogelPart& part,
     }
 }
 
-EyeBands ColourEyes::light(const HogelPart& part, const Looks& looks, const Scratch& scratch) const {
+EyeBands ColourEyes::light(const HogelPart& part, const Scratch& scratch) const {
     EyeBands bands(eyes_.size());
     for (std::size_t e = 0; e < eyes_.size(); ++e)
-        for (std::size_t look = 0; look < looks.count; ++look)
+        for (std::size_t look = 0; look < scratch.looks.looks; ++look)
             bands[e].emplace_back(Shape<2>{eyes_[e].samples(part.nt), eyes_[e].samples(part.ns)});
     add(scratch, {0, 0, part.ns, part.nt}, bands);
     return bands;
@@ -103,7 +96,6 @@ EyeBands ColourEyes::light(const HogelPart& part, const Looks& looks, const Scra
 
 // Adds the light of a row of tiles, the row `first` of a part, to that of the part.
 void ColourEyes::draw_tiles(const HogelRange& some, std::size_t first, const Looks& looks, Scratch& scratch) const {
-    scratch.first_row = first;
     prepare(some, scratch);
     scratch.views.resize(eyes_.size());
     for (std::size_t e = 0; e < eyes_.size(); ++e) {
@@ -119,12 +111,13 @@ void ColourEyes::draw_tiles(const HogelRange& some, std::size_t first, const Loo
     // Lines of many looks are drawn row by row, so that they stay in the cache.
     const std::size_t rows = looks.count == 1 ? some.nt : 1;
     for (std::size_t row = 0; row < some.nt; row += rows) {
-        choose_lines(some, row, rows, looks, scratch);
+        choose_lines(some, row, rows, scratch);
         if (in_lanes_)
             draw_in_lanes(some, row, rows, looks, scratch);
         else
             draw_one_by_one(some, row, looks, scratch);
-        spread_lines(scratch);
+        for (std::size_t e = 0; e < eyes_.size(); ++e)
+            scratch.band_lines[e].spread(eyes_[e].bases().down, first, scratch.light[e]);
     }
 }
 
@@ -143,65 +136,21 @@ void ColourEyes::prepare(const HogelRange& some, Scratch& scratch) const {
     for (std::size_t h = 0; h < some.hogels(); ++h) scratch.moduli[h] = &prepared(h, 0);
 }
 
-// A line for hogels of each row that have the same weights down.
-void ColourEyes::choose_lines(const HogelRange& some, std::size_t row, std::size_t rows, const Looks& looks,
-                              Scratch& scratch) const {
+// The lines of some rows of hogels, from the row `first` on.
+void ColourEyes::choose_lines(const HogelRange& some, std::size_t first, std::size_t rows, Scratch& scratch) const {
     scratch.band_lines.resize(eyes_.size());
     for (std::size_t e = 0; e < eyes_.size(); ++e) {
         BandLines& lines = scratch.band_lines[e];
-        lines.used = 0;
-        lines.of_hogel.resize(some.hogels());
-        const std::size_t together = scratch.side_by_side;
-        const std::size_t blocks = (looks.count + together - 1) / together;
-        const std::size_t nodes = together == 1 ? padded(eyes_[e].nodes()) : eyes_[e].nodes();
-        for (std::size_t hogel = row * some.ns; hogel < (row + rows) * some.ns; ++hogel) {
-            const HogelBasis::Weights& weights = scratch.views[e][hogel].rows;
-            const std::size_t in_part = scratch.first_row + hogel / some.ns, x = hogel % some.ns * eyes_[e].per_hogel();
-            std::size_t own = 0;
-            while (own < lines.used && (lines.all[own].row != in_part || lines.all[own].frequency != weights.frequency))
-                ++own;
-            if (own == lines.used) {
-                if (++lines.used > lines.all.size()) lines.all.emplace_back();
-                BandLine& line = lines.all[own];
-                line.row = in_part;
-                line.frequency = weights.frequency;
-                line.carrier = weights.carrier;
-                line.begin = x / lanes * lanes;
-                const std::size_t size = blocks * 2 * eyes_[e].bases().down.functions() * line_row(e, some.ns, scratch);
-                if (line.numbers.size() != size) line.numbers = Array<float, 1>({size});
-            }
-            lines.all[own].end = together == 1 ? padded(x + nodes) : x + nodes;
-            lines.of_hogel[hogel] = own;
-        }
+        lines.begin(eyes_[e], scratch.looks, some.ns);
+        for (std::size_t row = first; row < first + rows; ++row)
+            for (std::size_t column = 0; column < some.ns; ++column)
+                lines.add(row, column, scratch.views[e][row * some.ns + column].rows);
+        lines.clear();
     }
 }
 
-// The place in its line of the first node of a hogel.
 LinePlace ColourEyes::place(std::size_t e, const HogelRange& some, const Item& item, Scratch& scratch) const {
-    BandLines& lines = scratch.band_lines[e];
-    const std::size_t row = line_row(e, some.ns, scratch), x = item.hogel % some.ns * eyes_[e].per_hogel();
-    const std::size_t together = scratch.side_by_side, block = item.look / together;
-    BandLine& line = lines.all[lines.of_hogel[item.hogel]];
-    return {&line.numbers(block * 2 * eyes_[e].bases().down.functions() * row + x * together), row};
-}
-
-// Adds the light of lines to that of the part, and clears them.
-void ColourEyes::spread_lines(Scratch& scratch) const {
-    for (std::size_t e = 0; e < eyes_.size(); ++e)
-        for (std::size_t i = 0; i < scratch.band_lines[e].used; ++i) {
-            BandLine& line = scratch.band_lines[e].all[i];
-            const HogelBasis& down = eyes_[e].bases().down;
-            const std::size_t together = scratch.side_by_side, begin = line.begin * together;
-            const std::size_t columns = (line.end - line.begin) * together, rows = 2 * down.functions();
-            for (std::size_t block = 0; block < scratch.light[e].size(); ++block) {
-                Array<float, 3>& light = scratch.light[e][block];
-                const std::size_t row = light.extent(2);
-                float* numbers = &line.numbers(block * rows * row + begin);
-                spread_line(down, line.carrier, numbers, row, columns,
-                            &light(line.row * eyes_[e].per_hogel(), 0, begin));
-                for (std::size_t r = 0; r < rows; ++r) std::fill_n(numbers + r * row, columns, 0.0f);
-            }
-        }
+    return scratch.band_lines[e].place(item.hogel / some.ns, item.hogel % some.ns, item.look);
 }
 
 void ColourEyes::draw_one_by_one(const HogelRange& some, std::size_t row, const Looks& looks, Scratch& scratch) const {
@@ -302,7 +251,7 @@ void ColourEyes::draw_batch(const HogelRange& some, std::span<const Item> items,
             sum_rows(bases.across, lit_rows(e, g, scratch), kept.scale * group.columns.sign * group.rows.sign,
                      scratch.lines[e][g].data(), group.chosen, scratch.numbers.data());
         }
-        if (scratch.side_by_side != 1) {
+        if (scratch.looks.together != 1) {
             add_looks(bases.across, scratch.numbers.data(), scratch.views[e][items.front().hogel].columns.carrier,
                       place(e, some, items.front(), scratch));
             continue;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hogel/core/object_pool.h"
+#include "hogel/hologram/eye/band_lines.h"
 #include "hogel/hologram/eye/eye_band.h"
 #include "hogel/hologram/eye/kept_waves.h"
 #include "hogel/hologram/eye/lanes.h"
@@ -59,21 +60,6 @@ class ColourEyes {
         alignas(64) float chosen[HogelWaves::lanes];
     };
 
-    /// A line of the band under hogels of a row.
-    struct BandLine {
-        std::size_t row;                 // of the hogels, in the part
-        double frequency;                // of the weights down
-        const float* carrier;            // down
-        std::size_t begin = 0, end = 0;  // columns that are lit
-        Array<float, 1> numbers;         // [looks side by side][function down][part][column, look]
-    };
-    /// The lines of an eye, of which some are used.
-    struct BandLines {
-        std::vector<BandLine> all;
-        std::size_t used = 0;
-        std::vector<std::size_t> of_hogel;  // [hogel]
-    };
-
     /// Buffers for a part.
     struct Scratch {
         Array<float, 2> prepared;          // unless it is kept
@@ -87,11 +73,10 @@ class ColourEyes {
         std::vector<std::size_t> rows;  // that are summed
         std::vector<HogelPlace> places;
         std::vector<const float*> sources;
-        std::size_t side_by_side = 1;                     // looks in lines and in the light
+        LookBlocks looks;
         std::vector<BandLines> band_lines;                // [eye]
-        std::vector<std::vector<Array<float, 3>>> light;  // [eye][looks side by side]: [row][part][column, look]
+        std::vector<std::vector<Array<float, 3>>> light;  // [eye][block of looks]: [row][part][column, look]
         std::vector<Array<float, 3>> phases;              // [eye]: of the demodulation, [row][part][column]
-        std::size_t first_row = 0;                        // of the hogels that are drawn, in the part
     };
     auto scratch() const { return scratch_pool_.take(); }
 
@@ -103,7 +88,7 @@ class ColourEyes {
              std::span<std::vector<Array<std::complex<float>, 2>>> bands) const;
 
     /// What the light that was drawn reaches of each band.
-    EyeBands light(const HogelPart& part, const Looks& looks, const Scratch& scratch) const;
+    EyeBands light(const HogelPart& part, const Scratch& scratch) const;
 
   private:
     // A hogel of a row of tiles and a look, one lane.
@@ -113,11 +98,8 @@ class ColourEyes {
 
     void draw_tiles(const HogelRange& some, std::size_t first, const Looks& looks, Scratch& scratch) const;
     void prepare(const HogelRange& some, Scratch& scratch) const;
-    std::size_t line_row(std::size_t e, std::size_t hogels, const Scratch& scratch) const;
-    void choose_lines(const HogelRange& some, std::size_t row, std::size_t rows, const Looks& looks,
-                      Scratch& scratch) const;
+    void choose_lines(const HogelRange& some, std::size_t first, std::size_t rows, Scratch& scratch) const;
     LinePlace place(std::size_t e, const HogelRange& some, const Item& item, Scratch& scratch) const;
-    void spread_lines(Scratch& scratch) const;
     void draw_one_by_one(const HogelRange& some, std::size_t row, const Looks& looks, Scratch& scratch) const;
     static void set_groups(std::span<const Item> items, const std::vector<HogelView>& views, std::size_t waves,
                            std::vector<Group>& groups);

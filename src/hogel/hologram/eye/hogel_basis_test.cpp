@@ -114,5 +114,20 @@ TEST(HogelBasis, needs_few_functions) {
     EXPECT_LE(HogelBasis(64, 1, 0.1).functions(), 4u);
 }
 
+// The carrier of a frequency is e^{−2πiνx} at the places of the nodes, however large the frequency is.
+TEST(HogelBasis, has_carriers_that_are_waves_of_their_frequency) {
+    for (const std::size_t per_hogel : {1, 4, 5}) {
+        const HogelBasis basis(32, per_hogel, 0.2 * static_cast<double>(per_hogel));
+        for (const double frequency : {0.0, 0.5, -0.5, 3.5, -77.0, 1000.5}) {
+            const HogelBasis::Weights weights = basis.weights(frequency);
+            for (std::size_t node = 0; node < basis.nodes(); ++node) {
+                const double angle = -2 * std::numbers::pi * frequency * basis.place(node);
+                EXPECT_NEAR(weights.carrier[node], std::cos(angle), 1e-6) << frequency << " " << node;
+                EXPECT_NEAR(weights.carrier[padded(basis.nodes()) + node], std::sin(angle), 1e-6) << frequency;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace hogel::hologram::eye

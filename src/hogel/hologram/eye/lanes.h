@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "hogel/hologram/eye/band_lines.h"
 #include "hogel/hologram/eye/hogel_basis.h"
+#include "hogel/hologram/eye/spread_line.h"
 
 namespace hogel::hologram::eye {
 

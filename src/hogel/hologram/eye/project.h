@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "hogel/array.h"
-#include "hogel/hologram/eye/band_lines.h"
 #include "hogel/hologram/eye/hogel_basis.h"
+#include "hogel/hologram/eye/spread_line.h"
 #include "hogel/hologram/near_rows.h"
 
 namespace hogel::hologram::eye {

@@ -86,7 +86,7 @@ class StereogramEyes final : public optics::EyeDrawing {
                     for (const auto& colour : colours_) {
                         auto scratch = colour->scratch();
                         colour->draw(all_parts[i], some, *scratch);
-                        for (auto& light : colour->light(all_parts[i], some, *scratch)) all.push_back(std::move(light));
+                        for (auto& light : colour->light(all_parts[i], *scratch)) all.push_back(std::move(light));
                     }
                     return all;
                 },

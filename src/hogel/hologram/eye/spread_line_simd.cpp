@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twins of band_lines.cpp, compiled for every SIMD target and chosen when first called.
+// The vector twins of spread_line.cpp, compiled for every SIMD target and chosen when first called.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/hologram/eye/band_lines_simd.cpp"
+#define HWY_TARGET_INCLUDE "hogel/hologram/eye/spread_line_simd.cpp"
 #include <hwy/foreach_target.h>
 // Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
 #include <vector>
 
-#include "hogel/hologram/eye/band_lines.h"
+#include "hogel/hologram/eye/spread_line.h"
 #include "hogel/hologram/eye/spread_pairs-inl.h"
 #include "hogel/math/transpose-inl.h"
 

@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/hologram/eye/band_lines.h"
+#include "hogel/hologram/eye/spread_line.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <random>
 #include <vector>
 
 #include "hogel/core/test_targets.h"
-#include "hogel/hologram/eye/demodulation.h"
 
 namespace hogel::hologram::eye {
 namespace {
 
-HOGEL_TEST_ON_EVERY_TARGET(BandLines);
+HOGEL_TEST_ON_EVERY_TARGET(SpreadLine);
 
 using Complex = std::complex<float>;
 
@@ -25,22 +23,7 @@ void fill_with_noise(std::span<float> values, unsigned seed) {
     for (float& value : values) value = normal(random);
 }
 
-// The carrier of a frequency is e^{−2πiνx} at the places of the nodes, however large the frequency is.
-TEST(HogelCarriers, are_waves_of_their_frequency) {
-    for (const std::size_t per_hogel : {1, 4, 5}) {
-        const HogelBasis basis(32, per_hogel, 0.2 * static_cast<double>(per_hogel));
-        for (const double frequency : {0.0, 0.5, -0.5, 3.5, -77.0, 1000.5}) {
-            const HogelBasis::Weights weights = basis.weights(frequency);
-            for (std::size_t node = 0; node < basis.nodes(); ++node) {
-                const double angle = -2 * std::numbers::pi * frequency * basis.place(node);
-                EXPECT_NEAR(weights.carrier[node], std::cos(angle), 1e-6) << frequency << " " << node;
-                EXPECT_NEAR(weights.carrier[padded(basis.nodes()) + node], std::sin(angle), 1e-6) << frequency;
-            }
-        }
-    }
-}
-
-TEST_P(BandLines, are_spread_down_as_plainly) {
+TEST_P(SpreadLine, are_spread_down_as_plainly) {
     for (const auto& [samples, per_hogel, half_band] : std::vector<std::tuple<std::size_t, std::size_t, double>>{
              {16, 1, 0.2}, {32, 5, 1.1}, {27, 4, 0.9}, {64, 24, 5.2}}) {
         const HogelBasis basis(samples, per_hogel, half_band);
@@ -60,7 +43,7 @@ TEST_P(BandLines, are_spread_down_as_plainly) {
 }
 
 // Light of looks by themselves and side by side is added to bands, to so many columns and no more.
-TEST_P(BandLines, are_demodulated_as_plainly) {
+TEST_P(SpreadLine, are_demodulated_as_plainly) {
     for (const std::size_t columns : {std::size_t{5}, std::size_t{16}, std::size_t{43}})
         for (const std::size_t looks : {std::size_t{16}, std::size_t{11}}) {
             const std::size_t row = padded(columns);
@@ -92,20 +75,6 @@ TEST_P(BandLines, are_demodulated_as_plainly) {
             }
             for (std::size_t look = 0; look < looks; ++look) EXPECT_EQ(fast(look, columns), Complex(1));
         }
-}
-
-TEST_P(BandLines, have_the_phases_of_the_exact_path) {
-    const SampleLine across{0.012, 12e-6, 0.09, 1 / 532e-9, 564333.25}, down{-0.007, -12e-6, 0.0902, 1 / 532e-9, 0};
-    for (const std::size_t rows : {std::size_t{16}, std::size_t{3}}) {
-        const std::size_t row = 2 * lanes;
-        Array<float, 3> fast({lanes, 2, row}, 7.0f), plain(fast.shape(), 7.0f);
-        demodulation(across, down, -2e-4 / 16, rows, fast.data(), row);
-        demodulation_plain(across, down, -2e-4 / 16, rows, plain.data(), row);
-        for (std::size_t i = 0; i < fast.size(); ++i) {
-            ASSERT_NEAR(fast.data()[i], plain.data()[i], 2e-5) << i;
-            EXPECT_EQ(fast.data()[i] == 7.0f, i % row >= lanes || i / row >= 2 * rows) << i;
-        }
-    }
 }
 
 }  // namespace
