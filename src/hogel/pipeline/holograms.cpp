@@ -7,9 +7,14 @@
 #include <numeric>
 #include <optional>
 
+#include "hogel/core/alone.h"
+#include "hogel/core/message.h"
+#include "hogel/core/result_log.h"
 #include "hogel/core/shared_order.h"
 #include "hogel/error.h"
 #include "hogel/hologram/parallax.h"
+#include "hogel/image/film.h"
+#include "hogel/optics/eye_light.h"
 #include "hogel/optics/photograph_together.h"
 #include "hogel/pipeline.h"
 
@@ -67,11 +72,40 @@ Fields make_holograms(const LightField& light_field, const HologramRequest& requ
     return holograms;
 }
 
+namespace {
+
+// How many of the first colours the processes of a team photograph by themselves, as many each: from hogels, which each
+// process would prepare for its share of the looks, or of the rows, of any colour.
+std::size_t colours_alone(const Fields& holograms, const WaveCamera& with) {
+    const Team* const all = core::team_of_several();
+    const auto* const options = std::get_if<PhotographOptions>(&with);
+    if (all == nullptr || options == nullptr || options->from == LightFrom::samples || options->vertical_diffuser ||
+        core::result_log() != nullptr)
+        return 0;
+    const bool of_hogels = std::ranges::all_of(holograms, [](const std::shared_ptr<const FieldSource>& hologram) {
+        return dynamic_cast<const optics::EyeLight*>(hologram.get()) != nullptr;
+    });
+    return of_hogels ? holograms.size() / all->size() * all->size() : 0;
+}
+
+// Puts pictures of one colour into those of all.
+void put_colour(std::size_t colour, std::span<const Image> seen, std::span<Image> pictures) {
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        const std::size_t colours = pictures[i].pixels.extent(2);
+        for (std::size_t pixel = 0; pixel < seen[i].pixels.size(); ++pixel)
+            pictures[i].pixels.data()[pixel * colours + colour] = seen[i].pixels.data()[pixel];
+    }
+}
+
+}  // namespace
+
 std::vector<Image> photograph_colours(const Fields& holograms, std::span<const Camera> cameras, const WaveCamera& with,
                                       const Progress& progress) {
     const core::StopScope scope(progress);
+    if (holograms.empty()) throw Error(ErrorCode::usage, "a photograph needs a hologram; there is none");
     const std::size_t colours = holograms.size();
     std::vector<Image> pictures(cameras.size());
+    image::load_film(cameras, colours, holograms.front()->provenance(), pictures);
     const auto* full = std::get_if<PlaneWaveCameraOptions>(&with);
     std::optional<std::vector<std::vector<Image>>> together;  // [colour][camera]
     if (full == nullptr)
@@ -80,18 +114,31 @@ std::vector<Image> photograph_colours(const Fields& holograms, std::span<const C
     std::vector<std::size_t> order(colours);
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t c) { return holograms[c]->grid().wavelength; });
+    const std::size_t alone = together ? 0 : colours_alone(holograms, with);
+    Team* const all = core::team_of_several();
+    core::MessageWriter own;  // the pictures of colours that this process photographs by itself
     for (std::size_t k = 0; k < colours; ++k) {
         const std::size_t c = order[k];
+        if (k < alone && k % all->size() != all->rank()) continue;
+        std::optional<core::AloneScope> by_itself;
+        if (k < alone) by_itself.emplace();
         const Progress part = progress.part(k, colours);
         const std::vector<Image> seen =
             together          ? std::move((*together)[c])
             : full != nullptr ? photograph_by_plane_waves(*holograms[c], cameras, *full, part)
                               : photograph(*holograms[c], cameras, std::get<PhotographOptions>(with), part);
-        for (std::size_t i = 0; i < cameras.size(); ++i) {
-            if (k == 0) pictures[i] = Image(seen[i].width(), seen[i].height(), colours);
-            if (c == 0) pictures[i].provenance = seen[i].provenance;
-            for (std::size_t pixel = 0; pixel < seen[i].pixels.size(); ++pixel)
-                pictures[i].pixels.data()[pixel * colours + c] = seen[i].pixels.data()[pixel];
+        put_colour(c, seen, pictures);
+        for (std::size_t i = 0; k < alone && i < cameras.size(); ++i) own.put(seen[i].pixels);
+    }
+    if (alone > 0) {
+        const std::vector<std::string> of_all = core::all_of(*all, own.take());
+        for (std::size_t process = 0; process < all->size(); ++process) {
+            core::MessageReader message(of_all[process]);
+            for (std::size_t k = process; k < alone; k += all->size()) {
+                std::vector<Image> seen(cameras.size());
+                for (Image& picture : seen) picture.pixels = message.get_array<float, 3>();
+                put_colour(order[k], seen, pictures);
+            }
         }
     }
     for (Image& picture : pictures) core::share_result(picture.pixels, core::sent_array<float, 3>());
