@@ -212,9 +212,8 @@ void AddLanes(const HogelBasis& basis, const float* numbers, std::span<const Lan
             for (std::size_t l = 0; l < functions; ++l) {
                 const float* from = turned + lane * apart + 2 * l * across + x;
                 const V re = hn::Load(d, from), im = hn::Load(d, from + across);
-                float *real = line.first + 2 * l * line.row + x, *imaginary = real + line.row;
-                hn::StoreU(hn::NegMulAdd(im, s, hn::MulAdd(re, c, hn::LoadU(d, real))), d, real);
-                hn::StoreU(hn::MulAdd(im, c, hn::MulAdd(re, s, hn::LoadU(d, imaginary))), d, imaginary);
+                float* real = line.first + 2 * l * line.row + x;
+                add_product(re, im, c, s, real, real + line.row);
             }
         }
     }
@@ -230,9 +229,8 @@ void AddLooks(const HogelBasis& basis, const float* numbers, const float* carrie
                 // i for odd functions down.
                 const V re = l % 2 == 0 ? first : hn::Neg(second), im = l % 2 == 0 ? second : first;
                 const V c = hn::Set(D(), carrier[x]), s = hn::Set(D(), carrier[padded(nodes) + x]);
-                float *real = to + x * lanes, *imaginary = real + line.row;
-                hn::Store(hn::NegMulAdd(im, s, hn::MulAdd(re, c, hn::Load(D(), real))), D(), real);
-                hn::Store(hn::MulAdd(im, c, hn::MulAdd(re, s, hn::Load(D(), imaginary))), D(), imaginary);
+                float* real = to + x * lanes;
+                add_product(re, im, c, s, real, real + line.row);
             };
             spread_pairs(basis, numbers + l * functions * both + i, lanes,
                          [=](std::size_t x, V even_re, V even_im, V odd_re, V odd_im) HWY_ATTR {

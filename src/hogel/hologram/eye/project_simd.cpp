@@ -10,6 +10,7 @@
 
 #include "hogel/core/with_count.h"
 #include "hogel/hologram/eye/project.h"
+#include "hogel/hologram/eye/spread_pairs-inl.h"
 #include "hogel/math/transpose-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -208,9 +209,8 @@ void Project(const HogelBases& bases, const HogelView& view, const float* waves,
         const V c = hn::Load(d, view.columns.carrier + x), s = hn::Load(d, view.columns.carrier + across + x);
         for (std::size_t l = 0; l < functions_down; ++l) {
             const V re = hn::Load(d, rows_x + 2 * l * across + x), im = hn::Load(d, rows_x + (2 * l + 1) * across + x);
-            float *real = line.first + 2 * l * line.row + x, *imaginary = real + line.row;
-            hn::StoreU(hn::NegMulAdd(im, s, hn::MulAdd(re, c, hn::LoadU(d, real))), d, real);
-            hn::StoreU(hn::MulAdd(im, c, hn::MulAdd(re, s, hn::LoadU(d, imaginary))), d, imaginary);
+            float* real = line.first + 2 * l * line.row + x;
+            add_product(re, im, c, s, real, real + line.row);
         }
     }
 }

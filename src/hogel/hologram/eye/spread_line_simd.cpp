@@ -40,9 +40,8 @@ void SpreadLine(const HogelBasis& down, const float* carrier, const float* line,
     for (std::size_t x = 0; x < columns; x += hn::Lanes(d)) {
         const auto add = [&](std::size_t y, V re, V im) HWY_ATTR {
             const V c = hn::Set(d, carrier[y]), s = hn::Set(d, carrier[padded(nodes) + y]);
-            float *real = light + 2 * y * row + x, *imaginary = real + row;
-            hn::Store(hn::NegMulAdd(im, s, hn::MulAdd(re, c, hn::Load(d, real))), d, real);
-            hn::Store(hn::MulAdd(im, c, hn::MulAdd(re, s, hn::Load(d, imaginary))), d, imaginary);
+            float* real = light + 2 * y * row + x;
+            add_product(re, im, c, s, real, real + row);
         };
         spread_pairs(down, line + x, row, [&](std::size_t y, V even_re, V even_im, V odd_re, V odd_im) HWY_ATTR {
             add(y, hn::Add(even_re, odd_re), hn::Add(even_im, odd_im));

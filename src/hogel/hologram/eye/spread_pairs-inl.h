@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums over the functions of a basis at its nodes, for files that are compiled once for every SIMD target. To be
-// included after hwy/highway.h.
+// Sums over the functions of a basis at its nodes, times a carrier, for files that are compiled once for every SIMD
+// target. To be included after hwy/highway.h.
 #if defined(HOGEL_HOLOGRAM_EYE_SPREAD_PAIRS) == defined(HWY_TARGET_TOGGLE)
 #ifdef HOGEL_HOLOGRAM_EYE_SPREAD_PAIRS
 #undef HOGEL_HOLOGRAM_EYE_SPREAD_PAIRS
@@ -21,6 +21,14 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET != HWY_SCALAR
+// Adds (re + i im) (c + is) to the parts of some numbers.
+template <class V>
+HWY_INLINE void add_product(V re, V im, V c, V s, float* real, float* imaginary) {
+    const hn::DFromV<V> d;
+    hn::StoreU(hn::NegMulAdd(im, s, hn::MulAdd(re, c, hn::LoadU(d, real))), d, real);
+    hn::StoreU(hn::MulAdd(im, c, hn::MulAdd(re, s, hn::LoadU(d, imaginary))), d, imaginary);
+}
+
 // Pairs of nodes whose sums are held in registers: more with 32 registers.
 constexpr std::size_t pairs_together = HWY_ARCH_X86 && HWY_TARGET > HWY_AVX3 ? 2 : 4;
 
