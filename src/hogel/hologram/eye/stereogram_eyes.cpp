@@ -17,7 +17,7 @@ using Complex = std::complex<float>;
 // From a part to the next one along an axis whose light does not meet its own: nodes reach at most eight beyond either
 // end of a hogel, or of its window, which has at least one to a hogel.
 constexpr std::size_t parts_apart(std::size_t side, std::size_t overlap) {
-    return (side + overlap - 1 + 2 * 8 + side - 1) / side;
+    return (side + overlap - 1 + std::size_t{2} * 8 + side - 1) / side;
 }
 
 core::Sent<EyeBands> sent_bands() {
