@@ -116,7 +116,7 @@ std::vector<Image> photograph_colours(const Fields& holograms, std::span<const C
     std::ranges::stable_sort(order, {}, [&](std::size_t c) { return holograms[c]->grid().wavelength; });
     const std::size_t alone = together ? 0 : colours_alone(holograms, with);
     Team* const all = core::team_of_several();
-    core::MessageWriter own;  // the pictures of colours that this process photographs by itself
+    core::MessageWriter own;  // pictures of colours that a process photographs by itself, for the first one
     for (std::size_t k = 0; k < colours; ++k) {
         const std::size_t c = order[k];
         if (k < alone && k % all->size() != all->rank()) continue;
@@ -128,19 +128,19 @@ std::vector<Image> photograph_colours(const Fields& holograms, std::span<const C
             : full != nullptr ? photograph_by_plane_waves(*holograms[c], cameras, *full, part)
                               : photograph(*holograms[c], cameras, std::get<PhotographOptions>(with), part);
         put_colour(c, seen, pictures);
-        for (std::size_t i = 0; k < alone && i < cameras.size(); ++i) own.put(seen[i].pixels);
+        for (std::size_t i = 0; k < alone && i < cameras.size() && !all->is_first(); ++i) own.put(seen[i].pixels);
     }
-    if (alone > 0) {
-        const std::vector<std::string> of_all = core::all_of(*all, own.take());
-        for (std::size_t process = 0; process < all->size(); ++process) {
-            core::MessageReader message(of_all[process]);
+    if (alone > 0 && !all->is_first()) all->send_to(0, own.take());
+    if (alone > 0 && all->is_first())
+        for (std::size_t process = 1; process < all->size(); ++process) {
+            const std::string bytes = all->receive_from(process);
+            core::MessageReader message(bytes);
             for (std::size_t k = process; k < alone; k += all->size()) {
                 std::vector<Image> seen(cameras.size());
                 for (Image& picture : seen) picture.pixels = message.get_array<float, 3>();
                 put_colour(order[k], seen, pictures);
             }
         }
-    }
     for (Image& picture : pictures) core::share_result(picture.pixels, core::sent_array<float, 3>());
     return pictures;
 }

@@ -115,7 +115,7 @@ void ColourEyes::draw_tiles(const HogelRange& some, std::size_t first, const Loo
         if (in_lanes_)
             draw_in_lanes(some, row, rows, looks, scratch);
         else
-            draw_one_by_one(some, row, looks, scratch);
+            draw_one_by_one(some, row, rows, looks, scratch);
         for (std::size_t e = 0; e < eyes_.size(); ++e)
             scratch.band_lines[e].spread(eyes_[e].bases().down, first, scratch.light[e]);
     }
@@ -153,13 +153,13 @@ LinePlace ColourEyes::place(std::size_t e, const HogelRange& some, const Item& i
     return scratch.band_lines[e].place(item.hogel / some.ns, item.hogel % some.ns, item.look);
 }
 
-void ColourEyes::draw_one_by_one(const HogelRange& some, std::size_t row, const Looks& looks, Scratch& scratch) const {
+void ColourEyes::draw_one_by_one(const HogelRange& some, std::size_t first_row, std::size_t row_count,
+                                 const Looks& looks, Scratch& scratch) const {
     Array<float, 1>& waves = scratch.waves;
     const std::size_t size = HogelWaves::size(hogels_.rows, hogels_.columns);
     if (waves.size() != size) waves = Array<float, 1>({size});
-    const std::size_t end = looks.count == 1 ? some.hogels() : (row + 1) * some.ns;
     for (std::size_t look = 0; look < looks.count; ++look)
-        for (std::size_t h = row * some.ns; h < end; ++h) {
+        for (std::size_t h = first_row * some.ns; h < (first_row + row_count) * some.ns; ++h) {
             const NearRows rows = eyes_.size() == 1 ? scratch.views[0][h].near : NearRows{};
             hogels_.waves->waves({scratch.moduli[h], hogels_.waves->prepared_size()},
                                  {some.s0 + h % some.ns, some.t0 + h / some.ns, looks.first + look}, rows,

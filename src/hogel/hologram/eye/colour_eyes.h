@@ -100,7 +100,8 @@ class ColourEyes {
     void prepare(const HogelRange& some, Scratch& scratch) const;
     void choose_lines(const HogelRange& some, std::size_t first, std::size_t rows, Scratch& scratch) const;
     LinePlace place(std::size_t e, const HogelRange& some, const Item& item, Scratch& scratch) const;
-    void draw_one_by_one(const HogelRange& some, std::size_t row, const Looks& looks, Scratch& scratch) const;
+    void draw_one_by_one(const HogelRange& some, std::size_t row, std::size_t rows, const Looks& looks,
+                         Scratch& scratch) const;
     static void set_groups(std::span<const Item> items, const std::vector<HogelView>& views, std::size_t waves,
                            std::vector<Group>& groups);
     void draw_in_lanes(const HogelRange& some, std::size_t row, std::size_t rows, const Looks& looks,
