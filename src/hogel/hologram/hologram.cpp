@@ -14,11 +14,13 @@
 #include "hogel/hologram/eye/stereogram_eyes.h"
 #include "hogel/hologram/hogel_synthesis.h"
 #include "hogel/hologram/windows/overlap_add.h"
+#include "hogel/lightfield/channel_source.h"
 #include "hogel/resources.h"
 
 namespace hogel {
 
 using namespace hologram;
+using lightfield::ChannelSource;
 
 namespace {
 
@@ -194,7 +196,7 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
             if (!shared) return prepare(*waves, range, scratch->rays, prepared);
             const auto tiles = shared->get({range.s0, range.t0, range.ns, range.nt}, [&] {
                 auto made = std::make_shared<std::vector<LightFieldTile>>();
-                read_rays(range, *made);
+                read_rays(range, *made, true);
                 return std::shared_ptr<const std::vector<LightFieldTile>>(std::move(made));
             });
             prepare(*waves, *tiles, 0, prepared);
@@ -237,15 +239,29 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
             use(HogelRange{hogels.s0, hogels.t0 + t, hogels.ns, std::min(rows, hogels.nt - t)});
     }
 
-    void read_rays(const HogelRange& hogels, std::vector<LightFieldTile>& tiles) const {
+    // Rays of all channels, or of this one alone where a source has them by themselves.
+    void read_rays(const HogelRange& hogels, std::vector<LightFieldTile>& tiles, bool all_channels = false) const {
         tiles.resize(faces().size());
         for (std::size_t i = 0; i < tiles.size(); ++i) {
             LightFieldTile& tile = tiles[i];
-            if (tile.range.ns != hogels.ns || tile.range.nt != hogels.nt)
-                tile = LightFieldTile(faces()[i]->grid(), hogels, with_depth_);
+            const auto* channels =
+                all_channels || with_depth_ ? nullptr : dynamic_cast<const ChannelSource*>(faces()[i].get());
+            if (tile.range.ns != hogels.ns || tile.range.nt != hogels.nt) {
+                LightFieldGrid grid = faces()[i]->grid();
+                if (channels != nullptr) grid.channels = 1;
+                tile = LightFieldTile(grid, hogels, with_depth_);
+            }
             tile.range = hogels;
-            faces()[i]->read(tile);
+            if (channels != nullptr)
+                channels->read_channel(channel_, hogels, tile.radiance.view()[0]);
+            else
+                faces()[i]->read(tile);
         }
+    }
+
+    // The rays of this hologram's channel.
+    View<const float, 4> own_rays(const LightFieldTile& tile) const {
+        return tile.radiance.view()[tile.radiance.extent(0) == 1 ? 0 : channel_];
     }
 
     // Prepares hogels number first, first + 1, … of the tiles, which hold them row by row.
@@ -257,7 +273,7 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
             float* to = together.data();
             for (std::size_t hogel = first; hogel < first + rays[0]; ++hogel)
                 for (const LightFieldTile& face : tiles) {
-                    const auto all = face.radiance.view()[channel_];
+                    const View<const float, 4> all = own_rays(face);
                     const std::size_t directions = all.extent(2) * all.extent(3);
                     to = std::copy_n(all.data() + hogel * directions, directions, to);
                 }
@@ -265,7 +281,7 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
         }
         const LightFieldTile& tile = tiles.front();
         const View<const float, 2> depths(tile.depth.data() + first * rays_, rays);
-        step.prepare({tile.radiance.view()[channel_].data() + first * rays_, rays},
+        step.prepare({own_rays(tile).data() + first * rays_, rays},
                      tile.depth.size() > 0 ? depths : View<const float, 2>(), prepared);
     }
 

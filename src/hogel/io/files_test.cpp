@@ -8,6 +8,7 @@
 
 #include "hogel/core/parallel.h"
 #include "hogel/io/test_files.h"
+#include "hogel/lightfield/channel_source.h"
 
 // Suppressions for leak checkers: HDF5 1.10 leaks data when a checksum is wrong.
 extern "C" const char* __lsan_default_suppressions();
@@ -70,6 +71,12 @@ TEST_F(Files, every_range_of_a_light_field_file_is_read_alone) {
                         source.front().read(b);
                         ASSERT_TRUE(same_bits(a.radiance, b.radiance));
                         ASSERT_TRUE(same_bits(a.depth, b.depth));
+                        for (std::size_t channel = 0; channel < g.channels; ++channel) {
+                            Array<float, 4> one({nt, ns, g.directions_v, g.directions_u});
+                            dynamic_cast<const lightfield::ChannelSource&>(source.front())
+                                .read_channel(channel, a.range, one);
+                            ASSERT_TRUE(std::ranges::equal(one.elements(), a.radiance.view()[channel].elements()));
+                        }
                     }
         LightFieldTile outside(g, {0, 0, 1, 1}, false);
         outside.range.s0 = g.hogels_s;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "hogel/io/test_files.h"
+#include "hogel/lightfield/channel_source.h"
 
 namespace hogel::io {
 namespace {
@@ -208,6 +209,45 @@ TEST_F(H5py, writes_light_fields_that_are_read) {
         EXPECT_EQ(std::ranges::count(summarize(directory_ / "l.h5").text,
                                      std::pair<std::string, std::string>{"author", "somebody"}),
                   1);
+    }
+}
+
+// Also where one channel is read by itself, if it is the one.
+TEST_F(H5py, writes_radiances_that_are_no_numbers_which_are_refused) {
+    for (const char* storage : {"dtype='f2'", "dtype='f4'", "dtype='f4', chunks=True"}) {
+        run(std::string("import sys, h5py, numpy as np\n"
+                        "f = h5py.File(sys.argv[1], 'w', libver='v108')\n"
+                        "f.attrs['format'] = 'hogel light field'; f.attrs['format_version'] = 1\n"
+                        "x = np.ones((3, 4, 5, 2, 3))\n"
+                        "x[1, 3, 2, 0, 1] = np.nan\n"
+                        "r = f.create_dataset('radiance', data=x, ") +
+                storage +
+                ")\n"
+                "r.attrs.update(axis_order='c,t,s,v,u', channels=3, hogels_s=5, hogels_t=4, hogel_pitch_m=0.001,\n"
+                "               directions_u=3, directions_v=2, tan_half_u=0.3, tan_half_v=0.2)\n",
+            directory_ / "n.h5");
+        const LightField source = open_light_field(directory_ / "n.h5");
+        const auto refusal = [](const auto& read) -> std::string {
+            try {
+                read();
+            } catch (const Error& error) {
+                return error.what();
+            }
+            return "";
+        };
+        const std::string expected = "the radiance of its hogel (2, 3) in direction (1, 0), channel 1, is nan";
+        LightFieldTile tile(small_grid(), {1, 2, 3, 2}, false);
+        EXPECT_NE(refusal([&] { source.front().read(tile); }).find(expected), std::string::npos) << storage;
+        Array<float, 4> one({2, 3, 2, 3});
+        const auto& channels = dynamic_cast<const lightfield::ChannelSource&>(source.front());
+        for (std::size_t channel : {0, 1, 2}) {
+            const std::string said = refusal([&] { channels.read_channel(channel, tile.range, one); });
+            if (channel == 1) {
+                EXPECT_NE(said.find(expected), std::string::npos) << said;
+            } else {
+                EXPECT_EQ(said, "") << storage;
+            }
+        }
     }
 }
 

@@ -13,9 +13,20 @@ class SampledEyes final : public EyeDrawing {
         for (const Eye& eye : eyes) bands_.emplace_back(field.grid(), eye.position, eye.pupil);
     }
     const narrow_band::BandGrid& band(std::size_t eye) const override { return bands_[eye]; }
-    std::vector<std::vector<Array<std::complex<float>, 2>>> draw(std::size_t first_look, std::size_t looks,
-                                                                 const Progress& progress) const override {
-        return narrow_band::draw_narrow_bands(field_, bands_, first_look, looks, progress);
+    // Their numbers are summed before they are packed.
+    double look_bytes(std::size_t eye) const override {
+        return static_cast<double>(sizeof(std::complex<float>) * bands_[eye].plane.samples());
+    }
+    PackedBands draw(std::size_t first_look, std::size_t looks, const Progress& progress) const override {
+        PackedBands packed;
+        for (auto& eye : narrow_band::draw_narrow_bands(field_, bands_, first_look, looks, progress)) {
+            packed.emplace_back();
+            for (Array<std::complex<float>, 2>& band : eye) {
+                packed.back().emplace_back(band);
+                band = {};
+            }
+        }
+        return packed;
     }
 
   private:

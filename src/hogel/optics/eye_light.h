@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <complex>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -10,6 +9,7 @@
 #include "hogel/array.h"
 #include "hogel/field.h"
 #include "hogel/optics/narrow_band/band_grid.h"
+#include "hogel/optics/packed_band.h"
 
 namespace hogel::optics {
 
@@ -21,16 +21,20 @@ struct Eye {
     bool preview = false;
 };
 
+/// The narrow bands of eyes: [eye][look].
+using PackedBands = std::vector<std::vector<PackedBand>>;
+
 /// Draws the light of a part of a hologram towards several eyes.
 class EyeDrawing {
   public:
     virtual ~EyeDrawing() = default;
     /// The sampling of the narrow band of an eye.
     virtual const narrow_band::BandGrid& band(std::size_t eye) const = 0;
-    /// The narrow bands of looks [first_look, first_look + looks): [eye][look][row][column], as from
-    /// draw_narrow_bands(). They do not depend on the number of threads; in a team the first process has them.
-    virtual std::vector<std::vector<Array<std::complex<float>, 2>>> draw(std::size_t first_look, std::size_t looks,
-                                                                         const Progress& progress) const = 0;
+    /// The memory that a look to an eye takes while it is drawn.
+    virtual double look_bytes(std::size_t eye) const { return PackedBand::bytes(band(eye).plane); }
+    /// The narrow bands of looks [first_look, first_look + looks), as from draw_narrow_bands(). They do not depend on
+    /// the number of threads; in a team the first process has them.
+    virtual PackedBands draw(std::size_t first_look, std::size_t looks, const Progress& progress) const = 0;
 };
 
 /// The powers |wave|² of the waves of hogels side by side.

@@ -58,13 +58,12 @@ const WavePowers& powers_of(const FieldSource& hologram) {
     return *waves;
 }
 
-// The samples of the bands that are drawn, of those of narrow bands, for which memory is planned.
+// The memory of the bands that are drawn, of that of narrow bands, which is planned.
 double share_of_bands(const FieldSource& window, const EyeDrawing& drawing, std::span<const Eye> eyes) {
     double drawn = 0, planned = 0;
     for (std::size_t e = 0; e < eyes.size(); ++e) {
-        drawn += static_cast<double>(drawing.band(e).plane.samples());
-        planned += static_cast<double>(
-            narrow_band::NarrowBand(window.grid(), eyes[e].position, eyes[e].pupil).plane.samples());
+        drawn += drawing.look_bytes(e);
+        planned += narrow_band_bytes(window.grid(), eyes[e].position, eyes[e].pupil);
     }
     return drawn / planned;
 }
@@ -120,7 +119,7 @@ void photograph_window(const FieldSource& whole, const PhotographPlan::Window& p
         for (std::size_t e = 0; e < eyes.size(); ++e) {
             // Waves of a pupil take less memory than the bands from which they come.
             std::vector<film::PupilWave> waves;
-            for (Array<std::complex<float>, 2>& band : drawn[e]) {
+            for (PackedBand& band : drawn[e]) {
                 waves.push_back(films[e].pupil_wave(band));
                 band = {};
             }

@@ -128,6 +128,11 @@ PhotographPlan find_plan(const FieldGrid& hologram, std::span<const Camera> came
 
 }  // namespace
 
+double narrow_band_bytes(const FieldGrid& hologram, const Vec3& eye, double pupil) {
+    return static_cast<double>(sizeof(std::complex<float>) *
+                               narrow_band::NarrowBand(hologram, eye, pupil).plane.samples());
+}
+
 std::vector<SharedEye> group_by_eye(std::span<const Camera> cameras, std::span<const std::size_t> members) {
     std::vector<SharedEye> eyes;
     for (std::size_t i : members) {

@@ -30,6 +30,9 @@ struct PhotographPlan {
     enum class Windows { one, many };
 };
 
+/// The memory of an eye's narrow band, of one look.
+double narrow_band_bytes(const FieldGrid& hologram, const Vec3& eye, double pupil);
+
 /// Throws Error(usage) for a pupil that resolves fewer than `cells` points side by side on the hologram. With less than
 /// one a photograph shows one blur, and the waves that enter the pupil are no narrow band.
 void require_resolution(const FieldGrid& hologram, const Camera& camera, double cells = 1);

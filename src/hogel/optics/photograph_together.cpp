@@ -51,7 +51,7 @@ std::optional<Light> light_of_colours(std::span<const std::shared_ptr<const Fiel
     if (!light.drawing) return {};
     double a_look = 0;
     for (std::size_t band = 0; band < colours.size() * light.eyes.size(); ++band)
-        a_look += static_cast<double>(light.drawing->band(band).plane.samples() * sizeof(std::complex<float>));
+        a_look += light.drawing->look_bytes(band);
     const std::size_t looks = colours.front()->looks();
     const double a_colour = a_look * static_cast<double>(looks) / static_cast<double>(colours.size());
     if (!colours_together(a_colour, plane) || plan.bytes + a_look > memory) return {};
@@ -106,7 +106,7 @@ std::optional<std::vector<std::vector<Image>>> photograph_together(
             for (std::size_t e = 0; e < eyes.size(); ++e) {
                 const film::Film film = film_of(c, e);
                 std::vector<film::PupilWave> waves;
-                for (Array<std::complex<float>, 2>& band : drawn[c * eyes.size() + e]) {
+                for (PackedBand& band : drawn[c * eyes.size() + e]) {
                     waves.push_back(film.pupil_wave(band));
                     band = {};
                 }

@@ -93,12 +93,13 @@ double seconds_of_expected(const FieldGrid& hologram, std::span<const Camera> ca
 }
 
 // Bytes of the camera, which computes as many looks together as there is memory for.
+// @param share  of the memory of narrow bands that bands take
 double camera_bytes_of(const FieldGrid& hologram, std::span<const Camera> cameras, const PhotographOptions& options,
-                       std::size_t looks) {
+                       std::size_t looks, double share = 1) {
     const auto memory = static_cast<double>(options.memory);
     const optics::PhotographPlan camera = optics::plan_photographs(hologram, cameras, memory);
-    const auto more = static_cast<double>(camera.looks_at_once(memory, looks, 1) - 1);
-    return camera.bytes + std::min(more * camera.bytes_a_look, memory);
+    const auto more = static_cast<double>(camera.looks_at_once(memory, looks, share) - 1);
+    return camera.bytes + std::min(more * share * camera.bytes_a_look, memory);
 }
 
 // Seconds of the films of one set of lines behind a vertical diffuser.
@@ -157,16 +158,22 @@ Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramReque
             camera_bytes = std::max(camera_bytes, work.bytes);
             continue;
         }
+        double share = 1;
         if (from_hogels) {
             const hologram::eye::HogelLayout layout = *layout_of(request.method, faces.front(), hologram);
             seconds += seconds_from_hogels(faces.front(), layout, cameras, request.looks);
-            look_bytes += band_samples(faces.front(), layout, cameras) * sizeof(std::complex<float>);
+            const double bytes = band_samples(faces.front(), layout, cameras) * sizeof(math::PackedComplex);
+            double narrow = 0;
+            for (const optics::SharedEye& eye : eyes_of(cameras))
+                narrow += optics::narrow_band_bytes(hologram, cameras[eye.members.front()].eye, eye.pupil);
+            share = bytes / narrow;
+            look_bytes += bytes;
             film_bytes = std::max(film_bytes, optics::plan_photographs(hologram, cameras, memory).bytes);
         } else {
             seconds += static_cast<double>(hologram.plane.samples()) * static_cast<double>(request.looks) *
                        (seconds_a_sample + eyes * seconds_a_sample_and_eye);
         }
-        camera_bytes = std::max(camera_bytes, camera_bytes_of(hologram, cameras, options, request.looks));
+        camera_bytes = std::max(camera_bytes, camera_bytes_of(hologram, cameras, options, request.looks, share));
     }
     const double band_bytes = static_cast<double>(request.looks) * look_bytes;
     if (from_hogels && request.channels.size() > 1 &&

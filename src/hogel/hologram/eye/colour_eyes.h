@@ -14,6 +14,7 @@
 #include "hogel/hologram/eye/lanes.h"
 #include "hogel/hologram/eye/project.h"
 #include "hogel/hologram/hogel_synthesis.h"
+#include "hogel/optics/packed_band.h"
 
 namespace hogel::hologram::eye {
 
@@ -32,6 +33,7 @@ struct Hogels : HogelLayout {
 /// prepared in rows of part_across times tile_side.
 inline constexpr std::size_t part_across = 32, part_down = 16;
 static_assert(part_across % tile_side == 0 && part_down % tile_side == 0);
+static_assert(part_across % optics::PackedBand::side == 0 && optics::PackedBand::side == lanes);
 
 /// Hogels of a range, from its first one on.
 struct HogelPart {
@@ -83,9 +85,9 @@ class ColourEyes {
     /// Draws the light of a part of the hogels, as far as it reaches in the band of each eye, into the scratch.
     void draw(const HogelPart& part, const Looks& looks, Scratch& scratch) const;
 
-    /// Adds the light of a part that was drawn to bands of these eyes.
-    void add(const Scratch& scratch, const HogelPart& part,
-             std::span<std::vector<Array<std::complex<float>, 2>>> bands) const;
+    /// Adds the light of a part that was drawn to bands of these eyes, whose numbers may be packed.
+    template <class Band>
+    void add(const Scratch& scratch, const HogelPart& part, std::span<std::vector<Band>> bands) const;
 
     /// What the light that was drawn reaches of each band.
     EyeBands light(const HogelPart& part, const Scratch& scratch) const;

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "hogel/hologram/eye/hogel_basis.h"
+#include "hogel/math/packed_complex.h"
 
 namespace hogel::hologram::eye {
 
@@ -40,11 +41,20 @@ struct LightRow {
     std::size_t phase_row;
 };
 
-/// Adds a row of light, demodulated, to a row of a band. Plain and fast twins agree to rounding.
-void add_demodulated_plain(const LightRow& row, std::size_t columns, std::complex<float>* band);
-void add_demodulated(const LightRow& row, std::size_t columns, std::complex<float>* band);
+/// Adds a row of light, demodulated, to a row of a band, whose numbers may be packed. Sixteen columns of the band lie
+/// side by side, and so many numbers farther the next sixteen. Plain and fast twins agree to rounding.
+void add_demodulated_plain(const LightRow& row, std::size_t columns, std::complex<float>* band, std::size_t block);
+void add_demodulated(const LightRow& row, std::size_t columns, std::complex<float>* band, std::size_t block);
+void add_demodulated_plain(const LightRow& row, std::size_t columns, math::PackedComplex* band, std::size_t block);
+void add_demodulated(const LightRow& row, std::size_t columns, math::PackedComplex* band, std::size_t block);
 /// The same for a row of each of some looks that lie side by side.
-void add_demodulated_looks_plain(const LightRow& row, std::size_t columns, std::span<std::complex<float>* const> bands);
-void add_demodulated_looks(const LightRow& row, std::size_t columns, std::span<std::complex<float>* const> bands);
+void add_demodulated_looks_plain(const LightRow& row, std::size_t columns, std::span<std::complex<float>* const> bands,
+                                 std::size_t block);
+void add_demodulated_looks(const LightRow& row, std::size_t columns, std::span<std::complex<float>* const> bands,
+                           std::size_t block);
+void add_demodulated_looks_plain(const LightRow& row, std::size_t columns, std::span<math::PackedComplex* const> bands,
+                                 std::size_t block);
+void add_demodulated_looks(const LightRow& row, std::size_t columns, std::span<math::PackedComplex* const> bands,
+                           std::size_t block);
 
 }  // namespace hogel::hologram::eye

@@ -42,15 +42,6 @@ core::Sent<EyeBands> sent_bands() {
             }};
 }
 
-// Adds samples to a band, from a column and a row of it on.
-void add_at(View<const Complex, 2> some, std::size_t x, std::size_t y, View<Complex, 2> band) {
-    for (std::size_t row = 0; row < some.extent(0); ++row) {
-        const auto* from = reinterpret_cast<const float*>(&some(row, 0));
-        auto* to = reinterpret_cast<float*>(&band(y + row, x));
-        for (std::size_t i = 0; i < 2 * some.extent(1); ++i) to[i] += from[i];
-    }
-}
-
 // Eyes that see several colours of the same hogels, part by part, so that these may share rays.
 class StereogramEyes final : public optics::EyeDrawing {
   public:
@@ -59,14 +50,13 @@ class StereogramEyes final : public optics::EyeDrawing {
 
     const optics::narrow_band::BandGrid& band(std::size_t eye) const override { return eye_band(eye).grid(); }
 
-    std::vector<std::vector<Array<Complex, 2>>> draw(std::size_t first_look, std::size_t looks,
-                                                     const Progress& progress) const override {
+    optics::PackedBands draw(std::size_t first_look, std::size_t looks, const Progress& progress) const override {
         const std::size_t each = colours_.front()->eyes().size(), eyes = colours_.size() * each;
         // The system clears their pages, half a gigabyte for many looks, on all threads.
-        EyeBands bands(eyes, std::vector<Array<Complex, 2>>(looks));
+        optics::PackedBands bands(eyes, std::vector<optics::PackedBand>(looks));
         core::parallel_for(eyes * looks, [&](std::size_t i) {
             const Grid& plane = band(i / looks).plane;
-            bands[i / looks][i % looks] = Array<Complex, 2>({plane.height, plane.width});
+            bands[i / looks][i % looks] = optics::PackedBand(plane.height, plane.width);
         });
         // Parts of the hogels, so that those of each set do not meet and threads may add them in any order.
         const std::vector<std::vector<HogelPart>> sets = parts();
@@ -94,8 +84,8 @@ class StereogramEyes final : public optics::EyeDrawing {
                     for (std::size_t eye = 0; eye < eyes; ++eye) {
                         const std::size_t per_hogel = eye_band(eye).per_hogel();
                         for (std::size_t look = 0; look < looks; ++look)
-                            add_at(all[eye][look], all_parts[i].s * per_hogel, all_parts[i].t * per_hogel,
-                                   bands[eye][look]);
+                            bands[eye][look].add(all[eye][look], all_parts[i].t * per_hogel,
+                                                 all_parts[i].s * per_hogel);
                     }
                     report(i + 1);
                 });

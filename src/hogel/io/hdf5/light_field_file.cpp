@@ -11,6 +11,7 @@
 #include "hogel/io/hdf5/grids.h"
 #include "hogel/io/hdf5/rehearsal.h"
 #include "hogel/io/part_sinks.h"
+#include "hogel/lightfield/channel_source.h"
 
 namespace hogel::io::hdf5 {
 namespace {
@@ -28,7 +29,7 @@ std::string dataset_name(Face face, const char* dataset) {
     return face == Face::front ? dataset : fmt::format("{}/{}", face_name(face), dataset);
 }
 
-class LightFieldReader final : public LightFieldSource {
+class LightFieldReader final : public LightFieldSource, public lightfield::ChannelSource {
   public:
     LightFieldReader(hid_t file, const LightFieldGrid& grid, const std::filesystem::path& path,
                      const std::shared_ptr<const core::RawFile>& raw)
@@ -47,6 +48,14 @@ class LightFieldReader final : public LightFieldSource {
         validate(tile, grid_);
         if (!radiance_->read(radiance_box(grid_, tile.range), tile.radiance.data())) throw_not_finite(tile, path_);
         if (depth_ && tile.depth.size() > 0) depth_->read(depth_box(grid_, tile.range), tile.depth.data());
+    }
+    void read_channel(std::size_t channel, const HogelRange& hogels, View<float, 4> out) const override {
+        Box box = radiance_box(grid_, hogels);
+        box.start[0] = channel;
+        box.extent[0] = 1;
+        if (radiance_->read(box, out.data())) return;
+        LightFieldTile tile(grid_, hogels, false);  // says where
+        read(tile);
     }
 
   private:

@@ -30,7 +30,7 @@ constexpr std::size_t padded(std::size_t lines) { return blocks_of(lines) * line
 
 // Floats of sixteen complex numbers side by side, and of a block of sixteen rows of so many.
 constexpr std::size_t both = math::SplitFft::row;
-static_assert(both == 2 * lines_together);
+static_assert(both == 2 * lines_together && lines_together == PackedBand::side);
 
 FilmAxis film_axis(double first, double period, const SineGrid::Range& seen, std::size_t frequencies, double samples) {
     FilmAxis axis;
@@ -124,11 +124,11 @@ Film::Film(const narrow_band::BandGrid& band, const FieldGrid& hologram, double 
     for (std::size_t j = 0; j < size_.y.count; ++j) film_y_.push_back(film_down_.place(size_.y.first + j));
 }
 
-PupilWave Film::pupil_wave(View<const Complex, 2> band) const {
+PupilWave Film::pupil_wave(const PackedBand& band) const {
     // Two passes, each along one axis: first to uniform n_x on the band's rows, then down the columns, on which n_x is
     // constant, to uniform n_y. The intermediate result is transposed, so that both passes run along memory.
     auto scratch = scratch_->take();
-    std::vector<char> is_lit(band.extent(0));
+    std::vector<char> is_lit(band.height());
     resample_rows(band, is_lit, *scratch);
     transform_columns(is_lit, *scratch);
     const std::size_t lit = size_.lit_right - size_.lit_left, width = across(size_.reach_x);
@@ -146,7 +146,7 @@ PupilWave Film::pupil_wave(View<const Complex, 2> band) const {
     return wave;
 }
 
-void Film::resample_rows(View<const Complex, 2> band, std::vector<char>& is_lit, Scratch& scratch) const {
+void Film::resample_rows(const PackedBand& band, std::vector<char>& is_lit, Scratch& scratch) const {
     const Grid& plane = band_.plane;
     const SineGrid& sines = size_.sines;
     const std::size_t lit_columns = size_.lit_right - size_.lit_left, row_blocks = blocks_of(plane.height);
@@ -158,7 +158,7 @@ void Film::resample_rows(View<const Complex, 2> band, std::vector<char>& is_lit,
         // Most rows are dark where the lines of a hologram are photographed apart.
         bool all_dark = true;
         for (std::size_t r = first; r < first + count; ++r) {
-            is_lit[r] = !std::ranges::all_of(band[r].elements(), [](Complex value) { return value == Complex(0); });
+            is_lit[r] = band.is_lit(r);
             all_dark = all_dark && !is_lit[r];
         }
         if (all_dark) {
@@ -167,8 +167,8 @@ void Film::resample_rows(View<const Complex, 2> band, std::vector<char>& is_lit,
             return;
         }
         thread_local Array<float, 1> lines;
-        if (lines.size() < plane.width * both) lines = Array<float, 1>({plane.width * both});
-        side_by_side(reinterpret_cast<const float*>(&band(first, 0)), plane.width, plane.width, count, lines.data());
+        if (lines.size() < padded(plane.width) * both) lines = Array<float, 1>({padded(plane.width) * both});
+        side_by_side(band.at(first, 0), blocks_of(plane.width), lines.data());
         // On a row the point of sine n_x lies at x = c_x + n_x/√(1 − n_x²) · √((y − c_y)² + c_z²).
         TangentPlaces places{0, sines.step, plane.column(eye.x), {}, {}};
         places.squares.fill(1);

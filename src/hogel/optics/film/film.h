@@ -14,6 +14,7 @@
 #include "hogel/math/split_fft.h"
 #include "hogel/optics/lines.h"
 #include "hogel/optics/narrow_band/band_grid.h"
+#include "hogel/optics/packed_band.h"
 #include "hogel/optics/sine_grid.h"
 
 namespace hogel::optics::film {
@@ -75,7 +76,7 @@ class Film {
 
     /// The wave over the pupil, at frequencies −reach … reach of a transform of the sines: blocks of sixteen rows,
     /// [row / 16][column][part][row mod 16], zero beyond the last row.
-    PupilWave pupil_wave(View<const std::complex<float>, 2> band) const;
+    PupilWave pupil_wave(const PackedBand& band) const;
 
     /// Adds the intensities of several looks, each given by its pupil wave, on a camera's film, of the shape of
     /// unexposed(). The lens is computed once for all of them.
@@ -108,7 +109,7 @@ class Film {
         std::vector<float> share_y;
     };
 
-    void resample_rows(View<const std::complex<float>, 2> band, std::vector<char>& is_lit, Scratch& scratch) const;
+    void resample_rows(const PackedBand& band, std::vector<char>& is_lit, Scratch& scratch) const;
     void transform_columns(const std::vector<char>& is_lit, Scratch& scratch) const;
     void expose_node(const PupilWave& pupil_wave, const Node& node, View<float, 2> intensity) const;
 

@@ -37,11 +37,14 @@ void add_intensities_plain(const float* rows, std::span<const std::uint32_t> pla
         }
 }
 
-void side_by_side_plain(const float* lines, std::size_t stride, std::size_t length, std::size_t count, float* to) {
-    for (std::size_t i = 0; i < length; ++i)
-        for (std::size_t lane = 0; lane < together; ++lane)
-            for (std::size_t part : {0, 1})
-                to[i * row + part * together + lane] = lane < count ? lines[2 * (lane * stride + i) + part] : 0;
+void side_by_side_plain(const math::PackedComplex* squares, std::size_t count, float* to) {
+    for (std::size_t square = 0; square < count; ++square, squares += together * together)
+        for (std::size_t i = 0; i < together; ++i, to += row)
+            for (std::size_t lane = 0; lane < together; ++lane) {
+                const std::complex<float> value = math::unpacked(squares[lane * together + i]);
+                to[lane] = value.real();
+                to[together + lane] = value.imag();
+            }
 }
 
 void turn_sixteen_plain(const float* rows, std::size_t from_row, std::size_t to_row, float* to) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "hogel/math/packed_complex.h"
 #include "hogel/math/split_fft.h"
 
 namespace hogel::optics::film {
@@ -31,9 +32,9 @@ void add_intensities_plain(const float* rows, std::span<const std::uint32_t> pla
 void add_intensities(const float* rows, std::span<const std::uint32_t> places, const float* across,
                      std::span<const float> down, float* out);
 
-/// Sixteen lines of complex numbers that begin `stride` numbers apart, side by side.
-void side_by_side_plain(const float* lines, std::size_t stride, std::size_t length, std::size_t count, float* to);
-void side_by_side(const float* lines, std::size_t stride, std::size_t length, std::size_t count, float* to);
+/// Sixteen rows of packed numbers, in squares (PackedBand), side by side.
+void side_by_side_plain(const math::PackedComplex* squares, std::size_t count, float* to);
+void side_by_side(const math::PackedComplex* squares, std::size_t count, float* to);
 
 /// The transpose of sixteen rows: to[i][row] = rows[row][i], with so many floats from row to row.
 void turn_sixteen_plain(const float* rows, std::size_t from_row, std::size_t to_row, float* to);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "hogel/math/packed_complex-inl.h"
 #include "hogel/math/transpose-inl.h"
 #include "hogel/optics/film/lanes.h"
 
@@ -16,6 +17,9 @@ namespace hogel::optics::film {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using math::HWY_NAMESPACE::transpose_sixteen;
+#if HWY_TARGET != HWY_SCALAR
+using math::HWY_NAMESPACE::unpack;
+#endif
 
 constexpr std::size_t together = math::SplitFft::together, row = math::SplitFft::row;
 using D = hn::CappedTag<float, together>;
@@ -59,14 +63,30 @@ void AddIntensities(const float* rows, std::span<const std::uint32_t> places, co
     }
 }
 
-void SideBySide(const float* lines, std::size_t stride, std::size_t length, std::size_t count, float* to) {
-    // Eight numbers, sixteen floats, of each line at a time.
-    std::size_t i = 0;
-    for (; i + 8 <= length; i += 8)
-        transpose_sixteen([&](std::size_t lane) { return lane < count ? lines + 2 * (lane * stride + i) : dark; },
-                          together, [&](std::size_t j) { return to + i * row + j * together; });
-    if (i < length) side_by_side_plain(lines + 2 * i, stride, length - i, count, to + i * row);
+#if HWY_TARGET == HWY_SCALAR
+void SideBySide(const math::PackedComplex* squares, std::size_t count, float* to) {
+    side_by_side_plain(squares, count, to);
 }
+#else
+// Packed numbers are turned, as if they were floats, and then unpacked.
+void SideBySide(const math::PackedComplex* squares, std::size_t count, float* to) {
+    const D d;
+    const hn::RebindToUnsigned<D> words;
+    const auto* bits = reinterpret_cast<const float*>(squares);
+    for (std::size_t square = 0; square < count; ++square, bits += together * together) {
+        HWY_ALIGN float turned[together * together];
+        transpose_sixteen([&](std::size_t lane) { return bits + lane * together; }, together,
+                          [&](std::size_t i) { return turned + i * together; });
+        for (std::size_t i = 0; i < together; ++i, to += row)
+            for (std::size_t lane = 0; lane < together; lane += hn::Lanes(d)) {
+                hn::Vec<D> re, im;
+                unpack(d, hn::BitCast(words, hn::Load(d, turned + i * together + lane)), re, im);
+                hn::Store(re, d, to + lane);
+                hn::Store(im, d, to + together + lane);
+            }
+    }
+}
+#endif
 
 void TurnSixteen(const float* rows, std::size_t from_row, std::size_t to_row, float* to) {
     transpose_sixteen([&](std::size_t line) { return rows + line * from_row; }, together,
@@ -97,8 +117,8 @@ void add_intensities(const float* rows, std::span<const std::uint32_t> places, c
                      std::span<const float> down, float* out) {
     HWY_DYNAMIC_DISPATCH(AddIntensities)(rows, places, across, down, out);
 }
-void side_by_side(const float* lines, std::size_t stride, std::size_t length, std::size_t count, float* to) {
-    HWY_DYNAMIC_DISPATCH(SideBySide)(lines, stride, length, count, to);
+void side_by_side(const math::PackedComplex* squares, std::size_t count, float* to) {
+    HWY_DYNAMIC_DISPATCH(SideBySide)(squares, count, to);
 }
 void turn_sixteen(const float* rows, std::size_t from_row, std::size_t to_row, float* to) {
     HWY_DYNAMIC_DISPATCH(TurnSixteen)(rows, from_row, to_row, to);

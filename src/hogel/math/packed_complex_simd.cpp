@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compiled for every SIMD target and chosen when first called.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "hogel/math/packed_complex_simd.cpp"
+#include <hwy/foreach_target.h>
+// Must be included after foreach_target.h:
+#include <hwy/highway.h>
+
+#include "hogel/math/packed_complex-inl.h"
+#include "hogel/math/packed_complex.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace hogel::math {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using Complex = std::complex<float>;
+
+void Pack(const Complex* from, PackedComplex* to, std::size_t n) {
+    std::size_t i = 0;
+#if HWY_TARGET != HWY_SCALAR
+    const hn::ScalableTag<float> d;
+    for (; i + hn::Lanes(d) <= n; i += hn::Lanes(d)) {
+        hn::Vec<decltype(d)> re, im;
+        hn::LoadInterleaved2(d, reinterpret_cast<const float*>(from + i), re, im);
+        hn::StoreU(pack(d, re, im), hn::RebindToUnsigned<decltype(d)>(), &to[i].bits);
+    }
+#endif
+    for (; i < n; ++i) to[i] = math::pack(from[i]);
+}
+
+void AddToPacked(const Complex* from, PackedComplex* to, std::size_t n) {
+    std::size_t i = 0;
+#if HWY_TARGET != HWY_SCALAR
+    const hn::ScalableTag<float> d;
+    for (; i + hn::Lanes(d) <= n; i += hn::Lanes(d)) {
+        hn::Vec<decltype(d)> re, im;
+        hn::LoadInterleaved2(d, reinterpret_cast<const float*>(from + i), re, im);
+        add_to_packed(d, re, im, to + i);
+    }
+#endif
+    for (; i < n; ++i) to[i] = math::pack(unpacked(to[i]) + from[i]);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hogel::math
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hogel::math {
+
+HWY_EXPORT(Pack);
+HWY_EXPORT(AddToPacked);
+
+void pack(const std::complex<float>* from, PackedComplex* to, std::size_t n) {
+    HWY_DYNAMIC_DISPATCH(Pack)(from, to, n);
+}
+void add_to_packed(const std::complex<float>* from, PackedComplex* to, std::size_t n) {
+    HWY_DYNAMIC_DISPATCH(AddToPacked)(from, to, n);
+}
+
+}  // namespace hogel::math
+#endif

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <complex>
+#include <cstddef>
+
+#include "hogel/array.h"
+#include "hogel/field.h"
+#include "hogel/math/packed_complex.h"
+
+namespace hogel::optics {
+
+/// The narrow band of an eye, packed: many looks to several eyes are most of the memory of a photograph, which the
+/// system clears before it is used, and what that rounds away is no more than 1/2047 of a number. In squares of
+/// 16 x 16 numbers, so that a part of a hologram lights few pages of memory, and so that sixteen rows are read one
+/// after the other.
+class PackedBand {
+  public:
+    /// Numbers along a side of a square.
+    static constexpr std::size_t side = 16;
+    /// From one square of a row of them to the next, in numbers.
+    static constexpr std::size_t square = side * side;
+
+    PackedBand() = default;
+    /// A dark band.
+    PackedBand(std::size_t height, std::size_t width);
+    explicit PackedBand(View<const std::complex<float>, 2> band);
+
+    static double bytes(const Grid& plane) {
+        return static_cast<double>(sizeof(math::PackedComplex) * plane.samples());
+    }
+
+    std::size_t height() const { return height_; }
+    std::size_t width() const { return width_; }
+
+    /// A number; those of the same row and square follow.
+    math::PackedComplex* at(std::size_t row, std::size_t column) {
+        return &squares_(row / side, column / side, row % side * side + column % side);
+    }
+    const math::PackedComplex* at(std::size_t row, std::size_t column) const {
+        return &squares_(row / side, column / side, row % side * side + column % side);
+    }
+
+    /// Whether a row has a number that is not zero.
+    bool is_lit(std::size_t row) const;
+
+    /// Adds numbers from a place on whose column begins a square.
+    void add(View<const std::complex<float>, 2> some, std::size_t row, std::size_t column);
+
+    friend bool operator==(const PackedBand& a, const PackedBand& b) {
+        return a.height_ == b.height_ && a.width_ == b.width_ &&
+               std::ranges::equal(a.squares_.elements(), b.squares_.elements());
+    }
+
+  private:
+    std::size_t height_ = 0, width_ = 0;
+    Array<math::PackedComplex, 3> squares_;  // [row / 16][column / 16][row mod 16][column mod 16]
+};
+
+}  // namespace hogel::optics
