@@ -74,8 +74,10 @@ struct EyePhotographer::State {
     bool may_keep(const film::PupilWave& wave) const {
         double bytes = 0;
         for (const SeenColour& colour : seen.colours)
-            for (const auto& kept : colour.waves) bytes += static_cast<double>(sizeof(float) * kept.size());
-        return bytes + static_cast<double>(sizeof(float) * wave.size()) <= 0.5 * static_cast<double>(options.memory);
+            for (const auto& kept : colour.waves)
+                bytes += static_cast<double>(sizeof(math::PackedComplex) * kept.size());
+        return bytes + static_cast<double>(sizeof(math::PackedComplex) * wave.size()) <=
+               0.5 * static_cast<double>(options.memory);
     }
 
     // Adds a look to a colour's intensities.

@@ -95,14 +95,15 @@ FilmSize::FilmSize(const narrow_band::BandGrid& band, const FieldGrid& hologram,
 }
 
 double FilmSize::pupil_bytes() const {
-    return static_cast<double>(sizeof(Complex) * across(reach_x) * blocks_of(across(reach_y)) * lines_together);
+    return static_cast<double>(sizeof(math::PackedComplex) * across(reach_x) * padded(across(reach_y)));
 }
 
 double FilmSize::work_bytes() const {
     // Both are kept for the next look, and the lens.
+    const double lens_bytes = 2 * pupil_bytes();
     const std::size_t to_pupil = (lit_right - lit_left) * (band_rows + padded(across(reach_y))),
                       to_film = padded(x.count) * padded(across(reach_y));
-    return static_cast<double>(sizeof(Complex) * (to_pupil + to_film)) + 2 * pupil_bytes();
+    return static_cast<double>(sizeof(Complex) * (to_pupil + to_film)) + lens_bytes;
 }
 
 double FilmSize::intensity_bytes() const { return static_cast<double>(sizeof(float) * padded(x.count) * y.count); }
@@ -132,7 +133,7 @@ PupilWave Film::pupil_wave(const PackedBand& band) const {
     resample_rows(band, is_lit, *scratch);
     transform_columns(is_lit, *scratch);
     const std::size_t lit = size_.lit_right - size_.lit_left, width = across(size_.reach_x);
-    PupilWave wave({blocks_of(across(size_.reach_y)), width * both});
+    PupilWave wave({blocks_of(across(size_.reach_y)), width * lines_together});
     core::parallel_for(wave.extent(0), [&](std::size_t block) {
         thread_local Array<float, 1> lines;
         if (lines.size() < along_.size() * both) lines = Array<float, 1>({along_.size() * both});
@@ -140,8 +141,7 @@ PupilWave Film::pupil_wave(const PackedBand& band) const {
         std::copy_n(&scratch->half(block, 0), lit * both, &lines(size_.lit_left * both));
         std::fill_n(lines.data() + size_.lit_right * both, (along_.size() - size_.lit_right) * both, 0.0f);
         along_.transform(lines.data());
-        for (std::size_t k = 0; k < width; ++k)
-            std::copy_n(&lines(frequencies_x_[k] * both), both, &wave(block, k * both));
+        pack_rows(lines.data(), frequencies_x_, &wave(block, 0));
     });
     return wave;
 }
@@ -285,9 +285,9 @@ void Film::expose_node(const PupilWave& pupil_wave, const Node& node, View<float
         thread_local Array<float, 1> lines;
         const std::size_t size = film_along_.size();
         if (lines.size() < size * both) lines = Array<float, 1>({size * both});
-        const float* wave = &pupil_wave(node.first_block + block, left * both);
+        const math::PackedComplex* wave = &pupil_wave(node.first_block + block, left * lines_together);
         const float* lens = &node.lens(block, 0);
-        times_lens(wave + middle * both, lens + middle * both, middle + 1, lines.data());
+        times_lens(wave + middle * lines_together, lens + middle * both, middle + 1, lines.data());
         std::fill_n(&lines((middle + 1) * both), (size - width) * both, 0.0f);
         times_lens(wave, lens, middle, lines.data() + (size - middle) * both);
         film_along_.transform(lines.data());

@@ -53,7 +53,7 @@ struct FilmSize {
 };
 
 /// The wave over a pupil, see Film::pupil_wave().
-using PupilWave = Array<float, 2>;
+using PupilWave = Array<math::PackedComplex, 2>;
 
 /// From one eye's narrow band to photographs: a resampling to direction sines and one transform to the pupil; then for
 /// each focus and size of the pupil a mask with a defocus phase, and a transform back to the film (docs/notation.md
@@ -75,7 +75,7 @@ class Film {
     }
 
     /// The wave over the pupil, at frequencies −reach … reach of a transform of the sines: blocks of sixteen rows,
-    /// [row / 16][column][part][row mod 16], zero beyond the last row.
+    /// [row / 16][column][row mod 16], zero beyond the last row.
     PupilWave pupil_wave(const PackedBand& band) const;
 
     /// Adds the intensities of several looks, each given by its pupil wave, on a camera's film, of the shape of
@@ -102,7 +102,7 @@ class Film {
 
     // A camera's lens for light from the middle of a part of the film, and the share of the part in the film's light.
     struct Node {
-        Array<float, 2> lens;  // as a pupil's wave, of the rows and columns below
+        Array<float, 2> lens;  // [row / 16][column][part][row mod 16], of the rows and columns below
         std::ptrdiff_t reach_x = 0;
         std::size_t first_block = 0;  // of rows
         Array<float, 1> share_x;      // filled up to a multiple of sixteen

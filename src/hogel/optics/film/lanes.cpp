@@ -10,12 +10,21 @@ constexpr std::size_t together = math::SplitFft::together, row = math::SplitFft:
 
 }  // namespace
 
-void times_lens_plain(const float* wave, const float* lens, std::size_t rows, float* to) {
-    for (std::size_t i = 0; i < rows; ++i, wave += row, lens += row, to += row)
+void times_lens_plain(const math::PackedComplex* wave, const float* lens, std::size_t rows, float* to) {
+    for (std::size_t i = 0; i < rows; ++i, wave += together, lens += row, to += row)
         for (std::size_t lane = 0; lane < together; ++lane) {
-            const float a = wave[lane], b = wave[together + lane], c = lens[lane], s = lens[together + lane];
+            const std::complex<float> value = math::unpacked(wave[lane]);
+            const float a = value.real(), b = value.imag(), c = lens[lane], s = lens[together + lane];
             to[lane] = a * s + b * c;
             to[together + lane] = a * c - b * s;
+        }
+}
+
+void pack_rows_plain(const float* rows, std::span<const std::uint32_t> places, math::PackedComplex* to) {
+    for (const std::uint32_t place : places)
+        for (std::size_t lane = 0; lane < together; ++lane) {
+            const float* value = rows + place * row + lane;
+            *to++ = math::pack({value[0], value[together]});
         }
 }
 

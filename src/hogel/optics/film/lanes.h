@@ -14,8 +14,12 @@ namespace hogel::optics::film {
 /// [part][lane] as in math::SplitFft. Plain and fast twins agree to rounding. All arrays are aligned to cache lines.
 
 /// to[i] = wave[i] · lens[i] for rows of sixteen, with the parts of the result exchanged.
-void times_lens_plain(const float* wave, const float* lens, std::size_t rows, float* to);
-void times_lens(const float* wave, const float* lens, std::size_t rows, float* to);
+void times_lens_plain(const math::PackedComplex* wave, const float* lens, std::size_t rows, float* to);
+void times_lens(const math::PackedComplex* wave, const float* lens, std::size_t rows, float* to);
+
+/// Packs rows of sixteen: row i of `to` is row places[i].
+void pack_rows_plain(const float* rows, std::span<const std::uint32_t> places, math::PackedComplex* to);
+void pack_rows(const float* rows, std::span<const std::uint32_t> places, math::PackedComplex* to);
 
 /// Turns rows into lines: value `lane` of row places[i] becomes value i mod 16 of row `lane` of block i/16, for lanes
 /// below `lanes`; values of the last block beyond the places are zero.

@@ -18,6 +18,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using math::HWY_NAMESPACE::transpose_sixteen;
 #if HWY_TARGET != HWY_SCALAR
+using math::HWY_NAMESPACE::pack;
 using math::HWY_NAMESPACE::unpack;
 #endif
 
@@ -25,17 +26,6 @@ constexpr std::size_t together = math::SplitFft::together, row = math::SplitFft:
 using D = hn::CappedTag<float, together>;
 
 alignas(64) constexpr float dark[row] = {};
-
-void TimesLens(const float* wave, const float* lens, std::size_t rows, float* to) {
-    const D d;
-    for (std::size_t i = 0; i < rows; ++i, wave += row, lens += row, to += row)
-        for (std::size_t lane = 0; lane < together; lane += hn::Lanes(d)) {
-            const auto a = hn::Load(d, wave + lane), b = hn::Load(d, wave + together + lane);
-            const auto c = hn::Load(d, lens + lane), s = hn::Load(d, lens + together + lane);
-            hn::Store(hn::MulAdd(b, c, hn::Mul(a, s)), d, to + lane);
-            hn::Store(hn::NegMulAdd(b, s, hn::Mul(a, c)), d, to + together + lane);
-        }
-}
 
 void TurnRows(const float* rows, std::span<const std::uint32_t> places, std::size_t lanes, float* to,
               std::size_t block) {
@@ -64,10 +54,38 @@ void AddIntensities(const float* rows, std::span<const std::uint32_t> places, co
 }
 
 #if HWY_TARGET == HWY_SCALAR
+void TimesLens(const math::PackedComplex* wave, const float* lens, std::size_t rows, float* to) {
+    times_lens_plain(wave, lens, rows, to);
+}
+void PackRows(const float* rows, std::span<const std::uint32_t> places, math::PackedComplex* to) {
+    pack_rows_plain(rows, places, to);
+}
 void SideBySide(const math::PackedComplex* squares, std::size_t count, float* to) {
     side_by_side_plain(squares, count, to);
 }
 #else
+void TimesLens(const math::PackedComplex* wave, const float* lens, std::size_t rows, float* to) {
+    const D d;
+    for (std::size_t i = 0; i < rows; ++i, wave += together, lens += row, to += row)
+        for (std::size_t lane = 0; lane < together; lane += hn::Lanes(d)) {
+            hn::Vec<D> a, b;
+            unpack(d, hn::Load(hn::RebindToUnsigned<D>(), &wave[lane].bits), a, b);
+            const auto c = hn::Load(d, lens + lane), s = hn::Load(d, lens + together + lane);
+            hn::Store(hn::MulAdd(b, c, hn::Mul(a, s)), d, to + lane);
+            hn::Store(hn::NegMulAdd(b, s, hn::Mul(a, c)), d, to + together + lane);
+        }
+}
+
+void PackRows(const float* rows, std::span<const std::uint32_t> places, math::PackedComplex* to) {
+    const D d;
+    for (const std::uint32_t place : places)
+        for (std::size_t lane = 0; lane < together; lane += hn::Lanes(d)) {
+            const float* value = rows + std::size_t{place} * row + lane;
+            hn::Store(pack(d, hn::Load(d, value), hn::Load(d, value + together)), hn::RebindToUnsigned<D>(), &to->bits);
+            to += hn::Lanes(d);
+        }
+}
+
 // Packed numbers are turned, as if they were floats, and then unpacked.
 void SideBySide(const math::PackedComplex* squares, std::size_t count, float* to) {
     const D d;
@@ -101,13 +119,17 @@ HWY_AFTER_NAMESPACE();
 namespace hogel::optics::film {
 
 HWY_EXPORT(TimesLens);
+HWY_EXPORT(PackRows);
 HWY_EXPORT(TurnRows);
 HWY_EXPORT(AddIntensities);
 HWY_EXPORT(SideBySide);
 HWY_EXPORT(TurnSixteen);
 
-void times_lens(const float* wave, const float* lens, std::size_t rows, float* to) {
+void times_lens(const math::PackedComplex* wave, const float* lens, std::size_t rows, float* to) {
     HWY_DYNAMIC_DISPATCH(TimesLens)(wave, lens, rows, to);
+}
+void pack_rows(const float* rows, std::span<const std::uint32_t> places, math::PackedComplex* to) {
+    HWY_DYNAMIC_DISPATCH(PackRows)(rows, places, to);
 }
 void turn_rows(const float* rows, std::span<const std::uint32_t> places, std::size_t lanes, float* to,
                std::size_t block) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <vector>
 
@@ -28,8 +29,26 @@ void expect_near(const Array<float, 1>& fast, const Array<float, 1>& plain) {
     for (std::size_t i = 0; i < fast.size(); ++i) ASSERT_NEAR(fast(i), plain(i), 1e-6) << i;
 }
 
+Array<math::PackedComplex, 1> packed_noise(std::size_t count, unsigned seed) {
+    const Array<float, 1> parts = noise(2 * count, seed);
+    Array<math::PackedComplex, 1> numbers({count});
+    for (std::size_t i = 0; i < count; ++i) numbers(i) = math::pack({parts(2 * i), parts(2 * i + 1)});
+    return numbers;
+}
+
+TEST_P(FilmLanes, vector_and_plain_packed_rows_agree) {
+    const Array<float, 1> rows = noise(20 * row, 8);
+    const std::vector<std::uint32_t> places{3, 19, 0, 7};
+    Array<math::PackedComplex, 1> fast({4 * together}), plain({4 * together});
+    pack_rows(rows.data(), places, fast.data());
+    pack_rows_plain(rows.data(), places, plain.data());
+    EXPECT_TRUE(std::ranges::equal(fast.elements(), plain.elements()));
+    EXPECT_EQ(plain(together + 5), math::pack({rows(19 * row + 5), rows(19 * row + together + 5)}));
+}
+
 TEST_P(FilmLanes, vector_and_plain_products_agree) {
-    const Array<float, 1> wave = noise(7 * row, 1), lens = noise(7 * row, 2);
+    const Array<math::PackedComplex, 1> wave = packed_noise(7 * together, 1);
+    const Array<float, 1> lens = noise(7 * row, 2);
     Array<float, 1> fast({8 * row}), plain({8 * row});
     times_lens(wave.data(), lens.data(), 7, fast.data());
     times_lens_plain(wave.data(), lens.data(), 7, plain.data());
@@ -69,15 +88,13 @@ TEST_P(FilmLanes, vector_and_plain_intensities_agree) {
 }
 
 TEST_P(FilmLanes, vector_and_plain_rows_side_by_side_agree) {
-    const Array<float, 1> parts = noise(2 * 3 * together * together, 7);
-    std::vector<math::PackedComplex> squares;
-    for (std::size_t i = 0; i < parts.size(); i += 2) squares.push_back(math::pack({parts(i), parts(i + 1)}));
+    const Array<math::PackedComplex, 1> squares = packed_noise(3 * together * together, 7);
     Array<float, 1> fast({3 * together * row}), plain({3 * together * row});
     side_by_side(squares.data(), 3, fast.data());
     side_by_side_plain(squares.data(), 3, plain.data());
     expect_near(fast, plain);
     // Column 5 of row 2 of the second square.
-    const std::complex<float> value = math::unpacked(squares[256 + 2 * together + 5]);
+    const std::complex<float> value = math::unpacked(squares(together * together + 2 * together + 5));
     EXPECT_EQ(plain((together + 5) * row + 2), value.real());
     EXPECT_EQ(plain((together + 5) * row + together + 2), value.imag());
 }
