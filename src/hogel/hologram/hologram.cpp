@@ -180,11 +180,12 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
     using SharedRays = core::LruCache<std::array<std::size_t, 4>, std::vector<LightFieldTile>>;
     static constexpr double max_shared_bytes = 512.0 * (1 << 20);
 
-    // Whether hogels are made from the same rays as another's, and these are not in memory.
+    // Whether hogels are made from the same rays as another's, and these are neither in memory nor read by channel.
     bool has_rays_of(const Stereogram& other) const {
         return synthesis_->hogel_waves() != nullptr && kept_.size() == 0 && looks_ == other.looks_ &&
                with_depth_ == other.with_depth_ && columns_ == other.columns_ && rows_ == other.rows_ &&
-               std::ranges::equal(faces(), other.faces()) && light_field_.front().in_memory().size() == 0;
+               std::ranges::equal(faces(), other.faces()) && light_field_.front().in_memory().size() == 0 &&
+               !reads_channels();
     }
 
     // @param shared  null, or the rays of the colours that are drawn together
@@ -257,6 +258,13 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
             else
                 faces()[i]->read(tile);
         }
+    }
+
+    // Whether one channel of the rays is read for less than all.
+    bool reads_channels() const {
+        return !with_depth_ && std::ranges::all_of(faces(), [](const LightField::Source& face) {
+            return dynamic_cast<const ChannelSource*>(face.get()) != nullptr;
+        });
     }
 
     // The rays of this hologram's channel.

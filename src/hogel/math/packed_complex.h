@@ -40,8 +40,7 @@ inline std::complex<float> unpacked(PackedComplex packed) {
     return {part(packed.bits), part(packed.bits << 12)};
 }
 
-/// to[i] = from[i], for n numbers of an array, and to[i] += from[i].
+/// pack() of n numbers of an array.
 void pack(const std::complex<float>* from, PackedComplex* to, std::size_t n);
-void add_to_packed(const std::complex<float>* from, PackedComplex* to, std::size_t n);
 
 }  // namespace hogel::math

@@ -28,19 +28,6 @@ void Pack(const Complex* from, PackedComplex* to, std::size_t n) {
     for (; i < n; ++i) to[i] = math::pack(from[i]);
 }
 
-void AddToPacked(const Complex* from, PackedComplex* to, std::size_t n) {
-    std::size_t i = 0;
-#if HWY_TARGET != HWY_SCALAR
-    const hn::ScalableTag<float> d;
-    for (; i + hn::Lanes(d) <= n; i += hn::Lanes(d)) {
-        hn::Vec<decltype(d)> re, im;
-        hn::LoadInterleaved2(d, reinterpret_cast<const float*>(from + i), re, im);
-        add_to_packed(d, re, im, to + i);
-    }
-#endif
-    for (; i < n; ++i) to[i] = math::pack(unpacked(to[i]) + from[i]);
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace hogel::math
 HWY_AFTER_NAMESPACE();
@@ -49,13 +36,9 @@ HWY_AFTER_NAMESPACE();
 namespace hogel::math {
 
 HWY_EXPORT(Pack);
-HWY_EXPORT(AddToPacked);
 
 void pack(const std::complex<float>* from, PackedComplex* to, std::size_t n) {
     HWY_DYNAMIC_DISPATCH(Pack)(from, to, n);
-}
-void add_to_packed(const std::complex<float>* from, PackedComplex* to, std::size_t n) {
-    HWY_DYNAMIC_DISPATCH(AddToPacked)(from, to, n);
 }
 
 }  // namespace hogel::math

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "hogel/core/alone.h"
 #include "hogel/core/parallel.h"
 #include "hogel/image/film.h"
 #include "hogel/optics/eye_drawings.h"
@@ -24,8 +25,9 @@ struct SeenColour {
     std::optional<film::Film> film;
     std::vector<film::PupilWave> waves;  // [look]
 
-    // The wave of the next look.
+    // The wave of the next look, in each process of a team.
     film::PupilWave draw(std::size_t look) const {
+        const core::AloneScope alone;
         auto bands = drawing->draw(look, 1, {});
         return film->pupil_wave(bands.front().front());
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <complex>
 #include <cstddef>
+#include <span>
 
 #include "hogel/array.h"
 #include "hogel/field.h"
@@ -42,11 +43,14 @@ class PackedBand {
         return &squares_(row / side, column / side, row % side * side + column % side);
     }
 
+    /// The squares of rows [first, end), of which the first is a multiple of 16, one row of squares after the other.
+    std::span<math::PackedComplex> rows(std::size_t first, std::size_t end) {
+        const std::size_t row = squares_.extent(1) * square;
+        return {squares_.data() + first / side * row, (end - first + side - 1) / side * row};
+    }
+
     /// Whether a row has a number that is not zero.
     bool is_lit(std::size_t row) const;
-
-    /// Adds numbers from a place on whose column begins a square.
-    void add(View<const std::complex<float>, 2> some, std::size_t row, std::size_t column);
 
     friend bool operator==(const PackedBand& a, const PackedBand& b) {
         return a.height_ == b.height_ && a.width_ == b.width_ &&

@@ -101,7 +101,7 @@ void photograph_window(const FieldSource& whole, const PhotographPlan::Window& p
     bool one_lens = true;
     for (std::size_t e = 0; e < eyes.size(); ++e)
         for (const std::size_t camera : eyes[e].members) one_lens = one_lens && films[e].has_one_lens(cameras[camera]);
-    const SharedLooks shared(looks, looks_at_once, one_lens);
+    const SharedLooks shared(*drawing, looks, looks_at_once, one_lens);
     const core::LineRange& own = shared.own();
     for (std::size_t first = own.first; first < own.end(); first += looks_at_once) {
         const std::size_t count = std::min(looks_at_once, own.end() - first);
@@ -109,11 +109,9 @@ void photograph_window(const FieldSource& whole, const PhotographPlan::Window& p
             progress.report((static_cast<double>(first - own.first) + done * static_cast<double>(count)) /
                             static_cast<double>(own.count));
         };
-        auto drawn = shared.drawn([&] {
-            return drawing->draw(first, count, [&](double fraction) {
-                report(0.9 * fraction);
-                return true;
-            });
+        PackedBands drawn = shared.drawn(first, count, [&](double fraction) {
+            report(0.9 * fraction);
+            return true;
         });
         if (!shared.exposes()) continue;  // the first process has the light of all
         for (std::size_t e = 0; e < eyes.size(); ++e) {

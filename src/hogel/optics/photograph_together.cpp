@@ -86,7 +86,7 @@ std::optional<std::vector<std::vector<Image>>> photograph_together(
         for (std::size_t e = 0; e < eyes.size(); ++e)
             for (const film::Film film = film_of(c, e); const std::size_t camera : eyes[e].members)
                 one_lens = one_lens && film.has_one_lens(cameras[camera]);
-    const SharedLooks shared(looks, light->looks_at_once, one_lens);
+    const SharedLooks shared(*light->drawing, looks, light->looks_at_once, one_lens);
     const core::LineRange& own = shared.own();
     for (std::size_t first = own.first; first < own.end(); first += light->looks_at_once) {
         const std::size_t count = std::min(light->looks_at_once, own.end() - first);
@@ -94,11 +94,9 @@ std::optional<std::vector<std::vector<Image>>> photograph_together(
             progress.report((static_cast<double>(first - own.first) + done * static_cast<double>(count)) /
                             static_cast<double>(own.count));
         };
-        auto drawn = shared.drawn([&] {
-            return light->drawing->draw(first, count, [&](double fraction) {
-                report(0.9 * fraction);
-                return true;
-            });
+        PackedBands drawn = shared.drawn(first, count, [&](double fraction) {
+            report(0.9 * fraction);
+            return true;
         });
         if (!shared.exposes()) continue;  // the first process has the light of all
         // One film at a time, whose memory the next one uses.

@@ -5,26 +5,42 @@
 #include <cstring>
 #include <string>
 
+#include "hogel/core/alone.h"
 #include "hogel/core/shared_order.h"
 #include "hogel/error.h"
 
 namespace hogel::optics {
 namespace {
 
-// Looks for each process, because each of them prepares all hogels, which takes as long as one or two looks.
-constexpr std::size_t min_looks = 4;
+// Looks for each process where each of them prepares all hogels, which takes as long as one or two looks.
+constexpr std::size_t min_looks_alone = 4;
 
 // Floats of a message: a MiB, because the memory of larger ones is new each time.
 constexpr std::size_t piece = std::size_t{1} << 18;
 
 }  // namespace
 
-SharedLooks::SharedLooks(std::size_t looks, std::size_t at_once, bool can_be_so) : own_{0, looks} {
+SharedLooks::SharedLooks(const EyeDrawing& drawing, std::size_t looks, std::size_t at_once, bool can_be_so)
+    : drawing_(drawing), looks_(looks), own_{0, looks} {
     Team* const all = core::team_of_several();
-    if (all == nullptr || !can_be_so || looks < min_looks * all->size() || core::result_log() != nullptr) return;
-    if ((looks + all->size() - 1) / all->size() > at_once) return;
+    if (all == nullptr || !can_be_so || (core::result_log() != nullptr && !drawing.has_rows())) return;
+    if (looks < (drawing.has_rows() ? 1 : min_looks_alone) * all->size()) return;
+    // The own looks, and the own rows of all looks.
+    const std::size_t own = (looks + all->size() - 1) / all->size();
+    if ((drawing.has_rows() ? 2 : 1) * own > at_once) return;
     team_ = all;
     own_ = core::own_lines(all, looks);
+}
+
+PackedBands SharedLooks::drawn(std::size_t first, std::size_t count, const Progress& progress) const {
+    if (!is_shared()) return drawing_.draw(first, count, progress);
+    if (!drawing_.has_rows()) {
+        const core::AloneScope alone;
+        return drawing_.draw(first, count, progress);
+    }
+    return drawing_.draw_in_rows(
+        *team_, 0, looks_, [&](std::size_t process) { return core::lines_of(process, team_->size(), looks_, 1); },
+        progress);
 }
 
 void SharedLooks::receive(std::size_t process, Array<float, 2>& film) const {

@@ -2,7 +2,6 @@
 #include "hogel/hologram/eye/colour_eyes.h"
 
 #include <algorithm>
-#include <type_traits>
 #include <utility>
 
 namespace hogel::hologram::eye {
@@ -26,11 +25,6 @@ void keep_pairs(const auto& is_kept, HogelBasis::Weights& weights, std::vector<H
         else if (i >= first_alone)
             --weights.alone;
     weights.pairs = kept;
-}
-
-Complex* number_at(Array<Complex, 2>& band, std::size_t row, std::size_t column) { return &band(row, column); }
-math::PackedComplex* number_at(optics::PackedBand& band, std::size_t row, std::size_t column) {
-    return band.at(row, column);
 }
 
 }  // namespace
@@ -69,10 +63,8 @@ void ColourEyes::draw(const HogelPart& part, const Looks& looks, Scratch& scratc
                    scratch);
 }
 
-template <class Band>
-void ColourEyes::add(const Scratch& scratch, const HogelPart& part, std::span<std::vector<Band>> bands) const {
-    using Number = std::remove_pointer_t<decltype(number_at(bands[0][0], 0, 0))>;
-    constexpr std::size_t block = std::is_same_v<Number, Complex> ? lanes : optics::PackedBand::square;
+void ColourEyes::add(const Scratch& scratch, const HogelPart& part,
+                     std::span<std::vector<optics::PackedBand>> bands) const {
     for (std::size_t e = 0; e < eyes_.size(); ++e) {
         const Array<float, 3>& phases = scratch.phases[e];
         const std::size_t x = part.s * eyes_[e].per_hogel(), y = part.t * eyes_[e].per_hogel();
@@ -82,27 +74,15 @@ void ColourEyes::add(const Scratch& scratch, const HogelPart& part, std::span<st
             const std::size_t count = std::min(together, bands[e].size() - first);
             for (std::size_t row = 0; row < light.extent(0); ++row) {
                 const LightRow own{&light(row, 0, 0), light.extent(2), &phases(row, 0, 0), phases.extent(2)};
-                Number* to[lanes];
-                for (std::size_t look = 0; look < count; ++look)
-                    to[look] = number_at(bands[e][first + look], y + row, x);
+                math::PackedComplex* to[lanes];
+                for (std::size_t look = 0; look < count; ++look) to[look] = bands[e][first + look].at(y + row, x);
                 if (together == 1)
-                    add_demodulated(own, columns, to[0], block);
+                    add_demodulated(own, columns, to[0]);
                 else
-                    add_demodulated_looks(own, columns, std::span<Number* const>(to, count), block);
+                    add_demodulated_looks(own, columns, {to, count});
             }
         }
     }
-}
-
-template void ColourEyes::add(const Scratch&, const HogelPart&, std::span<std::vector<optics::PackedBand>>) const;
-
-EyeBands ColourEyes::light(const HogelPart& part, const Scratch& scratch) const {
-    EyeBands bands(eyes_.size());
-    for (std::size_t e = 0; e < eyes_.size(); ++e)
-        for (std::size_t look = 0; look < scratch.looks.looks; ++look)
-            bands[e].emplace_back(Shape<2>{eyes_[e].samples(part.nt), eyes_[e].samples(part.ns)});
-    add(scratch, {0, 0, part.ns, part.nt}, std::span(bands));
-    return bands;
 }
 
 // Adds the light of a row of tiles, the row `first` of a part, to that of the part.

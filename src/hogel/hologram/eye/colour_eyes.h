@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <complex>
 #include <cstddef>
 #include <functional>
 #include <span>
@@ -39,8 +38,6 @@ static_assert(part_across % optics::PackedBand::side == 0 && optics::PackedBand:
 struct HogelPart {
     std::size_t s, t, ns, nt;
 };
-
-using EyeBands = std::vector<std::vector<Array<std::complex<float>, 2>>>;  // [eye][look]
 
 /// Eyes that see the light of one colour.
 class ColourEyes {
@@ -85,12 +82,8 @@ class ColourEyes {
     /// Draws the light of a part of the hogels, as far as it reaches in the band of each eye, into the scratch.
     void draw(const HogelPart& part, const Looks& looks, Scratch& scratch) const;
 
-    /// Adds the light of a part that was drawn to bands of these eyes, whose numbers may be packed.
-    template <class Band>
-    void add(const Scratch& scratch, const HogelPart& part, std::span<std::vector<Band>> bands) const;
-
-    /// What the light that was drawn reaches of each band.
-    EyeBands light(const HogelPart& part, const Scratch& scratch) const;
+    /// Adds the light of a part that was drawn to bands of these eyes.
+    void add(const Scratch& scratch, const HogelPart& part, std::span<std::vector<optics::PackedBand>> bands) const;
 
   private:
     // A hogel of a row of tiles and a look, one lane.

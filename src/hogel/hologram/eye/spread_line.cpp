@@ -7,24 +7,10 @@ using Complex = std::complex<float>;
 
 namespace {
 
-void add_to(Complex& sum, Complex value) { sum += value; }
-void add_to(math::PackedComplex& sum, Complex value) { sum = math::pack(math::unpacked(sum) + value); }
-
-template <class Number>
-void add_row(const LightRow& row, std::size_t columns, Number* band, std::size_t block) {
-    for (std::size_t x = 0; x < columns; ++x)
-        add_to(band[x / lanes * block + x % lanes], Complex(row.light[x], row.light[row.light_row + x]) *
-                                                        Complex(row.phases[x], row.phases[row.phase_row + x]));
-}
-
-template <class Number>
-void add_rows(const LightRow& row, std::size_t columns, std::span<Number* const> bands, std::size_t block) {
-    for (std::size_t look = 0; look < bands.size(); ++look)
-        for (std::size_t x = 0; x < columns; ++x) {
-            const float* light = row.light + x * lanes + look;
-            add_to(bands[look][x / lanes * block + x % lanes],
-                   Complex(light[0], light[row.light_row]) * Complex(row.phases[x], row.phases[row.phase_row + x]));
-        }
+// Adds light at a column, demodulated.
+void add_to(math::PackedComplex* band, std::size_t x, Complex light, const LightRow& row) {
+    math::PackedComplex& sum = band[x / lanes * optics::PackedBand::square + x % lanes];
+    sum = math::pack(math::unpacked(sum) + light * Complex(row.phases[x], row.phases[row.phase_row + x]));
 }
 
 }  // namespace
@@ -43,20 +29,17 @@ void spread_line_plain(const HogelBasis& down, const float* carrier, const float
         }
 }
 
-void add_demodulated_plain(const LightRow& row, std::size_t columns, Complex* band, std::size_t block) {
-    add_row(row, columns, band, block);
-}
-void add_demodulated_plain(const LightRow& row, std::size_t columns, math::PackedComplex* band, std::size_t block) {
-    add_row(row, columns, band, block);
+void add_demodulated_plain(const LightRow& row, std::size_t columns, math::PackedComplex* band) {
+    for (std::size_t x = 0; x < columns; ++x) add_to(band, x, Complex(row.light[x], row.light[row.light_row + x]), row);
 }
 
-void add_demodulated_looks_plain(const LightRow& row, std::size_t columns, std::span<Complex* const> bands,
-                                 std::size_t block) {
-    add_rows(row, columns, bands, block);
-}
-void add_demodulated_looks_plain(const LightRow& row, std::size_t columns, std::span<math::PackedComplex* const> bands,
-                                 std::size_t block) {
-    add_rows(row, columns, bands, block);
+void add_demodulated_looks_plain(const LightRow& row, std::size_t columns,
+                                 std::span<math::PackedComplex* const> bands) {
+    for (std::size_t look = 0; look < bands.size(); ++look)
+        for (std::size_t x = 0; x < columns; ++x) {
+            const float* light = row.light + x * lanes + look;
+            add_to(bands[look], x, Complex(light[0], light[row.light_row]), row);
+        }
 }
 
 }  // namespace hogel::hologram::eye

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <complex>
 #include <cstddef>
 #include <span>
 
 #include "hogel/hologram/eye/hogel_basis.h"
-#include "hogel/math/packed_complex.h"
+#include "hogel/optics/packed_band.h"
 
 namespace hogel::hologram::eye {
 
@@ -41,20 +40,12 @@ struct LightRow {
     std::size_t phase_row;
 };
 
-/// Adds a row of light, demodulated, to a row of a band, whose numbers may be packed. Sixteen columns of the band lie
-/// side by side, and so many numbers farther the next sixteen. Plain and fast twins agree to rounding.
-void add_demodulated_plain(const LightRow& row, std::size_t columns, std::complex<float>* band, std::size_t block);
-void add_demodulated(const LightRow& row, std::size_t columns, std::complex<float>* band, std::size_t block);
-void add_demodulated_plain(const LightRow& row, std::size_t columns, math::PackedComplex* band, std::size_t block);
-void add_demodulated(const LightRow& row, std::size_t columns, math::PackedComplex* band, std::size_t block);
+/// Adds a row of light, demodulated, to a row of a band, from where a square of it begins on (optics::PackedBand).
+/// Plain and fast twins agree to rounding.
+void add_demodulated_plain(const LightRow& row, std::size_t columns, math::PackedComplex* band);
+void add_demodulated(const LightRow& row, std::size_t columns, math::PackedComplex* band);
 /// The same for a row of each of some looks that lie side by side.
-void add_demodulated_looks_plain(const LightRow& row, std::size_t columns, std::span<std::complex<float>* const> bands,
-                                 std::size_t block);
-void add_demodulated_looks(const LightRow& row, std::size_t columns, std::span<std::complex<float>* const> bands,
-                           std::size_t block);
-void add_demodulated_looks_plain(const LightRow& row, std::size_t columns, std::span<math::PackedComplex* const> bands,
-                                 std::size_t block);
-void add_demodulated_looks(const LightRow& row, std::size_t columns, std::span<math::PackedComplex* const> bands,
-                           std::size_t block);
+void add_demodulated_looks_plain(const LightRow& row, std::size_t columns, std::span<math::PackedComplex* const> bands);
+void add_demodulated_looks(const LightRow& row, std::size_t columns, std::span<math::PackedComplex* const> bands);
 
 }  // namespace hogel::hologram::eye

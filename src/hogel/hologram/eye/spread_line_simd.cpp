@@ -19,19 +19,20 @@ namespace hogel::hologram::eye {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using math::HWY_NAMESPACE::transpose_sixteen;
+#if HWY_TARGET != HWY_SCALAR
+using math::HWY_NAMESPACE::add_to_packed;
+#endif
 
 #if HWY_TARGET == HWY_SCALAR
 void SpreadLine(const HogelBasis& down, const float* carrier, const float* line, std::size_t row, std::size_t columns,
                 float* light) {
     spread_line_plain(down, carrier, line, row, columns, light);
 }
-template <class Number>
-void add_row(const LightRow& row, std::size_t columns, Number* band, std::size_t block) {
-    add_demodulated_plain(row, columns, band, block);
+void AddDemodulated(const LightRow& row, std::size_t columns, math::PackedComplex* band) {
+    add_demodulated_plain(row, columns, band);
 }
-template <class Number>
-void add_rows(const LightRow& row, std::size_t columns, std::span<Number* const> bands, std::size_t block) {
-    add_demodulated_looks_plain(row, columns, bands, block);
+void AddDemodulatedLooks(const LightRow& row, std::size_t columns, std::span<math::PackedComplex* const> bands) {
+    add_demodulated_looks_plain(row, columns, bands);
 }
 #else
 using D = hn::CappedTag<float, lanes>;
@@ -55,41 +56,27 @@ void SpreadLine(const HogelBasis& down, const float* carrier, const float* line,
     }
 }
 
-HWY_INLINE void add_all(V re, V im, std::complex<float>* band) {
-    const D d;
-    auto* to = reinterpret_cast<float*>(band);
-    V band_re, band_im;
-    hn::LoadInterleaved2(d, to, band_re, band_im);
-    hn::StoreInterleaved2(hn::Add(band_re, re), hn::Add(band_im, im), d, to);
-}
-HWY_INLINE void add_all(V re, V im, math::PackedComplex* band) {
-    math::HWY_NAMESPACE::add_to_packed(D(), re, im, band);
-}
-
 // Adds numbers to some of a row of a band, from `x` on.
-template <class Number>
-HWY_INLINE void add_some(V re, V im, std::size_t x, std::size_t columns, Number* band, std::size_t block) {
+HWY_INLINE void add_some(V re, V im, std::size_t x, std::size_t columns, math::PackedComplex* band) {
     const D d;
-    Number* to = band + x / lanes * block + x % lanes;
-    if (columns - x >= hn::Lanes(d)) return add_all(re, im, to);
-    Number rest[lanes] = {};
+    math::PackedComplex* to = band + x / lanes * optics::PackedBand::square + x % lanes;
+    if (columns - x >= hn::Lanes(d)) return add_to_packed(d, re, im, to);
+    math::PackedComplex rest[lanes];
     std::copy_n(to, columns - x, rest);
-    add_all(re, im, rest);
+    add_to_packed(d, re, im, rest);
     std::copy_n(rest, columns - x, to);
 }
 
-template <class Number>
-void add_row(const LightRow& row, std::size_t columns, Number* band, std::size_t block) {
+void AddDemodulated(const LightRow& row, std::size_t columns, math::PackedComplex* band) {
     const D d;
     for (std::size_t x = 0; x < columns; x += hn::Lanes(d)) {
         const V a = hn::Load(d, row.light + x), b = hn::Load(d, row.light + row.light_row + x);
         const V c = hn::Load(d, row.phases + x), s = hn::Load(d, row.phases + row.phase_row + x);
-        add_some(hn::NegMulAdd(b, s, hn::Mul(a, c)), hn::MulAdd(b, c, hn::Mul(a, s)), x, columns, band, block);
+        add_some(hn::NegMulAdd(b, s, hn::Mul(a, c)), hn::MulAdd(b, c, hn::Mul(a, s)), x, columns, band);
     }
 }
 
-template <class Number>
-void add_rows(const LightRow& row, std::size_t columns, std::span<Number* const> bands, std::size_t block) {
+void AddDemodulatedLooks(const LightRow& row, std::size_t columns, std::span<math::PackedComplex* const> bands) {
     const D d;
     const std::size_t across = padded(columns), look_row = 2 * across;
     thread_local std::vector<float, CacheLineAllocator<float> > scratch;
@@ -113,26 +100,11 @@ void add_rows(const LightRow& row, std::size_t columns, std::span<Number* const>
     for (std::size_t look = 0; look < bands.size(); ++look)
         for (std::size_t x = 0; x < columns; x += hn::Lanes(d)) {
             const float* own = turned + look * look_row + x;
-            __builtin_prefetch(bands[look] + x / lanes * block + x % lanes + lanes);
-            add_some(hn::Load(d, own), hn::Load(d, own + across), x, columns, bands[look], block);
+            __builtin_prefetch(bands[look] + x / lanes * optics::PackedBand::square + x % lanes + lanes);
+            add_some(hn::Load(d, own), hn::Load(d, own + across), x, columns, bands[look]);
         }
 }
 #endif
-
-void AddDemodulated(const LightRow& row, std::size_t columns, std::complex<float>* band, std::size_t block) {
-    add_row(row, columns, band, block);
-}
-void AddDemodulatedLooks(const LightRow& row, std::size_t columns, std::span<std::complex<float>* const> bands,
-                         std::size_t block) {
-    add_rows(row, columns, bands, block);
-}
-void AddDemodulatedPacked(const LightRow& row, std::size_t columns, math::PackedComplex* band, std::size_t block) {
-    add_row(row, columns, band, block);
-}
-void AddDemodulatedLooksPacked(const LightRow& row, std::size_t columns, std::span<math::PackedComplex* const> bands,
-                               std::size_t block) {
-    add_rows(row, columns, bands, block);
-}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace hogel::hologram::eye
@@ -144,26 +116,16 @@ namespace hogel::hologram::eye {
 HWY_EXPORT(SpreadLine);
 HWY_EXPORT(AddDemodulated);
 HWY_EXPORT(AddDemodulatedLooks);
-HWY_EXPORT(AddDemodulatedPacked);
-HWY_EXPORT(AddDemodulatedLooksPacked);
 
 void spread_line(const HogelBasis& down, const float* carrier, const float* line, std::size_t row, std::size_t columns,
                  float* light) {
     HWY_DYNAMIC_DISPATCH(SpreadLine)(down, carrier, line, row, columns, light);
 }
-void add_demodulated(const LightRow& row, std::size_t columns, std::complex<float>* band, std::size_t block) {
-    HWY_DYNAMIC_DISPATCH(AddDemodulated)(row, columns, band, block);
+void add_demodulated(const LightRow& row, std::size_t columns, math::PackedComplex* band) {
+    HWY_DYNAMIC_DISPATCH(AddDemodulated)(row, columns, band);
 }
-void add_demodulated_looks(const LightRow& row, std::size_t columns, std::span<std::complex<float>* const> bands,
-                           std::size_t block) {
-    HWY_DYNAMIC_DISPATCH(AddDemodulatedLooks)(row, columns, bands, block);
-}
-void add_demodulated(const LightRow& row, std::size_t columns, math::PackedComplex* band, std::size_t block) {
-    HWY_DYNAMIC_DISPATCH(AddDemodulatedPacked)(row, columns, band, block);
-}
-void add_demodulated_looks(const LightRow& row, std::size_t columns, std::span<math::PackedComplex* const> bands,
-                           std::size_t block) {
-    HWY_DYNAMIC_DISPATCH(AddDemodulatedLooksPacked)(row, columns, bands, block);
+void add_demodulated_looks(const LightRow& row, std::size_t columns, std::span<math::PackedComplex* const> bands) {
+    HWY_DYNAMIC_DISPATCH(AddDemodulatedLooks)(row, columns, bands);
 }
 
 }  // namespace hogel::hologram::eye

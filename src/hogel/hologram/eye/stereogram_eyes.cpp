@@ -2,6 +2,7 @@
 #include "hogel/hologram/eye/stereogram_eyes.h"
 
 #include <algorithm>
+#include <cstring>
 #include <mutex>
 #include <numeric>
 #include <utility>
@@ -20,26 +21,24 @@ constexpr std::size_t parts_apart(std::size_t side, std::size_t overlap) {
     return (side + overlap - 1 + std::size_t{2} * 8 + side - 1) / side;
 }
 
-core::Sent<EyeBands> sent_bands() {
-    return {[](core::MessageWriter& to, const EyeBands& eyes) {
-                std::size_t bytes = sizeof(std::size_t);
-                for (const auto& looks : eyes)
-                    for (const auto& look : looks) bytes += look.size() * sizeof(Complex) + 4 * sizeof(std::size_t);
-                to.reserve(bytes);
-                to.put(eyes.size());
-                for (const auto& looks : eyes) {
-                    to.put(looks.size());
-                    for (const auto& look : looks) to.put(look);
-                }
-            },
-            [](core::MessageReader& from) {
-                EyeBands eyes(from.get<std::size_t>());
-                for (auto& looks : eyes) {
-                    looks.resize(from.get<std::size_t>());
-                    for (auto& look : looks) look = from.get_array<Complex, 2>();
-                }
-                return eyes;
-            }};
+// Numbers of a message: a MiB, because the memory of larger ones is new each time.
+constexpr std::size_t piece = std::size_t{1} << 18;
+
+void send(Team& team, std::size_t process, std::span<const math::PackedComplex> numbers) {
+    for (std::size_t first = 0; first < numbers.size(); first += piece) {
+        const auto some = numbers.subspan(first, std::min(piece, numbers.size() - first));
+        team.send_to(process, {reinterpret_cast<const char*>(some.data()), some.size_bytes()});
+    }
+}
+
+void receive(Team& team, std::size_t process, std::span<math::PackedComplex> numbers) {
+    for (std::size_t first = 0; first < numbers.size(); first += piece) {
+        const auto some = numbers.subspan(first, std::min(piece, numbers.size() - first));
+        const std::string bytes = team.receive_from(process);
+        if (bytes.size() != some.size_bytes())
+            throw Error(ErrorCode::internal, "rows of a band from another process have another size than expected");
+        std::memcpy(some.data(), bytes.data(), bytes.size());
+    }
 }
 
 // Eyes that see several colours of the same hogels, part by part, so that these may share rays.
@@ -51,75 +50,134 @@ class StereogramEyes final : public optics::EyeDrawing {
     const optics::narrow_band::BandGrid& band(std::size_t eye) const override { return eye_band(eye).grid(); }
 
     optics::PackedBands draw(std::size_t first_look, std::size_t looks, const Progress& progress) const override {
-        const std::size_t each = colours_.front()->eyes().size(), eyes = colours_.size() * each;
-        // The system clears their pages, half a gigabyte for many looks, on all threads.
-        optics::PackedBands bands(eyes, std::vector<optics::PackedBand>(looks));
-        core::parallel_for(eyes * looks, [&](std::size_t i) {
-            const Grid& plane = band(i / looks).plane;
-            bands[i / looks][i % looks] = optics::PackedBand(plane.height, plane.width);
-        });
-        // Parts of the hogels, so that those of each set do not meet and threads may add them in any order.
-        const std::vector<std::vector<HogelPart>> sets = parts();
-        const std::size_t count = std::accumulate(sets.begin(), sets.end(), std::size_t{0},
-                                                  [](std::size_t sum, const auto& set) { return sum + set.size(); });
-        const auto report = [&](std::size_t done) {
-            progress.report(static_cast<double>(done) / static_cast<double>(count));
-        };
         const ColourEyes::Looks some{first_look, looks};
-        if (core::team_of_several() != nullptr) {
-            std::vector<HogelPart> all_parts;
-            for (const auto& set : sets) all_parts.insert(all_parts.end(), set.begin(), set.end());
-            core::shared_ordered<EyeBands>(
-                count, core::default_in_flight(), sent_bands(),
-                [&](std::size_t i) {
-                    EyeBands all;
-                    for (const auto& colour : colours_) {
-                        auto scratch = colour->scratch();
-                        colour->draw(all_parts[i], some, *scratch);
-                        for (auto& light : colour->light(all_parts[i], *scratch)) all.push_back(std::move(light));
-                    }
-                    return all;
-                },
-                [&](std::size_t i, const EyeBands& all) {
-                    for (std::size_t eye = 0; eye < eyes; ++eye) {
-                        const std::size_t per_hogel = eye_band(eye).per_hogel();
-                        for (std::size_t look = 0; look < looks; ++look)
-                            bands[eye][look].add(all[eye][look], all_parts[i].t * per_hogel,
-                                                 all_parts[i].s * per_hogel);
-                    }
-                    report(i + 1);
-                });
-            return bands;
+        if (Team* const team = core::team_of_several()) {
+            const auto of_first = [&](std::size_t process) { return core::LineRange{0, process == 0 ? looks : 0}; };
+            return draw_in_rows(*team, first_look, looks, of_first, progress);
         }
-        std::mutex mutex;
-        std::size_t done = 0;
-        for (const auto& set : sets)
-            core::parallel_for(set.size(), [&](std::size_t i) {
-                for (std::size_t c = 0; c < colours_.size(); ++c) {
-                    auto scratch = colours_[c]->scratch();
-                    colours_[c]->draw(set[i], some, *scratch);
-                    colours_[c]->add(*scratch, set[i], std::span(bands).subspan(c * each, each));
+        optics::PackedBands bands = dark_bands(looks, {0, range_.nt});
+        draw_into(bands, some, parts({0, part_rows()}), 0, progress);
+        return bands;
+    }
+
+    bool has_rows() const override { return true; }
+
+    optics::PackedBands draw_in_rows(Team& team, std::size_t first_look, std::size_t looks,
+                                     const optics::WantedLooks& wanted, const Progress& progress) const override {
+        // The light of a part reaches into the parts below it, so that the last ones above the own rows are drawn, too.
+        const core::LineRange own = own_part_rows(team.rank(), team.size());
+        const std::size_t above = own.count > 0 ? std::min(own.first, parts_apart(part_down, overlap()) - 1) : 0;
+        const core::LineRange drawn{own.first - above, own.count + above};
+        const std::size_t t0 = std::min(drawn.first * part_down, range_.nt),
+                          t1 = std::min(drawn.end() * part_down, range_.nt);
+        optics::PackedBands mine = dark_bands(looks, {t0, t1 - t0});
+        draw_into(mine, {first_look, looks}, parts(drawn), t0, progress);
+        optics::PackedBands bands(mine.size());
+        const auto rows_of = [&](std::size_t process, std::size_t eye) {
+            const core::LineRange rows = own_part_rows(process, team.size());
+            const std::size_t first = band_row(rows.first, eye);
+            return core::LineRange{first, band_row(rows.end(), eye) - first};
+        };
+        std::size_t most = 0;
+        for (std::size_t process = 0; process < team.size(); ++process) most = std::max(most, wanted(process).count);
+        // One look of each process at a time, so that few messages are under way.
+        for (std::size_t i = 0; i < most; ++i)
+            for (std::size_t eye = 0; eye < mine.size(); ++eye) {
+                const core::LineRange rows = rows_of(team.rank(), eye);
+                const std::size_t first = rows.first - std::min(rows.first, t0 * eye_band(eye).per_hogel());
+                const auto own_rows = [&](std::size_t look) {
+                    return rows.count > 0 ? mine[eye][look].rows(first, first + rows.count)
+                                          : std::span<math::PackedComplex>();
+                };
+                for (std::size_t process = 0; process < team.size(); ++process)
+                    if (const core::LineRange looks_of = wanted(process); process != team.rank() && i < looks_of.count)
+                        send(team, process, own_rows(looks_of.first + i));
+                if (const core::LineRange looks_of = wanted(team.rank()); i < looks_of.count) {
+                    const Grid& plane = band(eye).plane;
+                    optics::PackedBand& whole = bands[eye].emplace_back(plane.height, plane.width);
+                    for (std::size_t process = 0; process < team.size(); ++process) {
+                        const core::LineRange theirs = rows_of(process, eye);
+                        const auto to = whole.rows(theirs.first, theirs.end());
+                        if (process == team.rank())
+                            std::ranges::copy(own_rows(looks_of.first + i), to.begin());
+                        else
+                            receive(team, process, to);
+                    }
                 }
-                const std::lock_guard lock(mutex);
-                report(++done);
-            });
+                for (std::size_t process = 0; process < team.size(); ++process)
+                    if (const core::LineRange looks_of = wanted(process); i < looks_of.count)
+                        mine[eye][looks_of.first + i] = {};
+            }
         return bands;
     }
 
   private:
-    const EyeBand& eye_band(std::size_t eye) const {
-        const std::size_t each = colours_.front()->eyes().size();
-        return colours_[eye / each]->eyes()[eye % each];
+    std::size_t each() const { return colours_.front()->eyes().size(); }
+    const EyeBand& eye_band(std::size_t eye) const { return colours_[eye / each()]->eyes()[eye % each()]; }
+
+    std::size_t overlap() const { return colours_.front()->overlap(); }
+    std::size_t part_rows() const { return (range_.nt + part_down - 1) / part_down; }
+
+    // The rows of parts whose place in the bands belongs to a process. All but the first draw others, too.
+    core::LineRange own_part_rows(std::size_t process, std::size_t processes) const {
+        const std::size_t all = part_rows(), more = parts_apart(part_down, overlap()) - 1;
+        const auto begin = [&](std::size_t p) -> std::size_t {
+            if (p == 0) return 0;
+            const std::size_t before = (p * (all + (processes - 1) * more) + processes / 2) / processes;
+            return std::min(all, before - std::min(before, (p - 1) * more));
+        };
+        const std::size_t first = begin(process);
+        return {first, std::max(first, begin(process + 1)) - first};
     }
 
-    // Every second part along an axis, or every third, is a set.
-    std::vector<std::vector<HogelPart>> parts() const {
-        const std::size_t overlap = colours_.front()->overlap();
-        const std::size_t apart_x = parts_apart(part_across, overlap), apart_y = parts_apart(part_down, overlap);
+    // The first row of an eye's band that belongs to a row of parts, or to none.
+    std::size_t band_row(std::size_t part_row, std::size_t eye) const {
+        return part_row < part_rows() ? part_row * part_down * eye_band(eye).per_hogel() : band(eye).plane.height;
+    }
+
+    // Bands of some rows of hogels. The system clears their pages, half a gigabyte for many looks, on all threads.
+    optics::PackedBands dark_bands(std::size_t looks, const core::LineRange& hogels) const {
+        optics::PackedBands bands(colours_.size() * each(), std::vector<optics::PackedBand>(looks));
+        core::parallel_for(hogels.count > 0 ? bands.size() * looks : 0, [&](std::size_t i) {
+            const std::size_t eye = i / looks;
+            bands[eye][i % looks] = optics::PackedBand(eye_band(eye).samples(hogels.count), band(eye).plane.width);
+        });
+        return bands;
+    }
+
+    // Adds the light of parts to bands whose first row is that of the row t0 of hogels.
+    void draw_into(optics::PackedBands& bands, const ColourEyes::Looks& looks,
+                   const std::vector<std::vector<HogelPart>>& sets, std::size_t t0, const Progress& progress) const {
+        const std::size_t count = count_of(sets);
+        std::mutex mutex;
+        std::size_t done = 0;
+        for (const auto& set : sets)
+            core::parallel_for(set.size(), [&](std::size_t i) {
+                const HogelPart& part = set[i];
+                for (std::size_t c = 0; c < colours_.size(); ++c) {
+                    auto scratch = colours_[c]->scratch();
+                    colours_[c]->draw(part, looks, *scratch);
+                    colours_[c]->add(*scratch, {part.s, part.t - t0, part.ns, part.nt},
+                                     std::span(bands).subspan(c * each(), each()));
+                }
+                const std::lock_guard lock(mutex);
+                progress.report(static_cast<double>(++done) / static_cast<double>(count));
+            });
+    }
+
+    static std::size_t count_of(const std::vector<std::vector<HogelPart>>& sets) {
+        return std::accumulate(sets.begin(), sets.end(), std::size_t{0},
+                               [](std::size_t sum, const auto& set) { return sum + set.size(); });
+    }
+
+    // Some rows of parts, in sets of which no two parts meet, so that threads may add them in any order: every second
+    // part along an axis, or every third, is a set.
+    std::vector<std::vector<HogelPart>> parts(const core::LineRange& rows) const {
+        const std::size_t apart_x = parts_apart(part_across, overlap()), apart_y = parts_apart(part_down, overlap());
         std::vector<std::vector<HogelPart>> sets(apart_x * apart_y);
-        for (std::size_t t = 0; t < range_.nt; t += part_down)
-            for (std::size_t s = 0; s < range_.ns; s += part_across)
-                sets[t / part_down % apart_y * apart_x + s / part_across % apart_x].push_back(
+        for (std::size_t row = rows.first; row < rows.end(); ++row)
+            for (std::size_t s = 0, t = row * part_down; s < range_.ns; s += part_across)
+                sets[row % apart_y * apart_x + s / part_across % apart_x].push_back(
                     {s, t, std::min(part_across, range_.ns - s), std::min(part_down, range_.nt - t)});
         return sets;
     }
