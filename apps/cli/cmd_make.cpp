@@ -105,6 +105,17 @@ void on_all_threads(std::size_t count, const std::function<void(std::size_t)>& w
     for (std::future<void>& thread : threads) thread.get();
 }
 
+// The same by all processes of a team, which all have to do it.
+void on_all_threads_of_team(std::size_t count, const std::function<void(std::size_t)>& work) {
+    Team* const all = team();
+    if (all == nullptr) return on_all_threads(count, work);
+    const std::uint64_t queue = all->next_number();
+    on_all_threads(thread_count(), [&](std::size_t) {
+        for (Team::Tiles some = all->next_tiles(queue, count); some.count > 0; some = all->next_tiles(queue, count))
+            for (std::uint64_t i = some.first; i < some.first + some.count; ++i) work(i);
+    });
+}
+
 void compare_pictures(Report& report) {
     on_all_threads(report.pairs.size(), [&](std::size_t i) {
         PhotographPair& pair = report.pairs[i];
@@ -131,7 +142,7 @@ void write_pictures(const std::filesystem::path& folder, const Report& report) {
             if (report.expected) add(pair.expected_file, pair.expected, expected);
             add(pair.geometric_file, pair.geometric, rays);
         }
-    on_all_threads(works.size(), [&](std::size_t i) { works[i](); });
+    on_all_threads_of_team(works.size(), [&](std::size_t i) { works[i](); });
 }
 
 // Prints the resources that the work needs, and returns the camera that is chosen. Throws if they are not available.
@@ -304,11 +315,12 @@ int make(const Options& options, const Session& session) {
             for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].expected = std::move(pictures[i]);
         });
 
-    if (!is_first_process()) return 0;
     // One exposure for all pictures, from the view from above.
     report.exposure = automatic_exposure(report.pairs[1].geometric);
-    compare_pictures(report);
+    if (is_first_process()) compare_pictures(report);
     write_pictures(folder.path(), report);
+    if (Team* const all = team()) all->meet();
+    if (!is_first_process()) return 0;
     write_text(folder.path() / "report.json", report_json(report));
     write_text(folder.path() / "report.html", report_html(report, folder.path()));
     session.say(fmt::format("\n{}", (folder.path() / "report.html").string()));

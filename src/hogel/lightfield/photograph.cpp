@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "hogel/core/shared_order.h"
+#include "hogel/core/shared_plane.h"
 #include "hogel/lightfield/exposure.h"
 #include "hogel/lightfield/ray_blocks.h"
 
@@ -46,53 +47,64 @@ void expose(std::span<const LightField::Source> faces, std::span<const FaceBlock
         });
 }
 
-// Rows of one camera's picture.
-struct Band {
-    std::size_t camera, first, end;
-};
+// A band of rows of the pictures of all cameras.
+using Band = std::vector<Array<float, 3>>;
 
-std::vector<Band> bands(std::span<const Camera> cameras, std::size_t processes) {
-    // One for each process, because all pixels take about as long and neighbouring bands show the same hogels.
-    constexpr std::size_t min_rows = 8;
-    std::vector<Band> list;
-    for (std::size_t c = 0; c < cameras.size(); ++c) {
-        const std::size_t height = cameras[c].picture.height;
-        const std::size_t rows = std::max(min_rows, (height + processes - 1) / processes);
-        for (std::size_t first = 0; first < height; first += rows)
-            list.push_back({c, first, std::min(first + rows, height)});
-    }
-    return list;
+core::Sent<Band> sent_band() {
+    return {[](core::MessageWriter& to, const Band& band) {
+                to.put(band.size());
+                for (const Array<float, 3>& rows : band) to.put(rows);
+            },
+            [](core::MessageReader& from) {
+                Band band(from.get<std::size_t>());
+                for (Array<float, 3>& rows : band) rows = from.get_array<float, 3>();
+                return band;
+            }};
 }
 
-// The processes of a team take bands of rows of the pictures, each with the hogels that it shows.
+// The processes of a team take bands of rows of the pictures, each with the hogels that it shows: as many bands as
+// processes, because all pixels take about as long and neighbouring bands show the same hogels. All cameras share the
+// reading of these.
 void photograph_together(Team& team, const LightField& light_field, std::span<const Camera> cameras,
                          std::size_t lens_points, std::span<const FaceBlock> list, std::span<Image> pictures,
                          const Progress& progress) {
-    const std::vector<Band> all = bands(cameras, team.size());
-    const auto sent = core::sent_array<float, 3>();
-    core::shared_ordered<Array<float, 3>>(
-        all.size(), core::default_in_flight(), sent,
+    const auto rows_of = [&](std::size_t band, std::size_t camera) {
+        return core::lines_of(band, team.size(), cameras[camera].picture.height, 1);
+    };
+    core::shared_ordered<Band>(
+        team.size(), core::default_in_flight(), sent_band(),
         [&](std::size_t i) {
-            const auto& [camera, first, end] = all[i];
-            Exposure exposure(light_field.grids(), cameras[camera], lens_points, first, end);
-            const auto [top, bottom] = exposure.cells();
+            std::vector<Exposure> exposures;
+            std::size_t top = light_field.grid().hogels_t, bottom = 0;
+            for (std::size_t c = 0; c < cameras.size(); ++c) {
+                const core::LineRange rows = rows_of(i, c);
+                exposures.emplace_back(light_field.grids(), cameras[c], lens_points, rows.first, rows.end());
+                const auto [first, end] = exposures.back().cells();
+                top = std::min(top, first);
+                bottom = std::max(bottom, end);
+            }
             std::vector<FaceBlock> some;
             for (const FaceBlock& block : list)
                 if (const std::optional<Block> part = part_of(block.block, top, bottom))
                     some.push_back({block.face, *part});
-            Image picture(cameras[camera].picture.width, cameras[camera].picture.height, light_field.grid().channels);
-            core::isolate([&] {
-                expose(light_field.faces(), some, 1, {&exposure, 1}, Progress(progress.stop()));
-                exposure.develop(picture);
-            });
-            Array<float, 3> rows({end - first, picture.width(), picture.channels()});
-            std::copy_n(picture.pixels[first].data(), rows.size(), rows.data());
-            return rows;
+            core::isolate([&] { expose(light_field.faces(), some, 1, exposures, Progress(progress.stop())); });
+            Band band;
+            for (std::size_t c = 0; c < cameras.size(); ++c) {
+                const core::LineRange rows = rows_of(i, c);
+                Image picture(cameras[c].picture.width, cameras[c].picture.height, light_field.grid().channels);
+                exposures[c].develop(picture);
+                band.emplace_back(Shape<3>{rows.count, picture.width(), picture.channels()});
+                if (rows.count > 0) std::copy_n(picture.pixels[rows.first].data(), band[c].size(), band[c].data());
+            }
+            return band;
         },
-        [&](std::size_t i, Array<float, 3>& rows) {
-            std::ranges::copy(rows.elements(), pictures[all[i].camera].pixels[all[i].first].data());
-            progress.report(static_cast<double>(i + 1) / static_cast<double>(all.size()));
+        [&](std::size_t i, Band& band) {
+            for (std::size_t c = 0; c < cameras.size(); ++c)
+                if (band[c].size() > 0)
+                    std::ranges::copy(band[c].elements(), pictures[c].pixels[rows_of(i, c).first].data());
+            progress.report(static_cast<double>(i + 1) / static_cast<double>(team.size()));
         });
+    const auto sent = core::sent_array<float, 3>();
     for (Image& picture : pictures) core::share_result(picture.pixels, sent);
 }
 

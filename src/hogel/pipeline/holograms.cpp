@@ -8,8 +8,6 @@
 #include <optional>
 
 #include "hogel/core/alone.h"
-#include "hogel/core/message.h"
-#include "hogel/core/result_log.h"
 #include "hogel/core/shared_order.h"
 #include "hogel/error.h"
 #include "hogel/hologram/parallax.h"
@@ -17,8 +15,12 @@
 #include "hogel/optics/eye_light.h"
 #include "hogel/optics/photograph_together.h"
 #include "hogel/pipeline.h"
+#include "hogel/pipeline/picture_shares.h"
 
 namespace hogel {
+
+using pipeline::PictureShare;
+using pipeline::PictureShares;
 
 void require_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                        std::span<const Camera> cameras) {
@@ -72,33 +74,6 @@ Fields make_holograms(const LightField& light_field, const HologramRequest& requ
     return holograms;
 }
 
-namespace {
-
-// How many of the first colours the processes of a team photograph by themselves, as many each: from hogels, which each
-// process would prepare for its share of the looks, or of the rows, of any colour.
-std::size_t colours_alone(const Fields& holograms, const WaveCamera& with) {
-    const Team* const all = core::team_of_several();
-    const auto* const options = std::get_if<PhotographOptions>(&with);
-    if (all == nullptr || options == nullptr || options->from == LightFrom::samples || options->vertical_diffuser ||
-        core::result_log() != nullptr)
-        return 0;
-    const bool of_hogels = std::ranges::all_of(holograms, [](const std::shared_ptr<const FieldSource>& hologram) {
-        return dynamic_cast<const optics::EyeLight*>(hologram.get()) != nullptr;
-    });
-    return of_hogels ? holograms.size() / all->size() * all->size() : 0;
-}
-
-// Puts pictures of one colour into those of all.
-void put_colour(std::size_t colour, std::span<const Image> seen, std::span<Image> pictures) {
-    for (std::size_t i = 0; i < pictures.size(); ++i) {
-        const std::size_t colours = pictures[i].pixels.extent(2);
-        for (std::size_t pixel = 0; pixel < seen[i].pixels.size(); ++pixel)
-            pictures[i].pixels.data()[pixel * colours + colour] = seen[i].pixels.data()[pixel];
-    }
-}
-
-}  // namespace
-
 std::vector<Image> photograph_colours(const Fields& holograms, std::span<const Camera> cameras, const WaveCamera& with,
                                       const Progress& progress) {
     const core::StopScope scope(progress);
@@ -114,33 +89,37 @@ std::vector<Image> photograph_colours(const Fields& holograms, std::span<const C
     std::vector<std::size_t> order(colours);
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t c) { return holograms[c]->grid().wavelength; });
-    const std::size_t alone = together ? 0 : colours_alone(holograms, with);
-    Team* const all = core::team_of_several();
-    core::MessageWriter own;  // pictures of colours that a process photographs by itself, for the first one
-    for (std::size_t k = 0; k < colours; ++k) {
-        const std::size_t c = order[k];
-        if (k < alone && k % all->size() != all->rank()) continue;
-        std::optional<core::AloneScope> by_itself;
-        if (k < alone) by_itself.emplace();
-        const Progress part = progress.part(k, colours);
-        const std::vector<Image> seen =
-            together          ? std::move((*together)[c])
-            : full != nullptr ? photograph_by_plane_waves(*holograms[c], cameras, *full, part)
-                              : photograph(*holograms[c], cameras, std::get<PhotographOptions>(with), part);
-        put_colour(c, seen, pictures);
-        for (std::size_t i = 0; k < alone && i < cameras.size() && !all->is_first(); ++i) own.put(seen[i].pixels);
-    }
-    if (alone > 0 && !all->is_first()) all->send_to(0, own.take());
-    if (alone > 0 && all->is_first())
-        for (std::size_t process = 1; process < all->size(); ++process) {
-            const std::string bytes = all->receive_from(process);
-            core::MessageReader message(bytes);
-            for (std::size_t k = process; k < alone; k += all->size()) {
-                std::vector<Image> seen(cameras.size());
-                for (Image& picture : seen) picture.pixels = message.get_array<float, 3>();
-                put_colour(order[k], seen, pictures);
-            }
+    const auto photograph_colour = [&](const PictureShare& share, const Progress& part) {
+        std::vector<Camera> some;
+        for (const std::size_t camera : share.cameras) some.push_back(cameras[camera]);
+        const FieldSource& hologram = *holograms[share.colour];
+        return full != nullptr ? photograph_by_plane_waves(hologram, some, *full, part)
+                               : photograph(hologram, some, std::get<PhotographOptions>(with), part);
+    };
+    std::vector<PictureShares> shares;
+    if (!together) shares = pipeline::shares_of_processes(holograms, order, cameras, with);
+    std::size_t done = 0;
+    if (!shares.empty()) {
+        const PictureShares& mine = shares[core::team_of_several()->rank()];
+        std::vector<std::vector<Image>> seen;
+        for (const PictureShare& share : mine) {
+            const core::AloneScope alone;
+            seen.push_back(photograph_colour(share, progress.part(done++, colours)));
         }
+        pipeline::gather(shares, seen, pictures);
+        std::erase_if(order, [&](std::size_t colour) {
+            return std::ranges::any_of(shares, [&](const PictureShares& own) {
+                return std::ranges::any_of(own, [&](const PictureShare& share) { return share.colour == colour; });
+            });
+        });
+    }
+    PictureShare all{0, std::vector<std::size_t>(cameras.size())};
+    std::iota(all.cameras.begin(), all.cameras.end(), std::size_t{0});
+    for (const std::size_t colour : order) {
+        all.colour = colour;
+        const Progress part = progress.part(std::min(done++, colours - 1), colours);
+        pipeline::put(all, together ? std::move((*together)[colour]) : photograph_colour(all, part), pictures);
+    }
     for (Image& picture : pictures) core::share_result(picture.pixels, core::sent_array<float, 3>());
     return pictures;
 }

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pictures of several colours and cameras that each process of a team makes by itself.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "hogel/camera.h"
+#include "hogel/image.h"
+#include "hogel/pipeline.h"
+
+namespace hogel::pipeline {
+
+/// Pictures of one colour by some cameras.
+struct PictureShare {
+    std::size_t colour = 0;
+    std::vector<std::size_t> cameras;
+};
+using PictureShares = std::vector<PictureShare>;
+
+/// What each process of the team makes by itself, of photographs from hogels: as many whole colours as any other,
+/// because each process would prepare hogels for its share of any colour. Or all pictures of infinitely many looks,
+/// divided by their cost where there are enough of them: their tables are for one camera. Nothing for processes of no
+/// team.
+/// @param order  in which colours are photographed
+std::vector<PictureShares> shares_of_processes(const Fields& holograms, std::span<const std::size_t> order,
+                                               std::span<const Camera> cameras, const WaveCamera& with);
+
+/// Puts pictures of one colour into those of all.
+void put(const PictureShare& share, std::span<const Image> seen, std::span<Image> pictures);
+
+/// Puts what the processes of the team have made by themselves into the first one's pictures of all colours.
+/// @param own  pictures of one colour by this process, in the order of its shares
+void gather(std::span<const PictureShares> shares, std::span<const std::vector<Image>> own, std::span<Image> pictures);
+
+}  // namespace hogel::pipeline
