@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/optics/shared_looks.h"
 
-#include <algorithm>
-#include <cstring>
-#include <string>
-
 #include "hogel/core/alone.h"
+#include "hogel/core/pieces.h"
 #include "hogel/core/shared_order.h"
-#include "hogel/error.h"
 
 namespace hogel::optics {
 namespace {
 
 // Looks for each process where each of them prepares all hogels, which takes as long as one or two looks.
 constexpr std::size_t min_looks_alone = 4;
-
-// Floats of a message: a MiB, because the memory of larger ones is new each time.
-constexpr std::size_t piece = std::size_t{1} << 18;
 
 }  // namespace
 
@@ -44,12 +37,7 @@ PackedBands SharedLooks::drawn(std::size_t first, std::size_t count, const Progr
 }
 
 void SharedLooks::receive(std::size_t process, Array<float, 2>& film) const {
-    for (std::size_t first = 0; first < film.size(); first += piece) {
-        const std::string bytes = team_->receive_from(process);
-        if (bytes.size() != std::min(piece, film.size() - first) * sizeof(float))
-            throw Error(ErrorCode::internal, "a film from another process has another size than expected");
-        std::memcpy(film.data() + first, bytes.data(), bytes.size());
-    }
+    core::receive_in_pieces(*team_, process, film.elements());
 }
 
 void SharedLooks::take(Array<float, 2>& film) const {
@@ -57,10 +45,7 @@ void SharedLooks::take(Array<float, 2>& film) const {
 }
 
 void SharedLooks::hand_on(const Array<float, 2>& film) const {
-    if (!is_shared()) return;
-    for (std::size_t first = 0; first < film.size(); first += piece)
-        team_->send_to((team_->rank() + 1) % team_->size(), {reinterpret_cast<const char*>(film.data() + first),
-                                                             std::min(piece, film.size() - first) * sizeof(float)});
+    if (is_shared()) core::send_in_pieces<float>(*team_, (team_->rank() + 1) % team_->size(), film.elements());
 }
 
 void SharedLooks::finish(Array<float, 2>& film) const {

@@ -2,12 +2,12 @@
 #include "hogel/hologram/eye/stereogram_eyes.h"
 
 #include <algorithm>
-#include <cstring>
 #include <mutex>
 #include <numeric>
 #include <utility>
 
 #include "hogel/core/parallel.h"
+#include "hogel/core/pieces.h"
 #include "hogel/core/shared_order.h"
 
 namespace hogel::hologram::eye {
@@ -19,26 +19,6 @@ using Complex = std::complex<float>;
 // end of a hogel, or of its window, which has at least one to a hogel.
 constexpr std::size_t parts_apart(std::size_t side, std::size_t overlap) {
     return (side + overlap - 1 + std::size_t{2} * 8 + side - 1) / side;
-}
-
-// Numbers of a message: a MiB, because the memory of larger ones is new each time.
-constexpr std::size_t piece = std::size_t{1} << 18;
-
-void send(Team& team, std::size_t process, std::span<const math::PackedComplex> numbers) {
-    for (std::size_t first = 0; first < numbers.size(); first += piece) {
-        const auto some = numbers.subspan(first, std::min(piece, numbers.size() - first));
-        team.send_to(process, {reinterpret_cast<const char*>(some.data()), some.size_bytes()});
-    }
-}
-
-void receive(Team& team, std::size_t process, std::span<math::PackedComplex> numbers) {
-    for (std::size_t first = 0; first < numbers.size(); first += piece) {
-        const auto some = numbers.subspan(first, std::min(piece, numbers.size() - first));
-        const std::string bytes = team.receive_from(process);
-        if (bytes.size() != some.size_bytes())
-            throw Error(ErrorCode::internal, "rows of a band from another process have another size than expected");
-        std::memcpy(some.data(), bytes.data(), bytes.size());
-    }
 }
 
 // Eyes that see several colours of the same hogels, part by part, so that these may share rays.
@@ -91,7 +71,7 @@ class StereogramEyes final : public optics::EyeDrawing {
                 };
                 for (std::size_t process = 0; process < team.size(); ++process)
                     if (const core::LineRange looks_of = wanted(process); process != team.rank() && i < looks_of.count)
-                        send(team, process, own_rows(looks_of.first + i));
+                        core::send_in_pieces<math::PackedComplex>(team, process, own_rows(looks_of.first + i));
                 if (const core::LineRange looks_of = wanted(team.rank()); i < looks_of.count) {
                     const Grid& plane = band(eye).plane;
                     optics::PackedBand& whole = bands[eye].emplace_back(plane.height, plane.width);
@@ -101,7 +81,7 @@ class StereogramEyes final : public optics::EyeDrawing {
                         if (process == team.rank())
                             std::ranges::copy(own_rows(looks_of.first + i), to.begin());
                         else
-                            receive(team, process, to);
+                            core::receive_in_pieces(team, process, to);
                     }
                 }
                 for (std::size_t process = 0; process < team.size(); ++process)
