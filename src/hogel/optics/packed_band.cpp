@@ -3,15 +3,39 @@
 
 #include <algorithm>
 
+#include "hogel/core/parallel.h"
+
 namespace hogel::optics {
 namespace {
 
-constexpr std::size_t squares_of(std::size_t numbers) { return (numbers + PackedBand::side - 1) / PackedBand::side; }
+// Numbers that are cleared together.
+constexpr std::size_t cleared_together = std::size_t{1} << 18;
 
 }  // namespace
 
-PackedBand::PackedBand(std::size_t height, std::size_t width)
-    : height_(height), width_(width), squares_({squares_of(height), squares_of(width), square}) {}
+std::vector<PackedBand> PackedBand::unset(std::size_t count, std::size_t height, std::size_t width) {
+    const std::size_t each = size(height, width);
+    const std::shared_ptr<math::PackedComplex> memory(
+        static_cast<math::PackedComplex*>(allocate_lines(count * each * sizeof(math::PackedComplex))), free_lines);
+    std::vector<PackedBand> bands(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        bands[i].height_ = height;
+        bands[i].width_ = width;
+        bands[i].memory_ = memory;
+        bands[i].squares_ = memory.get() + i * each;
+    }
+    return bands;
+}
+
+std::vector<PackedBand> PackedBand::dark(std::size_t count, std::size_t height, std::size_t width) {
+    std::vector<PackedBand> bands = unset(count, height, width);
+    const std::size_t all = count * size(height, width);
+    core::parallel_for((all + cleared_together - 1) / cleared_together, [&](std::size_t i) {
+        const std::size_t first = i * cleared_together;
+        std::fill_n(bands.front().squares_ + first, std::min(cleared_together, all - first), math::PackedComplex());
+    });
+    return bands;
+}
 
 PackedBand::PackedBand(View<const std::complex<float>, 2> band) : PackedBand(band.extent(0), band.extent(1)) {
     for (std::size_t row = 0; row < height_; ++row)
@@ -21,7 +45,7 @@ PackedBand::PackedBand(View<const std::complex<float>, 2> band) : PackedBand(ban
 
 bool PackedBand::is_lit(std::size_t row) const {
     std::uint32_t bits = 0;
-    for (std::size_t i = 0; i < squares_.extent(1) && bits == 0; ++i)
+    for (std::size_t i = 0; i < squares_of(width_) && bits == 0; ++i)
         for (const math::PackedComplex* number = at(row, i * side); number < at(row, i * side) + side; ++number)
             bits |= number->bits;
     return bits != 0;

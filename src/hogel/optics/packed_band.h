@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <complex>
 #include <cstddef>
+#include <memory>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "hogel/array.h"
 #include "hogel/field.h"
@@ -25,8 +28,19 @@ class PackedBand {
 
     PackedBand() = default;
     /// A dark band.
-    PackedBand(std::size_t height, std::size_t width);
+    PackedBand(std::size_t height, std::size_t width) : PackedBand(std::move(dark(1, height, width).front())) {}
     explicit PackedBand(View<const std::complex<float>, 2> band);
+    PackedBand(const PackedBand&) = delete;
+    PackedBand& operator=(const PackedBand&) = delete;
+    PackedBand(PackedBand&&) = default;
+    PackedBand& operator=(PackedBand&&) = default;
+    ~PackedBand() = default;
+
+    /// Bands of one size in one block of memory, which is freed with the last of them: it has huge pages, which the
+    /// system clears in a fraction of the time that small ones take. Dark ones are cleared on all threads; others have
+    /// any numbers.
+    static std::vector<PackedBand> dark(std::size_t count, std::size_t height, std::size_t width);
+    static std::vector<PackedBand> unset(std::size_t count, std::size_t height, std::size_t width);
 
     static double bytes(const Grid& plane) {
         return static_cast<double>(sizeof(math::PackedComplex) * plane.samples());
@@ -36,30 +50,36 @@ class PackedBand {
     std::size_t width() const { return width_; }
 
     /// A number; those of the same row and square follow.
-    math::PackedComplex* at(std::size_t row, std::size_t column) {
-        return &squares_(row / side, column / side, row % side * side + column % side);
-    }
-    const math::PackedComplex* at(std::size_t row, std::size_t column) const {
-        return &squares_(row / side, column / side, row % side * side + column % side);
-    }
+    math::PackedComplex* at(std::size_t row, std::size_t column) { return squares_ + offset(row, column); }
+    const math::PackedComplex* at(std::size_t row, std::size_t column) const { return squares_ + offset(row, column); }
 
     /// The squares of rows [first, end), of which the first is a multiple of 16, one row of squares after the other.
     std::span<math::PackedComplex> rows(std::size_t first, std::size_t end) {
-        const std::size_t row = squares_.extent(1) * square;
-        return {squares_.data() + first / side * row, (end - first + side - 1) / side * row};
+        const std::size_t row = squares_of(width_) * square;
+        return {squares_ + first / side * row, squares_of(end - first) * row};
     }
 
     /// Whether a row has a number that is not zero.
     bool is_lit(std::size_t row) const;
 
     friend bool operator==(const PackedBand& a, const PackedBand& b) {
-        return a.height_ == b.height_ && a.width_ == b.width_ &&
-               std::ranges::equal(a.squares_.elements(), b.squares_.elements());
+        return a.height_ == b.height_ && a.width_ == b.width_ && std::ranges::equal(a.numbers(), b.numbers());
     }
 
   private:
+    static constexpr std::size_t squares_of(std::size_t numbers) { return (numbers + side - 1) / side; }
+    // The numbers of a band of this size.
+    static constexpr std::size_t size(std::size_t height, std::size_t width) {
+        return squares_of(height) * squares_of(width) * square;
+    }
+    std::span<const math::PackedComplex> numbers() const { return {squares_, size(height_, width_)}; }
+    std::size_t offset(std::size_t row, std::size_t column) const {
+        return (row / side * squares_of(width_) + column / side) * square + row % side * side + column % side;
+    }
+
     std::size_t height_ = 0, width_ = 0;
-    Array<math::PackedComplex, 3> squares_;  // [row / 16][column / 16][row mod 16][column mod 16]
+    std::shared_ptr<math::PackedComplex> memory_;  // of all bands that were made with it
+    math::PackedComplex* squares_ = nullptr;       // [row / 16][column / 16][row mod 16][column mod 16]
 };
 
 }  // namespace hogel::optics

@@ -42,6 +42,20 @@ TEST(PackedBand, has_rows_one_after_the_other) {
     EXPECT_TRUE(whole.rows(32, 32).empty());
 }
 
+TEST(PackedBand, shares_memory_with_others_and_no_numbers) {
+    std::vector<PackedBand> bands = PackedBand::dark(3, 20, 40);
+    const PackedBand alone(20, 40);
+    const math::PackedComplex one = math::pack({1, -1});
+    std::ranges::fill(bands[1].rows(0, 20), one);
+    EXPECT_EQ(bands[0], alone);
+    EXPECT_EQ(bands[2], alone);
+    // The others' memory stays while there is any of them.
+    const PackedBand last = std::move(bands[1]);
+    bands.clear();
+    for (std::size_t row = 0; row < 20; ++row)
+        for (std::size_t column = 0; column < 40; ++column) EXPECT_EQ(*last.at(row, column), one);
+}
+
 TEST(PackedBand, knows_its_dark_rows) {
     PackedBand band(20, 40);
     *band.at(18, 39) = math::pack({0, 1e-20f});

@@ -52,43 +52,7 @@ class StereogramEyes final : public optics::EyeDrawing {
                           t1 = std::min(drawn.end() * part_down, range_.nt);
         optics::PackedBands mine = dark_bands(looks, {t0, t1 - t0});
         draw_into(mine, {first_look, looks}, parts(drawn), t0, progress);
-        optics::PackedBands bands(mine.size());
-        const auto rows_of = [&](std::size_t process, std::size_t eye) {
-            const core::LineRange rows = own_part_rows(process, team.size());
-            const std::size_t first = band_row(rows.first, eye);
-            return core::LineRange{first, band_row(rows.end(), eye) - first};
-        };
-        std::size_t most = 0;
-        for (std::size_t process = 0; process < team.size(); ++process) most = std::max(most, wanted(process).count);
-        // One look of each process at a time, so that few messages are under way.
-        for (std::size_t i = 0; i < most; ++i)
-            for (std::size_t eye = 0; eye < mine.size(); ++eye) {
-                const core::LineRange rows = rows_of(team.rank(), eye);
-                const std::size_t first = rows.first - std::min(rows.first, t0 * eye_band(eye).per_hogel());
-                const auto own_rows = [&](std::size_t look) {
-                    return rows.count > 0 ? mine[eye][look].rows(first, first + rows.count)
-                                          : std::span<math::PackedComplex>();
-                };
-                for (std::size_t process = 0; process < team.size(); ++process)
-                    if (const core::LineRange looks_of = wanted(process); process != team.rank() && i < looks_of.count)
-                        core::send_in_pieces<math::PackedComplex>(team, process, own_rows(looks_of.first + i));
-                if (const core::LineRange looks_of = wanted(team.rank()); i < looks_of.count) {
-                    const Grid& plane = band(eye).plane;
-                    optics::PackedBand& whole = bands[eye].emplace_back(plane.height, plane.width);
-                    for (std::size_t process = 0; process < team.size(); ++process) {
-                        const core::LineRange theirs = rows_of(process, eye);
-                        const auto to = whole.rows(theirs.first, theirs.end());
-                        if (process == team.rank())
-                            std::ranges::copy(own_rows(looks_of.first + i), to.begin());
-                        else
-                            core::receive_in_pieces(team, process, to);
-                    }
-                }
-                for (std::size_t process = 0; process < team.size(); ++process)
-                    if (const core::LineRange looks_of = wanted(process); i < looks_of.count)
-                        mine[eye][looks_of.first + i] = {};
-            }
-        return bands;
+        return exchange(team, mine, t0, wanted);
     }
 
   private:
@@ -115,13 +79,53 @@ class StereogramEyes final : public optics::EyeDrawing {
         return part_row < part_rows() ? part_row * part_down * eye_band(eye).per_hogel() : band(eye).plane.height;
     }
 
-    // Bands of some rows of hogels. The system clears their pages, half a gigabyte for many looks, on all threads.
+    // Bands of some rows of hogels.
     optics::PackedBands dark_bands(std::size_t looks, const core::LineRange& hogels) const {
-        optics::PackedBands bands(colours_.size() * each(), std::vector<optics::PackedBand>(looks));
-        core::parallel_for(hogels.count > 0 ? bands.size() * looks : 0, [&](std::size_t i) {
-            const std::size_t eye = i / looks;
-            bands[eye][i % looks] = optics::PackedBand(eye_band(eye).samples(hogels.count), band(eye).plane.width);
-        });
+        optics::PackedBands bands;
+        for (std::size_t eye = 0; eye < colours_.size() * each(); ++eye) {
+            const std::size_t rows = hogels.count > 0 ? eye_band(eye).samples(hogels.count) : 0;
+            bands.push_back(optics::PackedBand::dark(looks, rows, band(eye).plane.width));
+        }
+        return bands;
+    }
+
+    // Gives all processes what each has drawn of the looks that they want, and frees it.
+    // @param t0  the row of hogels where the bands begin
+    optics::PackedBands exchange(Team& team, optics::PackedBands& mine, std::size_t t0,
+                                 const optics::WantedLooks& wanted) const {
+        std::size_t most = 0;
+        for (std::size_t process = 0; process < team.size(); ++process) most = std::max(most, wanted(process).count);
+        const core::LineRange own = wanted(team.rank());
+        optics::PackedBands bands(mine.size());
+        for (std::size_t eye = 0; eye < mine.size(); ++eye) {
+            const auto rows_of = [&](std::size_t process) {
+                const core::LineRange rows = own_part_rows(process, team.size());
+                const std::size_t first = band_row(rows.first, eye);
+                return core::LineRange{first, band_row(rows.end(), eye) - first};
+            };
+            const core::LineRange rows = rows_of(team.rank());
+            const std::size_t first = rows.first - std::min(rows.first, t0 * eye_band(eye).per_hogel());
+            const auto own_rows = [&](std::size_t look) {
+                return rows.count > 0 ? mine[eye][look].rows(first, first + rows.count)
+                                      : std::span<math::PackedComplex>();
+            };
+            bands[eye] = optics::PackedBand::unset(own.count, band(eye).plane.height, band(eye).plane.width);
+            // One look of each process at a time, so that few messages are under way.
+            for (std::size_t i = 0; i < most; ++i) {
+                for (std::size_t process = 0; process < team.size(); ++process)
+                    if (const core::LineRange looks = wanted(process); process != team.rank() && i < looks.count)
+                        core::send_in_pieces<math::PackedComplex>(team, process, own_rows(looks.first + i));
+                for (std::size_t process = 0; i < own.count && process < team.size(); ++process) {
+                    const core::LineRange theirs = rows_of(process);
+                    const auto to = bands[eye][i].rows(theirs.first, theirs.end());
+                    if (process == team.rank())
+                        std::ranges::copy(own_rows(own.first + i), to.begin());
+                    else
+                        core::receive_in_pieces(team, process, to);
+                }
+            }
+            mine[eye].clear();
+        }
         return bands;
     }
 
