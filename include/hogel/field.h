@@ -43,6 +43,8 @@ class HOGEL_API FieldSource {
     virtual const Provenance& provenance() const;
     /// Regions whose positions and sizes are multiples of this number of samples are read without repeated work.
     virtual std::size_t alignment() const { return 1; }
+    /// How many samples beyond each side of a region are computed for it and not kept: where windows overlap.
+    virtual std::size_t overlap() const { return 0; }
     /// Fills out[y][x] (shape: height × width of the region) with the region's samples in look number `look`.
     virtual void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const = 0;
 };

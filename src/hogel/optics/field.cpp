@@ -14,7 +14,9 @@
 namespace hogel {
 namespace {
 
-constexpr std::size_t region_side = 1024;  // 8 MiB of samples
+constexpr std::size_t region_samples = std::size_t{1} << 20;  // 8 MiB
+// Rows that are written together, so that a row of a narrow source is not a region.
+constexpr std::size_t min_rows = 64;
 constexpr std::size_t max_samples = (std::numeric_limits<std::size_t>::max() >> 1) / sizeof(std::complex<float>);
 
 void require_positive(double value, ErrorCode code, const std::string& what, const char* member) {
@@ -22,14 +24,20 @@ void require_positive(double value, ErrorCode code, const std::string& what, con
         throw Error(code, fmt::format("{}: {} is {}, but must be positive and finite", what, member, value));
 }
 
-// The largest multiple of `alignment` up to region_side, at least one.
-std::size_t aligned_side(std::size_t alignment) {
-    return std::max(region_side / alignment, std::size_t{1}) * alignment;
+// The largest multiple of `alignment` up to a number, at least one.
+std::size_t aligned(std::size_t number, std::size_t alignment) {
+    return std::max(number / alignment, std::size_t{1}) * alignment;
 }
 
-// A multiple of `alignment` rows with about as many samples as a square region.
-std::size_t aligned_rows(std::size_t alignment, std::size_t width) {
-    return std::max(region_side * region_side / (alignment * width), std::size_t{1}) * alignment;
+// The size of the regions in which a field is copied. Rows that are long in a file are written in a fraction of the
+// time of short ones; but what overlaps is computed least often for a square.
+// @param whole_rows  whether regions must be whole rows
+Region copied_region(const FieldSource& source, bool whole_rows) {
+    const std::size_t alignment = source.alignment(), all = source.grid().plane.width;
+    if (whole_rows) return {0, 0, all, aligned(region_samples / all, alignment)};
+    const std::size_t height = aligned(
+        source.overlap() > 0 ? static_cast<std::size_t>(std::sqrt(region_samples)) : min_rows, alignment);
+    return {0, 0, aligned(region_samples / height, alignment), height};
 }
 
 }  // namespace
@@ -90,17 +98,16 @@ void Field::write(const Region& region, View<const std::complex<float>, 2> value
 void copy(const FieldSource& source, FieldSink& sink, std::size_t look, const Progress& progress) {
     const core::StopScope scope(progress);
     const Grid& plane = source.grid().plane;
-    const std::size_t side = aligned_side(source.alignment());
     // Whole rows are contiguous in memory, so regions of whole rows can be read directly into the sink.
     const View<std::complex<float>, 2> whole = sink.in_memory();
     const bool in_place = whole.size() > 0;
-    const std::size_t width = in_place ? plane.width : side,
-                      height = in_place ? aligned_rows(source.alignment(), plane.width) : side;
-    const std::size_t across = (plane.width + width - 1) / width, down = (plane.height + height - 1) / height;
+    const Region each = copied_region(source, in_place);
+    const std::size_t across = (plane.width + each.width - 1) / each.width,
+                      down = (plane.height + each.height - 1) / each.height;
     core::ObjectPool<Array<std::complex<float>, 1>> scratch_pool;
     const auto shared = dynamic_cast<core::SharedSink*>(&sink);
     core::for_each_tile(across * down, shared, progress, [&](std::size_t i) {
-        Region region{(i % across) * width, (i / across) * height, width, height};
+        Region region{(i % across) * each.width, (i / across) * each.height, each.width, each.height};
         region.width = std::min(region.width, plane.width - region.x0);
         region.height = std::min(region.height, plane.height - region.y0);
         if (in_place) {

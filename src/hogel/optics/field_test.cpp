@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <mutex>
 
 #include "hogel/error.h"
 #include "hogel/units.h"
@@ -108,6 +109,48 @@ TEST(Field, copy_carries_every_sample_in_aligned_regions) {
         copy(Aligned(from, alignment), sink);
         EXPECT_TRUE(std::ranges::equal(written.samples.elements(), from.samples.elements())) << alignment;
     }
+}
+
+// Whose windows overlap by so many samples.
+class Overlapping final : public FieldSource {
+  public:
+    Overlapping(const Field& field, std::size_t overlap) : field_(field), overlap_(overlap) {}
+    const FieldGrid& grid() const override { return field_.grid(); }
+    std::size_t alignment() const override { return 100; }
+    std::size_t overlap() const override { return overlap_; }
+    void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override {
+        field_.read(region, look, out);
+    }
+
+  private:
+    const Field& field_;
+    std::size_t overlap_;
+};
+
+TEST(Field, copy_writes_long_rows_or_squares_of_what_overlaps) {
+    class Shapes final : public FieldSink {
+      public:
+        void write(const Region& region, View<const std::complex<float>, 2>) override {
+            const std::lock_guard lock(mutex_);
+            samples += region.samples();
+            widest = std::max(widest, region.width);
+            highest = std::max(highest, region.height);
+        }
+        std::size_t samples = 0, widest = 0, highest = 0;
+
+      private:
+        std::mutex mutex_;
+    };
+    const Field from(plane_of(3000, 1700));
+    Shapes rows, squares;
+    copy(Overlapping(from, 0), rows);
+    copy(Overlapping(from, 100), squares);
+    EXPECT_EQ(rows.samples, from.samples.size());
+    EXPECT_EQ(rows.widest, 3000u);
+    EXPECT_EQ(rows.highest, 100u);
+    EXPECT_EQ(squares.samples, from.samples.size());
+    EXPECT_EQ(squares.widest, 1000u);
+    EXPECT_EQ(squares.highest, 1000u);
 }
 
 TEST(Field, refuses_regions_outside_and_arrays_of_another_shape_and_looks_beyond_the_first) {

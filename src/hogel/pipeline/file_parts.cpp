@@ -63,6 +63,7 @@ class SampleRows final : public FieldSource {
     }
     const FieldGrid& grid() const override { return grid_; }
     std::size_t alignment() const override { return whole_->alignment(); }
+    std::size_t overlap() const override { return whole_->overlap(); }
     std::size_t looks() const override { return whole_->looks(); }
     void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override {
         Region there = region;

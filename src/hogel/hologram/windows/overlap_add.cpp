@@ -81,6 +81,7 @@ class OverlapAddHologram final : public FieldSource, public optics::EyeLight, pu
     const FieldGrid& grid() const override { return grid_; }
     std::size_t looks() const override { return options_.looks; }
     std::size_t alignment() const override { return hop_; }
+    std::size_t overlap() const override { return hop_; }
     const Provenance& provenance() const override { return source_.provenance(); }
 
     void read(const Region& region, std::size_t look, View<Complex, 2> out) const override {

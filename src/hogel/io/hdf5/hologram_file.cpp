@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "hogel/error.h"
@@ -109,8 +110,18 @@ class FieldWriter final : public FieldSink, public core::SharedSink {
 
     // Throws for samples beyond half floats, because one infinite sample would spoil a whole photograph.
     void require_halves(std::span<const float> numbers) const {
-        float largest = 0;
-        for (const float number : numbers) largest = std::max(largest, std::abs(number));
+        // Sixteen maxima side by side, which vectors hold: one alone waits for itself at each number.
+        constexpr std::size_t together = 16;
+        std::array<float, together> maxima{};
+        const auto take = [&](std::size_t i, float number) {
+            const float size = std::abs(number);
+            maxima[i] = maxima[i] < size ? size : maxima[i];
+        };
+        std::size_t first = 0;
+        for (; first + together <= numbers.size(); first += together)
+            for (std::size_t i = 0; i < together; ++i) take(i, numbers[first + i]);
+        for (; first < numbers.size(); ++first) take(0, numbers[first]);
+        const float largest = std::ranges::max(maxima);
         if (largest > max_half)
             throw Error(ErrorCode::usage, fmt::format("cannot write '{}': a sample of {} was found, and 16-bit floats "
                                                       "end at {}; 32-bit floats would do",
