@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hogel/core/paged_array.h"
+#include "hogel/core/pieces.h"
 #include "hogel/core/shared_order.h"
 #include "hogel/team.h"
 
@@ -37,12 +38,15 @@ inline LineRange own_lines(const Team* team, std::size_t lines) {
 /// @param made    the lines that a process has made
 template <class Value, class Made>
 void share_lines(Team& team, Value* lines, std::size_t length, const Made& made) {
-    const LineRange own = made(team.rank());
-    MessageWriter message;
-    message.put(std::vector<Value>(lines + own.first * length, lines + own.end() * length));
-    const std::vector<std::string> all = all_of(team, message.take());
+    const auto lines_of_process = [&](std::size_t process) {
+        const LineRange some = made(process);
+        return std::span<Value>(lines + some.first * length, some.count * length);
+    };
     for (std::size_t process = 0; process < team.size(); ++process)
-        std::ranges::copy(MessageReader(all[process]).get_vector<Value>(), lines + made(process).first * length);
+        if (process != team.rank())
+            send_in_pieces<Value>(team, process, lines_of_process(team.rank()));
+    for (std::size_t process = 0; process < team.size(); ++process)
+        if (process != team.rank()) receive_in_pieces(team, process, lines_of_process(process));
 }
 
 /// Places in the own columns of a plane, [row][column].

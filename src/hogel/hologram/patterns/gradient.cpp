@@ -197,10 +197,8 @@ Numbers all_rows(Numbers own, std::size_t rows, Team* team) {
 // Descent on the phases φ for ε = 1 − C², with C the correlation of e^{iφ} and the field within the field's band; the
 // light beyond is free, and an aperture blocks it. The objective is that of Chakravarthula, Peng, Kollin, Fuchs and
 // Heide, Wirtinger holography, ACM TOG 38(6), 2019, in the field's own plane.
-Array<float, 2> descend_phases(View<const Complex, 2> field, const PatternOptions& options, Convergence& convergence,
-                               const Progress& progress, Team* team) {
-    require_squares_fit(field, options.window);
-    const FieldBand band(field, options.window);
+Array<float, 2> descend_phases(View<const Complex, 2> field, const FieldBand& band, const PatternOptions& options,
+                               Convergence& convergence, const Progress& progress, Team* team) {
     PatternError error(band, field.shape(), team);
     const core::LineRange own = error.own_rows();
     const Shape<2> shape{own.count, field.extent(1)};

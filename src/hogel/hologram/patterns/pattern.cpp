@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "hogel/core/parallel.h"
 #include "hogel/hologram/patterns/pattern_parts.h"
@@ -91,13 +92,14 @@ float cycles_of(Complex value) {
     return cycles < 0 ? cycles + 1 : cycles;
 }
 
-Array<float, 2> encode_phase(View<const Complex, 2> field, const PatternOptions& options, Convergence& convergence,
-                             const Progress& progress, Team* team) {
+Array<float, 2> encode_phase(View<const Complex, 2> field, const FieldBand& band, const PatternOptions& options,
+                             Convergence& convergence, const Progress& progress, Team* team) {
     if (options.encoding == Encoding::gerchberg_saxton) {
         convergence.iterations = options.iterations > 0 ? options.iterations : projections;
         return iterate_phases(field, options, progress);
     }
-    if (options.encoding == Encoding::gradient) return descend_phases(field, options, convergence, progress, team);
+    if (options.encoding == Encoding::gradient)
+        return descend_phases(field, band, options, convergence, progress, team);
     Array<float, 2> cycles(field.shape());
     core::parallel_for(field.extent(0), [&](std::size_t y) {
         for (std::size_t x = 0; x < field.extent(1); ++x) {
@@ -227,8 +229,11 @@ Pattern hologram::patterns::encode_by(Team* team, const FieldSource& source, con
     Carrier carrier;
     Convergence convergence;
     const bool phases = is_phase_only(options.encoding);
+    std::optional<FieldBand> band;
+    if (options.encoding == Encoding::gradient) require_squares_fit(field, options.window);
+    if (phases) band.emplace(field, options.window);
     pattern.values = phases
-                         ? encode_phase(field, options, convergence, progress, team)
+                         ? encode_phase(field, *band, options, convergence, progress, team)
                          : encode_amplitude(field, options, source.grid().wavelength, carrier, pattern.reference_angle);
     pattern.levels = round_to_levels(pattern.values, options.modulator.levels, phases, options.phase_code);
     const Array<Complex, 2> transmitted = transmission(pattern, options.encoding, options.phase_code);
@@ -237,7 +242,7 @@ Pattern hologram::patterns::encode_by(Team* team, const FieldSource& source, con
     pattern.light_field_efficiency = light_field_efficiency_of(transmitted, field, options.window, team);
     pattern.iterations = convergence.iterations;
     Array<Complex, 2> spectrum = transmitted;
-    pattern.correlation = std::sqrt(1 - FieldBand(field, options.window).match(spectrum).error);
+    pattern.correlation = std::sqrt(1 - band->match(spectrum).error);
     return pattern;
 }
 

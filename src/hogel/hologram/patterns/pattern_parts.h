@@ -65,10 +65,13 @@ struct Convergence {
     double correlation = 0;  ///< within the field's band, before rounding to levels
 };
 
+class FieldBand;
+
 /// Encoding::gradient: phases in cycles [0, 1), by descent. Ends when the correlation with the field no longer gains.
+/// @param band  of the field
 /// @param team  whose processes share the work, all of which call it and get the phases; null: none
-Array<float, 2> descend_phases(View<const std::complex<float>, 2> field, const PatternOptions& options,
-                               Convergence& convergence, const Progress& progress, Team* team);
+Array<float, 2> descend_phases(View<const std::complex<float>, 2> field, const FieldBand& band,
+                               const PatternOptions& options, Convergence& convergence, const Progress& progress, Team* team);
 /// Iterations where PatternOptions::iterations is 0: alternating projections, and the most of a descent.
 inline constexpr std::size_t projections = 40, max_descent_steps = 200;
 
