@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "hogel/core/shared_order.h"
 #include "hogel/core/shared_plane.h"
+#include "hogel/core/speeds.h"
 #include "hogel/lightfield/exposure.h"
 #include "hogel/lightfield/ray_blocks.h"
 
@@ -47,65 +50,43 @@ void expose(std::span<const LightField::Source> faces, std::span<const FaceBlock
         });
 }
 
-// A band of rows of the pictures of all cameras.
-using Band = std::vector<Array<float, 3>>;
-
-core::Sent<Band> sent_band() {
-    return {[](core::MessageWriter& to, const Band& band) {
-                to.put(band.size());
-                for (const Array<float, 3>& rows : band) to.put(rows);
-            },
-            [](core::MessageReader& from) {
-                Band band(from.get<std::size_t>());
-                for (Array<float, 3>& rows : band) rows = from.get_array<float, 3>();
-                return band;
-            }};
-}
-
 // The processes of a team take bands of rows of the pictures, each with the hogels that it shows: as many bands as
-// processes, because all pixels take about as long and neighbouring bands show the same hogels. All cameras share the
-// reading of these.
+// processes, of as many rows as each is fast, because all pixels take about as long and neighbouring bands show the same
+// hogels. All cameras share the reading of these.
 void photograph_together(Team& team, const LightField& light_field, std::span<const Camera> cameras,
                          std::size_t lens_points, std::span<const FaceBlock> list, std::span<Image> pictures,
                          const Progress& progress) {
-    const auto rows_of = [&](std::size_t band, std::size_t camera) {
-        return core::lines_of(band, team.size(), cameras[camera].picture.height, 1);
+    const std::vector<double> speeds = core::speeds_of_processes(team);
+    const auto rows_of = [&](std::size_t process, std::size_t camera) {
+        return core::lines_in_parts(speeds, process, cameras[camera].picture.height);
     };
-    core::shared_ordered<Band>(
-        team.size(), core::default_in_flight(), sent_band(),
-        [&](std::size_t i) {
-            std::vector<Exposure> exposures;
-            std::size_t top = light_field.grid().hogels_t, bottom = 0;
-            for (std::size_t c = 0; c < cameras.size(); ++c) {
-                const core::LineRange rows = rows_of(i, c);
-                exposures.emplace_back(light_field.grids(), cameras[c], lens_points, rows.first, rows.end());
-                const auto [first, end] = exposures.back().cells();
-                top = std::min(top, first);
-                bottom = std::max(bottom, end);
-            }
-            std::vector<FaceBlock> some;
-            for (const FaceBlock& block : list)
-                if (const std::optional<Block> part = part_of(block.block, top, bottom))
-                    some.push_back({block.face, *part});
-            core::isolate([&] { expose(light_field.faces(), some, 1, exposures, Progress(progress.stop())); });
-            Band band;
-            for (std::size_t c = 0; c < cameras.size(); ++c) {
-                const core::LineRange rows = rows_of(i, c);
-                Image picture(cameras[c].picture.width, cameras[c].picture.height, light_field.grid().channels);
-                exposures[c].develop(picture);
-                band.emplace_back(Shape<3>{rows.count, picture.width(), picture.channels()});
-                if (rows.count > 0) std::copy_n(picture.pixels[rows.first].data(), band[c].size(), band[c].data());
-            }
-            return band;
-        },
-        [&](std::size_t i, Band& band) {
-            for (std::size_t c = 0; c < cameras.size(); ++c)
-                if (band[c].size() > 0)
-                    std::ranges::copy(band[c].elements(), pictures[c].pixels[rows_of(i, c).first].data());
-            progress.report(static_cast<double>(i + 1) / static_cast<double>(team.size()));
-        });
-    const auto sent = core::sent_array<float, 3>();
-    for (Image& picture : pictures) core::share_result(picture.pixels, sent);
+    std::vector<Exposure> exposures;
+    std::size_t top = light_field.grid().hogels_t, bottom = 0;
+    for (std::size_t c = 0; c < cameras.size(); ++c) {
+        const core::LineRange rows = rows_of(team.rank(), c);
+        exposures.emplace_back(light_field.grids(), cameras[c], lens_points, rows.first, rows.end());
+        const auto [first, end] = exposures.back().cells();
+        top = std::min(top, first);
+        bottom = std::max(bottom, end);
+    }
+    std::vector<FaceBlock> some;
+    for (const FaceBlock& block : list)
+        if (const std::optional<Block> part = part_of(block.block, top, bottom)) some.push_back({block.face, *part});
+    expose(light_field.faces(), some, thread_count(), exposures, progress);
+    core::MessageWriter own;
+    for (std::size_t c = 0; c < cameras.size(); ++c) {
+        exposures[c].develop(pictures[c]);
+        const core::LineRange rows = rows_of(team.rank(), c);
+        const float* const first = pictures[c].pixels.data() + rows.first * pictures[c].pixels[0].size();
+        own.put(std::vector<float>(first, first + rows.count * pictures[c].pixels[0].size()));
+    }
+    const std::vector<std::string> all = core::all_of(team, own.take());
+    for (std::size_t process = 0; process < team.size(); ++process) {
+        core::MessageReader theirs(all[process]);
+        for (std::size_t c = 0; c < cameras.size(); ++c)
+            std::ranges::copy(theirs.get_vector<float>(),
+                              pictures[c].pixels.data() + rows_of(process, c).first * pictures[c].pixels[0].size());
+    }
 }
 
 }  // namespace
@@ -123,19 +104,16 @@ void photograph_into(const LightField& light_field, std::span<const Camera> came
     image::require_a_picture_for_each(cameras, pictures);
     const std::vector<LightFieldGrid> grids = light_field.grids();
     const std::span<const LightField::Source> faces = light_field.faces();
-    std::vector<Exposure> exposures;
-    for (std::size_t i = 0; i < cameras.size(); ++i) {
-        const Camera& camera = cameras[i];
-        lightfield::require_ray_camera(camera);
-        exposures.emplace_back(grids, camera, std::max<std::size_t>(options.pupil_samples, 1));
-    }
+    for (const Camera& camera : cameras) lightfield::require_ray_camera(camera);
     image::load_film(cameras, light_field.grid().channels, light_field.provenance(), pictures);
     std::vector<FaceBlock> list;
     for (std::size_t face = 0; face < faces.size(); ++face)
         for (const Block& block : lightfield::blocks(grids[face])) list.push_back({face, block});
+    const std::size_t lens_points = std::max<std::size_t>(options.pupil_samples, 1);
     if (Team* const all = core::team_of_several())
-        return photograph_together(*all, light_field, cameras, std::max<std::size_t>(options.pupil_samples, 1), list,
-                                   pictures, progress);
+        return photograph_together(*all, light_field, cameras, lens_points, list, pictures, progress);
+    std::vector<Exposure> exposures;
+    for (const Camera& camera : cameras) exposures.emplace_back(grids, camera, lens_points);
     expose(faces, list, thread_count(), exposures, progress);
     for (std::size_t i = 0; i < exposures.size(); ++i) exposures[i].develop(pictures[i]);
 }

@@ -121,11 +121,8 @@ void photograph_window(const FieldSource& whole, const PhotographPlan::Window& p
                 waves.push_back(films[e].pupil_wave(band));
                 band = {};
             }
-            for (std::size_t c = 0; c < eyes[e].members.size(); ++c) {
-                shared.take(intensities[e][c]);
-                films[e].expose(waves, cameras[eyes[e].members[c]], intensities[e][c]);
-                shared.hand_on(intensities[e][c]);
-            }
+            for (std::size_t c = 0; c < eyes[e].members.size(); ++c)
+                shared.expose(films[e], waves, cameras[eyes[e].members[c]], intensities[e][c]);
             report(0.9 + 0.1 * static_cast<double>(e + 1) / static_cast<double>(eyes.size()));
         }
     }

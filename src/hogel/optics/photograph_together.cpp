@@ -111,9 +111,7 @@ std::optional<std::vector<std::vector<Image>>> photograph_together(
                 for (const std::size_t camera : eyes[e].members) {
                     Array<float, 2>& intensity = intensities[c][camera];
                     if (intensity.size() == 0) intensity = film.unexposed();
-                    shared.take(intensity);
-                    film.expose(waves, cameras[camera], intensity);
-                    shared.hand_on(intensity);
+                    shared.expose(film, waves, cameras[camera], intensity);
                     if (!shared.is_shared() && first + count == looks) develop(film, c, camera);
                 }
             }

@@ -2,16 +2,19 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
+#include <vector>
 
 #include "hogel/array.h"
 #include "hogel/core/shared_plane.h"
 #include "hogel/optics/eye_light.h"
+#include "hogel/optics/film/film.h"
 
 namespace hogel::optics {
 
 /// The looks of a photograph that each process of a team draws and exposes by itself. Films go from process to process:
-/// each exposes its looks on what those before it have exposed, so that the sum is that of one process, and the first
-/// one gets them from the last. Where a drawing has rows, each process draws some of them for all looks, so that none
+/// each adds its looks to those of the processes before it, so that the sum is that of one process, and the first one
+/// gets them from the last. Where a drawing has rows, each process draws some of them for all looks, so that none
 /// prepares all hogels. Where there are too few looks the processes share each drawing instead.
 class SharedLooks {
   public:
@@ -28,9 +31,10 @@ class SharedLooks {
 
     /// The bands of looks [first, first + count), which are all of the own ones where looks are shared.
     PackedBands drawn(std::size_t first, std::size_t count, const Progress& progress) const;
-    /// To be called before and after a film is exposed, by all processes for the same films in the same order.
-    void take(Array<float, 2>& film) const;
-    void hand_on(const Array<float, 2>& film) const;
+    /// Exposes a film, of which a camera's picture is developed, to looks that have been drawn. All processes call it for
+    /// the same films in the same order.
+    void expose(const film::Film& film, std::span<const film::PupilWave> looks, const Camera& camera,
+                Array<float, 2>& intensity) const;
     /// To be called for all films in the same order once more: then the first process has what all have exposed.
     void finish(Array<float, 2>& film) const;
 
@@ -40,6 +44,7 @@ class SharedLooks {
     const EyeDrawing& drawing_;
     Team* team_ = nullptr;
     std::size_t looks_;
+    std::vector<core::LineRange> looks_of_;  // of each process
     core::LineRange own_;
 };
 

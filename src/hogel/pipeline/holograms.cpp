@@ -6,9 +6,12 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "hogel/core/alone.h"
 #include "hogel/core/shared_order.h"
+#include "hogel/core/speeds.h"
+#include "hogel/core/unequal_parts.h"
 #include "hogel/error.h"
 #include "hogel/hologram/parallax.h"
 #include "hogel/image/film.h"
@@ -83,6 +86,10 @@ std::vector<Image> photograph_colours(const Fields& holograms, std::span<const C
     image::load_film(cameras, colours, holograms.front()->provenance(), pictures);
     const auto* full = std::get_if<PlaneWaveCameraOptions>(&with);
     std::optional<std::vector<std::vector<Image>>> together;  // [colour][camera]
+    Team* const team = core::team_of_several();
+    std::vector<double> speeds;
+    if (team != nullptr && full == nullptr) speeds = core::speeds_of_processes(*team);
+    std::optional<core::UnequalParts> parts(std::in_place, speeds, speeds);
     if (full == nullptr)
         together = optics::photograph_together(holograms, cameras, std::get<PhotographOptions>(with), progress);
     // Short waves first: their bands have the most samples, and the other colours use the same memory.
@@ -97,21 +104,23 @@ std::vector<Image> photograph_colours(const Fields& holograms, std::span<const C
                                : photograph(hologram, some, std::get<PhotographOptions>(with), part);
     };
     std::vector<PictureShares> shares;
-    if (!together) shares = pipeline::shares_of_processes(holograms, order, cameras, with);
+    if (!together) shares = pipeline::shares_of_processes(holograms, order, cameras, with, speeds);
     std::size_t done = 0;
+    std::vector<std::vector<Image>> seen;  // by this process alone
     if (!shares.empty()) {
-        const PictureShares& mine = shares[core::team_of_several()->rank()];
-        std::vector<std::vector<Image>> seen;
+        const PictureShares& mine = shares[team->rank()];
         for (const PictureShare& share : mine) {
             const core::AloneScope alone;
             seen.push_back(photograph_colour(share, progress.part(done++, colours)));
         }
-        pipeline::gather(shares, seen, pictures);
         std::erase_if(order, [&](std::size_t colour) {
             return std::ranges::any_of(shares, [&](const PictureShares& own) {
                 return std::ranges::any_of(own, [&](const PictureShare& share) { return share.colour == colour; });
             });
         });
+        if (!order.empty())
+            parts.emplace(speeds, pipeline::parts_of_rest(shares, holograms, order, cameras,
+                                                          std::get<PhotographOptions>(with), speeds));
     }
     PictureShare all{0, std::vector<std::size_t>(cameras.size())};
     std::iota(all.cameras.begin(), all.cameras.end(), std::size_t{0});
@@ -120,6 +129,7 @@ std::vector<Image> photograph_colours(const Fields& holograms, std::span<const C
         const Progress part = progress.part(std::min(done++, colours - 1), colours);
         pipeline::put(all, together ? std::move((*together)[colour]) : photograph_colour(all, part), pictures);
     }
+    pipeline::gather(shares, seen, pictures);
     for (Image& picture : pictures) core::share_result(picture.pixels, core::sent_array<float, 3>());
     return pictures;
 }

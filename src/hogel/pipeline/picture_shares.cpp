@@ -2,10 +2,15 @@
 #include "hogel/pipeline/picture_shares.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <ranges>
 
 #include "hogel/core/message.h"
 #include "hogel/core/result_log.h"
 #include "hogel/core/shared_order.h"
+#include "hogel/core/speeds.h"
 #include "hogel/optics/expected/expected.h"
 #include "hogel/optics/eye_light.h"
 #include "hogel/team.h"
@@ -24,28 +29,43 @@ bool are_independent(std::span<const Camera> cameras) {
     });
 }
 
-// Divides all pictures of infinitely many looks into shares of equal cost, those of one colour after the other.
-std::vector<PictureShares> equal_shares(std::size_t processes, const Fields& holograms,
+// The part of a photograph from hogels that is drawn by rows of hogels; looks are exposed after it, equally many by each
+// process.
+constexpr double drawn_part = 0.75;
+
+// Products of a number of a hogel with a spot that take as long as reading a sample for one camera.
+constexpr double products_of_a_sample = 5;
+
+// What pictures of a colour by a camera take, in any unit.
+double cost(const FieldSource& hologram, const Camera& camera, const PhotographOptions& options) {
+    // An eye takes in more of short waves: their spectrum is as much wider, and the pupil has as much finer light. Some
+    // of the work is the same for all. As measured.
+    if (!options.expected) return std::pow(hologram.grid().wavelength, -1.5);
+    const optics::WavePowers* waves = dynamic_cast<const optics::EyeLight&>(hologram).wave_powers();
+    if (waves == nullptr) return 1;
+    return optics::expected::work(hologram.grid(), waves->counts(), {&camera, 1}, options).products +
+           products_of_a_sample * static_cast<double>(hologram.grid().plane.samples());
+}
+
+// Divides all pictures of infinitely many looks into shares that take all processes equally long, those of one colour
+// after the other.
+std::vector<PictureShares> equal_shares(std::span<const double> speeds, const Fields& holograms,
                                         std::span<const std::size_t> order, std::span<const Camera> cameras,
                                         const PhotographOptions& options) {
     std::vector<double> costs;  // [colour of the order][camera]
     double all = 0;
     for (const std::size_t colour : order) {
-        const optics::WavePowers* waves = dynamic_cast<const optics::EyeLight&>(*holograms[colour]).wave_powers();
         for (const Camera& camera : cameras) {
-            costs.push_back(
-                waves != nullptr
-                    ? optics::expected::work(holograms[colour]->grid(), waves->counts(), {&camera, 1}, options).products
-                    : 1);
+            costs.push_back(cost(*holograms[colour], camera, options));
             all += costs.back();
         }
     }
-    std::vector<PictureShares> shares(processes);
-    double before = 0;
+    std::vector<PictureShares> shares(speeds.size());
+    double before = 0, end = speeds.front();  // of the process's share
+    std::size_t process = 0;
     for (std::size_t i = 0; i < costs.size(); before += costs[i++]) {
-        const double middle = (before + 0.5 * costs[i]) / all;
-        PictureShares& own =
-            shares[std::min(processes - 1, static_cast<std::size_t>(middle * static_cast<double>(processes)))];
+        while (process + 1 < speeds.size() && (before + 0.5 * costs[i]) / all > end) end += speeds[++process];
+        PictureShares& own = shares[process];
         const std::size_t colour = order[i / cameras.size()];
         if (own.empty() || own.back().colour != colour) own.push_back({colour, {}});
         own.back().cameras.push_back(i % cameras.size());
@@ -56,25 +76,44 @@ std::vector<PictureShares> equal_shares(std::size_t processes, const Fields& hol
 }  // namespace
 
 std::vector<PictureShares> shares_of_processes(const Fields& holograms, std::span<const std::size_t> order,
-                                               std::span<const Camera> cameras, const WaveCamera& with) {
-    const Team* const team = core::team_of_several();
+                                               std::span<const Camera> cameras, const WaveCamera& with,
+                                               std::span<const double> speeds) {
+    const std::size_t processes = speeds.size();
     const auto* const options = std::get_if<PhotographOptions>(&with);
-    if (team == nullptr || options == nullptr || options->from == LightFrom::samples || options->vertical_diffuser ||
+    if (processes == 0 || options == nullptr || options->from == LightFrom::samples || options->vertical_diffuser ||
         core::result_log() != nullptr)
         return {};
     const bool of_hogels = std::ranges::all_of(holograms, [](const std::shared_ptr<const FieldSource>& hologram) {
         return dynamic_cast<const optics::EyeLight*>(hologram.get()) != nullptr;
     });
     if (!of_hogels) return {};
-    if (options->expected && order.size() * cameras.size() >= enough_pictures * team->size() &&
+    if (options->expected && order.size() * cameras.size() >= enough_pictures * processes &&
         are_independent(cameras))
-        return equal_shares(team->size(), holograms, order, cameras, *options);
-    std::vector<PictureShares> shares(team->size());
-    std::vector<std::size_t> all(cameras.size());
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-    for (std::size_t k = 0; k < order.size() / team->size() * team->size(); ++k)
-        shares[k % team->size()].push_back({order[k], all});
+        return equal_shares(speeds, holograms, order, cameras, *options);
+    std::vector<PictureShares> shares(processes);
+    std::vector<std::size_t> all(cameras.size()), by_speed(processes);
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    std::iota(by_speed.begin(), by_speed.end(), std::size_t{0});
+    std::ranges::stable_sort(by_speed, std::greater<>(), [&](std::size_t process) { return speeds[process]; });
+    for (std::size_t k = 0; k < order.size() / processes * processes; ++k)
+        shares[by_speed[k % processes]].push_back({order[k], all});
     return shares;
+}
+
+std::vector<double> parts_of_rest(std::span<const PictureShares> shares, const Fields& holograms,
+                                  std::span<const std::size_t> rest, std::span<const Camera> cameras,
+                                  const PhotographOptions& options, const std::vector<double>& speeds) {
+    const auto sum = [&](std::size_t colour, auto&& some) {
+        double costs = 0;
+        for (const std::size_t camera : some) costs += cost(*holograms[colour], cameras[camera], options);
+        return costs;
+    };
+    std::vector<double> own(shares.size());
+    for (std::size_t process = 0; process < shares.size(); ++process)
+        for (const PictureShare& share : shares[process]) own[process] += sum(share.colour, share.cameras);
+    double left = 0;
+    for (const std::size_t colour : rest) left += sum(colour, std::views::iota(std::size_t{0}, cameras.size()));
+    return core::parts_after(speeds, own, (options.expected ? 1 : drawn_part) * left);
 }
 
 void put(const PictureShare& share, std::span<const Image> seen, std::span<Image> pictures) {

@@ -23,9 +23,18 @@ using PictureShares = std::vector<PictureShare>;
 /// because each process would prepare hogels for its share of any colour. Or all pictures of infinitely many looks,
 /// divided by their cost where there are enough of them: their tables are for one camera. Nothing for processes of no
 /// team.
-/// @param order  in which colours are photographed
+/// @param order   in which colours are photographed, those that take longest first
+/// @param speeds  of the processes of the team; empty for those of no team
 std::vector<PictureShares> shares_of_processes(const Fields& holograms, std::span<const std::size_t> order,
-                                               std::span<const Camera> cameras, const WaveCamera& with);
+                                               std::span<const Camera> cameras, const WaveCamera& with,
+                                               std::span<const double> speeds);
+
+/// The parts of the colours that are left that each process makes, of rows of hogels, so that all end together: less
+/// where its own colours take longer.
+/// @param shares  what shares_of_processes() has given, not empty
+std::vector<double> parts_of_rest(std::span<const PictureShares> shares, const Fields& holograms,
+                                  std::span<const std::size_t> rest, std::span<const Camera> cameras,
+                                  const PhotographOptions& options, const std::vector<double>& speeds);
 
 /// Puts pictures of one colour into those of all.
 void put(const PictureShare& share, std::span<const Image> seen, std::span<Image> pictures);

@@ -9,6 +9,8 @@
 #include "hogel/core/parallel.h"
 #include "hogel/core/pieces.h"
 #include "hogel/core/shared_order.h"
+#include "hogel/core/speeds.h"
+#include "hogel/core/unequal_parts.h"
 
 namespace hogel::hologram::eye {
 namespace {
@@ -65,13 +67,14 @@ class StereogramEyes final : public optics::EyeDrawing {
     // The rows of parts whose place in the bands belongs to a process. All but the first draw others, too.
     core::LineRange own_part_rows(std::size_t process, std::size_t processes) const {
         const std::size_t all = part_rows(), more = parts_apart(part_down, overlap()) - 1;
-        const auto begin = [&](std::size_t p) -> std::size_t {
-            if (p == 0) return 0;
-            const std::size_t before = (p * (all + (processes - 1) * more) + processes / 2) / processes;
-            return std::min(all, before - std::min(before, (p - 1) * more));
-        };
-        const std::size_t first = begin(process);
-        return {first, std::max(first, begin(process + 1)) - first};
+        const std::vector<double> parts = core::first_parts(processes);
+        std::size_t first = 0, end = 0;
+        for (std::size_t p = 0; p <= process; ++p) {
+            first = end;
+            const std::size_t drawn = core::lines_in_parts(parts, p, all + (processes - 1) * more).end();
+            end = std::clamp(drawn - std::min(drawn, p * more), first, all);
+        }
+        return {first, end - first};
     }
 
     // The first row of an eye's band that belongs to a row of parts, or to none.

@@ -11,7 +11,8 @@
 
 #include "hogel/core/object_pool.h"
 #include "hogel/core/shared_order.h"
-#include "hogel/core/shared_plane.h"
+#include "hogel/core/speeds.h"
+#include "hogel/core/unequal_parts.h"
 #include "hogel/optics/expected/kernels.h"
 #include "hogel/optics/expected/spots.h"
 #include "hogel/optics/expected/tails.h"
@@ -155,7 +156,7 @@ class Photographer {
     // Gives all processes of a team the pixels and tails that each has made of its own rows of hogels.
     void gather(Team& team, std::span<Image> pictures) {
         const auto rows_of = [&](std::size_t process) {
-            return core::lines_of(process, team.size(), hogels_.plane.height, 1);
+            return core::lines_in_parts(core::first_parts(team.size()), process, hogels_.plane.height);
         };
         const auto visit = [&](const core::LineRange& own, const auto& each) {
             for (ExpectedEye& eye : eyes_)
@@ -420,7 +421,8 @@ void photograph(const FieldSource& hologram, const WavePowers& waves, std::span<
         }
         const std::size_t rows = fit >= counts.down ? counts.down : std::max(fit, around + 1) - around;
         Team* const all = core::team_of_several();
-        const core::LineRange own = core::own_lines(all, counts.down);
+        const core::LineRange own = all != nullptr ? core::lines_in_parts(core::first_parts(all->size()), all->rank(), counts.down)
+                                                   : core::LineRange{0, counts.down};
         const auto fraction = [&](std::size_t row) {
             return (static_cast<double>(done) + 0.98 * static_cast<double>(some.size()) * static_cast<double>(row) /
                                                     static_cast<double>(counts.down)) /

@@ -242,6 +242,17 @@ bool Film::has_one_lens(const Camera& camera) const {
 }
 
 void Film::expose(std::span<const PupilWave> pupil_waves, const Camera& camera, View<float, 2> intensity) const {
+    expose_each(pupil_waves, camera, [&](std::size_t) { return intensity; });
+}
+
+void Film::expose(std::span<const PupilWave> pupil_waves, const Camera& camera,
+                  std::span<Array<float, 2>> intensities) const {
+    expose_each(pupil_waves, camera, [&](std::size_t look) { return intensities[look].view(); });
+}
+
+void Film::expose_each(std::span<const PupilWave> pupil_waves, const Camera& camera,
+                       const std::function<View<float, 2>(std::size_t look)>& intensity) const {
+    if (pupil_waves.empty()) return;
     const FilmLens lens(size_.sines, hologram_.wavelength, camera);
     // Between nodes the intensities are blended linearly.
     const auto share = [](const FilmAxis& axis, const SineGrid::Range& sines, std::size_t k, std::size_t at,
@@ -269,7 +280,8 @@ void Film::expose(std::span<const PupilWave> pupil_waves, const Camera& camera, 
                 node.share_x(i) = share(size_.x, size_.sines.x, i, a, lens.nodes_x);
             for (std::size_t j = 0; j < size_.y.count; ++j)
                 node.share_y[j] = share(size_.y, size_.sines.y, j, b, lens.nodes_y);
-            for (const PupilWave& wave : pupil_waves) expose_node(wave, node, intensity);
+            for (std::size_t look = 0; look < pupil_waves.size(); ++look)
+                expose_node(pupil_waves[look], node, intensity(look));
         }
 }
 
