@@ -33,7 +33,7 @@ struct Options {
     std::string looks;  // empty: enough_looks()
     std::size_t pupil_samples = defaults.pupil_samples;
     std::string camera = "auto";
-    bool store_hologram = false, keep_light_field = false, force = false;
+    bool store_hologram = false, keep_light_field = false, force = false, resume = false;
 };
 
 struct Focus {
@@ -196,6 +196,7 @@ std::string render_command(const Metadata& run, const std::string& scene) {
 class PassingFile {
   public:
     PassingFile(std::filesystem::path path, bool keep) : path_(std::move(path)), keep_(keep) {}
+    void keep(bool keep) { keep_ = keep; }
     PassingFile(const PassingFile&) = delete;
     PassingFile& operator=(const PassingFile&) = delete;
     ~PassingFile() {
@@ -263,14 +264,21 @@ int make(const Options& options, const Session& session) {
     const std::string camera = state_plan(report.light_field, request, cameras, with, session);
     report.expected = looks.expected || is_expected_cheap(report.light_field, request, cameras, with, session);
 
-    const OutputFolder folder(options.output, options.force);
-    const PassingFile light_field_file(folder.path() / "lightfield.h5", options.keep_light_field);
+    const std::filesystem::path done_before = std::filesystem::path(options.output) / "make";
+    const bool resumes = options.resume && std::filesystem::exists(done_before.string() + ".part");
+    const OutputFolder folder(options.output, options.force || resumes);
     report.scene_input = describe_input(options.scene, scene);
+    Kept kept(session, options.resume, done_before.string(), report.scene_input);
+    const auto resume = options.resume ? std::optional(report.scene_input) : std::nullopt;
+    PassingFile light_field_file(folder.path() / "lightfield.h5", options.keep_light_field || options.resume);
 
     timed(session, report, "light field", [&](Stage& stage) {
         const LightField rendered = render_light_field(session, scene, options.render, rendering);
         require_memory(session, rendered, options.render, scene);
-        write_light_field(light_field_file.path(), rendered, {.metadata = rendering.metadata()}, stage.progress());
+        kept.once([&] {
+            write_light_field(light_field_file.path(), rendered, {.metadata = rendering.metadata(), .resume = resume},
+                              stage.progress());
+        });
     });
     report.render_command = render_command(rendering.metadata(), options.scene);
     if (options.keep_light_field) report.light_field_bytes = std::filesystem::file_size(light_field_file.path());
@@ -300,8 +308,10 @@ int make(const Options& options, const Session& session) {
     });
     if (options.store_hologram)
         timed(session, report, "hologram file", [&](Stage& stage) {
-            write_holograms(folder.path() / "hologram.h5", holograms, {.metadata = synthesis.metadata()},
-                            stage.progress());
+            kept.once([&] {
+                write_holograms(folder.path() / "hologram.h5", holograms,
+                                {.metadata = synthesis.metadata(), .resume = resume}, stage.progress());
+            });
         });
     if (!looks.expected)
         timed(session, report, "photographs by waves", [&](Stage& stage) {
@@ -323,6 +333,8 @@ int make(const Options& options, const Session& session) {
     if (!is_first_process()) return 0;
     write_text(folder.path() / "report.json", report_json(report));
     write_text(folder.path() / "report.html", report_html(report, folder.path()));
+    kept.complete();
+    light_field_file.keep(options.keep_light_field);
     session.say(fmt::format("\n{}", (folder.path() / "report.html").string()));
     session.result(result_of(report, options.output, session));
     return 0;
@@ -343,6 +355,8 @@ void add_make(Command& command, Session& session) {
                  "Keep hologram.h5 too; otherwise it streams through and is never stored");
     command.flag("--keep-light-field", options->keep_light_field,
                  "Keep lightfield.h5 too; the report has the command that renders it again");
+    command.flag("--resume", options->resume,
+                 "Keep what is done when interrupted, in DIR, and go on from there the next time");
     command.group("Hologram");
     command.positive_length("--pitch", options->hologram.pitch, "Distance of samples, rounded to divide a hogel");
     command.group("Camera");

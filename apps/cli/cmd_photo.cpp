@@ -173,12 +173,9 @@ void require_sense(const Options& options, InputKind kind, bool geometric) {
         throw Error(ErrorCode::usage,
                     "--preview: leaves out waves of the hogels of a light field or a scene; give --wave, a number of "
                     "looks and --camera eye");
-    const bool narrow = options.camera == "narrow" || (options.camera == "auto" && kind == InputKind::hologram);
-    if (options.resume && (!narrow || geometric || expected || options.has_diffuser()))
-        throw Error(
-            ErrorCode::usage,
-            "--resume: the narrow camera keeps what is done, of photographs by waves and not behind a diffuser; "
-            "name it by --camera narrow, or leave out --resume");
+    if (options.resume && (options.has_diffuser() || options.display == "phase"))
+        throw Error(ErrorCode::usage,
+                    "--resume: photographs behind a diffuser and of phases do not keep what is done; leave it out");
     if (options.has_diffuser() && kind != InputKind::hologram)
         throw Error(ErrorCode::usage,
                     "--diffuser vertical: stands before a hologram file; make one with 'hogel hologram "

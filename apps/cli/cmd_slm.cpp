@@ -26,6 +26,7 @@ struct Options {
     PatternOptions pattern;
     std::string phase_code = "hogel";
     FieldOptions field;
+    bool resume = false;
 };
 
 Modulator modulator_of(const Options& options) {
@@ -98,6 +99,7 @@ int slm(const Options& options, const Session& session) {
     pattern_options.modulator = modulator_of(options);
     require_raw_pixels_name(options.output);
     require_writable(options.output, {&options.input, 1});
+    Kept kept(session, options.resume, options.output, options.resume ? describe_input(options.input) : "");
     if (!is_external(options.input, options.field)) {
         require_described(options.input, options.field);
         if (input_kind(options.input) != InputKind::hologram)
@@ -154,6 +156,7 @@ int slm(const Options& options, const Session& session) {
     }
     if (!is_first_process()) return 0;
     write_raw_pixels(options.output, levels, with_history(metadata, to_metadata(fields.front()->provenance())));
+    kept.complete();
     session.say(fmt::format("{}: {}x{} pixels of {}", options.output, modulator.width, modulator.height,
                             format_length(modulator.pitch)));
     report_file(session, options.output,
@@ -177,6 +180,7 @@ void add_slm(Command& command, Session& session) {
     command.positional("input", options->input, "F.h5|F.npy|P.png", "Hologram, or another program's field");
     command.text("-o,--output", options->output, "FILE", "Pattern to write: .png or .bmp, 8 bits as they are")
         .required();
+    add_resume_flag(command, options->resume);
     std::vector<std::string> names = encodings().names();
     names.insert(names.begin(), "auto");
     command.group("Pattern");

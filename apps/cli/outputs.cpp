@@ -76,7 +76,7 @@ void add_resume_flag(Command& command, bool& resume) {
 
 Kept::Kept(const Session& session, bool resume, const std::string& output, const std::string& input) {
     if (!resume) return;
-    constexpr std::array<std::string_view, 6> idle{"output", "threads", "quiet", "verbose", "json", "resume"};
+    constexpr std::array<std::string_view, 7> idle{"output", "threads", "quiet", "verbose", "json", "resume", "force"};
     std::vector<std::string> work{"hogel " HOGEL_VERSION, "hogel " + session.command->name(), input};
     for (const auto& [name, value] : session.command->values())
         if (!value.empty() && !std::ranges::count(idle, name)) work.push_back(fmt::format("option {} {}", name, value));

@@ -32,6 +32,13 @@ class Kept {
   public:
     /// @param input  what describe_input() says of it
     Kept(const Session& session, bool resume, const std::string& output, const std::string& input);
+    /// Does a piece of work whose results are in files of their own, unless it was done before.
+    void once(const std::function<void()>& work) {
+        if (scope_)
+            scope_->once(work);
+        else
+            work();
+    }
     /// The output is there.
     void complete() {
         if (scope_) scope_->complete();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,10 +15,11 @@ namespace core {
 class ResultLog;
 }
 
-/// While this object exists, the results of tiles that compress() and the narrow camera of photograph() merge in order
-/// are kept in a file too. The same work, done again with the same file after it was interrupted, takes from it what
-/// was merged and goes on with the next tile: the outcome has the same bytes. In a team the first process has the file,
-/// and the number of processes may be another each time. HDF5 files have journals of their own instead
+/// While this object exists, what takes long is kept in a file too as soon as it is made: the results of tiles that
+/// compress() and the narrow camera of photograph() merge in order, the photographs of one colour by other cameras,
+/// those by rays, and patterns of encode_patterns(). The same work, done again with the same file after it was
+/// interrupted, takes from it what was made and goes on: the outcome has the same bytes. In a team the first process
+/// has the file, and the number of processes may be another each time. HDF5 files have journals of their own instead
 /// (LightFieldFileOptions::resume).
 class HOGEL_API ResumeScope {
   public:
@@ -31,6 +33,9 @@ class HOGEL_API ResumeScope {
     ResumeScope(const ResumeScope&) = delete;
     ResumeScope& operator=(const ResumeScope&) = delete;
 
+    /// Does a piece of work whose results are in files of their own, unless it was done the last time. All processes of
+    /// a team call it.
+    void once(const std::function<void()>& work);
     /// The work is complete: the file is removed.
     void complete();
 

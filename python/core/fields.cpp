@@ -172,6 +172,7 @@ void add_fields(py::module_& module) {
         .def_property_readonly("grid", &FieldSource::grid)
         .def_property_readonly("looks", &FieldSource::looks)
         .def_property_readonly("alignment", &FieldSource::alignment)
+        .def_property_readonly("overlap", &FieldSource::overlap)
         .def_property_readonly("metadata", [](const FieldSource& f) { return f.provenance().entries; })
         .def_property_readonly("provenance", [](const FieldSource& f) { return to_metadata(f.provenance()); })
         .def_property_readonly("camera", [](const FieldSource& f) { return f.provenance().camera; });

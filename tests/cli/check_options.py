@@ -41,8 +41,8 @@ TABLE = [
      --exposure=0 --exposure=inf --display=none --display=phase --camera=none --film-distance=1mm --pupil-samples=0
      --geometric --pitch=1um --values=phase --variable=a --conjugate"""),
     ("photo f.h5 -o w.png --camera full", "--film-distance=-1mm --film-distance=1um"),
-    ("photo x.h5 -o w.png", "--focus-tilt=10deg --camera=full --resume"),
-    ("photo x.h5 -o w.png --wave", "--resume"),
+    ("photo x.h5 -o w.png", "--focus-tilt=10deg --camera=full"),
+    ("photo f.h5 -o w.png --camera full --display phase", "--resume"),
     (f"photo sphere -o w.png {PHOTO} {SMALL}", "--pupil=20mm --pitch=3um --eye=30,0,40mm"),
     ("focus f.h5", "--region=0 --region=x --colour=0 --colour=2 --planes=3 --from=1mm --values=phase"),
     ("propagate f.h5 -o w.h5 --distance 1mm", "--imaginary=b.exr --variable=a --conjugate --pitch=1um --pitch=0um"),

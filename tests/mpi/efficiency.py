@@ -25,16 +25,16 @@ LIMITS = {"photo by rays": 0.85, "photo, camera narrow, streamed": 0.8, "photo, 
 
 # name: inputs, command
 FULL = {
-    "render": ((), "render church --hogels 192x192 --directions 64x64 --samples 2x2 -o out.h5"),
+    "render": ((), "render church --hogels 288x288 --directions 64x64 --samples 2x2 -o out.h5"),
     "compress": (("rays",), "compress rays.h5 --step 0.01 -o out.hgl"),
     "decompress": (("packed",), "decompress packed.hgl -o out.h5"),
-    "hologram": (("rays",), "hologram rays.h5 --wavelength 532nm --pitch 1.25um --half -o out.h5"),
+    "hologram": (("wide",), "hologram wide.h5 --wavelength 532nm --pitch 1.25um --half -o out.h5"),
     "photo by rays": (("rays",), "photo rays.h5 --resolution 512 --pupil-samples 4096 -o out.exr"),
     "photo, camera narrow": (("waves",), "photo waves.h5 --resolution 256 -o out.exr"),
-    "photo, camera narrow, streamed": (("rays",), "photo rays.h5 --wave --camera narrow --looks 1 --wavelength 532nm "
+    "photo, camera narrow, streamed": (("wide",), "photo wide.h5 --wave --camera narrow --looks 1 --wavelength 532nm "
                                        "--pitch 1.25um --resolution 256 -o out.exr"),
-    "photo, camera eye": (("rays",), "photo rays.h5 --wave --camera eye --looks 8 --resolution 256 -o out.exr"),
-    "photo, looks expected": (("rays",), "photo rays.h5 --wave --looks expected --resolution 768 -o out.exr"),
+    "photo, camera eye": (("wide",), "photo wide.h5 --wave --camera eye --looks 8 --resolution 256 -o out.exr"),
+    "photo, looks expected": (("wide",), "photo wide.h5 --wave --looks expected --resolution 768 -o out.exr"),
     "photo, camera full": (("field",), "photo field.h5 --camera full --resolution 256 -o out.exr"),
     "propagate": (("field",), "propagate field.h5 --distance 5mm -o out.h5"),
     "slm": (("colours",), "slm colours.h5 --pixels 2400x2000 --pixel-pitch 8um --encoding gradient --iterations 20 -o out.png"),
@@ -42,24 +42,27 @@ FULL = {
 }
 INPUTS = {
     "rays": "render pumpkin --hogels 160x160 --directions 64x64 --size 20mm -o rays.h5",
-    "packed": "compress rays.h5 --step 0.01 -o packed.hgl",
+    "wide": "render pumpkin --hogels 320x320 --directions 64x64 --size 40mm -o wide.h5",
+    "packed": "compress wide.h5 --step 0.01 -o packed.hgl",
     "waves": "hologram rays.h5 --wavelength rgb --pitch 1.25um --half -o waves.h5",
     "field": "hologram rays.h5 --wavelength 532nm --pitch 1.9um --half -o field.h5",
     "slow": "render pumpkin --hogels 160x160 --directions 64x64 --size 19.2mm --fov 2.5deg -o slow.h5",
     "colours": "hologram slow.h5 --wavelength rgb --pitch 8um -o colours.h5",
 }
-NEEDS = {"packed": ("rays",), "waves": ("rays",), "field": ("rays",), "colours": ("slow",)}
+NEEDS = {"packed": ("wide",), "waves": ("rays",), "field": ("rays",), "colours": ("slow",)}
 
 
 def smaller(command):
-    for large, small in (("192x192", "16x16"), ("160x160", "24x24"), ("20mm", "3mm"), ("19.2mm", "4.608mm"), ("12mm", "2mm"),
+    for large, small in (("192x192", "16x16"), ("288x288", "16x16"), ("160x160", "24x24"), ("320x320", "24x24"),
+                         ("20mm", "3mm"), ("40mm", "3mm"), ("19.2mm", "4.608mm"), ("12mm", "2mm"),
                          ("512", "48"), ("4096", "16"), ("2400x2000", "600x500")):
         command = command.replace(large, small)
     return command
 
 
 def larger(command):
-    for usual, large in (("192x192", "384x384"), ("160x160", "320x320"), ("20mm", "40mm"), ("19.2mm", "38.4mm"), ("12mm", "24mm"),
+    for usual, large in (("192x192", "384x384"), ("288x288", "576x576"), ("320x320", "640x640"), ("160x160", "320x320"),
+                         ("40mm", "80mm"), ("20mm", "40mm"), ("19.2mm", "38.4mm"), ("12mm", "24mm"),
                          ("2400x2000", "4800x4000"), ("resolution 512", "resolution 1024")):
         command = command.replace(usual, large)
     return command

@@ -215,11 +215,37 @@ def children(pid):
     return [int(word) for word in listed.split()]
 
 
+# Waits for mpirun. Open MPI 4.1 sometimes waits for itself for ever at its end where a rank was killed while it started
+# (PMIx_server_finalize); by then all ranks have ended.
+def end_of(process, patience=300):
+    deadline = time.monotonic() + patience
+    while process.poll() is None:
+        if time.monotonic() > deadline:
+            process.kill()
+            require(False, "did not end within", patience, "s")
+        states = [pathlib.Path(f"/proc/{pid}/stat") for pid in children(process.pid)]
+        alive = [path for path in states if path.exists() and ") Z " not in path.read_text()]
+        if states and not alive:
+            time.sleep(5)
+            if process.poll() is None:
+                process.kill()
+        time.sleep(0.05)
+    return process.communicate()
+
+
 LONG = ["hologram", "a.h5", "-o", "x.h5", "--pitch", "1um", "--resume", "--seed", "3"]
 RENDER = ["render", "pumpkin", "--hogels", "80x80", "--directions", "48x48", "--size", "8mm",
           "--algorithm", "raytrace", "-o", "x.h5", "--resume"]
 COMPRESS = ["compress", "a.h5", "-o", "x.hgl", "--step", "0.02", "--resume"]
 PHOTO = ["photo", "a.h5", "-o", "x.exr", "--wave", "--camera", "narrow", "--looks", "4", "--resolution", "64", "--resume"]
+WAVES = ["photo", "a.h5", "-o", "x.exr", "--wave", "--resume"]
+EYE = [*WAVES, "--camera", "eye", "--looks", "32", "--resolution", "256"]
+EXPECTED = [*WAVES, "--looks", "expected", "--resolution", "1024"]
+FULL_CAMERA = [*WAVES, "--camera", "full", "--looks", "2", "--resolution", "64"]
+RAYS = ["photo", "a.h5", "-o", "x.exr", "--resolution", "256", "--pupil-samples", "4096", "--resume"]
+PATTERNS = ["slm", "w.h5", "-o", "x.png", "--pixels", "1000x1000", "--pixel-pitch", "7.8125um", "--encoding", "gradient",
+            "--iterations", "20", "--resume"]
+MAKE = ["make", "pumpkin", *"--hogels 96x96 --size 6mm --resolution 128 --store-hologram -o m --resume".split()]
 
 
 # The file that a command makes by itself, and how long one thread takes for it.
@@ -237,13 +263,20 @@ def long_work(run):
     return made_alone(run, LONG)[1:]
 
 
-# Kills a rank at a random moment, and again until the work is complete, each time with another number of ranks.
+# Kills a rank when something has been kept, then at random moments, and again until the work is complete, each time with
+# another number of ranks.
 def kill_until_complete(run, chance, command, made, whole, seconds, kills_wanted):
     kept = [run.folder / (made.name + ending) for ending in (".part", ".part.journal")]
     kills = completed = resumed = 0
     while kills < kills_wanted or completed == 0:
         process = run.start(chance.choice(RANKS), *command)
-        time.sleep(chance.uniform(0.1, 0.5 + seconds) if kills < kills_wanted else 0)
+        if kills == 0 and command != RAYS:
+            # What is kept begins with less than 4 kB that say of which work it is.
+            log = kept[-1] if made.suffix == ".h5" else kept[0]
+            while process.poll() is None and (not log.exists() or log.suffix == ".part" and log.stat().st_size < 4096):
+                time.sleep(0.01)
+        elif kills < kills_wanted:
+            time.sleep(chance.uniform(0.1, 0.5 + seconds))
         ranks = children(process.pid) if kills < kills_wanted else []
         if ranks:
             try:
@@ -251,7 +284,7 @@ def kill_until_complete(run, chance, command, made, whole, seconds, kills_wanted
                 kills += 1
             except ProcessLookupError:  # it has just ended
                 pass
-        _, error = process.communicate(timeout=300)
+        _, error = end_of(process)
         # A rank may be killed after the file has got its name.
         if process.returncode == 0 or made.exists():
             completed += 1
@@ -261,11 +294,12 @@ def kill_until_complete(run, chance, command, made, whole, seconds, kills_wanted
             require(False, "ended with", process.returncode, error)
         resumed += kept[-1].exists() if made.suffix == ".h5" else kept[0].exists()
         # A killed process leaves a temporary file, which the next one removes; of HDF5 files that is the kept one.
-        wrong = [name for name in run.left() if name not in ("a.h5", kept[0].name, kept[1].name)
+        wrong = [name for name in run.left() if name not in ("a.h5", "w.h5", kept[0].name, kept[1].name)
                  and not (made.suffix != ".h5" and name.endswith(".tmp"))]
         require(not wrong, "left behind:", wrong)
-    require(resumed > 0, "nothing was ever kept")
-    print(f"{command[0]}: {kills} kills, {completed} completed, {resumed} times something was kept")
+    # A photograph by rays is kept whole, just before it is written.
+    require(resumed > 0 or command == RAYS, "nothing was ever kept")
+    print(f"{' '.join(command[:6])}: {kills} kills, {completed} completed, {resumed} times something was kept")
     for part in kept:
         part.unlink(missing_ok=True)
 
@@ -273,10 +307,39 @@ def kill_until_complete(run, chance, command, made, whole, seconds, kills_wanted
 def killed(run):
     chance = random.Random(7)
     run.alone("render", "pumpkin", "--hogels", "64x64", "--directions", "48x48", "--size", "8mm", "-o", "a.h5")
+    run.alone("render", "pumpkin", "--hogels", "64x64", "--directions", "48x48", "--size", "8mm", "--fov", "2.5deg", "-o", "s.h5")
+    run.alone("hologram", "s.h5", "--wavelength", "rgb", "--pitch", "8um", "-o", "w.h5")
+    (run.folder / "s.h5").unlink()
     hologram = [word.replace("1um", "1.6um") for word in LONG]
-    commands = (hologram, RENDER, COMPRESS, PHOTO)
+    commands = (hologram, RENDER, COMPRESS, PHOTO, EYE, EXPECTED, FULL_CAMERA, RAYS, PATTERNS)
     for i, command in enumerate(commands):
-        kill_until_complete(run, chance, command, *made_alone(run, command), (KILLS + i) // len(commands))
+        kill_until_complete(run, chance, command, *made_alone(run, command), (KILLS + i) // (len(commands) + 1))
+    kill_make_until_complete(run, chance, KILLS // (len(commands) + 1))
+
+
+# As above; what is made is a folder, which is complete when it has its report.
+def kill_make_until_complete(run, chance, kills):
+    began = time.monotonic()
+    run.alone(*MAKE, "--threads", "1")
+    seconds, made, whole = time.monotonic() - began, run.folder / "m", run.folder / "whole"
+    made.rename(whole)
+    resumed = 0
+    for kill in range(kills + 1):
+        process = run.start(chance.choice(RANKS), *MAKE)
+        if kill < kills:
+            time.sleep(chance.uniform(0.5, 0.5 + seconds))
+            if ranks := children(process.pid):
+                os.kill(chance.choice(ranks), signal.SIGKILL)
+        _, error = end_of(process)
+        resumed += (made / "make.part").exists()
+        if (made / "report.html").exists():
+            break
+    require((made / "report.html").exists() and resumed > 0, "resumed", resumed, "times, ended with", process.returncode, error)
+    names = sorted(path.name for path in whole.iterdir())
+    require(sorted(path.name for path in made.iterdir()) == names, "made", sorted(made.iterdir()))
+    for name in names:
+        require(name.startswith("report") or (made / name).read_bytes() == (whole / name).read_bytes(), name, "has other bytes")
+    print(f"make: killed {kill} times, resumed {resumed} times")
 
 
 # The others of a rank that is killed name it, once, and keep what is done.

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "hogel/core/checksum.h"
+#include "hogel/core/shared_order.h"
 #include "hogel/error.h"
 #include "hogel/resume.h"
 #include "hogel/team.h"
@@ -195,6 +196,16 @@ ResumeScope::ResumeScope(const std::filesystem::path& file, const std::vector<st
 }
 
 ResumeScope::~ResumeScope() { core::set_result_log(nullptr); }
+
+void ResumeScope::once(const std::function<void()>& work) {
+    core::kept_one_by_one<std::uint8_t>(
+        1, {},
+        [&](std::size_t) {
+            work();
+            return std::uint8_t{1};
+        },
+        [](std::size_t, std::uint8_t&) {});
+}
 
 void ResumeScope::complete() { log_->remove(); }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -78,6 +79,49 @@ void shared_ordered(std::size_t n, std::size_t in_flight, const Sent<Result>& se
             Result result = sent.read(message);
             merge(i, result);
         });
+}
+
+/// While this object exists, loops keep nothing, although there is a ResumeScope: those inside of what is kept whole.
+class NothingKept {
+  public:
+    NothingKept() : log_(result_log()) { set_result_log(nullptr); }
+    ~NothingKept() { set_result_log(log_); }
+    NothingKept(const NothingKept&) = delete;
+    NothingKept& operator=(const NothingKept&) = delete;
+
+  private:
+    ResultLog* log_;
+};
+
+/// For large results that all processes of a team make together, one after the other: calls make(i) for every i in
+/// [0, n) and take(i, result) after each. Within a ResumeScope the results of the first process are kept in a file, and
+/// not made again the next time; that process alone then takes them from there.
+template <class Result>
+void kept_one_by_one(std::size_t n, const Sent<Result>& sent, const std::function<Result(std::size_t)>& make,
+                     const std::function<void(std::size_t, Result&)>& take) {
+    ResultLog* const log = result_log();
+    std::size_t kept = 0;
+    if (log != nullptr) {
+        kept = log->begin(n, [&](std::size_t i, std::string_view bytes) {
+            MessageReader message(bytes);
+            Result result = sent.read(message);
+            take(i, result);
+        });
+        if (Team* const all = team_of_several()) kept = all->sum(kept);  // which only the first one knows
+    }
+    for (std::size_t i = kept; i < n; ++i) {
+        std::optional<Result> result;
+        {
+            const NothingKept nothing;
+            result = make(i);
+        }
+        if (log != nullptr) {
+            MessageWriter message;
+            sent.write(message, *result);
+            log->keep(message.take());
+        }
+        take(i, *result);
+    }
 }
 
 /// Gives all processes of a team what the first one has.

@@ -43,8 +43,7 @@ void share_lines(Team& team, Value* lines, std::size_t length, const Made& made)
         return std::span<Value>(lines + some.first * length, some.count * length);
     };
     for (std::size_t process = 0; process < team.size(); ++process)
-        if (process != team.rank())
-            send_in_pieces<Value>(team, process, lines_of_process(team.rank()));
+        if (process != team.rank()) send_in_pieces<Value>(team, process, lines_of_process(team.rank()));
     for (std::size_t process = 0; process < team.size(); ++process)
         if (process != team.rank()) receive_in_pieces(team, process, lines_of_process(process));
 }

@@ -8,9 +8,9 @@
 
 namespace hogel::core {
 
-/// How fast the processes of a team are just now, as parts of their sum, measured in some milliseconds on the threads of
-/// each: nodes differ, and so do the processors of a machine that others use. For work that cannot be handed out while
-/// it goes on. All processes call it together, and get the same.
+/// How fast the processes of a team are just now, as parts of their sum, measured in some milliseconds on the threads
+/// of each: nodes differ, and so do the processors of a machine that others use. For work that cannot be handed out
+/// while it goes on. All processes call it together, and get the same.
 std::vector<double> speeds_of_processes(Team& team);
 
 /// The lines of a process: as many as its part, all in order.

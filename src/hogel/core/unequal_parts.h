@@ -6,8 +6,8 @@
 
 namespace hogel::core {
 
-/// While this object exists, photographs are not divided equally among the processes of a team, because some of them are
-/// faster or come to it earlier than others. All processes give the same numbers.
+/// While this object exists, photographs are not divided equally among the processes of a team, because some of them
+/// are faster or come to it earlier than others. All processes give the same numbers.
 class UnequalParts {
   public:
     /// @param speeds  parts of what all processes begin together, of each; their sum is 1

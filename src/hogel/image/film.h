@@ -4,6 +4,7 @@
 #include <span>
 
 #include "hogel/camera.h"
+#include "hogel/core/shared_order.h"
 #include "hogel/image.h"
 
 namespace hogel::image {
@@ -15,5 +16,8 @@ void require_a_picture_for_each(std::span<const Camera> cameras, std::span<const
 /// object.
 void load_film(std::span<const Camera> cameras, std::size_t channels, const Provenance& subject,
                std::span<Image> pictures);
+
+/// How pictures travel between processes, and are kept.
+core::Sent<std::vector<Image>> sent_pictures();
 
 }  // namespace hogel::image

@@ -51,8 +51,8 @@ void expose(std::span<const LightField::Source> faces, std::span<const FaceBlock
 }
 
 // The processes of a team take bands of rows of the pictures, each with the hogels that it shows: as many bands as
-// processes, of as many rows as each is fast, because all pixels take about as long and neighbouring bands show the same
-// hogels. All cameras share the reading of these.
+// processes, of as many rows as each is fast, because all pixels take about as long and neighbouring bands show the
+// same hogels. All cameras share the reading of these.
 void photograph_together(Team& team, const LightField& light_field, std::span<const Camera> cameras,
                          std::size_t lens_points, std::span<const FaceBlock> list, std::span<Image> pictures,
                          const Progress& progress) {
@@ -110,12 +110,27 @@ void photograph_into(const LightField& light_field, std::span<const Camera> came
     for (std::size_t face = 0; face < faces.size(); ++face)
         for (const Block& block : lightfield::blocks(grids[face])) list.push_back({face, block});
     const std::size_t lens_points = std::max<std::size_t>(options.pupil_samples, 1);
-    if (Team* const all = core::team_of_several())
-        return photograph_together(*all, light_field, cameras, lens_points, list, pictures, progress);
-    std::vector<Exposure> exposures;
-    for (const Camera& camera : cameras) exposures.emplace_back(grids, camera, lens_points);
-    expose(faces, list, thread_count(), exposures, progress);
-    for (std::size_t i = 0; i < exposures.size(); ++i) exposures[i].develop(pictures[i]);
+    const auto expose_all = [&](std::span<Image> films) {
+        if (Team* const all = core::team_of_several())
+            return photograph_together(*all, light_field, cameras, lens_points, list, films, progress);
+        std::vector<Exposure> exposures;
+        for (const Camera& camera : cameras) exposures.emplace_back(grids, camera, lens_points);
+        expose(faces, list, thread_count(), exposures, progress);
+        for (std::size_t i = 0; i < exposures.size(); ++i) exposures[i].develop(films[i]);
+    };
+    if (core::result_log() == nullptr) return expose_all(pictures);
+    core::kept_one_by_one<std::vector<Image>>(
+        1, image::sent_pictures(),
+        [&](std::size_t) {
+            std::vector<Image> made(pictures.begin(), pictures.end());
+            expose_all(made);
+            return made;
+        },
+        [&](std::size_t, std::vector<Image>& made) {
+            for (std::size_t i = 0; i < pictures.size(); ++i)
+                std::ranges::copy(made[i].pixels.elements(), pictures[i].pixels.data());
+        });
+    for (Image& picture : pictures) core::share_result(picture.pixels, core::sent_array<float, 3>());
 }
 
 }  // namespace hogel

@@ -35,8 +35,8 @@ std::size_t aligned(std::size_t number, std::size_t alignment) {
 Region copied_region(const FieldSource& source, bool whole_rows) {
     const std::size_t alignment = source.alignment(), all = source.grid().plane.width;
     if (whole_rows) return {0, 0, all, aligned(region_samples / all, alignment)};
-    const std::size_t height = aligned(
-        source.overlap() > 0 ? static_cast<std::size_t>(std::sqrt(region_samples)) : min_rows, alignment);
+    const std::size_t height =
+        aligned(source.overlap() > 0 ? static_cast<std::size_t>(std::sqrt(region_samples)) : min_rows, alignment);
     return {0, 0, aligned(region_samples / height, alignment), height};
 }
 

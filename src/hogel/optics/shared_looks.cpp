@@ -54,7 +54,8 @@ PackedBands SharedLooks::drawn(std::size_t first, std::size_t count, const Progr
         const core::AloneScope alone;
         return drawing_.draw(first, count, progress);
     }
-    return drawing_.draw_in_rows(*team_, 0, looks_, [&](std::size_t process) { return looks_of_[process]; }, progress);
+    return drawing_.draw_in_rows(
+        *team_, 0, looks_, [&](std::size_t process) { return looks_of_[process]; }, progress);
 }
 
 void SharedLooks::receive(std::size_t process, Array<float, 2>& film) const {

@@ -31,8 +31,8 @@ class SharedLooks {
 
     /// The bands of looks [first, first + count), which are all of the own ones where looks are shared.
     PackedBands drawn(std::size_t first, std::size_t count, const Progress& progress) const;
-    /// Exposes a film, of which a camera's picture is developed, to looks that have been drawn. All processes call it for
-    /// the same films in the same order.
+    /// Exposes a film, of which a camera's picture is developed, to looks that have been drawn. All processes call it
+    /// for the same films in the same order.
     void expose(const film::Film& film, std::span<const film::PupilWave> looks, const Camera& camera,
                 Array<float, 2>& intensity) const;
     /// To be called for all films in the same order once more: then the first process has what all have exposed.

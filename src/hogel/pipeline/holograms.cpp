@@ -90,7 +90,8 @@ std::vector<Image> photograph_colours(const Fields& holograms, std::span<const C
     std::vector<double> speeds;
     if (team != nullptr && full == nullptr) speeds = core::speeds_of_processes(*team);
     std::optional<core::UnequalParts> parts(std::in_place, speeds, speeds);
-    if (full == nullptr)
+    const bool by_colour = core::result_log() != nullptr && pipeline::are_of_hogels_or_planes(holograms, with);
+    if (full == nullptr && !by_colour)
         together = optics::photograph_together(holograms, cameras, std::get<PhotographOptions>(with), progress);
     // Short waves first: their bands have the most samples, and the other colours use the same memory.
     std::vector<std::size_t> order(colours);
@@ -124,10 +125,23 @@ std::vector<Image> photograph_colours(const Fields& holograms, std::span<const C
     }
     PictureShare all{0, std::vector<std::size_t>(cameras.size())};
     std::iota(all.cameras.begin(), all.cameras.end(), std::size_t{0});
-    for (const std::size_t colour : order) {
-        all.colour = colour;
-        const Progress part = progress.part(std::min(done++, colours - 1), colours);
-        pipeline::put(all, together ? std::move((*together)[colour]) : photograph_colour(all, part), pictures);
+    const auto photograph_all = [&](std::size_t k) {
+        all.colour = order[k];
+        const Progress part = progress.part(std::min(done + k, colours - 1), colours);
+        return together ? std::move((*together)[order[k]]) : photograph_colour(all, part);
+    };
+    const auto put_all = [&](std::size_t k, std::vector<Image>& one) {
+        all.colour = order[k];
+        pipeline::put(all, one, pictures);
+    };
+    // The narrow camera keeps more: the light of each tile.
+    if (by_colour) {
+        core::kept_one_by_one<std::vector<Image>>(order.size(), image::sent_pictures(), photograph_all, put_all);
+    } else {
+        for (std::size_t k = 0; k < order.size(); ++k) {
+            std::vector<Image> one = photograph_all(k);
+            put_all(k, one);
+        }
     }
     pipeline::gather(shares, seen, pictures);
     for (Image& picture : pictures) core::share_result(picture.pixels, core::sent_array<float, 3>());

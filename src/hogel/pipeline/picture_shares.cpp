@@ -29,8 +29,8 @@ bool are_independent(std::span<const Camera> cameras) {
     });
 }
 
-// The part of a photograph from hogels that is drawn by rows of hogels; looks are exposed after it, equally many by each
-// process.
+// The part of a photograph from hogels that is drawn by rows of hogels; looks are exposed after it, equally many by
+// each process.
 constexpr double drawn_part = 0.75;
 
 // Products of a number of a hogel with a spot that take as long as reading a sample for one camera.
@@ -75,20 +75,24 @@ std::vector<PictureShares> equal_shares(std::span<const double> speeds, const Fi
 
 }  // namespace
 
+bool are_of_hogels_or_planes(const Fields& holograms, const WaveCamera& with) {
+    const auto* const options = std::get_if<PhotographOptions>(&with);
+    if (options == nullptr) return true;
+    return options->from != LightFrom::samples && !options->vertical_diffuser &&
+           std::ranges::all_of(holograms, [](const std::shared_ptr<const FieldSource>& hologram) {
+               return dynamic_cast<const optics::EyeLight*>(hologram.get()) != nullptr;
+           });
+}
+
 std::vector<PictureShares> shares_of_processes(const Fields& holograms, std::span<const std::size_t> order,
                                                std::span<const Camera> cameras, const WaveCamera& with,
                                                std::span<const double> speeds) {
     const std::size_t processes = speeds.size();
     const auto* const options = std::get_if<PhotographOptions>(&with);
-    if (processes == 0 || options == nullptr || options->from == LightFrom::samples || options->vertical_diffuser ||
-        core::result_log() != nullptr)
+    if (processes == 0 || options == nullptr || core::result_log() != nullptr ||
+        !are_of_hogels_or_planes(holograms, with))
         return {};
-    const bool of_hogels = std::ranges::all_of(holograms, [](const std::shared_ptr<const FieldSource>& hologram) {
-        return dynamic_cast<const optics::EyeLight*>(hologram.get()) != nullptr;
-    });
-    if (!of_hogels) return {};
-    if (options->expected && order.size() * cameras.size() >= enough_pictures * processes &&
-        are_independent(cameras))
+    if (options->expected && order.size() * cameras.size() >= enough_pictures * processes && are_independent(cameras))
         return equal_shares(speeds, holograms, order, cameras, *options);
     std::vector<PictureShares> shares(processes);
     std::vector<std::size_t> all(cameras.size()), by_speed(processes);

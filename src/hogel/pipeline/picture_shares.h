@@ -19,6 +19,10 @@ struct PictureShare {
 };
 using PictureShares = std::vector<PictureShare>;
 
+/// Whether photographs are made colour by colour, with no tiles whose light would be kept for --resume: by the full
+/// camera, or of hogels of which waves are known.
+bool are_of_hogels_or_planes(const Fields& holograms, const WaveCamera& with);
+
 /// What each process of the team makes by itself, of photographs from hogels: as many whole colours as any other,
 /// because each process would prepare hogels for its share of any colour. Or all pictures of infinitely many looks,
 /// divided by their cost where there are enough of them: their tables are for one camera. Nothing for processes of no

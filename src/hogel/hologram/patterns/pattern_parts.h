@@ -71,7 +71,8 @@ class FieldBand;
 /// @param band  of the field
 /// @param team  whose processes share the work, all of which call it and get the phases; null: none
 Array<float, 2> descend_phases(View<const std::complex<float>, 2> field, const FieldBand& band,
-                               const PatternOptions& options, Convergence& convergence, const Progress& progress, Team* team);
+                               const PatternOptions& options, Convergence& convergence, const Progress& progress,
+                               Team* team);
 /// Iterations where PatternOptions::iterations is 0: alternating projections, and the most of a descent.
 inline constexpr std::size_t projections = 40, max_descent_steps = 200;
 

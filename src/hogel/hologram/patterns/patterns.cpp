@@ -7,8 +7,7 @@
 namespace hogel {
 namespace {
 
-std::string to_message(const Pattern& pattern) {
-    core::MessageWriter message;
+void put(core::MessageWriter& message, const Pattern& pattern) {
     message.put(pattern.values);
     message.put(pattern.levels);
     message.put(pattern.efficiency);
@@ -16,11 +15,9 @@ std::string to_message(const Pattern& pattern) {
     message.put(pattern.reference_angle);
     message.put(pattern.iterations);
     message.put(pattern.correlation);
-    return message.take();
 }
 
-Pattern from_message(const std::string& bytes) {
-    core::MessageReader message(bytes);
+Pattern get(core::MessageReader& message) {
     Pattern pattern;
     pattern.values = message.get_array<float, 2>();
     pattern.levels = message.get_array<std::uint8_t, 2>();
@@ -30,6 +27,17 @@ Pattern from_message(const std::string& bytes) {
     pattern.iterations = message.get<std::size_t>();
     pattern.correlation = message.get<double>();
     return pattern;
+}
+
+std::string to_message(const Pattern& pattern) {
+    core::MessageWriter message;
+    put(message, pattern);
+    return message.take();
+}
+
+Pattern from_message(const std::string& bytes) {
+    core::MessageReader message(bytes);
+    return get(message);
 }
 
 }  // namespace
@@ -42,8 +50,16 @@ std::vector<Pattern> encode_patterns(std::span<const std::shared_ptr<const Field
     };
     std::vector<Pattern> patterns(fields.size());
     Team* const all = core::team_of_several();
-    if (all == nullptr) {
-        for (std::size_t i = 0; i < fields.size(); ++i) patterns[i] = encode(i);
+    if (all == nullptr || core::result_log() != nullptr) {
+        // One after the other, so that those that are done can be kept.
+        Team* const shared = hologram::patterns::can_be_shared(options.encoding) ? all : nullptr;
+        core::kept_one_by_one<Pattern>(
+            fields.size(), {put, get},
+            [&](std::size_t i) {
+                return hologram::patterns::encode_by(shared, *fields[i], options, progress.part(i, fields.size()));
+            },
+            [&](std::size_t i, Pattern& pattern) { patterns[i] = std::move(pattern); });
+        for (Pattern& pattern : patterns) core::share_result<Pattern>(pattern, {put, get});
         return patterns;
     }
     // As many patterns as go round are encoded by one process each, with all its threads; those that are left by all

@@ -421,8 +421,9 @@ void photograph(const FieldSource& hologram, const WavePowers& waves, std::span<
         }
         const std::size_t rows = fit >= counts.down ? counts.down : std::max(fit, around + 1) - around;
         Team* const all = core::team_of_several();
-        const core::LineRange own = all != nullptr ? core::lines_in_parts(core::first_parts(all->size()), all->rank(), counts.down)
-                                                   : core::LineRange{0, counts.down};
+        const core::LineRange own = all != nullptr
+                                        ? core::lines_in_parts(core::first_parts(all->size()), all->rank(), counts.down)
+                                        : core::LineRange{0, counts.down};
         const auto fraction = [&](std::size_t row) {
             return (static_cast<double>(done) + 0.98 * static_cast<double>(some.size()) * static_cast<double>(row) /
                                                     static_cast<double>(counts.down)) /
