@@ -123,7 +123,8 @@ Array<std::uint8_t, 2> round_to_levels(View<const float, 2> values, unsigned lev
             double turns = value;
             if (levels < 256) {
                 const auto level = static_cast<unsigned>(std::lround(value * static_cast<float>(levels))) % levels;
-                turns = level * 256 / levels / 256.0;
+                const unsigned of_256 = level * 256 / levels;
+                turns = of_256 / 256.0;
             }
             rounded.data()[i] = static_cast<std::uint8_t>(code.level(2 * std::numbers::pi * turns, 255));
         } else {
