@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "hogel/core/shared_order.h"
@@ -73,19 +72,10 @@ void photograph_together(Team& team, const LightField& light_field, std::span<co
     for (const FaceBlock& block : list)
         if (const std::optional<Block> part = part_of(block.block, top, bottom)) some.push_back({block.face, *part});
     expose(light_field.faces(), some, thread_count(), exposures, progress);
-    core::MessageWriter own;
     for (std::size_t c = 0; c < cameras.size(); ++c) {
         exposures[c].develop(pictures[c]);
-        const core::LineRange rows = rows_of(team.rank(), c);
-        const float* const first = pictures[c].pixels.data() + rows.first * pictures[c].pixels[0].size();
-        own.put(std::vector<float>(first, first + rows.count * pictures[c].pixels[0].size()));
-    }
-    const std::vector<std::string> all = core::all_of(team, own.take());
-    for (std::size_t process = 0; process < team.size(); ++process) {
-        core::MessageReader theirs(all[process]);
-        for (std::size_t c = 0; c < cameras.size(); ++c)
-            std::ranges::copy(theirs.get_vector<float>(),
-                              pictures[c].pixels.data() + rows_of(process, c).first * pictures[c].pixels[0].size());
+        core::share_lines(team, pictures[c].pixels.data(), pictures[c].pixels[0].size(),
+                          [&](std::size_t process) { return rows_of(process, c); });
     }
 }
 
