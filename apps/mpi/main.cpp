@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <string_view>
 #include <thread>
@@ -30,10 +31,14 @@
 namespace hogel::mpi {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 // A rank that has failed waits so long for the others, which end within a second of a stop.
 constexpr std::chrono::seconds patience{15};
 // After a rank was lost the others have so long to keep what is done, before mpirun ends them.
 constexpr std::chrono::milliseconds grace{900};
+// A rank that is lost is noticed within this time after mpirun has stopped others because of it.
+constexpr std::chrono::milliseconds consequences{100};
 // As of a process that was killed.
 constexpr int status_of_loss = 128 + SIGKILL;
 
@@ -73,6 +78,7 @@ class Ranks final : public cli::Processes {
             const std::lock_guard lock(stopping_);
             stop_ = session.stop;
         }
+        on_stop_.emplace(session.stop.get_token(), StopTime{*this});
         for (char* const* word = session.arguments; word != nullptr && *word != nullptr; ++word)
             if (std::string_view(*word) == "--resume") resumes_ = true;
         if (session.threads == 0) session.threads = link_.threads();
@@ -92,12 +98,21 @@ class Ranks final : public cli::Processes {
         report.code = own.code;
         report.text = own.message;
         while (lost_) std::this_thread::sleep_for(grace);  // until end_without() ends the process
-        const std::optional<Report> verdict = team_.settle(report, patience);
+        // A batch system or mpirun also stops what is left after a machine was lost.
+        bool said = false;
+        const auto say = [&](const std::vector<std::size_t>& silent) {
+            if (own.status <= 128 || link_.on_this_machine().front().rank != link_.rank()) return;
+            cli::print_failure(fmt::format("{}; no word of rank{} {} of {}, which may be lost; {}", own.message,
+                                           silent.size() == 1 ? "" : "s", fmt::join(silent, ", "), link_.size(),
+                                           what_then()));
+            said = true;
+        };
+        const std::optional<Report> verdict = team_.settle(report, patience, say);
         if (!verdict) {
-            cli::print_failure(own.message);
+            if (!said) cli::print_failure(own.message);
             link_.abort(own.status);
         }
-        return {verdict->failed ? verdict->status : 0, verdict->code, team_.is_first() ? verdict->text : ""};
+        return {verdict->failed ? verdict->status : 0, verdict->code, team_.is_first() && !said ? verdict->text : ""};
     }
 
   private:
@@ -107,18 +122,32 @@ class Ranks final : public cli::Processes {
         return others;
     }
 
+    const char* what_then() const {
+        return resumes_ ? "what is done is kept: the same command goes on from there, with any number of ranks"
+                        : "run the command again";
+    }
+
+    struct StopTime {
+        Ranks& ranks;
+        void operator()() const { ranks.stopped_ = Clock::now().time_since_epoch().count(); }
+    };
+
+    // Ranks that end some time after a stop are not lost: they were stopped, too, or MPI ended them.
+    bool was_stopped_before() const {
+        const Clock::duration since(stopped_.load());
+        return since.count() != 0 && Clock::now().time_since_epoch() - since > consequences;
+    }
+
     // After a rank of this machine was lost: the first of those that are left says so, all keep what they have done,
     // and the job ends.
     void end_without(const RankProcess& lost) {
+        if (was_stopped_before()) return;
         lost_ = true;
         const auto left = std::ranges::find_if(link_.on_this_machine(),
                                                [&](const RankProcess& each) { return each.rank != lost.rank; });
         if (left->rank == link_.rank())
             cli::print_failure(fmt::format("rank {} of {} (process {}) was lost; {}", lost.rank, link_.size(),
-                                           lost.process,
-                                           resumes_ ? "what is done is kept: the same command goes on from there, with "
-                                                      "any number of ranks"
-                                                    : "run the command again"));
+                                           lost.process, what_then()));
         {
             const std::lock_guard lock(stopping_);
             stop_.request_stop();
@@ -133,6 +162,8 @@ class Ranks final : public cli::Processes {
     std::mutex stopping_;
     std::stop_source stop_;  // of the session
     std::atomic<bool> resumes_ = false, lost_ = false;
+    std::atomic<Clock::rep> stopped_ = 0;  // when
+    std::optional<std::stop_callback<StopTime>> on_stop_;
     LossWatch watch_;
 };
 

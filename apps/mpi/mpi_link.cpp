@@ -21,6 +21,9 @@ namespace {
 
 // How long messages may take to leave at the end.
 constexpr std::chrono::seconds patience{5};
+// How long messages on their way are waited for.
+constexpr int tries_without_pause = 1000;
+constexpr std::chrono::microseconds between_tries{50};
 
 // What every process of this machine says of itself, in the order of their ranks.
 template <class Value>
@@ -52,6 +55,8 @@ MpiLink::MpiLink(int& argc, char**& argv) {
     int provided = MPI_THREAD_SINGLE, rank = 0, size = 1;
     MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &provided);
     MPI_Comm_dup(MPI_COMM_WORLD, &all_);
+    // What goes to a rank that is lost is lost; its job ends by a stop, in good order.
+    MPI_Comm_set_errhandler(all_, MPI_ERRORS_RETURN);
     MPI_Comm_rank(all_, &rank);
     MPI_Comm_size(all_, &size);
     rank_ = static_cast<std::size_t>(rank);
@@ -102,7 +107,7 @@ void MpiLink::send(std::size_t to, Kind kind, std::string bytes) {
 }
 
 std::optional<Message> MpiLink::receive(Kind kind) {
-    const std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
     forget_what_has_left();
     int there = 0, bytes = 0;
     MPI_Status status;
@@ -111,7 +116,17 @@ std::optional<Message> MpiLink::receive(Kind kind) {
     if (there == 0) return std::nullopt;
     MPI_Get_count(&status, MPI_BYTE, &bytes);
     Message received{static_cast<std::size_t>(status.MPI_SOURCE), std::string(static_cast<std::size_t>(bytes), '\0')};
-    MPI_Mrecv(received.bytes.data(), bytes, MPI_BYTE, &message, MPI_STATUS_IGNORE);
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Imrecv(received.bytes.data(), bytes, MPI_BYTE, &message, &request);
+    // The rest of a long message never comes from a machine that is lost: other threads go on.
+    for (int arrived = 0, tries = 0; MPI_Test(&request, &arrived, MPI_STATUS_IGNORE), arrived == 0; ++tries) {
+        lock.unlock();
+        if (tries < tries_without_pause)
+            std::this_thread::yield();
+        else
+            std::this_thread::sleep_for(between_tries);
+        lock.lock();
+    }
     return received;
 }
 

@@ -16,6 +16,10 @@ using Clock = std::chrono::steady_clock;
 // those that wait for an answer; and by those that wait for a stop.
 constexpr std::chrono::microseconds between_requests{200}, between_rare_requests{1600}, between_stops{5000},
     between_answers{100};
+// How often those that wait for all look whether to stop.
+constexpr std::chrono::milliseconds between_answers_of_all{50};
+// Within this time after a failure all processes have usually stopped.
+constexpr std::chrono::milliseconds usual_answer{333};
 
 template <class... Numbers>
 std::string pack(Numbers... numbers) {
@@ -173,11 +177,17 @@ void RankTeam::take_report(std::size_t from, Report report) {
     concluded_.notify_all();
 }
 
-std::optional<Report> RankTeam::exchange(Report own, std::optional<std::chrono::seconds> patience) {
-    const auto end = Clock::now() + patience.value_or(std::chrono::seconds(0));
+void RankTeam::report(Report own) {
+    if (link_.rank() != 0) return link_.send(0, Kind::report, to_bytes(own));
+    const std::lock_guard lock(mutex_);
+    take_report(0, std::move(own));
+}
+
+// What all reports come to; nothing if they do not come in time.
+std::optional<Report> RankTeam::verdict(std::optional<std::chrono::milliseconds> patience) {
+    const auto end = Clock::now() + patience.value_or(std::chrono::milliseconds(0));
     if (link_.rank() == 0) {
         std::unique_lock lock(mutex_);
-        take_report(0, std::move(own));
         const auto concluded = [&] { return verdict_.has_value(); };
         if (!patience)
             concluded_.wait(lock, concluded);
@@ -185,7 +195,6 @@ std::optional<Report> RankTeam::exchange(Report own, std::optional<std::chrono::
             return std::nullopt;
         return std::exchange(verdict_, std::nullopt);
     }
-    link_.send(0, Kind::report, to_bytes(own));
     for (auto pause = between_answers;; pause = std::min<std::chrono::microseconds>(2 * pause, between_stops)) {
         if (const auto message = link_.receive(Kind::verdict)) return from_bytes(message->bytes);
         if (patience && Clock::now() > end) return std::nullopt;
@@ -193,17 +202,47 @@ std::optional<Report> RankTeam::exchange(Report own, std::optional<std::chrono::
     }
 }
 
-Report RankTeam::agree(Report own) {
-    Report verdict = *exchange(std::move(own), std::nullopt);
-    if (!verdict.failed) return verdict;
-    failure_ = verdict;
-    throw Error(verdict.code, verdict.text);
+// After this process has failed. The first one tells all others to stop as soon as it hears of any failure.
+std::vector<std::size_t> RankTeam::silent_ones() {
+    if (link_.rank() != 0) return stopping_ ? std::vector<std::size_t>{} : std::vector<std::size_t>{0};
+    const std::lock_guard lock(mutex_);
+    std::vector<std::size_t> silent;
+    for (std::size_t rank = 0; rank < reports_.size(); ++rank)
+        if (!reports_[rank]) silent.push_back(rank);
+    return silent;
 }
 
-std::optional<Report> RankTeam::settle(Report own, std::chrono::seconds patience) {
+bool RankTeam::is_to_stop() {
+    const std::lock_guard lock(mutex_);
+    return stop_.stop_requested();
+}
+
+Report RankTeam::agree(Report own) {
+    report(std::move(own));
+    std::optional<Report> of_all;
+    // Those that are lost never answer: once this process is to stop, it does not wait for them.
+    for (auto last = Clock::time_point::max(); !(of_all = verdict(between_answers_of_all));) {
+        if (!is_to_stop()) continue;
+        last = std::min(last, Clock::now() + usual_answer);
+        if (Clock::now() < last) continue;
+        has_reported_ = true;
+        throw Error(ErrorCode::cancelled, "stopped on request");
+    }
+    if (!of_all->failed) return *of_all;
+    failure_ = of_all;
+    throw Error(of_all->code, of_all->text);
+}
+
+std::optional<Report> RankTeam::settle(Report own, std::chrono::seconds patience,
+                                       const std::function<void(const std::vector<std::size_t>&)>& silent) {
     if (failure_) return failure_;
     const bool failed = own.failed;
-    return exchange(std::move(own), failed ? std::optional(patience) : std::nullopt);
+    if (!has_reported_) report(std::move(own));
+    if (!failed) return verdict(std::nullopt);
+    if (const std::optional<Report> soon = verdict(usual_answer)) return soon;
+    const std::vector<std::size_t> ranks = silent_ones();
+    if (silent && !ranks.empty()) silent(ranks);
+    return verdict(patience);
 }
 
 std::uint64_t RankTeam::sum(std::uint64_t number) {

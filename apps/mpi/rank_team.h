@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <functional>
 #include <list>
 #include <map>
 #include <mutex>
@@ -55,7 +56,10 @@ class RankTeam final : public Team {
     void stop_with(std::stop_source stop);
     /// At the end of the work, well or not: what all processes together come to, the failure of the first that has
     /// failed. Nothing if others do not come within `patience` after this one has failed.
-    std::optional<Report> settle(Report own, std::chrono::seconds patience);
+    /// @param silent  called once with the processes that did not answer within a third of a second after this one has
+    ///                failed: in the first process all of those, in others the first one
+    std::optional<Report> settle(Report own, std::chrono::seconds patience,
+                                 const std::function<void(const std::vector<std::size_t>&)>& silent = {});
 
   private:
     struct Queue {
@@ -66,7 +70,10 @@ class RankTeam final : public Team {
         std::uint64_t queue, tiles, ahead;
     };
     Report agree(Report own);
-    std::optional<Report> exchange(Report own, std::optional<std::chrono::seconds> patience);
+    void report(Report own);
+    std::optional<Report> verdict(std::optional<std::chrono::milliseconds> patience);
+    std::vector<std::size_t> silent_ones();
+    bool is_to_stop();
     bool serve();
     bool serve_first();
     void take_report(std::size_t from, Report report);
@@ -88,6 +95,7 @@ class RankTeam final : public Team {
     bool stop_sent_ = false;
     std::atomic<bool> stopping_ = false;
     std::optional<Report> failure_;           // once known
+    bool has_reported_ = false;               // what it comes to now, although it did not wait for the answer
     std::mutex asking_;                       // of the next two
     std::set<std::uint64_t> asked_;           // queues of whose tiles the first process was asked
     std::map<std::uint64_t, Tiles> answers_;  // that came and were not waited for

@@ -233,8 +233,8 @@ def end_of(process, patience=300):
     return process.communicate()
 
 
-LONG = ["hologram", "a.h5", "-o", "x.h5", "--pitch", "1um", "--resume", "--seed", "3"]
-RENDER = ["render", "pumpkin", "--hogels", "80x80", "--directions", "48x48", "--size", "8mm",
+HOLOGRAM = ["hologram", "a.h5", "-o", "x.h5", "--pitch", "1.6um", "--resume", "--seed", "3"]
+RENDER = ["render", "pumpkin", "--hogels", "128x128", "--directions", "48x48", "--size", "8mm",
           "--algorithm", "raytrace", "-o", "x.h5", "--resume"]
 COMPRESS = ["compress", "a.h5", "-o", "x.hgl", "--step", "0.02", "--resume"]
 PHOTO = ["photo", "a.h5", "-o", "x.exr", "--wave", "--camera", "narrow", "--looks", "4", "--resolution", "64", "--resume"]
@@ -256,11 +256,6 @@ def made_alone(run, command):
     whole = made.read_bytes()
     made.unlink()
     return made, whole, time.monotonic() - began
-
-
-def long_work(run):
-    run.alone("render", "pumpkin", "--hogels", "64x64", "--directions", "48x48", "--size", "8mm", "-o", "a.h5")
-    return made_alone(run, LONG)[1:]
 
 
 # Kills a rank when something has been kept, then at random moments, and again until the work is complete, each time with
@@ -310,8 +305,7 @@ def killed(run):
     run.alone("render", "pumpkin", "--hogels", "64x64", "--directions", "48x48", "--size", "8mm", "--fov", "2.5deg", "-o", "s.h5")
     run.alone("hologram", "s.h5", "--wavelength", "rgb", "--pitch", "8um", "-o", "w.h5")
     (run.folder / "s.h5").unlink()
-    hologram = [word.replace("1um", "1.6um") for word in LONG]
-    commands = (hologram, RENDER, COMPRESS, PHOTO, EYE, EXPECTED, FULL_CAMERA, RAYS, PATTERNS)
+    commands = (HOLOGRAM, RENDER, COMPRESS, PHOTO, EYE, EXPECTED, FULL_CAMERA, RAYS, PATTERNS)
     for i, command in enumerate(commands):
         kill_until_complete(run, chance, command, *made_alone(run, command), (KILLS + i) // (len(commands) + 1))
     kill_make_until_complete(run, chance, KILLS // (len(commands) + 1))
@@ -344,9 +338,11 @@ def kill_make_until_complete(run, chance, kills):
 
 # The others of a rank that is killed name it, once, and keep what is done.
 def lost(run):
-    whole, seconds = long_work(run)
+    _, whole, seconds = made_alone(run, RENDER)
     for rank in (0, 2):
-        process = run.start(4, *LONG)
+        for old in run.folder.glob("x.h5*"):
+            old.unlink()
+        process = run.start(4, *RENDER)
         deadline = time.monotonic() + 60
         while not (run.folder / "x.h5.part").exists() and time.monotonic() < deadline:
             time.sleep(0.02)
@@ -360,17 +356,17 @@ def lost(run):
         lines = lines_of_hogel(error)
         require(process.returncode != 0 and len(lines) == 1, "ended with", process.returncode, error)
         require(lines[0].startswith(f"hogel: rank {rank} of 4 (process {victim}) was lost; what is done is kept"), lines)
-    status, _, error = run.ranks(3, *LONG)
+    status, _, error = run.ranks(3, *RENDER)
     require(status == 0 and run.bytes("x.h5") == whole, "ended with", status, error)
 
 
 # What SIGTERM reaches stops within seconds, says so once, and keeps what is done; --resume without ranks completes it.
 def stopped(run):
-    whole, seconds = long_work(run)
+    _, whole, seconds = made_alone(run, RENDER)
     for to in ("mpirun", "a rank"):
         for old in run.folder.glob("x.h5*"):
             old.unlink()
-        process = run.start(3, *LONG)
+        process = run.start(3, *RENDER)
         deadline = time.monotonic() + 60
         while not (run.folder / "x.h5.part").exists() and time.monotonic() < deadline:
             time.sleep(0.02)
@@ -392,7 +388,7 @@ def stopped(run):
         done = run.bytes("x.h5.part.journal").count(b" done ")
         require(to == "mpirun" or done > 0, to, "nothing was kept")
         print(f"{to}: stopped within {took:.2f} s, {done} parts were kept")
-    run.alone(*LONG)
+    run.alone(*RENDER)
     require(run.bytes("x.h5") == whole, "other bytes after a stop")
 
 
