@@ -234,7 +234,7 @@ def end_of(process, patience=300):
 
 
 HOLOGRAM = ["hologram", "a.h5", "-o", "x.h5", "--pitch", "1.6um", "--resume", "--seed", "3"]
-RENDER = ["render", "pumpkin", "--hogels", "128x128", "--directions", "48x48", "--size", "8mm",
+RENDER = ["render", "pumpkin", "--hogels", "80x80", "--directions", "48x48", "--size", "8mm",
           "--algorithm", "raytrace", "-o", "x.h5", "--resume"]
 COMPRESS = ["compress", "a.h5", "-o", "x.hgl", "--step", "0.02", "--resume"]
 PHOTO = ["photo", "a.h5", "-o", "x.exr", "--wave", "--camera", "narrow", "--looks", "4", "--resolution", "64", "--resume"]
@@ -336,13 +336,17 @@ def kill_make_until_complete(run, chance, kills):
     print(f"make: killed {kill} times, resumed {resumed} times")
 
 
+# Some seconds of it, because mpirun takes one before it stops ranks.
+RENDER_LONG = ["224x224" if word == "80x80" else word for word in RENDER]
+
+
 # The others of a rank that is killed name it, once, and keep what is done.
 def lost(run):
-    _, whole, seconds = made_alone(run, RENDER)
+    _, whole, seconds = made_alone(run, RENDER_LONG)
     for rank in (0, 2):
         for old in run.folder.glob("x.h5*"):
             old.unlink()
-        process = run.start(4, *RENDER)
+        process = run.start(4, *RENDER_LONG)
         deadline = time.monotonic() + 60
         while not (run.folder / "x.h5.part").exists() and time.monotonic() < deadline:
             time.sleep(0.02)
@@ -356,17 +360,17 @@ def lost(run):
         lines = lines_of_hogel(error)
         require(process.returncode != 0 and len(lines) == 1, "ended with", process.returncode, error)
         require(lines[0].startswith(f"hogel: rank {rank} of 4 (process {victim}) was lost; what is done is kept"), lines)
-    status, _, error = run.ranks(3, *RENDER)
+    status, _, error = run.ranks(3, *RENDER_LONG)
     require(status == 0 and run.bytes("x.h5") == whole, "ended with", status, error)
 
 
 # What SIGTERM reaches stops within seconds, says so once, and keeps what is done; --resume without ranks completes it.
 def stopped(run):
-    _, whole, seconds = made_alone(run, RENDER)
+    _, whole, seconds = made_alone(run, RENDER_LONG)
     for to in ("mpirun", "a rank"):
         for old in run.folder.glob("x.h5*"):
             old.unlink()
-        process = run.start(3, *RENDER)
+        process = run.start(3, *RENDER_LONG)
         deadline = time.monotonic() + 60
         while not (run.folder / "x.h5.part").exists() and time.monotonic() < deadline:
             time.sleep(0.02)
@@ -388,7 +392,7 @@ def stopped(run):
         done = run.bytes("x.h5.part.journal").count(b" done ")
         require(to == "mpirun" or done > 0, to, "nothing was kept")
         print(f"{to}: stopped within {took:.2f} s, {done} parts were kept")
-    run.alone(*RENDER)
+    run.alone(*RENDER_LONG)
     require(run.bytes("x.h5") == whole, "other bytes after a stop")
 
 
