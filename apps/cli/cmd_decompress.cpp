@@ -13,7 +13,7 @@ namespace {
 
 struct Options {
     std::string input, output;
-    bool single = false, half = false;
+    bool single = false, half = false, resume = false;
     std::size_t layers = 0;
 };
 
@@ -28,6 +28,7 @@ void copy_together(const LightField& light_field, const std::vector<std::unique_
             for (std::size_t i = 0; i < faces.size(); ++i) {
                 const HogelRange range{s, t, std::min(size.ns, grid.hogels_s - s),
                                        std::min(size.nt, grid.hogels_t - t)};
+                if (sinks[i]->has_already(range)) continue;
                 LightFieldTile tile(faces[i]->grid(), range, faces[i]->has_depth());
                 faces[i]->read(tile);
                 sinks[i]->write(tile);
@@ -55,6 +56,7 @@ int decompress_file(const Options& options, const Session& session) {
     record.acted(file.type == SampleType::single ? "float" : "half", "yes");
     file.metadata = with_history(record.metadata(), to_metadata(light_field.provenance()));
     file.with_depth = light_field.has_depth();
+    if (options.resume) file.resume = describe_input(options.input);
     const auto sinks = create_light_field(options.output, light_field.grids(), file);
     Stage stage(session, "decompressing");
     if (!light_field.has_sides())
@@ -82,6 +84,7 @@ void add_decompress(Command& command, Session& session) {
     const Option single = command.flag("--float", options->single, "Store 32-bit floats rather than 16-bit ones");
     command.flag("--half", options->half, "Store 16-bit floats even where every bit was kept, or an error kept to")
         .excludes(single);
+    add_resume_flag(command, options->resume);
     add_json_flag(command, session);
     command.work([options, &session] { return decompress_file(*options, session); });
 }

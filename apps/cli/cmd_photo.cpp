@@ -173,9 +173,8 @@ void require_sense(const Options& options, InputKind kind, bool geometric) {
         throw Error(ErrorCode::usage,
                     "--preview: leaves out waves of the hogels of a light field or a scene; give --wave, a number of "
                     "looks and --camera eye");
-    if (options.resume && (options.has_diffuser() || options.display == "phase"))
-        throw Error(ErrorCode::usage,
-                    "--resume: photographs behind a diffuser and of phases do not keep what is done; leave it out");
+    if (options.resume && options.display == "phase")
+        throw Error(ErrorCode::usage, "--resume: photographs of phases do not keep what is done; leave it out");
     if (options.has_diffuser() && kind != InputKind::hologram)
         throw Error(ErrorCode::usage,
                     "--diffuser vertical: stands before a hologram file; make one with 'hogel hologram "

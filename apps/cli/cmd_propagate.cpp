@@ -27,6 +27,7 @@ struct Options {
     double output_pitch = 0;  // of the output; 0: that of the input
     Counts output_samples;    // none: as many as the input has
     double offset_x = 0, offset_y = 0;
+    bool resume = false;
 };
 
 // The samples of the output, by default those of the field.
@@ -117,6 +118,10 @@ ResultList methods_of(const Fields& fields, const Options& options, const std::v
 int propagate_fields(const Options& options, const Session& session) {
     const OutputKind kind = output_kind(options.output, options.display);
     require_writable(options.output, {&options.input, 1});
+    if (options.resume && kind != OutputKind::hologram)
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("--resume: {} is written at once; give -o a name in .h5, or leave it out", options.output));
     RunRecord record(session);
     record.acted({"input", "distance", "offset-x", "offset-y"});
     if (kind == OutputKind::picture) record.acted({"display"});
@@ -150,7 +155,9 @@ int propagate_fields(const Options& options, const Session& session) {
     record.acted("output-samples", fmt::format("{}x{}", plane.width, plane.height));
     Metadata metadata = with_history(record.metadata(), to_metadata(fields.front()->provenance()));
     if (kind == OutputKind::hologram) {
-        const auto sinks = create_hologram(options.output, grids, {.metadata = metadata});
+        HologramFileOptions file{.metadata = metadata};
+        if (options.resume) file.resume = describe_input(options.input);
+        const auto sinks = create_hologram(options.output, grids, file);
         for (std::size_t c = 0; c < grids.size(); ++c) colour(c, *sinks[c]);
     } else if (kind == OutputKind::array) {
         std::vector<Field> propagated;
@@ -209,6 +216,7 @@ void add_propagate(Command& command, Session& session) {
     command.wavelengths(options->wavelengths);
     add_field_options(command, options->field, false);
     add_reconstruction_options(command, options->field);
+    add_resume_flag(command, options->resume);
     add_json_flag(command, session);
     command.work([options, &session] { return propagate_fields(*options, session); });
 }

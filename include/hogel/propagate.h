@@ -55,7 +55,7 @@ HOGEL_API Field propagate(const FieldSource& field, double distance, const Propa
                           const Progress& progress = {});
 
 /// As above, but writes the propagated field to a sink of the output's grid, which need not be in memory, and calls
-/// finish().
+/// finish(). What the sink has already of an interrupted run is not computed again.
 HOGEL_API void propagate(const FieldSource& field, double distance, FieldSink& sink,
                          const PropagateOptions& options = {}, const Progress& progress = {});
 

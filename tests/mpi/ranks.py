@@ -245,6 +245,8 @@ FULL_CAMERA = [*WAVES, "--camera", "full", "--looks", "2", "--resolution", "64"]
 RAYS = ["photo", "a.h5", "-o", "x.exr", "--resolution", "256", "--pupil-samples", "4096", "--resume"]
 PATTERNS = ["slm", "w.h5", "-o", "x.png", "--pixels", "1000x1000", "--pixel-pitch", "7.8125um", "--encoding", "gradient",
             "--iterations", "20", "--resume"]
+PROPAGATE = ["propagate", "p.h5", "-o", "x.h5", "--distance", "3mm", "--resume"]
+LINES = ["photo", "l.h5", "-o", "x.exr", "--diffuser", "vertical", "--resolution", "24", "--resume"]
 MAKE = ["make", "pumpkin", *"--hogels 96x96 --size 6mm --resolution 128 --store-hologram -o m --resume".split()]
 
 
@@ -289,7 +291,7 @@ def kill_until_complete(run, chance, command, made, whole, seconds, kills_wanted
             require(False, "ended with", process.returncode, error)
         resumed += kept[-1].exists() if made.suffix == ".h5" else kept[0].exists()
         # A killed process leaves a temporary file, which the next one removes; of HDF5 files that is the kept one.
-        wrong = [name for name in run.left() if name not in ("a.h5", "w.h5", kept[0].name, kept[1].name)
+        wrong = [name for name in run.left() if name not in ("a.h5", "w.h5", "p.h5", "l.h5", kept[0].name, kept[1].name)
                  and not (made.suffix != ".h5" and name.endswith(".tmp"))]
         require(not wrong, "left behind:", wrong)
     # A photograph by rays is kept whole, just before it is written.
@@ -304,8 +306,10 @@ def killed(run):
     run.alone("render", "pumpkin", "--hogels", "64x64", "--directions", "48x48", "--size", "8mm", "-o", "a.h5")
     run.alone("render", "pumpkin", "--hogels", "64x64", "--directions", "48x48", "--size", "8mm", "--fov", "2.5deg", "-o", "s.h5")
     run.alone("hologram", "s.h5", "--wavelength", "rgb", "--pitch", "8um", "-o", "w.h5")
+    run.alone("hologram", "a.h5", "-o", "p.h5", "--wavelength", "rgb", "--pitch", "1.6um")
+    run.alone("hologram", "tower", *"--hogels 64x96 --directions 64x1 --method lines --line-pitch 80um --size 8mm -o l.h5".split())
     (run.folder / "s.h5").unlink()
-    commands = (HOLOGRAM, RENDER, COMPRESS, PHOTO, EYE, EXPECTED, FULL_CAMERA, RAYS, PATTERNS)
+    commands = (HOLOGRAM, RENDER, COMPRESS, PHOTO, EYE, EXPECTED, FULL_CAMERA, RAYS, PATTERNS, PROPAGATE, LINES)
     for i, command in enumerate(commands):
         kill_until_complete(run, chance, command, *made_alone(run, command), (KILLS + i) // (len(commands) + 1))
     kill_make_until_complete(run, chance, KILLS // (len(commands) + 1))

@@ -90,7 +90,8 @@ std::vector<Image> photograph_colours(const Fields& holograms, std::span<const C
     std::vector<double> speeds;
     if (team != nullptr && full == nullptr) speeds = core::speeds_of_processes(*team);
     std::optional<core::UnequalParts> parts(std::in_place, speeds, speeds);
-    const bool by_colour = core::result_log() != nullptr && pipeline::are_of_hogels_or_planes(holograms, with);
+    const bool by_colour = core::result_log() != nullptr && (pipeline::are_of_hogels_or_planes(holograms, with) ||
+                                                             std::get<PhotographOptions>(with).vertical_diffuser);
     if (full == nullptr && !by_colour)
         together = optics::photograph_together(holograms, cameras, std::get<PhotographOptions>(with), progress);
     // Short waves first: their bands have the most samples, and the other colours use the same memory.
@@ -134,7 +135,7 @@ std::vector<Image> photograph_colours(const Fields& holograms, std::span<const C
         all.colour = order[k];
         pipeline::put(all, one, pictures);
     };
-    // The narrow camera keeps more: the light of each tile.
+    // The narrow camera keeps more: the light of each tile; not behind a diffuser, where that is gigabytes.
     if (by_colour) {
         core::kept_one_by_one<std::vector<Image>>(order.size(), image::sent_pictures(), photograph_all, put_all);
     } else {

@@ -48,21 +48,41 @@ class TileWork {
                 options.scratch),
           field_rows_(kept_.own_rows(plan.y.field.count)),
           columns_(kept_.own_columns()),
-          output_rows_(kept_.own_rows(plan.y.output.count)) {
-        blocks_ = blocks_of(field_rows_.count, together_) + blocks_of(columns_.count) + blocks_of(output_rows_.count);
-    }
+          output_rows_(kept_.own_rows(plan.y.output.count)) {}
 
-    // Writes the tile at `region` of the sink.
+    // Writes what the sink does not have already of the tile at `region`.
     void run(FieldSink& sink, const Region& region) {
+        const std::vector<core::LineRange> missing = missing_rows(sink, region);
+        Team* const all = core::team_of_several();
+        if ((all != nullptr ? all->sum(missing.size()) : missing.size()) == 0) return;
+        blocks_ = blocks_of(field_rows_.count, together_) + blocks_of(columns_.count) + missing.size();
         rows_to_frequencies();
         kept_.to_columns(plan_.y.field.count);
         columns();
         kept_.to_rows(plan_.y.output.count);
-        frequencies_to_rows(sink, region);
-        if (Team* const all = core::team_of_several()) share_rows(*all, sink, region);
+        frequencies_to_rows(sink, region, missing);
+        if (all != nullptr) share_rows(*all, sink, region);
     }
 
   private:
+    // The own rows of the tile that are to be written, in blocks that are the same for any number of processes, because
+    // each process has whole groups of rows.
+    std::vector<core::LineRange> missing_rows(FieldSink& sink, const Region& region) const {
+        std::vector<core::LineRange> missing;
+        for (std::size_t group = output_rows_.first; group < output_rows_.end(); group += together_) {
+            const std::size_t end = std::min(group + together_, output_rows_.end());
+            for (std::size_t y = group; y < end; y += lines_together) {
+                const core::LineRange rows{y, std::min(lines_together, end - y)};
+                if (!sink.has_already(part(region, rows))) missing.push_back(rows);
+            }
+        }
+        return missing;
+    }
+
+    static Region part(const Region& region, const core::LineRange& rows) {
+        return {region.x0, region.y0 + rows.first, region.width, rows.count};
+    }
+
     void done() {
         const std::lock_guard lock(reporting_);
         progress_.report(static_cast<double>(++done_) / static_cast<double>(blocks_));
@@ -142,19 +162,18 @@ class TileWork {
                                 options_.max_error));
     }
 
-    void frequencies_to_rows(FieldSink& sink, const Region& region) {
+    void frequencies_to_rows(FieldSink& sink, const Region& region, std::span<const core::LineRange> blocks) {
         const LineTransform outward(plan_.x.frequencies, plan_.x.output, 1, 1, plan_.x.outward);
-        core::parallel_for(blocks_of(output_rows_.count), [&](std::size_t block) {
-            const std::size_t y0 = output_rows_.first + block * lines_together,
-                              rows = std::min(lines_together, output_rows_.end() - y0);
+        core::parallel_for(blocks.size(), [&](std::size_t block) {
+            const core::LineRange& rows = blocks[block];
             Lines line(1, outward.buffer());
-            Array<Complex, 2> samples({rows, region.width});
-            for (std::size_t y = 0; y < rows; ++y) {
-                kept_.get_row(y0 + y, line[0].data());
+            Array<Complex, 2> samples({rows.count, region.width});
+            for (std::size_t y = 0; y < rows.count; ++y) {
+                kept_.get_row(rows.first + y, line[0].data());
                 outward(line[0]);
                 std::copy_n(line[0].data(), region.width, &samples(y, 0));
             }
-            sink.write({region.x0, region.y0 + y0, region.width, rows}, samples);
+            sink.write(part(region, rows), samples);
             done();
         });
     }

@@ -5,7 +5,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <mutex>
 #include <numbers>
 #include <random>
 
@@ -378,6 +380,61 @@ TEST(Propagate, is_the_same_for_any_number_of_threads_and_in_a_file) {
     const Field alone = run({});
     EXPECT_TRUE(std::ranges::equal(all.samples.elements(), alone.samples.elements()));
     EXPECT_TRUE(std::ranges::equal(all.samples.elements(), in_file.samples.elements()));
+}
+
+// A sink that was interrupted after some writes, and had some of them before.
+class Interrupted final : public FieldSink {
+  public:
+    Interrupted(Field& field, std::vector<Region>& had, std::size_t writes)
+        : field_(field), had_(had), before_(had), writes_(writes) {}
+    void write(const Region& region, View<const std::complex<float>, 2> values) override {
+        const std::lock_guard lock(mutex_);
+        EXPECT_EQ(std::ranges::find(before_, region), before_.end()) << "is written again";
+        if (written_ == writes_) throw Error(ErrorCode::cancelled, "stopped");
+        ++written_;
+        field_.write(region, values);
+        had_.push_back(region);
+    }
+    bool has_already(const Region& region) override { return std::ranges::find(before_, region) != before_.end(); }
+
+  private:
+    std::mutex mutex_;
+    Field& field_;
+    std::vector<Region>& had_;
+    std::vector<Region> before_;
+    std::size_t writes_, written_ = 0;
+};
+
+TEST(Propagate, goes_on_where_a_sink_was_interrupted) {
+    const Grid plane{64, 60, 4_um, 4_um, 0, 0};
+    const Field field = packets(plane, 633_nm);
+    PropagateOptions options;
+    options.output = Grid{300, 300, 0.2_mm, 0.2_mm, 3_mm, 0};
+    ASSERT_GT(propagation_method(field.grid(), 1_m, options).tiles_x, 1u);
+    const Field whole = hogel::propagate(field, 1_m, options);
+    Field result(whole.grid());
+    std::vector<Region> had;
+    const auto run = [&](const FieldSource& source, std::size_t writes) {
+        Interrupted sink(result, had, writes);
+        hogel::propagate(source, 1_m, sink, options);
+    };
+    for (std::size_t before = 0; before < 30; before += 10) {
+        EXPECT_THROW(run(field, 10), Error);
+        EXPECT_GE(had.size(), before + 10);
+    }
+    run(field, SIZE_MAX);
+    EXPECT_TRUE(std::ranges::equal(result.samples.elements(), whole.samples.elements()));
+    // What is complete is not computed again: of a field that cannot be read.
+    class Unreadable final : public FieldSource {
+      public:
+        explicit Unreadable(const FieldGrid& grid) : grid_(grid) {}
+        const FieldGrid& grid() const override { return grid_; }
+        void read(const Region&, std::size_t, View<std::complex<float>, 2>) const override { FAIL(); }
+
+      private:
+        FieldGrid grid_;
+    };
+    run(Unreadable(field.grid()), 0);
 }
 
 TEST(Propagate, says_how_it_will) {
