@@ -8,6 +8,7 @@
 
 #include "hogel/core/shared_order.h"
 #include "hogel/core/shared_plane.h"
+#include "hogel/core/work_before.h"
 #include "mpi/test_ranks.h"
 
 namespace hogel::mpi {
@@ -141,6 +142,32 @@ TEST_P(SharedWorkTest, RowsGoToAllThatWantThem) {
             for (std::size_t x = 0; x < columns; ++x) ASSERT_EQ(got[y * columns + x], value(mine.first + y, x));
         EXPECT_FALSE(team.settle({}, patience)->failed);
     });
+}
+
+// The first has done its work after a fifth of a second, in which the second has done half, and the third says nothing.
+TEST(WorkBefore, SaysWhatIsLeftWhenTheFirstIsDone) {
+    for (const std::size_t fast : {0, 1, 2}) {
+        std::array<std::vector<double>, 3> left;
+        run_ranks(3, [&](RankTeam& team) {
+            const std::size_t place = (team.rank() + 3 - fast) % 3;
+            team.meet();
+            core::WorkBefore work(team, {3, 3, 3}, {1. / 3, 1. / 3, 1. / 3});
+            std::this_thread::sleep_for(std::chrono::milliseconds(190));
+            if (place == 1) work.report(0.5);
+            std::this_thread::sleep_for(std::chrono::milliseconds(place == 0 ? 10 : 100));
+            if (place == 2) work.report(1);  // too late
+            left[team.rank()] = work.finish();
+            team.meet();
+        });
+        EXPECT_EQ(left[1], left[0]);
+        EXPECT_EQ(left[2], left[0]);
+        const auto of = [&](std::size_t place) { return left[0].at((place + fast) % 3); };
+        EXPECT_EQ(of(0), 0);
+        // All do 7.5 thirds of their work a second, so that a third process would take 0.267 s, and the second has
+        // 0.2 s left, in which they do 0.75.
+        EXPECT_NEAR(of(1), 3 * 0.75, 0.4) << fast;
+        EXPECT_NEAR(of(2), 3 * 0.25, 0.2) << fast;
+    }
 }
 
 TEST(SharedPlane, LinesAreDividedEvenlyInGroups) {

@@ -12,6 +12,7 @@
 #include "hogel/core/shared_order.h"
 #include "hogel/core/speeds.h"
 #include "hogel/core/unequal_parts.h"
+#include "hogel/core/work_before.h"
 #include "hogel/error.h"
 #include "hogel/hologram/parallax.h"
 #include "hogel/image/film.h"
@@ -105,27 +106,41 @@ std::vector<Image> photograph_colours(const Fields& holograms, std::span<const C
         return full != nullptr ? photograph_by_plane_waves(hologram, some, *full, part)
                                : photograph(hologram, some, std::get<PhotographOptions>(with), part);
     };
+    PictureShare all{0, std::vector<std::size_t>(cameras.size())};
+    std::iota(all.cameras.begin(), all.cameras.end(), std::size_t{0});
     std::vector<PictureShares> shares;
     if (!together) shares = pipeline::shares_of_processes(holograms, order, cameras, with, speeds);
     std::size_t done = 0;
     std::vector<std::vector<Image>> seen;  // by this process alone
     if (!shares.empty()) {
-        const PictureShares& mine = shares[team->rank()];
-        for (const PictureShare& share : mine) {
-            const core::AloneScope alone;
-            seen.push_back(photograph_colour(share, progress.part(done++, colours)));
-        }
         std::erase_if(order, [&](std::size_t colour) {
             return std::ranges::any_of(shares, [&](const PictureShares& own) {
                 return std::ranges::any_of(own, [&](const PictureShare& share) { return share.colour == colour; });
             });
         });
-        if (!order.empty())
-            parts.emplace(speeds, pipeline::parts_of_rest(shares, holograms, order, cameras,
-                                                          std::get<PhotographOptions>(with), speeds));
+        const auto& options = std::get<PhotographOptions>(with);
+        std::optional<core::WorkBefore> before;
+        if (!order.empty() && std::ranges::none_of(shares, &PictureShares::empty))
+            before.emplace(*team, pipeline::costs_of(shares, holograms, cameras, options), speeds);
+        const PictureShares& mine = shares[team->rank()];
+        for (const PictureShare& share : mine) {
+            const core::AloneScope alone;
+            const Progress part = progress.part(done, colours);
+            seen.push_back(photograph_colour(share, Progress(part.stop(), [&](double fraction) {
+                                                 if (before)
+                                                     before->report((static_cast<double>(done) + fraction) /
+                                                                    static_cast<double>(mine.size()));
+                                                 return part(fraction);
+                                             })));
+            ++done;
+        }
+        if (before) {
+            PictureShares rest;
+            for (const std::size_t colour : order) rest.push_back({colour, all.cameras});
+            parts.emplace(speeds, core::parts_after(speeds, before->finish(),
+                                                    pipeline::cost_of_rows(rest, holograms, cameras, options)));
+        }
     }
-    PictureShare all{0, std::vector<std::size_t>(cameras.size())};
-    std::iota(all.cameras.begin(), all.cameras.end(), std::size_t{0});
     const auto photograph_all = [&](std::size_t k) {
         all.colour = order[k];
         const Progress part = progress.part(std::min(done + k, colours - 1), colours);

@@ -104,20 +104,19 @@ std::vector<PictureShares> shares_of_processes(const Fields& holograms, std::spa
     return shares;
 }
 
-std::vector<double> parts_of_rest(std::span<const PictureShares> shares, const Fields& holograms,
-                                  std::span<const std::size_t> rest, std::span<const Camera> cameras,
-                                  const PhotographOptions& options, const std::vector<double>& speeds) {
-    const auto sum = [&](std::size_t colour, auto&& some) {
-        double costs = 0;
-        for (const std::size_t camera : some) costs += cost(*holograms[colour], cameras[camera], options);
-        return costs;
-    };
-    std::vector<double> own(shares.size());
+std::vector<double> costs_of(std::span<const PictureShares> shares, const Fields& holograms,
+                             std::span<const Camera> cameras, const PhotographOptions& options) {
+    std::vector<double> costs(shares.size());
     for (std::size_t process = 0; process < shares.size(); ++process)
-        for (const PictureShare& share : shares[process]) own[process] += sum(share.colour, share.cameras);
-    double left = 0;
-    for (const std::size_t colour : rest) left += sum(colour, std::views::iota(std::size_t{0}, cameras.size()));
-    return core::parts_after(speeds, own, (options.expected ? 1 : drawn_part) * left);
+        for (const PictureShare& share : shares[process])
+            for (const std::size_t camera : share.cameras)
+                costs[process] += cost(*holograms[share.colour], cameras[camera], options);
+    return costs;
+}
+
+double cost_of_rows(const PictureShares& rest, const Fields& holograms, std::span<const Camera> cameras,
+                    const PhotographOptions& options) {
+    return (options.expected ? 1 : drawn_part) * costs_of({&rest, 1}, holograms, cameras, options).front();
 }
 
 void put(const PictureShare& share, std::span<const Image> seen, std::span<Image> pictures) {

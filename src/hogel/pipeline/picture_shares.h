@@ -33,12 +33,13 @@ std::vector<PictureShares> shares_of_processes(const Fields& holograms, std::spa
                                                std::span<const Camera> cameras, const WaveCamera& with,
                                                std::span<const double> speeds);
 
-/// The parts of the colours that are left that each process makes, of rows of hogels, so that all end together: less
-/// where its own colours take longer.
-/// @param shares  what shares_of_processes() has given, not empty
-std::vector<double> parts_of_rest(std::span<const PictureShares> shares, const Fields& holograms,
-                                  std::span<const std::size_t> rest, std::span<const Camera> cameras,
-                                  const PhotographOptions& options, const std::vector<double>& speeds);
+/// What the own pictures of each process take, in any unit.
+std::vector<double> costs_of(std::span<const PictureShares> shares, const Fields& holograms,
+                             std::span<const Camera> cameras, const PhotographOptions& options);
+
+/// What pictures that all processes make together take, in the same unit, as far as they are divided by rows of hogels.
+double cost_of_rows(const PictureShares& rest, const Fields& holograms, std::span<const Camera> cameras,
+                    const PhotographOptions& options);
 
 /// Puts pictures of one colour into those of all.
 void put(const PictureShare& share, std::span<const Image> seen, std::span<Image> pictures);
