@@ -9,12 +9,14 @@
 #include "hogel/core/parallel.h"
 #include "hogel/lightfield/interpolation.h"
 #include "hogel/lightfield/ray_kernels.h"
+#include "hogel/resources.h"
 
 namespace hogel::lightfield {
 namespace {
 
-// Maximum number of values that the points of the lens see of one block at a time: 64 MiB.
-constexpr std::size_t max_seen = std::size_t{1} << 24;
+// Number of values, for each thread, that points of the lens see of one block at a time: they stay in the second cache
+// until pixels are exposed to them.
+constexpr std::size_t seen_together = std::size_t{1} << 16;
 
 // Hogels of a row that all points of the lens look at before the next: what is read of them stays in the first cache.
 constexpr std::size_t hogels_together = 32;
@@ -161,17 +163,28 @@ Exposure::Rays Exposure::rays_of(const LensPoint& point) const {
     return rays;
 }
 
+std::size_t bytes_of_rays(const LightFieldGrid& grid, const Camera& camera) {
+    const std::size_t places = camera.picture.width + camera.picture.height + grid.hogels_s + grid.hogels_t;
+    return places * (sizeof(std::int32_t) + sizeof(float));
+}
+
 void Exposure::prepare(std::size_t first, std::size_t count) {
-    if (first_ == first && rays_.size() == count) return;
+    const bool all = points_.size() * bytes_of_rays(grid_, camera_) <= max_kept_;
+    const std::size_t begin = all ? 0 : first, size = all ? points_.size() : count;
+    if (first_prepared_ != begin || prepared_.size() != size) {
+        first_prepared_ = begin;
+        prepared_.resize(size);
+        core::parallel_for(size, [&](std::size_t i) { prepared_[i] = rays_of(points_[begin + i]); });
+    }
     first_ = first;
-    rays_.resize(count);
-    core::parallel_for(count, [&](std::size_t i) { rays_[i] = rays_of(points_[first + i]); });
+    rays_ = std::span(prepared_).subspan(first - begin, count);
 }
 
 template <class Look>
 void Exposure::add_points(const HogelRange& range, const HogelRange& cells, const Look& look) {
     const std::size_t seen_by_one = range.nt * grid_.channels * range.ns;
-    const std::size_t together = std::clamp<std::size_t>(max_seen / seen_by_one, 1, points_.size());
+    const std::size_t threads = thread_count();
+    const std::size_t together = std::min(std::max(threads * seen_together / seen_by_one, threads), points_.size());
     for (std::size_t first = 0; first < points_.size(); first += together) {
         const std::size_t count = std::min(together, points_.size() - first);
         prepare(first, count);

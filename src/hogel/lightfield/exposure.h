@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -48,6 +49,12 @@ enum class Looking {
     plain,  ///< ray by ray
 };
 
+/// Bytes of the rays of one point of the lens that an exposure prepares.
+std::size_t bytes_of_rays(const LightFieldGrid& grid, const Camera& camera);
+
+/// Bytes of the rays of all points of all lenses that are kept.
+constexpr std::size_t max_kept_rays = std::size_t{256} << 20;
+
 /// The film of one camera, to which the rays of one block of hogels after the other are added. All lens points see the
 /// hogels first, and every pixel then gets the values between the hogels that it lies between.
 class Exposure {
@@ -57,6 +64,9 @@ class Exposure {
     /// The same for rows [first, end) of the picture alone, which are those of the whole picture to the last bit.
     Exposure(std::vector<LightFieldGrid> faces, const Camera& camera, std::size_t lens_count, std::size_t first,
              std::size_t end);
+
+    /// Keeps the rays of all points, which each block of hogels needs, if they take no more than so many bytes.
+    void keep_rays(std::size_t bytes) { max_kept_ = bytes; }
 
     /// Rows [first, end) of hogels, with whose cells below them the rows of the picture have to do.
     std::pair<std::size_t, std::size_t> cells() const;
@@ -113,11 +123,14 @@ class Exposure {
     std::vector<LightFieldGrid> faces_;
     LightFieldGrid grid_;  // its hogels and channels are those of all faces
     Camera camera_;
+    std::size_t max_kept_ = max_kept_rays;
     bool vectors_;                         // whether the front is looked at by vectors
     std::size_t first_row_ = 0, end_row_;  // of the picture
     std::vector<LensPoint> points_;
-    std::size_t first_ = 0;  // the points [first_, first_ + rays_.size()) are prepared
-    std::vector<Rays> rays_;
+    std::vector<Rays> prepared_;  // of points from first_prepared_ on
+    std::size_t first_prepared_ = 0;
+    std::size_t first_ = 0;  // the points [first_, first_ + rays_.size()) are looked from
+    std::span<const Rays> rays_;
     std::vector<float> seen_;
     Array<float, 3> film_;  // [c][row][column]
 };

@@ -40,6 +40,7 @@ std::optional<Block> part_of(const Block& block, std::size_t first, std::size_t 
 // read in parallel. What is in memory is looked at where it is.
 void expose(std::span<const LightField::Source> faces, std::span<const FaceBlock> list, std::size_t blocks_at_once,
             std::span<Exposure> exposures, const Progress& progress) {
+    for (Exposure& exposure : exposures) exposure.keep_rays(lightfield::max_kept_rays / exposures.size());
     core::parallel_ordered<HeldHogels>(
         list.size(), blocks_at_once, [&](std::size_t i) { return hold(*faces[list[i].face], list[i].block.hogels); },
         [&](std::size_t i, HeldHogels& held) {
