@@ -29,7 +29,7 @@ FULL = {
     "compress": (("rays",), "compress rays.h5 --step 0.01 -o out.hgl"),
     "decompress": (("packed",), "decompress packed.hgl -o out.h5"),
     "hologram": (("wide",), "hologram wide.h5 --wavelength 532nm --pitch 1.25um --half -o out.h5"),
-    "photo by rays": (("rays",), "photo rays.h5 --resolution 512 --pupil-samples 4096 -o out.exr"),
+    "photo by rays": (("rays",), "photo rays.h5 --resolution 512 --pupil-samples 8192 -o out.exr"),
     "photo, camera narrow": (("waves",), "photo waves.h5 --resolution 256 -o out.exr"),
     "photo, camera narrow, streamed": (("wide",), "photo wide.h5 --wave --camera narrow --looks 1 --wavelength 532nm "
                                        "--pitch 1.25um --resolution 256 -o out.exr"),
@@ -55,7 +55,7 @@ NEEDS = {"packed": ("wide",), "waves": ("rays",), "field": ("rays",), "colours":
 def smaller(command):
     for large, small in (("192x192", "16x16"), ("288x288", "16x16"), ("160x160", "24x24"), ("320x320", "24x24"),
                          ("20mm", "3mm"), ("40mm", "3mm"), ("19.2mm", "4.608mm"), ("12mm", "2mm"),
-                         ("512", "48"), ("4096", "16"), ("2400x2000", "600x500")):
+                         ("512", "48"), ("8192", "16"), ("2400x2000", "600x500")):
         command = command.replace(large, small)
     return command
 

@@ -15,8 +15,9 @@ namespace hogel::lightfield {
 namespace {
 
 // Number of values, for each thread, that points of the lens see of one block at a time: they stay in the second cache
-// until pixels are exposed to them.
-constexpr std::size_t seen_together = std::size_t{1} << 16;
+// until pixels are exposed to them. But so many points look at once, as long as they see no more than 64 MiB, because
+// every hogel is on a page of its own, to be found again for the next points.
+constexpr std::size_t seen_together = std::size_t{1} << 16, points_at_once = 64, max_seen = std::size_t{1} << 24;
 
 // Hogels of a row that all points of the lens look at before the next: what is read of them stays in the first cache.
 constexpr std::size_t hogels_together = 32;
@@ -183,8 +184,8 @@ void Exposure::prepare(std::size_t first, std::size_t count) {
 template <class Look>
 void Exposure::add_points(const HogelRange& range, const HogelRange& cells, const Look& look) {
     const std::size_t seen_by_one = range.nt * grid_.channels * range.ns;
-    const std::size_t threads = thread_count();
-    const std::size_t together = std::min(std::max(threads * seen_together / seen_by_one, threads), points_.size());
+    const std::size_t few = std::min(points_at_once, std::max<std::size_t>(max_seen / seen_by_one, 1)),
+                      together = std::min(std::max(thread_count() * seen_together / seen_by_one, few), points_.size());
     for (std::size_t first = 0; first < points_.size(); first += together) {
         const std::size_t count = std::min(together, points_.size() - first);
         prepare(first, count);

@@ -78,80 +78,109 @@ Fields make_holograms(const LightField& light_field, const HologramRequest& requ
     return holograms;
 }
 
+namespace {
+
+// Photographs of holograms in several colours.
+struct Colours {
+    const Fields& holograms;
+    std::span<const Camera> cameras;
+    const WaveCamera& with;
+
+    // Short waves first: their bands have the most samples, and the other colours use the same memory.
+    std::vector<std::size_t> in_order() const {
+        std::vector<std::size_t> order(holograms.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::ranges::stable_sort(order, {}, [&](std::size_t c) { return holograms[c]->grid().wavelength; });
+        return order;
+    }
+
+    PictureShare all_of(std::size_t colour) const {
+        PictureShare all{colour, std::vector<std::size_t>(cameras.size())};
+        std::iota(all.cameras.begin(), all.cameras.end(), std::size_t{0});
+        return all;
+    }
+
+    std::vector<Image> photograph(const PictureShare& share, const Progress& progress) const {
+        std::vector<Camera> some;
+        for (const std::size_t camera : share.cameras) some.push_back(cameras[camera]);
+        const FieldSource& hologram = *holograms[share.colour];
+        if (const auto* full = std::get_if<PlaneWaveCameraOptions>(&with))
+            return photograph_by_plane_waves(hologram, some, *full, progress);
+        return hogel::photograph(hologram, some, std::get<PhotographOptions>(with), progress);
+    }
+};
+
+bool has_colour(std::span<const PictureShares> shares, std::size_t colour) {
+    return std::ranges::any_of(shares, [&](const PictureShares& own) {
+        return std::ranges::any_of(own, [&](const PictureShare& share) { return share.colour == colour; });
+    });
+}
+
+// Makes the pictures that this process makes by itself, and divides the colours that are left by what each process then
+// has to do.
+std::vector<std::vector<Image>> photograph_alone(Team& team, const Colours& colours,
+                                                 std::span<const PictureShares> shares,
+                                                 std::span<const std::size_t> left, const std::vector<double>& speeds,
+                                                 std::optional<core::UnequalParts>& parts, const Progress& progress) {
+    const auto& options = std::get<PhotographOptions>(colours.with);
+    std::optional<core::WorkBefore> before;
+    if (!left.empty() && std::ranges::none_of(shares, &PictureShares::empty))
+        before.emplace(team, pipeline::costs_of(shares, colours.holograms, colours.cameras, options), speeds);
+    const PictureShares& own = shares[team.rank()];
+    std::vector<std::vector<Image>> seen;
+    for (const PictureShare& share : own) {
+        const core::AloneScope alone;
+        const Progress part = progress.part(seen.size(), colours.holograms.size());
+        const auto report = [&](double fraction) {
+            const double done = static_cast<double>(seen.size()) + fraction;
+            if (before) before->report(done / static_cast<double>(own.size()));
+            return part(fraction);
+        };
+        seen.push_back(colours.photograph(share, Progress(part.stop(), report)));
+    }
+    if (!before) return seen;
+    PictureShares rest;
+    for (const std::size_t colour : left) rest.push_back(colours.all_of(colour));
+    const double rows = pipeline::cost_of_rows(rest, colours.holograms, colours.cameras, options);
+    parts.emplace(speeds, core::parts_after(speeds, before->finish(), rows));
+    return seen;
+}
+
+}  // namespace
+
 std::vector<Image> photograph_colours(const Fields& holograms, std::span<const Camera> cameras, const WaveCamera& with,
                                       const Progress& progress) {
     const core::StopScope scope(progress);
     if (holograms.empty()) throw Error(ErrorCode::usage, "a photograph needs a hologram; there is none");
-    const std::size_t colours = holograms.size();
+    const Colours colours{holograms, cameras, with};
     std::vector<Image> pictures(cameras.size());
-    image::load_film(cameras, colours, holograms.front()->provenance(), pictures);
-    const auto* full = std::get_if<PlaneWaveCameraOptions>(&with);
-    std::optional<std::vector<std::vector<Image>>> together;  // [colour][camera]
+    image::load_film(cameras, holograms.size(), holograms.front()->provenance(), pictures);
+    const auto* const options = std::get_if<PhotographOptions>(&with);  // null: the full camera's
     Team* const team = core::team_of_several();
     std::vector<double> speeds;
-    if (team != nullptr && full == nullptr) speeds = core::speeds_of_processes(*team);
+    if (team != nullptr && options != nullptr) speeds = core::speeds_of_processes(*team);
     std::optional<core::UnequalParts> parts(std::in_place, speeds, speeds);
-    const bool by_colour = core::result_log() != nullptr && (pipeline::are_of_hogels_or_planes(holograms, with) ||
-                                                             std::get<PhotographOptions>(with).vertical_diffuser);
-    if (full == nullptr && !by_colour)
-        together = optics::photograph_together(holograms, cameras, std::get<PhotographOptions>(with), progress);
-    // Short waves first: their bands have the most samples, and the other colours use the same memory.
-    std::vector<std::size_t> order(colours);
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, {}, [&](std::size_t c) { return holograms[c]->grid().wavelength; });
-    const auto photograph_colour = [&](const PictureShare& share, const Progress& part) {
-        std::vector<Camera> some;
-        for (const std::size_t camera : share.cameras) some.push_back(cameras[camera]);
-        const FieldSource& hologram = *holograms[share.colour];
-        return full != nullptr ? photograph_by_plane_waves(hologram, some, *full, part)
-                               : photograph(hologram, some, std::get<PhotographOptions>(with), part);
-    };
-    PictureShare all{0, std::vector<std::size_t>(cameras.size())};
-    std::iota(all.cameras.begin(), all.cameras.end(), std::size_t{0});
+    // The narrow camera keeps more: the light of each tile; not behind a diffuser, where that is gigabytes.
+    const bool keeps_colours = core::result_log() != nullptr && (pipeline::are_of_hogels_or_planes(holograms, with) ||
+                                                                 (options != nullptr && options->vertical_diffuser));
+    std::optional<std::vector<std::vector<Image>>> together;  // [colour][camera]
+    if (options != nullptr && !keeps_colours)
+        together = optics::photograph_together(holograms, cameras, *options, progress);
+    std::vector<std::size_t> order = colours.in_order();
     std::vector<PictureShares> shares;
     if (!together) shares = pipeline::shares_of_processes(holograms, order, cameras, with, speeds);
-    std::size_t done = 0;
+    std::erase_if(order, [&](std::size_t colour) { return has_colour(shares, colour); });
     std::vector<std::vector<Image>> seen;  // by this process alone
-    if (!shares.empty()) {
-        std::erase_if(order, [&](std::size_t colour) {
-            return std::ranges::any_of(shares, [&](const PictureShares& own) {
-                return std::ranges::any_of(own, [&](const PictureShare& share) { return share.colour == colour; });
-            });
-        });
-        const auto& options = std::get<PhotographOptions>(with);
-        std::optional<core::WorkBefore> before;
-        if (!order.empty() && std::ranges::none_of(shares, &PictureShares::empty))
-            before.emplace(*team, pipeline::costs_of(shares, holograms, cameras, options), speeds);
-        const PictureShares& mine = shares[team->rank()];
-        for (const PictureShare& share : mine) {
-            const core::AloneScope alone;
-            const Progress part = progress.part(done, colours);
-            seen.push_back(photograph_colour(share, Progress(part.stop(), [&](double fraction) {
-                                                 if (before)
-                                                     before->report((static_cast<double>(done) + fraction) /
-                                                                    static_cast<double>(mine.size()));
-                                                 return part(fraction);
-                                             })));
-            ++done;
-        }
-        if (before) {
-            PictureShares rest;
-            for (const std::size_t colour : order) rest.push_back({colour, all.cameras});
-            parts.emplace(speeds, core::parts_after(speeds, before->finish(),
-                                                    pipeline::cost_of_rows(rest, holograms, cameras, options)));
-        }
-    }
+    if (!shares.empty()) seen = photograph_alone(*team, colours, shares, order, speeds, parts, progress);
     const auto photograph_all = [&](std::size_t k) {
-        all.colour = order[k];
-        const Progress part = progress.part(std::min(done + k, colours - 1), colours);
-        return together ? std::move((*together)[order[k]]) : photograph_colour(all, part);
+        if (together) return std::move((*together)[order[k]]);
+        const std::size_t done = std::min(seen.size() + k, holograms.size() - 1);
+        return colours.photograph(colours.all_of(order[k]), progress.part(done, holograms.size()));
     };
     const auto put_all = [&](std::size_t k, std::vector<Image>& one) {
-        all.colour = order[k];
-        pipeline::put(all, one, pictures);
+        pipeline::put(colours.all_of(order[k]), one, pictures);
     };
-    // The narrow camera keeps more: the light of each tile; not behind a diffuser, where that is gigabytes.
-    if (by_colour) {
+    if (keeps_colours) {
         core::kept_one_by_one<std::vector<Image>>(order.size(), image::sent_pictures(), photograph_all, put_all);
     } else {
         for (std::size_t k = 0; k < order.size(); ++k) {
