@@ -236,13 +236,22 @@ Report RankTeam::agree(Report own) {
 std::optional<Report> RankTeam::settle(Report own, std::chrono::seconds patience,
                                        const std::function<void(const std::vector<std::size_t>&)>& silent) {
     if (failure_) return failure_;
-    const bool failed = own.failed;
-    if (!has_reported_) report(std::move(own));
-    if (!failed) return verdict(std::nullopt);
-    if (const std::optional<Report> soon = verdict(usual_answer)) return soon;
+    if (!own.failed) {
+        report(std::move(own));
+        return verdict(std::nullopt);
+    }
+    if (!has_reported_) report(own);
+    // The answer to what this one did not wait for may still come, and be good: then the failure is still to be told.
+    const auto answer = [&](std::chrono::milliseconds time) {
+        std::optional<Report> of_all = verdict(time);
+        if (!of_all || of_all->failed || !std::exchange(has_reported_, false)) return of_all;
+        report(own);
+        return verdict(time);
+    };
+    if (const std::optional<Report> soon = answer(usual_answer)) return soon;
     const std::vector<std::size_t> ranks = silent_ones();
     if (silent && !ranks.empty()) silent(ranks);
-    return verdict(patience);
+    return answer(patience);
 }
 
 std::uint64_t RankTeam::sum(std::uint64_t number) {

@@ -95,7 +95,7 @@ class RankTeam final : public Team {
     bool stop_sent_ = false;
     std::atomic<bool> stopping_ = false;
     std::optional<Report> failure_;           // once known
-    bool has_reported_ = false;               // what it comes to now, although it did not wait for the answer
+    bool has_reported_ = false;               // and did not wait for the answer
     std::mutex asking_;                       // of the next two
     std::set<std::uint64_t> asked_;           // queues of whose tiles the first process was asked
     std::map<std::uint64_t, Tiles> answers_;  // that came and were not waited for

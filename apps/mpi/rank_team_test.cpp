@@ -85,6 +85,51 @@ TEST_P(RanksTest, AStopOfOneStopsAll) {
     });
 }
 
+// Those that wait for all others when they are to stop do not wait for one that never comes, and say which it is.
+TEST(RankTeam, StopsWithoutOneThatIsLost) {
+    for (const std::size_t lost : {0, 1, 2})
+        run_ranks(3, [&](RankTeam& team) {
+            std::stop_source stop;
+            team.stop_with(stop);
+            team.meet();
+            if (team.rank() == lost) return std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+            stop.request_stop();
+            const auto began = std::chrono::steady_clock::now();
+            EXPECT_THROW(team.meet(), Error);
+            std::vector<std::size_t> silent;
+            const Report own{true, 143, ErrorCode::cancelled, 0, "stopped"};
+            const auto hear = [&](const std::vector<std::size_t>& ranks) { silent = ranks; };
+            if (lost != 0) {
+                EXPECT_FALSE(team.settle(own, std::chrono::seconds(0), hear));
+                EXPECT_EQ(silent, team.is_first() ? std::vector<std::size_t>{lost} : std::vector<std::size_t>{});
+            }
+            EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(1));
+        });
+}
+
+// One that comes late to a meeting which others have given up is stopped by their failure all the same.
+TEST_P(RanksTest, StopsOneThatComesLate) {
+    for (std::size_t late = 0; late < GetParam(); ++late)
+        run_ranks(GetParam(), [&](RankTeam& team) {
+            std::stop_source stop;
+            team.stop_with(stop);
+            team.meet();
+            const auto began = std::chrono::steady_clock::now();
+            if (team.rank() == late)
+                std::this_thread::sleep_for(std::chrono::milliseconds(600));
+            else
+                stop.request_stop();
+            try {
+                team.meet();
+            } catch (const Error&) {
+            }
+            const Report own{true, 143, ErrorCode::cancelled, 0, "stopped"};
+            const std::optional<Report> all = team.settle(own, patience);
+            EXPECT_TRUE(all && all->failed && all->status == 143);
+            EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(3));
+        });
+}
+
 TEST(RankTeam, TheFirstHearsWhatOthersSendInTheirOrder) {
     std::mutex mutex;
     std::map<int, std::vector<int>> heard;
