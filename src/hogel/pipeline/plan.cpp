@@ -142,7 +142,8 @@ Plan plan_ray_photographs(std::span<const LightFieldGrid> faces, std::span<const
     for (const Camera& camera : cameras) {
         const auto pixels = static_cast<double>(camera.picture.samples());
         const double rays = points * static_cast<double>(lightfield::bytes_of_rays(faces.front(), camera));
-        const bool are_kept = rays <= static_cast<double>(lightfield::max_kept_rays / cameras.size());
+        const std::size_t most = lightfield::max_kept_rays / cameras.size();
+        const bool are_kept = rays <= static_cast<double>(most);
         plan.memory += points * bytes_a_lens_point +
                        pixels * static_cast<double>(faces.front().channels) * sizeof(float) + (are_kept ? rays : 0);
         plan.seconds += on_all_threads(points * (hogels * seconds_a_seen_hogel + pixels * seconds_a_seen_pixel));
