@@ -15,8 +15,11 @@ import sys
 import tempfile
 import time
 
+import ranks
+from ranks import lines_of_hogel, require
+
 PATH = os.environ["PATH"] + ":/usr/sbin:/sbin"
-ENVIRONMENT = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "PATH": PATH}
+ENVIRONMENT = ranks.ENVIRONMENT | {"PATH": PATH}
 NODES = ("node1", "node2", "node3")
 # As ssh: runs a command on a node, and waits for ever where the node went silent.
 AGENT = """#!/bin/sh
@@ -32,21 +35,15 @@ exit $status
 OF_LARGE_JOBS = ("--mca oob_tcp_keepalive_time 5 --mca oob_tcp_keepalive_intvl 1 --mca oob_tcp_keepalive_probes 5 "
                  "--mca odls_base_sigkill_timeout 5").split()
 SIZE = "--hogels 24x20 --directions 24x24 --size 4mm".split()
-HOGEL_PREFIX = "hogel: "
-
-
-def require(condition, *what):
-    if not condition:
-        sys.exit("failed: " + " ".join(str(each) for each in what))
 
 
 def system(*command):
     subprocess.run(command, check=True, env=ENVIRONMENT)
 
 
-class Cluster:
+class Cluster(ranks.Run):
     def __init__(self, hogel, hogel_mpi, mpirun, folder):
-        self.hogel, self.hogel_mpi, self.mpirun, self.folder = hogel, hogel_mpi, mpirun, folder / "shared"
+        super().__init__(hogel, hogel_mpi, mpirun, folder / "shared")
         self.folder.mkdir()
         self.agent, self.silent = folder / "agent", folder / "silent"
         self.agent.write_text(AGENT)
@@ -65,22 +62,13 @@ class Cluster:
             system("ip", "-n", node, "link", "set", "eth0", "up")
             system("ip", "-n", node, "link", "set", "lo", "up")
 
-    def alone(self, *arguments):
-        done = subprocess.run([self.hogel, *arguments], cwd=self.folder, capture_output=True, text=True)
-        require(done.returncode == 0, arguments, "ended with", done.returncode, done.stderr)
-
     # Ranks on nodes, from the first one on, so many on each.
-    def start(self, ranks, *arguments):
-        hosts = ",".join(f"{node}:{count}" for node, count in ranks.items())
+    def start(self, on_nodes, *arguments):
+        hosts = ",".join(f"{node}:{count}" for node, count in on_nodes.items())
         command = [self.mpirun, "--mca", "plm_rsh_agent", str(self.agent), "--mca", "btl", "tcp,vader,self",
                    "--mca", "btl_tcp_if_include", "10.77.0.0/24", "--mca", "oob_tcp_if_include", "10.77.0.0/24", *OF_LARGE_JOBS,
-                   "--bind-to", "none", "--host", hosts, "-n", str(sum(ranks.values())), self.hogel_mpi, *arguments, "--threads", "1"]
+                   "--bind-to", "none", "--host", hosts, "-n", str(sum(on_nodes.values())), self.hogel_mpi, *arguments, "--threads", "1"]
         return subprocess.Popen(command, cwd=self.folder, env=ENVIRONMENT, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-
-    def ranks(self, ranks, *arguments):
-        process = self.start(ranks, *arguments)
-        _, error = process.communicate(timeout=300)
-        return process.returncode, error
 
     def processes(self, node):
         listed = subprocess.run(["ip", "netns", "pids", node], capture_output=True, text=True, env=ENVIRONMENT)
@@ -120,12 +108,12 @@ def same(cluster):
         "gradient.png": ["slm", "colours.h5", "--pixels", "600x500", "--pixel-pitch", "8um", "--encoding", "gradient", "--iterations", "3"],
     }.items():
         cluster.alone(*command, "-o", name)
-        whole = (cluster.folder / name).read_bytes()
-        for ranks in (dict.fromkeys(NODES, 1), {"node1": 1, "node2": 2}):
+        whole = cluster.bytes(name)
+        for on_nodes in (dict.fromkeys(NODES, 1), {"node1": 1, "node2": 2}):
             (cluster.folder / name).unlink()
-            status, error = cluster.ranks(ranks, *command, "-o", name)
-            require(status == 0, name, ranks, "ended with", status, error)
-            require((cluster.folder / name).read_bytes() == whole, name, "of", ranks, "has other bytes")
+            status, _, error = cluster.ranks(on_nodes, *command, "-o", name)
+            require(status == 0, name, on_nodes, "ended with", status, error)
+            require(cluster.bytes(name) == whole, name, "of", on_nodes, "has other bytes")
 
 
 # A node is lost while a rank of it computes: the job ends, mpirun names the node, what is done is kept, nothing goes on
@@ -153,17 +141,16 @@ def lost(cluster):
             how = f"{made.name}, {node} {'silent' if silently else 'killed'}"
             # mpirun names the node; MPI ends ranks that had messages for it, and those that it stops say what is kept.
             require(process.returncode != 0 and not made.exists(), how, "ended with", process.returncode, error)
-            require(f"node {node}" in error or HOGEL_PREFIX in error, how, "said", error)
+            require(f"node {node}" in error or lines_of_hogel(error), how, "said", error)
             require(not silently or f"node {node}" in error, how, "said", error)
             require(took < (35 if silently else 20), how, "ended after", took, "s")
-            lines = [line for line in error.splitlines() if line.startswith(HOGEL_PREFIX)]
             require(part.exists(), how, "has kept nothing")
-            print(f"{how}: ended within {took:.1f} s: {lines}", flush=True)
+            print(f"{how}: ended within {took:.1f} s: {lines_of_hogel(error)}", flush=True)
             cluster.restore(node)
             left = [each for other in NODES for each in cluster.processes(other)]
             require(not left, how, "left processes", left)
             rest = {other: 1 for other in NODES if other != node}
-            status, error = cluster.ranks(rest, *command, "--resume")
+            status, _, error = cluster.ranks(rest, *command, "--resume")
             require(status == 0 and made.read_bytes() == whole, how, "was resumed with", status, error)
             require(not part.exists(), how, "left", part)
 

@@ -2,7 +2,7 @@
 #include "hogel/core/work_before.h"
 
 #include <algorithm>
-#include <numeric>
+#include <string>
 #include <utility>
 
 #include "hogel/core/message.h"
@@ -76,7 +76,7 @@ std::vector<double> WorkBefore::left(double now) const {
             done += work_[process] * reports_[process].fraction / reports_[process].seconds;
             speed += speeds_[process];
         }
-    std::vector<double> left = work_;
+    std::vector<double> left(work_.size());
     for (std::size_t process = 0; process < reports_.size(); ++process) {
         const Report& last = reports_[process];
         const double whole =
