@@ -5,8 +5,10 @@
 #include <sys/mman.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <iterator>
+#include <limits>
 #include <new>
 
 namespace hogel::core {
@@ -16,31 +18,77 @@ namespace {
 constexpr double max_idle = 0.25, max_idle_of_last = 0.6;
 
 constexpr std::size_t line = 64, page = 4096, huge_page = std::size_t{2} << 20;
+// From here on blocks are of huge pages.
+constexpr std::size_t smallest_of_pages = 2 * huge_page;
+// Smaller ones are malloc's own matter.
+constexpr std::size_t smallest_kept = std::size_t{128} << 10;
+// malloc may give so much more than was asked for, and a block's size is all that tells whether it was counted.
+constexpr std::size_t smallest_counted = smallest_kept - 2 * line;
 
-// Whole pages, so that sizes that hardly differ are one size.
-std::size_t rounded(std::size_t bytes) {
-    const std::size_t unit = bytes >= 2 * huge_page ? huge_page : page;
-    return (bytes + unit - 1) / unit * unit;
+std::size_t whole(std::size_t bytes, std::size_t unit) { return (bytes + unit - 1) / unit * unit; }
+
+bool is_on_huge_page(const void* memory) { return reinterpret_cast<std::uintptr_t>(memory) % huge_page == 0; }
+
+void unmap(std::byte* first, std::size_t bytes) {
+    if (bytes > 0) munmap(first, bytes);
 }
 
-void* fresh(std::size_t bytes) {
-    const bool large = bytes >= 2 * huge_page;
-    void* memory = nullptr;
-    if (posix_memalign(&memory, large ? huge_page : line, bytes) != 0) return nullptr;
+// New pages, or nullptr.
+std::byte* map(std::size_t bytes) {
+    const auto mapped = [](std::size_t size) -> std::byte* {
+        void* memory = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        return memory != MAP_FAILED ? static_cast<std::byte*>(memory) : nullptr;
+    };
+    std::byte* memory = mapped(bytes);
+    if (memory != nullptr && !is_on_huge_page(memory)) {
+        unmap(memory, bytes);
+        memory = mapped(bytes + huge_page);
+        if (memory != nullptr) {
+            const std::size_t ahead = huge_page - reinterpret_cast<std::uintptr_t>(memory) % huge_page;
+            unmap(memory, ahead);
+            memory += ahead;
+            unmap(memory + bytes, huge_page - ahead);
+        }
+    }
     // A hint; only the speed depends on whether the system follows it.
-    if (large) madvise(memory, bytes, MADV_HUGEPAGE);
+    if (memory != nullptr) madvise(memory, bytes, MADV_HUGEPAGE);
     return memory;
 }
 
 }  // namespace
 
-FreedBlocks::~FreedBlocks() {
-    for (const auto& [bytes, memory] : blocks_) std::free(memory);
+FreedBlocks::~FreedBlocks() { give_back(overflow(0)); }
+
+// One block of pieces that are kept, and of new pages for what they lack; nullptr if there are none, and then the
+// pieces are gone.
+std::byte* FreedBlocks::joined(const std::vector<Pages>& pieces, std::size_t bytes) {
+    if (pieces.size() == 1 && pieces.front().bytes == bytes) return pieces.front().first;
+    std::byte* const memory = map(bytes);
+    std::size_t done = 0;
+    bool moved = memory != nullptr;
+    for (const Pages& piece : pieces) {
+        // The pages change their address; nothing is copied.
+        if (moved &&
+            mremap(piece.first, piece.bytes, piece.bytes, MREMAP_MAYMOVE | MREMAP_FIXED, memory + done) == MAP_FAILED) {
+            moved = false;
+            // Not the place itself: it may be another's by now.
+            unmap(memory, done);
+            unmap(memory + done + piece.bytes, bytes - done - piece.bytes);
+        }
+        if (!moved) unmap(piece.first, piece.bytes);
+        done += piece.bytes;
+    }
+    return moved ? memory : nullptr;
+}
+
+void FreedBlocks::give_back(const Surplus& surplus) {
+    for (void* block : surplus.blocks) std::free(block);
+    for (const Pages& pages : surplus.pages) unmap(pages.first, pages.bytes);
 }
 
 // The smallest kept block that is large enough, unless more than a part of it would be idle; of several, the one that
 // was used last.
-void* FreedBlocks::take(std::size_t bytes, double idle) {
+void* FreedBlocks::take_block(std::size_t bytes, double idle) {
     const auto smallest = blocks_.lower_bound(bytes);
     if (smallest == blocks_.end() ||
         static_cast<double>(smallest->first - bytes) > idle * static_cast<double>(smallest->first))
@@ -53,41 +101,68 @@ void* FreedBlocks::take(std::size_t bytes, double idle) {
     return memory;
 }
 
-// Blocks that must go so that no more than max_kept bytes stay.
-std::vector<void*> FreedBlocks::overflow(std::size_t max_kept) {
-    std::vector<void*> gone;
+// Kept pages for so many bytes, or all: of the smallest that are enough, or else of as few as possible.
+std::vector<FreedBlocks::Pages> FreedBlocks::take_pages(std::size_t bytes) {
+    std::vector<Pages> taken;
+    while (bytes > 0 && !pages_.empty()) {
+        const auto smallest = pages_.lower_bound(bytes);
+        const auto from = std::prev(smallest != pages_.end() ? pages_.upper_bound(smallest->first) : pages_.end());
+        const auto [size, first] = *from;
+        pages_.erase(from);
+        const std::size_t part = std::min(size, bytes);
+        if (size > part) pages_.emplace(size - part, first + part);
+        taken.push_back({first, part});
+        kept_ -= part;
+        bytes -= part;
+    }
+    return taken;
+}
+
+// Bytes that may be kept beside so many in use.
+std::size_t FreedBlocks::can_stay(std::size_t in_use) const {
+    return spare_ + (max_in_use_ > in_use ? max_in_use_ - in_use : 0);
+}
+
+// What must go so that no more than max_kept bytes stay: pages, which are the most, then the largest blocks.
+FreedBlocks::Surplus FreedBlocks::overflow(std::size_t max_kept) {
+    Surplus gone;
+    if (kept_ > max_kept) gone.pages = take_pages(whole(kept_ - max_kept, huge_page));
     while (kept_ > max_kept) {
         const auto largest = std::prev(blocks_.end());
         kept_ -= largest->first;
-        gone.push_back(largest->second);
+        gone.blocks.push_back(largest->second);
         blocks_.erase(largest);
     }
     return gone;
 }
 
 void* FreedBlocks::allocate(std::size_t bytes) {
-    bytes = rounded(std::max<std::size_t>(1, bytes));
-    if (bytes == 0) throw std::bad_alloc();  // more than can be addressed
-    std::vector<void*> gone;
+    if (bytes > std::numeric_limits<std::size_t>::max() / 2) throw std::bad_alloc();  // more than can be addressed
+    if (bytes >= smallest_of_pages) return allocate_pages(whole(bytes, huge_page));
+    if (bytes >= smallest_counted) return allocate_block(whole(bytes, page));
+    void* memory = nullptr;
+    if (posix_memalign(&memory, line, bytes) != 0) throw std::bad_alloc();
+    return memory;
+}
+
+void* FreedBlocks::allocate_block(std::size_t bytes) {
+    Surplus gone;
     {
         const std::lock_guard lock(mutex_);
-        if (void* memory = take(bytes, max_idle)) return memory;
-        const std::size_t needed = in_use_ + bytes;
-        const std::size_t can_stay = spare_ + (max_in_use_ > needed ? max_in_use_ - needed : 0);
+        if (void* memory = take_block(bytes, max_idle)) return memory;
         // Rather than that a larger block goes, it is used.
-        if (kept_ > can_stay)
-            if (void* memory = take(bytes, max_idle_of_last)) return memory;
+        const std::size_t needed = in_use_ + bytes;
+        if (kept_ > can_stay(needed))
+            if (void* memory = take_block(bytes, max_idle_of_last)) return memory;
         in_use_ = needed;
-        gone = overflow(can_stay);
+        gone = overflow(can_stay(needed));
     }
-    for (void* block : gone) std::free(block);
-    void* memory = fresh(bytes);
+    give_back(gone);
+    void* memory = nullptr;
+    const bool given = posix_memalign(&memory, line, bytes) == 0;
     const std::lock_guard lock(mutex_);
-    if (memory == nullptr) {
-        for (void* block : overflow(0)) std::free(block);
-        memory = fresh(bytes);
-    }
-    if (memory == nullptr) {
+    if (!given) give_back(overflow(0));
+    if (!given && posix_memalign(&memory, line, bytes) != 0) {
         in_use_ -= bytes;
         throw std::bad_alloc();
     }
@@ -97,27 +172,67 @@ void* FreedBlocks::allocate(std::size_t bytes) {
     return memory;
 }
 
-void FreedBlocks::free(void* memory) {
-    const std::size_t bytes = malloc_usable_size(memory);
-    std::vector<void*> gone;
+void* FreedBlocks::allocate_pages(std::size_t bytes) {
+    std::vector<Pages> pieces;
+    Surplus gone;
     {
         const std::lock_guard lock(mutex_);
+        pieces = take_pages(bytes);
+        in_use_ += bytes;
+        gone = overflow(can_stay(in_use_));
+    }
+    give_back(gone);
+    std::byte* memory = joined(pieces, bytes);
+    const std::lock_guard lock(mutex_);
+    if (memory == nullptr) {
+        give_back(overflow(0));
+        memory = map(bytes);
+    }
+    if (memory == nullptr) {
+        in_use_ -= bytes;
+        throw std::bad_alloc();
+    }
+    max_in_use_ = std::max(max_in_use_, in_use_);
+    used_pages_.emplace(memory, bytes);
+    return memory;
+}
+
+void FreedBlocks::free(void* memory) {
+    Surplus gone;
+    const auto keep = [&](auto& kept, std::size_t bytes, auto* block) {
         in_use_ -= bytes;
         kept_ += bytes;
-        blocks_.emplace(bytes, memory);
+        kept.emplace(bytes, block);
         gone = overflow(max_kept_);
+    };
+    bool of_pages = false;
+    if (is_on_huge_page(memory)) {
+        const std::lock_guard lock(mutex_);
+        const auto used = used_pages_.find(memory);
+        of_pages = used != used_pages_.end();
+        if (of_pages) {
+            const std::size_t bytes = used->second;
+            used_pages_.erase(used);
+            keep(pages_, bytes, static_cast<std::byte*>(memory));
+        }
     }
-    for (void* block : gone) std::free(block);
+    if (!of_pages) {
+        const std::size_t bytes = malloc_usable_size(memory);
+        if (bytes < smallest_kept) return std::free(memory);
+        const std::lock_guard lock(mutex_);
+        keep(blocks_, bytes, memory);
+    }
+    give_back(gone);
 }
 
 void FreedBlocks::set_max_kept(std::size_t max_kept) {
-    std::vector<void*> gone;
+    Surplus gone;
     {
         const std::lock_guard lock(mutex_);
         max_kept_ = max_kept;
         gone = overflow(max_kept_);
     }
-    for (void* block : gone) std::free(block);
+    give_back(gone);
 }
 
 std::size_t FreedBlocks::kept() const {

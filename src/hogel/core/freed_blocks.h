@@ -4,17 +4,22 @@
 #include <cstddef>
 #include <map>
 #include <mutex>
+#include <unordered_map>
 #include <vector>
 
 namespace hogel::core {
 
-/// Large blocks of memory, kept when they are freed and handed out again, because the system clears every new page:
-/// about a second for each gigabyte on a virtual machine. Thread-safe.
+/// Memory of arrays. Large blocks are kept when they are freed and handed out again, because the system clears every
+/// new page: up to a second for each gigabyte on a virtual machine, and more where a page must be had from its host.
+/// Thread-safe.
+///
+/// Blocks of less than 4 MiB come from malloc, and are handed out again to what needs about as much. Larger ones are of
+/// whole huge pages. These are cut, moved in the address space and joined as needed, so that new pages are taken only
+/// when all that are kept are in use.
 ///
 /// A program needs hardly more memory for it: blocks in use and blocks kept are together never more than was in use at
-/// some time before and `spare`, and what is kept is never more than max_kept. The largest blocks go first, unless one
-/// can be used for what is needed. Without anything to spare, blocks of two sizes that are needed in turns would drive
-/// out each other.
+/// some time before and `spare`, and what is kept is never more than max_kept. Without anything to spare, smaller
+/// blocks of two sizes that are needed in turns would drive out each other.
 class FreedBlocks {
   public:
     explicit FreedBlocks(std::size_t max_kept, std::size_t spare = 0) : max_kept_(max_kept), spare_(spare) {}
@@ -33,17 +38,37 @@ class FreedBlocks {
 
     /// Bytes of the blocks that are kept.
     std::size_t kept() const;
-    /// Bytes of the blocks that are in use.
+    /// Bytes of the blocks that are in use and would be kept.
     std::size_t in_use() const;
 
   private:
-    void* take(std::size_t bytes, double idle);
-    std::vector<void*> overflow(std::size_t max_kept);
+    // Huge pages in a row.
+    struct Pages {
+        std::byte* first;
+        std::size_t bytes;
+    };
+    // What goes back to the system, which is done without the lock.
+    struct Surplus {
+        std::vector<void*> blocks;
+        std::vector<Pages> pages;
+    };
+
+    static std::byte* joined(const std::vector<Pages>& pieces, std::size_t bytes);
+    static void give_back(const Surplus& surplus);
+
+    void* allocate_block(std::size_t bytes);
+    void* allocate_pages(std::size_t bytes);
+    void* take_block(std::size_t bytes, double idle);
+    std::vector<Pages> take_pages(std::size_t bytes);
+    Surplus overflow(std::size_t max_kept);
+    std::size_t can_stay(std::size_t in_use) const;
 
     std::size_t max_kept_, spare_;
     mutable std::mutex mutex_;
-    std::multimap<std::size_t, void*> blocks_;  // kept, by their bytes
-    std::size_t kept_ = 0, in_use_ = 0, max_in_use_ = 0;
+    std::multimap<std::size_t, void*> blocks_;            // kept, by their bytes
+    std::multimap<std::size_t, std::byte*> pages_;        // kept, by their bytes
+    std::unordered_map<void*, std::size_t> used_pages_;   // bytes of the blocks in use that are of pages
+    std::size_t kept_ = 0, in_use_ = 0, max_in_use_ = 0;  // bytes of both
 };
 
 }  // namespace hogel::core
