@@ -228,16 +228,13 @@ std::optional<Focused> wave_in_focus(const Spectrum& at_lens, const Camera& came
         if (!is_first_process()) return std::nullopt;
         return Focused{on_tilted_plane(behind, camera, hologram, origin, axes, options.scratch), area, origin, axes};
     }
-    Wave film = wave_of(behind, width, height, options.scratch, team);
     const double scale = b > 0 ? -b / (m * R) : 1;
-    if (team != nullptr) {
-        const Grid plane = film.grid().plane;
-        const auto wanted = [&](std::size_t process) {
-            return film_rows(plane, scale, origin, camera, rows_of(process, camera, team));
-        };
-        film = with_rows(std::move(film), *team, wanted, options.scratch);
-    }
-    return Focused{std::move(film), area, origin, {}, scale};
+    if (team == nullptr) return Focused{wave_of(behind, width, height, options.scratch), area, origin, {}, scale};
+    const Grid plane = grid_of(behind, width, height);
+    const auto wanted = [&](std::size_t process) {
+        return film_rows(plane, scale, origin, camera, rows_of(process, camera, team));
+    };
+    return Focused{wave_of(std::move(behind), width, height, options.scratch, *team, wanted), area, origin, {}, scale};
 }
 
 // Adds rows of the picture, as radiance: see docs/notation.md, section 4.

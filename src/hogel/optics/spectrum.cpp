@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <mutex>
 #include <utility>
@@ -198,58 +199,187 @@ Spectrum spectrum_of(const Wave& wave, const Grid& window, const Band& band, con
     return transformed(wave, 0, window, band, wave.carrier_x, wave.carrier_y, scratch, progress, team);
 }
 
+Grid grid_of(const Spectrum& spectrum, std::size_t width, std::size_t height) {
+    const Grid& window = spectrum.window;
+    return {width,
+            height,
+            window.size_x() / static_cast<double>(width),
+            window.size_y() / static_cast<double>(height),
+            window.center_x,
+            window.center_y};
+}
+
+namespace {
+
+// From a spectrum to the samples of its wave: first along columns, then along rows.
+class ToWave {
+  public:
+    ToWave(const Spectrum& spectrum, std::size_t width, std::size_t height)
+        : width_(width),
+          height_(height),
+          columns_(spectrum.width()),
+          rows_(spectrum.height()),
+          first_column_(spectrum.first_column),
+          first_row_(spectrum.first_row) {
+        if (width < columns_ || height < rows_)
+            throw Error(ErrorCode::usage,
+                        fmt::format("{}x{} samples are too few for {}x{} frequencies", width, height, columns_, rows_));
+        const Grid& window = spectrum.window;
+        centre_x_ = centring(first_column_, columns_, width, 1, 1 / (window.size_x() * window.size_y()));
+        centre_y_ = centring(first_row_, rows_, height, 1, 1);
+    }
+
+    std::size_t columns() const { return columns_; }
+
+    // The wave without samples, of which a process will have some rows.
+    Wave frame(const Spectrum& spectrum, const core::LineRange& rows) const {
+        Wave wave({grid_of(spectrum, width_, height_), spectrum.wavelength}, core::PagedArray(), rows);
+        wave.carrier_x = spectrum.frequency_x(static_cast<double>(columns_ / 2));
+        wave.carrier_y = spectrum.frequency_y(static_cast<double>(rows_ / 2));
+        return wave;
+    }
+
+    // Of some columns.
+    // @param place  where the numbers of a row go from a column on
+    template <class Place>
+    void along_columns(const Spectrum& spectrum, const core::LineRange& across, const Place& place) const {
+        const math::Fft1 down(height_);
+        core::parallel_for(blocks_of(across.count), [&](std::size_t block) {
+            const std::size_t x0 = across.first + block * lines_together,
+                              count = std::min(lines_together, across.end() - x0);
+            Array<Complex, 2> lines({count, stride_of(height_)});
+            for (std::size_t r = 0; r < rows_; ++r) {
+                const std::size_t at = wrapped(first_row_ + static_cast<std::ptrdiff_t>(r), height_);
+                const Complex* const row = &spectrum.samples.at(r, x0);
+                for (std::size_t i = 0; i < count; ++i)
+                    lines(i, at) = times(row[i], times(centre_y_[r], centre_x_[x0 + i]));
+            }
+            for (std::size_t i = 0; i < count; ++i) down.backward(&lines(i, 0));
+            for (std::size_t y = 0; y < height_; ++y) {
+                Complex* const row = place(y, x0);
+                for (std::size_t i = 0; i < count; ++i) row[i] = lines(i, y);
+            }
+        });
+    }
+
+    // Of some rows, in place.
+    // @param row  the place of a row, which begins with what along_columns() has made of it
+    template <class Row>
+    void along_rows(const core::LineRange& rows, const Row& row) const {
+        const math::Fft1 along(width_);
+        core::parallel_for(blocks_of(rows.count), [&](std::size_t block) {
+            Array<Complex, 1> line({width_});
+            for (std::size_t i = block * lines_together; i < std::min((block + 1) * lines_together, rows.count); ++i) {
+                std::ranges::fill(line.elements(), Complex(0));
+                Complex* const samples = row(rows.first + i);
+                put_frequencies(samples, columns_, line.data(), width_, first_column_);
+                along.backward(line.data());
+                std::copy_n(line.data(), width_, samples);
+            }
+        });
+    }
+
+    // The plane of the columns' transforms, in rows, of which each process of a team has some.
+    core::SharedPlane in_rows(const Spectrum& spectrum, const ScratchOptions& scratch, Team* team) const {
+        core::SharedPlane kept(height_, columns_, lines_together, columns_of_waves_together, scratch, team);
+        along_columns(spectrum, kept.own_columns(), [&](std::size_t y, std::size_t x) { return &kept.at(y, x); });
+        return kept;
+    }
+
+  private:
+    std::size_t width_, height_, columns_, rows_;
+    std::ptrdiff_t first_column_, first_row_;
+    std::vector<Complex> centre_x_, centre_y_;
+};
+
+core::PagedArray samples_of(std::size_t rows, std::size_t width, const ScratchOptions& scratch) {
+    return rows > 0 ? core::PagedArray({rows, width}, scratch, core::Contents::unset) : core::PagedArray();
+}
+
+// Rows of a wave that a process makes for others.
+class RowsForOthers {
+  public:
+    // As few as hold all of some rows that others want.
+    RowsForOthers(const core::LineRange& some, const Team& team,
+                  const std::function<core::LineRange(std::size_t)>& wanted, std::size_t width,
+                  const ScratchOptions& scratch)
+        : rows_{some.end(), 0} {
+        std::size_t end = some.first;
+        for (std::size_t process = 0; process < team.size(); ++process)
+            if (const core::LineRange rows = common_lines(some, wanted(process)); rows.count > 0) {
+                rows_.first = std::min(rows_.first, rows.first);
+                end = std::max(end, rows.end());
+            }
+        rows_.count = end - std::min(end, rows_.first);
+        samples_ = samples_of(rows_.count, width, scratch);
+    }
+
+    const core::LineRange& rows() const { return rows_; }
+    bool has(std::size_t y) const { return y >= rows_.first && y < rows_.end(); }
+    Complex* at(std::size_t y) { return &samples_.view()(y - rows_.first, 0); }
+
+  private:
+    core::LineRange rows_;
+    core::PagedArray samples_;
+};
+
+}  // namespace
+
 Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch,
              Team* team) {
-    const Grid& window = spectrum.window;
-    const std::size_t columns = spectrum.width(), rows = spectrum.height();
-    if (width < columns || height < rows)
-        throw Error(ErrorCode::usage,
-                    fmt::format("{}x{} samples are too few for {}x{} frequencies", width, height, columns, rows));
-    core::SharedPlane kept;
-    core::LineRange across{0, columns}, own{0, height};
-    if (team != nullptr) {
-        kept = core::SharedPlane(height, columns, lines_together, columns_of_waves_together, scratch, team);
-        across = kept.own_columns();
-        own = kept.own_rows(height);
+    const ToWave to_wave(spectrum, width, height);
+    Wave wave = to_wave.frame(spectrum, {0, height});
+    const auto row = [&](std::size_t y) { return &wave.samples.view()(y - wave.rows.first, 0); };
+    if (team == nullptr) {
+        // The columns, too, are transformed in place, in the left part of the result.
+        wave.samples = samples_of(height, width, scratch);
+        to_wave.along_columns(spectrum, {0, to_wave.columns()},
+                              [&](std::size_t y, std::size_t x) { return row(y) + x; });
+        to_wave.along_rows(wave.rows, row);
+        return wave;
     }
-    Wave wave({{width, height, window.size_x() / static_cast<double>(width),
-                window.size_y() / static_cast<double>(height), window.center_x, window.center_y},
-               spectrum.wavelength},
-              core::PagedArray({std::max<std::size_t>(own.count, 1), width}, scratch, core::Contents::unset), own);
-    wave.carrier_x = spectrum.frequency_x(static_cast<double>(columns / 2));
-    wave.carrier_y = spectrum.frequency_y(static_cast<double>(rows / 2));
-    const math::Fft1 along(width), down(height);
-    const std::vector<Complex> centre_x =
-        centring(spectrum.first_column, columns, width, 1, 1 / (window.size_x() * window.size_y()));
-    const std::vector<Complex> centre_y = centring(spectrum.first_row, rows, height, 1, 1);
-    // First transforms the columns, alone into the left part of the result, then the rows, alone in place.
-    core::parallel_for(blocks_of(across.count), [&](std::size_t block) {
-        const std::size_t x0 = across.first + block * lines_together,
-                          count = std::min(lines_together, across.end() - x0);
-        Array<Complex, 2> lines({count, stride_of(height)});
-        for (std::size_t r = 0; r < rows; ++r) {
-            const std::size_t at = wrapped(spectrum.first_row + static_cast<std::ptrdiff_t>(r), height);
-            const Complex* const row = &spectrum.samples.at(r, x0);
-            for (std::size_t i = 0; i < count; ++i) lines(i, at) = times(row[i], times(centre_y[r], centre_x[x0 + i]));
-        }
-        for (std::size_t i = 0; i < count; ++i) down.backward(&lines(i, 0));
-        for (std::size_t y = 0; y < height; ++y) {
-            Complex* const row = team != nullptr ? &kept.at(y, x0) : &wave.samples.view()(y, x0);
-            for (std::size_t i = 0; i < count; ++i) row[i] = lines(i, y);
-        }
+    core::SharedPlane kept = to_wave.in_rows(spectrum, scratch, team);
+    wave.rows = kept.own_rows(height);
+    wave.samples = samples_of(wave.rows.count, width, scratch);
+    kept.to_rows(height);
+    to_wave.along_rows(wave.rows, [&](std::size_t y) {
+        kept.get_row(y, row(y));
+        return row(y);
     });
-    if (team != nullptr) kept.to_rows(height);
-    core::parallel_for(blocks_of(own.count), [&](std::size_t block) {
-        Array<Complex, 1> line({width});
-        for (std::size_t y = block * lines_together; y < std::min((block + 1) * lines_together, own.count); ++y) {
-            std::ranges::fill(line.elements(), Complex(0));
-            Complex* const row = &wave.samples.view()(y, 0);
-            if (team != nullptr) kept.get_row(own.first + y, row);
-            put_frequencies(row, columns, line.data(), width, spectrum.first_column);
-            along.backward(line.data());
-            std::copy_n(line.data(), width, row);
-        }
-    });
+    return wave;
+}
+
+Wave wave_of(Spectrum spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch, Team& team,
+             const std::function<core::LineRange(std::size_t)>& wanted) {
+    const ToWave to_wave(spectrum, width, height);
+    core::SharedPlane kept = to_wave.in_rows(spectrum, scratch, &team);
+    Wave wave = to_wave.frame(spectrum, wanted(team.rank()));
+    spectrum.samples = core::SharedPlane();
+    kept.to_rows(height);
+    // Own rows before and after those that this process wants itself.
+    const core::LineRange own = kept.own_rows(height);
+    const auto for_others = [&](const core::LineRange& some) {
+        return RowsForOthers(common_lines(own, some), team, wanted, width, scratch);
+    };
+    std::array<RowsForOthers, 2> aside{for_others({0, wave.rows.first}),
+                                       for_others({wave.rows.end(), height - wave.rows.end()})};
+    wave.samples = samples_of(wave.rows.count, width, scratch);
+    const auto row = [&](std::size_t y) {
+        for (RowsForOthers& rows : aside)
+            if (rows.has(y)) return rows.at(y);
+        return &wave.samples.view()(y - wave.rows.first, 0);
+    };
+    for (const core::LineRange& rows : {aside[0].rows(), common_lines(own, wave.rows), aside[1].rows()})
+        to_wave.along_rows(rows, [&](std::size_t y) {
+            kept.get_row(y, row(y));
+            return row(y);
+        });
+    core::send_rows(
+        team, {height, width}, lines_together, wanted,
+        [&](std::size_t y, Complex* to) {
+            if (row(y) != to) std::copy_n(row(y), width, to);
+        },
+        row);
     return wave;
 }
 
@@ -266,21 +396,6 @@ Spectrum gathered(Spectrum spectrum, Team& team, const ScratchOptions& scratch) 
         [&](std::size_t y, Complex* row) { shared.get_row(y, row); },
         [&](std::size_t y) { return &spectrum.samples.at(y, 0); });
     return spectrum;
-}
-
-Wave with_rows(Wave wave, Team& team, const std::function<core::LineRange(std::size_t)>& wanted,
-               const ScratchOptions& scratch) {
-    const Shape<2> shape{wave.grid().plane.height, wave.grid().plane.width};
-    const core::PagedArray own = std::exchange(wave.samples, core::PagedArray());
-    const std::size_t first = wave.rows.first;
-    wave.rows = wanted(team.rank());
-    if (wave.rows.count > 0)
-        wave.samples = core::PagedArray({wave.rows.count, shape[1]}, scratch, core::Contents::unset);
-    core::send_rows(
-        team, shape, lines_together, wanted,
-        [&](std::size_t y, Complex* row) { std::copy_n(&own.view()(y - first, 0), shape[1], row); },
-        [&](std::size_t y) { return &wave.samples.view()(y - wave.rows.first, 0); });
-    return wave;
 }
 
 Band band_between(const Rectangle& from, const Rectangle& to, double distance, double wavelength) {

@@ -72,18 +72,22 @@ Spectrum spectrum_of(const FieldSource& field, std::size_t look, const Grid& win
 Spectrum spectrum_of(const Wave& wave, const Grid& window, const Band& band, const ScratchOptions& scratch = {},
                      const Progress& progress = {}, Team* team = nullptr);
 
+/// The samples of the wave of a spectrum: its window, sampled by width × height samples.
+Grid grid_of(const Spectrum& spectrum, std::size_t width, std::size_t height);
+
 /// The wave in the window, sampled by width × height samples: the same extent at another pitch. Its carrier is the
 /// middle of the spectrum. Throws Error(usage) for fewer samples than the spectrum has.
 /// @param team  as for spectrum_of(), of which all have parts of the spectrum
 Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch = {},
              Team* team = nullptr);
+/// The same of a spectrum that the processes of a team share, which is freed on the way: each has the rows that it
+/// wants.
+/// @param wanted  the rows that a process wants, for any of them
+Wave wave_of(Spectrum spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch, Team& team,
+             const std::function<core::LineRange(std::size_t process)>& wanted);
 
 /// The whole of what the processes of a team have in parts, in the first one; in others something without samples.
 Spectrum gathered(Spectrum spectrum, Team& team, const ScratchOptions& scratch);
-
-/// The wave, which the processes of a team have in parts, with the rows that each wants instead, for any process.
-Wave with_rows(Wave wave, Team& team, const std::function<core::LineRange(std::size_t process)>& wanted,
-               const ScratchOptions& scratch);
 
 /// Propagation to a parallel plane; the window follows the off-axis carrier. All in metres.
 struct PropagationOptions {
