@@ -7,7 +7,9 @@
 #include <limits>
 #include <vector>
 
+#include "hogel/core/object_pool.h"
 #include "hogel/error.h"
+#include "hogel/render/cell_sums.h"
 
 namespace hogel {
 namespace {
@@ -36,30 +38,35 @@ class Averaged final : public LightFieldSource {
     // Reads the block of ns × nt hogels that begins at (s, t) of the tile.
     void read_block(LightFieldTile& tile, std::size_t s, std::size_t t, std::size_t ns, std::size_t nt) const {
         const std::size_t n = samples_.hogel;
-        const HogelRange& range = tile.range;
-        LightFieldTile fine(fine_->grid(), {n * (range.s0 + s), n * (range.t0 + t), n * ns, n * nt},
-                            tile.depth.size() > 0);
+        const double weight = 1 / static_cast<double>(samples_.count());
+        const bool with_depth = tile.depth.size() > 0;
+        auto memory = memory_.take();
+        LightFieldTile& fine = *memory;
+        if (fine.range.ns != n * ns || fine.range.nt != n * nt || (fine.depth.size() > 0) != with_depth)
+            fine = LightFieldTile(fine_->grid(), {0, 0, n * ns, n * nt}, with_depth);
+        fine.range = {n * (tile.range.s0 + s), n * (tile.range.t0 + t), n * ns, n * nt};
         fine_->read(fine);
-        std::vector<double> sums(grid_.directions_u);
+        Array<double, 2> sums({grid_.directions_v, grid_.directions_u});
         for (std::size_t j = 0; j < nt; ++j)
-            for (std::size_t i = 0; i < ns; ++i)
-                for (std::size_t v = 0; v < grid_.directions_v; ++v) {
-                    for (std::size_t c = 0; c < grid_.channels; ++c)
-                        average_row(fine, c, j, i, v, sums, &tile.radiance(c, t + j, s + i, v, 0));
-                    if (tile.depth.size() > 0) min_depths(fine, j, i, v, &tile.depth(t + j, s + i, v, 0));
+            for (std::size_t i = 0; i < ns; ++i) {
+                for (std::size_t c = 0; c < grid_.channels; ++c) {
+                    sum_up(fine, c, j, i, sums);
+                    float* out = &tile.radiance(c, t + j, s + i, 0, 0);
+                    for (const double sum : sums.elements()) *out++ = static_cast<float>(sum * weight);
                 }
+                for (std::size_t v = 0; with_depth && v < grid_.directions_v; ++v)
+                    min_depths(fine, j, i, v, &tile.depth(t + j, s + i, v, 0));
+            }
     }
 
-    // Computes the means for a row of directions of hogel (j, i) of the block.
-    void average_row(const LightFieldTile& fine, std::size_t channel, std::size_t j, std::size_t i, std::size_t v,
-                     std::vector<double>& sums, float* out) const {
-        const double weight = 1 / static_cast<double>(samples_.count());
-        // In double precision the sum of equal floats is exact.
-        std::ranges::fill(sums, 0.0);
-        for_rows(j, i, v, [&](std::size_t fine_t, std::size_t fine_s, std::size_t fine_v) {
-            add(&fine.radiance(channel, fine_t, fine_s, fine_v, 0), sums);
-        });
-        for (std::size_t u = 0; u < sums.size(); ++u) out[u] = static_cast<float>(sums[u] * weight);
+    // The sums of a channel of hogel (j, i) of the block.
+    void sum_up(const LightFieldTile& fine, std::size_t channel, std::size_t j, std::size_t i,
+                View<double, 2> sums) const {
+        std::fill_n(sums.data(), grid_.directions(), 0.0);
+        const Shape<2> shape{grid_.directions_v * samples_.direction, grid_.directions_u * samples_.direction};
+        for (std::size_t fine_t = j * samples_.hogel; fine_t < (j + 1) * samples_.hogel; ++fine_t)
+            for (std::size_t fine_s = i * samples_.hogel; fine_s < (i + 1) * samples_.hogel; ++fine_s)
+                render::add_cells({&fine.radiance(channel, fine_t, fine_s, 0, 0), shape}, samples_.direction, sums);
     }
 
     void min_depths(const LightFieldTile& fine, std::size_t j, std::size_t i, std::size_t v, float* out) const {
@@ -80,15 +87,12 @@ class Averaged final : public LightFieldSource {
                     visit(fine_t, fine_s, fine_v);
     }
 
-    void add(const float* fine, std::vector<double>& sums) const {
-        for (double& sum : sums)
-            for (std::size_t k = 0; k < samples_.direction; ++k) sum += double{*fine++};
-    }
-
     std::shared_ptr<const LightFieldSource> fine_;
     LightFieldGrid grid_;
     SamplesPerRay samples_;
     HogelRange block_;
+    // Kept from block to block: all of it is written each time.
+    mutable core::ObjectPool<LightFieldTile> memory_;
 };
 
 class AveragedRenderer final : public Renderer {
