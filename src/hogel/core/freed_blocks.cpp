@@ -22,8 +22,9 @@ constexpr std::size_t line = 64, page = 4096, huge_page = std::size_t{2} << 20;
 constexpr std::size_t smallest_of_pages = 2 * huge_page;
 // Smaller ones are malloc's own matter.
 constexpr std::size_t smallest_kept = std::size_t{128} << 10;
-// malloc may give so much more than was asked for, and a block's size is all that tells whether it was counted.
-constexpr std::size_t smallest_counted = smallest_kept - 2 * line;
+// malloc may give up to a page and some more than was asked for, and a block's size is all that tells whether it was
+// counted.
+constexpr std::size_t smallest_counted = smallest_kept - 2 * page;
 
 std::size_t whole(std::size_t bytes, std::size_t unit) { return (bytes + unit - 1) / unit * unit; }
 
@@ -139,7 +140,7 @@ FreedBlocks::Surplus FreedBlocks::overflow(std::size_t max_kept) {
 void* FreedBlocks::allocate(std::size_t bytes) {
     if (bytes > std::numeric_limits<std::size_t>::max() / 2) throw std::bad_alloc();  // more than can be addressed
     if (bytes >= smallest_of_pages) return allocate_pages(whole(bytes, huge_page));
-    if (bytes >= smallest_counted) return allocate_block(whole(bytes, page));
+    if (bytes >= smallest_counted) return allocate_block(whole(std::max(bytes, smallest_kept), page));
     void* memory = nullptr;
     if (posix_memalign(&memory, line, bytes) != 0) throw std::bad_alloc();
     return memory;
