@@ -92,6 +92,7 @@ Exposure make_exposure(const HogelGrid& hogels, const ExpectedEye& eye, const Ca
     Exposure exposure;
     exposure.camera = index;
     std::tie(exposure.columns, exposure.rows) = places_of(hogels, camera, *eye.pairs, eye.band);
+    const PixelMeans means(hogels, camera, eye.band, exposure.columns, exposure.rows);
     exposure.parts_x = parts(hogels, camera, true);
     exposure.parts_y = parts(hogels, camera, false);
     for (std::size_t j = 0; j < exposure.parts_y; ++j)
@@ -101,7 +102,7 @@ Exposure make_exposure(const HogelGrid& hogels, const ExpectedEye& eye, const Ca
                          y = 0.5 - (static_cast<double>(j) + 0.5) / static_cast<double>(exposure.parts_y);
             exposure.spots.emplace_back(hogels, camera, *eye.basis, *eye.pairs, eye.band,
                                         plane.center_x + x * plane.size_x(), plane.center_y + y * plane.size_y(),
-                                        exposure.columns, exposure.rows);
+                                        exposure.columns, exposure.rows, means);
         }
     exposure.tails = Array<float, 2>({plane.height, plane.width});
     return exposure;

@@ -115,20 +115,28 @@ Array<Complex, 2> lights(const SpotBasis& basis, std::size_t half, double period
 
 // [place · tap][sample]: the mean over a pixel at each place from a hogel of an intensity with these samples over a
 // period, of which sample 0 is at the hogel. Exact for an intensity with frequencies up to `highest` / period.
+// With r = e^{2πi/samples} sample k of a wave of frequency f is r^{fk}.
 Array<float, 2> pixel_means(const PixelPlaces& places, std::size_t reach, std::size_t samples, double period,
                             std::size_t highest) {
     const std::size_t taps = 2 * reach + 1;
     Array<float, 2> means({places.places.size() * taps, samples});
+    std::vector<std::complex<double>> roots(samples);
+    for (std::size_t i = 0; i < samples; ++i)
+        roots[i] = unit_phasor(static_cast<double>(i) / static_cast<double>(samples));
     core::parallel_for(means.extent(0), [&](std::size_t row) {
         const double hogel = static_cast<double>(row % taps) - static_cast<double>(reach);
         const auto [offset, width] = places.places[row / taps];
         const double from = offset - hogel;
+        std::vector<std::complex<double>> waves(highest);  // at the pixel, averaged over it
+        for (std::size_t f = 1; f <= highest; ++f) {
+            const double frequency = static_cast<double>(f) / period, turn = pi * frequency * width;
+            waves[f - 1] = 2 * (turn > 0 ? std::sin(turn) / turn : 1) * unit_phasor(frequency * from);
+        }
         for (std::size_t k = 0; k < samples; ++k) {
-            const double x = from - period * static_cast<double>(k) / static_cast<double>(samples);
             double sum = 1;
-            for (std::size_t f = 1; f <= highest; ++f) {
-                const double frequency = static_cast<double>(f) / period, turn = pi * frequency * width;
-                sum += 2 * (turn > 0 ? std::sin(turn) / turn : 1) * std::cos(2 * pi * frequency * x);
+            for (std::size_t f = 1, power = k; f <= highest; ++f) {
+                sum += waves[f - 1].real() * roots[power].real() + waves[f - 1].imag() * roots[power].imag();
+                power = power + k < samples ? power + k : power + k - samples;
             }
             means(row, k) = static_cast<float>(sum / static_cast<double>(samples));
         }
@@ -294,23 +302,29 @@ double Spots::products(const HogelGrid& hogels, const Camera& camera, const Pair
            waves * (across + down) * size * 2 * static_cast<double>(frame.half);
 }
 
+PixelMeans::PixelMeans(const HogelGrid& hogels, const Camera& camera, double half_band, const PixelPlaces& columns,
+                       const PixelPlaces& rows) {
+    const std::size_t reach = Spots::reach(hogels, camera, half_band);
+    const SpotFilm frame(camera, half_band, reach, std::max(columns.width, rows.width));
+    across = pixel_means(columns, reach, frame.size, frame.period, 2 * frame.half);
+    down = pixel_means(rows, reach, frame.size, frame.period, 2 * frame.half);
+}
+
 Spots::Spots(const HogelGrid& hogels, const Camera& camera, const SpotBasis& basis, const Pairs& pairs,
-             double half_band, double x, double y, const PixelPlaces& columns, const PixelPlaces& rows)
+             double half_band, double x, double y, const PixelPlaces& columns, const PixelPlaces& rows,
+             const PixelMeans& means)
     : reach_(reach(hogels, camera, half_band)), tails_(pairs.count) {
     const Pupil pupil(hogels, camera, x, y);
     const SpotFilm frame(camera, half_band, reach_, std::max(columns.width, rows.width));
     const double period = frame.period;
     const PupilEdge edge(frame.window, 1);
-    const std::size_t half = frame.half, size = frame.size, side = 2 * half + 1, highest = 2 * half;
+    const std::size_t half = frame.half, size = frame.size, side = 2 * half + 1;
     const Opening opening(pupil, edge, half, period);
     const double pitch = hogels.plane.pitch_x;
     const Array<Complex, 2> across = lights(basis, half, period, pupil.bend_x(pitch)),
                             down = lights(basis, half, period, pupil.bend_y(pitch));
-    const Array<float, 2> means_x = pixel_means(columns, reach_, size, period, highest),
-                          means_y = pixel_means(rows, reach_, size, period, highest);
-    const std::size_t across_all = means_x.extent(0), down_all = means_y.extent(0);
+    const std::size_t across_all = means.across.extent(0), down_all = means.down.extent(0);
     const Array<float, 2> passing = opening.passing(across);
-    weights_ = Array<float, 4>({rows.places.size(), columns.places.size(), taps(), taps() * pairs.padded_count()});
     struct Pair {
         std::size_t x, y;
     };
@@ -321,6 +335,8 @@ Spots::Spots(const HogelGrid& hogels, const Camera& camera, const SpotBasis& bas
     const double radiance = pupil.radiance();
     // The sum over frequencies in steps of 1/period is an integral over both axes.
     const double scale = 1 / (period * period);
+    // Pair by pair, as threads make them.
+    Array<float, 2> of_pairs({list.size(), down_all * across_all});
     core::parallel_for(list.size(), [&](std::size_t pair) {
         const auto [qx, qy] = list[pair];
         Array<Complex, 2> film({size, size});
@@ -333,16 +349,25 @@ Spots::Spots(const HogelGrid& hogels, const Camera& camera, const SpotBasis& bas
             spot.data()[i] = static_cast<float>(radiance) * std::norm(film.data()[i]);
         Array<float, 2> turned({across_all, size});
         for (std::size_t c = 0; c < across_all; ++c)
-            for (std::size_t k = 0; k < size; ++k) turned(c, k) = sum_products(&spot(k, 0), &means_x(c, 0), size);
+            for (std::size_t k = 0; k < size; ++k) turned(c, k) = sum_products(&spot(k, 0), &means.across(c, 0), size);
+        float* sums = &of_pairs(pair, 0);
         double followed = 0;
         for (std::size_t r = 0; r < down_all; ++r)
             for (std::size_t c = 0; c < across_all; ++c) {
-                const float sum = sum_products(&means_y(r, 0), &turned(c, 0), size);
-                weights_(r / taps(), c / taps(), r % taps(), c % taps() * pairs.padded_count() + pair) = sum;
-                followed += sum;
+                *sums = sum_products(&means.down(r, 0), &turned(c, 0), size);
+                followed += *sums++;
             }
         tails_[pair] = static_cast<float>(radiance * scale * light -
                                           followed / static_cast<double>(columns.places.size() * rows.places.size()));
+    });
+    weights_ = Array<float, 4>({rows.places.size(), columns.places.size(), taps(), taps() * pairs.padded_count()});
+    core::parallel_for(down_all, [&](std::size_t r) {
+        constexpr std::size_t together = 16;  // numbers of a cache line
+        for (std::size_t first = 0; first < across_all; first += together)
+            for (std::size_t pair = 0; pair < list.size(); ++pair)
+                for (std::size_t c = first; c < std::min(first + together, across_all); ++c)
+                    weights_(r / taps(), c / taps(), r % taps(), c % taps() * pairs.padded_count() + pair) =
+                        of_pairs(pair, r * across_all + c);
     });
 }
 

@@ -57,6 +57,14 @@ PixelPlaces pixel_places(std::size_t pixels, double first, double step, std::siz
 /// hogels, are smooth.
 std::size_t max_places(const Pairs& pairs, std::size_t reach);
 
+/// The means of a spot's film over the pixels at each place, the same wherever the spot is.
+struct PixelMeans {
+    Array<float, 2> across, down;  ///< [place · hogel][sample of the film]
+
+    PixelMeans(const HogelGrid& hogels, const Camera& camera, double half_band, const PixelPlaces& columns,
+               const PixelPlaces& rows);
+};
+
 /// Spots of waves on a camera's film, as means over pixels.
 ///
 /// A wave with the light D(y_x − κ_x) D(y_y − κ_y) in the pupil's plane has on the film, at the distance x from its
@@ -71,9 +79,10 @@ class Spots {
     static double products(const HogelGrid& hogels, const Camera& camera, const Pairs& pairs, double half_band,
                            const PixelPlaces& columns, const PixelPlaces& rows);
 
-    /// @param x, y  the point of the hologram at which pupil and focus are seen
+    /// @param x, y   the point of the hologram at which pupil and focus are seen
+    /// @param means  for these columns and rows
     Spots(const HogelGrid& hogels, const Camera& camera, const SpotBasis& basis, const Pairs& pairs, double half_band,
-          double x, double y, const PixelPlaces& columns, const PixelPlaces& rows);
+          double x, double y, const PixelPlaces& columns, const PixelPlaces& rows, const PixelMeans& means);
 
     /// Hogels that light a pixel, along an axis.
     std::size_t taps() const { return 2 * reach_ + 1; }
