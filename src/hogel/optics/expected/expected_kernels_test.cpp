@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -51,6 +52,21 @@ TEST_P(ExpectedKernels, vector_and_plain_sums_of_products_agree) {
             sum_products_plain(lines, plain.data());
             for (std::size_t i = 0; i < count; ++i) EXPECT_NEAR(fast[i], plain[i], 2e-3f) << length << " " << count;
         }
+}
+
+TEST_P(ExpectedKernels, vector_and_plain_products_of_matrices_agree) {
+    for (const std::size_t rows : {1, 8, 13, 30})
+        for (const std::size_t inner : {1, 16, 45})
+            for (const std::size_t width : {16, 48}) {
+                Array<float, 2> weights({rows, inner + 3}), in({inner, width}), fast({rows, width}),
+                    plain({rows, width});
+                std::ranges::copy(noise(weights.size()), weights.data());
+                std::ranges::copy(noise(in.size()), in.data());
+                multiply(weights, in, fast);
+                multiply_plain(weights, in, plain);
+                for (std::size_t i = 0; i < fast.size(); ++i)
+                    ASSERT_NEAR(fast.data()[i], plain.data()[i], 1e-4f) << rows << " " << inner << " " << width;
+            }
 }
 
 // Over pairs of points of the pupil, the product of the lights of any wave is that of the basis's.

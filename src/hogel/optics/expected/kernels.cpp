@@ -28,4 +28,13 @@ void sum_products_plain(const Lines& lines, float* sums) {
     }
 }
 
+void multiply_plain(View<const float, 2> weights, View<const float, 2> in, View<float, 2> out) {
+    for (std::size_t i = 0; i < out.extent(0); ++i)
+        for (std::size_t x = 0; x < out.extent(1); ++x) {
+            float sum = 0;
+            for (std::size_t j = 0; j < in.extent(0); ++j) sum += weights(i, j) * in(j, x);
+            out(i, x) = sum;
+        }
+}
+
 }  // namespace hogel::optics::expected

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 
+#include "hogel/array.h"
 #include "hogel/optics/expected/spot_basis.h"
 
 namespace hogel::optics::expected {
@@ -37,5 +38,10 @@ inline float sum_products(const float* a, const float* b, std::size_t length) {
     sum_products({{&a, 1}, b, 0, 0, 1, length}, &sum);
     return sum;
 }
+
+/// out(i, x) = Σ_j weights(i, j) in(j, x), for all rows j of `in`. The rows of in and out have the same length, a
+/// multiple of SpotBasis::lanes.
+void multiply_plain(View<const float, 2> weights, View<const float, 2> in, View<float, 2> out);
+void multiply(View<const float, 2> weights, View<const float, 2> in, View<float, 2> out);
 
 }  // namespace hogel::optics::expected

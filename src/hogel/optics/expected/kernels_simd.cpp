@@ -60,6 +60,16 @@ void SumPowers(const SpotBasis& basis, const SpotBasis::Weights& columns, const 
         });
 }
 
+void Multiply(View<const float, 2> weights, View<const float, 2> in, View<float, 2> out) {
+    const std::size_t width = out.extent(1);
+    for (std::size_t first = 0; first < out.extent(0); first += together)
+        with_count<together>(std::min(together, out.extent(0) - first), [&](auto some) {
+            for (std::size_t x = 0; x < width; x += lanes)
+                weighted<some()>(&in(0, x), width, in.extent(0), &weights(first, 0), 1, weights.extent(1),
+                                 &out(first, x), width);
+        });
+}
+
 // A sum has several parts where there are few of them, because an addition waits for the one before.
 template <std::size_t count>
 HWY_INLINE void products(const Lines& lines, float* sums) {
@@ -107,12 +117,16 @@ namespace hogel::optics::expected {
 
 HWY_EXPORT(SumPowers);
 HWY_EXPORT(SumProducts);
+HWY_EXPORT(Multiply);
 
 void sum_powers(const SpotBasis& basis, const SpotBasis::Weights& columns, const SpotBasis::Weights& rows,
                 const float* powers, float* out) {
     HWY_DYNAMIC_DISPATCH(SumPowers)(basis, columns, rows, powers, out);
 }
 void sum_products(const Lines& lines, float* sums) { HWY_DYNAMIC_DISPATCH(SumProducts)(lines, sums); }
+void multiply(View<const float, 2> weights, View<const float, 2> in, View<float, 2> out) {
+    HWY_DYNAMIC_DISPATCH(Multiply)(weights, in, out);
+}
 
 }  // namespace hogel::optics::expected
 #endif

@@ -296,17 +296,28 @@ double Spots::products(const HogelGrid& hogels, const Camera& camera, const Pair
     const auto size = static_cast<double>(frame.size), taps = static_cast<double>(2 * around + 1);
     const double across = taps * static_cast<double>(columns.places.size()),
                  down = taps * static_cast<double>(rows.places.size());
-    // A transform of a line takes about twenty for each number, a sine and a cosine sixty.
-    constexpr double transform = 20, waves = 60;
-    return static_cast<double>(pairs.count) * size * (size * (transform + across) + down * across) +
+    // A transform of a line takes about twenty for each number, a wave two.
+    constexpr double transform = 20, waves = 2;
+    return static_cast<double>(pairs.count) * size * (size * (transform + down) + down * across) +
            waves * (across + down) * size * 2 * static_cast<double>(frame.half);
 }
+
+namespace {
+
+std::size_t in_lanes(std::size_t numbers) {
+    return (numbers + SpotBasis::lanes - 1) / SpotBasis::lanes * SpotBasis::lanes;
+}
+
+}  // namespace
 
 PixelMeans::PixelMeans(const HogelGrid& hogels, const Camera& camera, double half_band, const PixelPlaces& columns,
                        const PixelPlaces& rows) {
     const std::size_t reach = Spots::reach(hogels, camera, half_band);
     const SpotFilm frame(camera, half_band, reach, std::max(columns.width, rows.width));
-    across = pixel_means(columns, reach, frame.size, frame.period, 2 * frame.half);
+    const Array<float, 2> by_place = pixel_means(columns, reach, frame.size, frame.period, 2 * frame.half);
+    across = Array<float, 2>({frame.size, in_lanes(by_place.extent(0))});
+    for (std::size_t place = 0; place < by_place.extent(0); ++place)
+        for (std::size_t k = 0; k < frame.size; ++k) across(k, place) = by_place(place, k);
     down = pixel_means(rows, reach, frame.size, frame.period, 2 * frame.half);
 }
 
@@ -323,7 +334,8 @@ Spots::Spots(const HogelGrid& hogels, const Camera& camera, const SpotBasis& bas
     const double pitch = hogels.plane.pitch_x;
     const Array<Complex, 2> across = lights(basis, half, period, pupil.bend_x(pitch)),
                             down = lights(basis, half, period, pupil.bend_y(pitch));
-    const std::size_t across_all = means.across.extent(0), down_all = means.down.extent(0);
+    const std::size_t across_all = columns.places.size() * taps(), across_padded = means.across.extent(1),
+                      down_all = means.down.extent(0);
     const Array<float, 2> passing = opening.passing(across);
     struct Pair {
         std::size_t x, y;
@@ -336,7 +348,7 @@ Spots::Spots(const HogelGrid& hogels, const Camera& camera, const SpotBasis& bas
     // The sum over frequencies in steps of 1/period is an integral over both axes.
     const double scale = 1 / (period * period);
     // Pair by pair, as threads make them.
-    Array<float, 2> of_pairs({list.size(), down_all * across_all});
+    Array<float, 3> of_pairs({list.size(), down_all, across_padded});
     core::parallel_for(list.size(), [&](std::size_t pair) {
         const auto [qx, qy] = list[pair];
         Array<Complex, 2> film({size, size});
@@ -344,30 +356,32 @@ Spots::Spots(const HogelGrid& hogels, const Camera& camera, const SpotBasis& bas
         float light = 0;
         for (std::size_t row = 0; row < side; ++row) light += std::norm(down(qy, row)) * passing(qx, row);
         fft.backward(film);
-        Array<float, 2> spot({size, size});
-        for (std::size_t i = 0; i < spot.size(); ++i)
-            spot.data()[i] = static_cast<float>(radiance) * std::norm(film.data()[i]);
-        Array<float, 2> turned({across_all, size});
-        for (std::size_t c = 0; c < across_all; ++c)
-            for (std::size_t k = 0; k < size; ++k) turned(c, k) = sum_products(&spot(k, 0), &means.across(c, 0), size);
-        float* sums = &of_pairs(pair, 0);
+        Array<float, 2> spot({size, in_lanes(size)}), summed_down({down_all, in_lanes(size)});
+        for (std::size_t row = 0; row < size; ++row)
+            for (std::size_t k = 0; k < size; ++k)
+                spot(row, k) = static_cast<float>(radiance) * std::norm(film(row, k));
+        multiply(means.down, spot, summed_down);
+        const View<float, 2> sums{&of_pairs(pair, 0, 0), {down_all, across_padded}};
+        multiply(summed_down, means.across, sums);
         double followed = 0;
-        for (std::size_t r = 0; r < down_all; ++r)
-            for (std::size_t c = 0; c < across_all; ++c) {
-                *sums = sum_products(&means.down(r, 0), &turned(c, 0), size);
-                followed += *sums++;
-            }
+        for (const float sum : sums.elements()) followed += sum;
         tails_[pair] = static_cast<float>(radiance * scale * light -
                                           followed / static_cast<double>(columns.places.size() * rows.places.size()));
     });
     weights_ = Array<float, 4>({rows.places.size(), columns.places.size(), taps(), taps() * pairs.padded_count()});
     core::parallel_for(down_all, [&](std::size_t r) {
         constexpr std::size_t together = 16;  // numbers of a cache line
-        for (std::size_t first = 0; first < across_all; first += together)
-            for (std::size_t pair = 0; pair < list.size(); ++pair)
-                for (std::size_t c = first; c < std::min(first + together, across_all); ++c)
-                    weights_(r / taps(), c / taps(), r % taps(), c % taps() * pairs.padded_count() + pair) =
-                        of_pairs(pair, r * across_all + c);
+        for (std::size_t first = 0; first < across_all; first += together) {
+            const std::size_t count = std::min(together, across_all - first);
+            std::array<float*, together> to{};
+            for (std::size_t i = 0; i < count; ++i)
+                to[i] = &weights_(r / taps(), (first + i) / taps(), r % taps(),
+                                  (first + i) % taps() * pairs.padded_count());
+            for (std::size_t pair = 0; pair < list.size(); ++pair) {
+                const float* from = &of_pairs(pair, r, first);
+                for (std::size_t i = 0; i < count; ++i) to[i][pair] = from[i];
+            }
+        }
     });
 }
 

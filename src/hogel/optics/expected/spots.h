@@ -59,7 +59,8 @@ std::size_t max_places(const Pairs& pairs, std::size_t reach);
 
 /// The means of a spot's film over the pixels at each place, the same wherever the spot is.
 struct PixelMeans {
-    Array<float, 2> across, down;  ///< [place · hogel][sample of the film]
+    Array<float, 2> down;    ///< [place · hogel][sample of the film]
+    Array<float, 2> across;  ///< [sample of the film][place · hogel], with zeros up to a multiple of SpotBasis::lanes
 
     PixelMeans(const HogelGrid& hogels, const Camera& camera, double half_band, const PixelPlaces& columns,
                const PixelPlaces& rows);
