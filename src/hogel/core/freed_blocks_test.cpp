@@ -113,8 +113,9 @@ bool has_marks(const std::byte* block, std::size_t bytes, int mark) {
 // Where the sizes of each round fit no block of the last one.
 TEST(FreedBlocks, pages_are_cut_and_joined_and_no_new_ones_are_taken) {
     FreedBlocks blocks(1000 * mega);
-    const std::vector<std::vector<std::size_t>> rounds = {{40, 40},     {6, 50, 24},   {80},
-                                                          {26, 26, 28}, {4, 4, 4, 68}, {40, 40}};
+    std::vector<std::vector<std::size_t>> rounds = {{40, 40}};
+    for (int turn = 0; turn < 10; ++turn)
+        rounds.insert(rounds.end(), {{6, 50, 24}, {80}, {26, 26, 28}, {4, 4, 4, 68}, {40, 40}});
     std::size_t peak = 0;
     long before = 0;
     for (const auto& sizes : rounds) {
