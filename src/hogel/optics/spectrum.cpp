@@ -211,46 +211,43 @@ Grid grid_of(const Spectrum& spectrum, std::size_t width, std::size_t height) {
 
 namespace {
 
-// From a spectrum to the samples of its wave: first along columns, then along rows.
+// From a spectrum to the samples of its wave: first along columns, after which its own samples are not needed, then
+// along rows.
 class ToWave {
   public:
     ToWave(const Spectrum& spectrum, std::size_t width, std::size_t height)
-        : width_(width),
-          height_(height),
-          columns_(spectrum.width()),
-          rows_(spectrum.height()),
-          first_column_(spectrum.first_column),
-          first_row_(spectrum.first_row) {
-        if (width < columns_ || height < rows_)
+        : spectrum_(spectrum), width_(width), height_(height), columns_(spectrum.width()) {
+        const std::size_t rows = spectrum.height();
+        if (width < columns_ || height < rows)
             throw Error(ErrorCode::usage,
-                        fmt::format("{}x{} samples are too few for {}x{} frequencies", width, height, columns_, rows_));
+                        fmt::format("{}x{} samples are too few for {}x{} frequencies", width, height, columns_, rows));
         const Grid& window = spectrum.window;
-        centre_x_ = centring(first_column_, columns_, width, 1, 1 / (window.size_x() * window.size_y()));
-        centre_y_ = centring(first_row_, rows_, height, 1, 1);
+        centre_x_ = centring(spectrum.first_column, columns_, width, 1, 1 / (window.size_x() * window.size_y()));
+        centre_y_ = centring(spectrum.first_row, rows, height, 1, 1);
     }
 
     std::size_t columns() const { return columns_; }
 
     // The wave without samples, of which a process will have some rows.
-    Wave frame(const Spectrum& spectrum, const core::LineRange& rows) const {
-        Wave wave({grid_of(spectrum, width_, height_), spectrum.wavelength}, core::PagedArray(), rows);
-        wave.carrier_x = spectrum.frequency_x(static_cast<double>(columns_ / 2));
-        wave.carrier_y = spectrum.frequency_y(static_cast<double>(rows_ / 2));
+    Wave frame(const core::LineRange& rows) const {
+        Wave wave({grid_of(spectrum_, width_, height_), spectrum_.wavelength}, core::PagedArray(), rows);
+        wave.carrier_x = spectrum_.frequency_x(static_cast<double>(columns_ / 2));
+        wave.carrier_y = spectrum_.frequency_y(static_cast<double>(centre_y_.size() / 2));
         return wave;
     }
 
-    // Of some columns.
+    // Transforms some columns.
     // @param place  where the numbers of a row go from a column on
     template <class Place>
-    void along_columns(const Spectrum& spectrum, const core::LineRange& across, const Place& place) const {
+    void along_columns(const core::LineRange& across, const Place& place) const {
         const math::Fft1 down(height_);
         core::parallel_for(blocks_of(across.count), [&](std::size_t block) {
             const std::size_t x0 = across.first + block * lines_together,
                               count = std::min(lines_together, across.end() - x0);
             Array<Complex, 2> lines({count, stride_of(height_)});
-            for (std::size_t r = 0; r < rows_; ++r) {
-                const std::size_t at = wrapped(first_row_ + static_cast<std::ptrdiff_t>(r), height_);
-                const Complex* const row = &spectrum.samples.at(r, x0);
+            for (std::size_t r = 0; r < centre_y_.size(); ++r) {
+                const std::size_t at = wrapped(spectrum_.first_row + static_cast<std::ptrdiff_t>(r), height_);
+                const Complex* const row = &spectrum_.samples.at(r, x0);
                 for (std::size_t i = 0; i < count; ++i)
                     lines(i, at) = times(row[i], times(centre_y_[r], centre_x_[x0 + i]));
             }
@@ -262,7 +259,15 @@ class ToWave {
         });
     }
 
-    // Of some rows, in place.
+    // Transforms the columns with those of the other processes of a team, and gives each of them some rows.
+    core::SharedPlane to_rows(const ScratchOptions& scratch, Team* team) const {
+        core::SharedPlane plane(height_, columns_, lines_together, columns_of_waves_together, scratch, team);
+        along_columns(plane.own_columns(), [&](std::size_t y, std::size_t x) { return &plane.at(y, x); });
+        plane.to_rows(height_);
+        return plane;
+    }
+
+    // Transforms some rows, in place.
     // @param row  the place of a row, which begins with what along_columns() has made of it
     template <class Row>
     void along_rows(const core::LineRange& rows, const Row& row) const {
@@ -272,24 +277,17 @@ class ToWave {
             for (std::size_t i = block * lines_together; i < std::min((block + 1) * lines_together, rows.count); ++i) {
                 std::ranges::fill(line.elements(), Complex(0));
                 Complex* const samples = row(rows.first + i);
-                put_frequencies(samples, columns_, line.data(), width_, first_column_);
+                put_frequencies(samples, columns_, line.data(), width_, spectrum_.first_column);
                 along.backward(line.data());
                 std::copy_n(line.data(), width_, samples);
             }
         });
     }
 
-    // The plane of the columns' transforms, in rows, of which each process of a team has some.
-    core::SharedPlane in_rows(const Spectrum& spectrum, const ScratchOptions& scratch, Team* team) const {
-        core::SharedPlane kept(height_, columns_, lines_together, columns_of_waves_together, scratch, team);
-        along_columns(spectrum, kept.own_columns(), [&](std::size_t y, std::size_t x) { return &kept.at(y, x); });
-        return kept;
-    }
-
   private:
-    std::size_t width_, height_, columns_, rows_;
-    std::ptrdiff_t first_column_, first_row_;
-    std::vector<Complex> centre_x_, centre_y_;
+    const Spectrum& spectrum_;
+    std::size_t width_, height_, columns_;
+    std::vector<Complex> centre_x_, centre_y_;  // [column], [row]
 };
 
 core::PagedArray samples_of(std::size_t rows, std::size_t width, const ScratchOptions& scratch) {
@@ -328,20 +326,18 @@ class RowsForOthers {
 Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch,
              Team* team) {
     const ToWave to_wave(spectrum, width, height);
-    Wave wave = to_wave.frame(spectrum, {0, height});
+    Wave wave = to_wave.frame({0, height});
     const auto row = [&](std::size_t y) { return &wave.samples.view()(y - wave.rows.first, 0); };
     if (team == nullptr) {
         // The columns, too, are transformed in place, in the left part of the result.
         wave.samples = samples_of(height, width, scratch);
-        to_wave.along_columns(spectrum, {0, to_wave.columns()},
-                              [&](std::size_t y, std::size_t x) { return row(y) + x; });
+        to_wave.along_columns({0, to_wave.columns()}, [&](std::size_t y, std::size_t x) { return row(y) + x; });
         to_wave.along_rows(wave.rows, row);
         return wave;
     }
-    core::SharedPlane kept = to_wave.in_rows(spectrum, scratch, team);
+    const core::SharedPlane kept = to_wave.to_rows(scratch, team);
     wave.rows = kept.own_rows(height);
     wave.samples = samples_of(wave.rows.count, width, scratch);
-    kept.to_rows(height);
     to_wave.along_rows(wave.rows, [&](std::size_t y) {
         kept.get_row(y, row(y));
         return row(y);
@@ -352,10 +348,9 @@ Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, co
 Wave wave_of(Spectrum spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch, Team& team,
              const std::function<core::LineRange(std::size_t)>& wanted) {
     const ToWave to_wave(spectrum, width, height);
-    core::SharedPlane kept = to_wave.in_rows(spectrum, scratch, &team);
-    Wave wave = to_wave.frame(spectrum, wanted(team.rank()));
+    const core::SharedPlane kept = to_wave.to_rows(scratch, &team);
+    Wave wave = to_wave.frame(wanted(team.rank()));
     spectrum.samples = core::SharedPlane();
-    kept.to_rows(height);
     // Own rows before and after those that this process wants itself.
     const core::LineRange own = kept.own_rows(height);
     const auto for_others = [&](const core::LineRange& some) {

@@ -64,27 +64,28 @@ class Averaged final : public LightFieldSource {
                 View<double, 2> sums) const {
         std::fill_n(sums.data(), grid_.directions(), 0.0);
         const Shape<2> shape{grid_.directions_v * samples_.direction, grid_.directions_u * samples_.direction};
-        for (std::size_t fine_t = j * samples_.hogel; fine_t < (j + 1) * samples_.hogel; ++fine_t)
-            for (std::size_t fine_s = i * samples_.hogel; fine_s < (i + 1) * samples_.hogel; ++fine_s)
-                render::add_cells({&fine.radiance(channel, fine_t, fine_s, 0, 0), shape}, samples_.direction, sums);
-    }
-
-    void min_depths(const LightFieldTile& fine, std::size_t j, std::size_t i, std::size_t v, float* out) const {
-        std::fill_n(out, grid_.directions_u, std::numeric_limits<float>::infinity());
-        for_rows(j, i, v, [&](std::size_t fine_t, std::size_t fine_s, std::size_t fine_v) {
-            const float* in = &fine.depth(fine_t, fine_s, fine_v, 0);
-            for (std::size_t k = 0; k < grid_.directions_u * samples_.direction; ++k)
-                out[k / samples_.direction] = std::min(out[k / samples_.direction], in[k]);
+        for_hogels(j, i, [&](std::size_t fine_t, std::size_t fine_s) {
+            render::add_cells({&fine.radiance(channel, fine_t, fine_s, 0, 0), shape}, samples_.direction, sums);
         });
     }
 
-    // Visits the rows of fine samples in the cells of hogel (j, i) and row v of its directions, in a fixed order.
+    void min_depths(const LightFieldTile& fine, std::size_t j, std::size_t i, std::size_t v, float* out) const {
+        const std::size_t n = samples_.direction;
+        std::fill_n(out, grid_.directions_u, std::numeric_limits<float>::infinity());
+        for_hogels(j, i, [&](std::size_t fine_t, std::size_t fine_s) {
+            for (std::size_t fine_v = v * n; fine_v < (v + 1) * n; ++fine_v) {
+                const float* in = &fine.depth(fine_t, fine_s, fine_v, 0);
+                for (std::size_t k = 0; k < grid_.directions_u * n; ++k) out[k / n] = std::min(out[k / n], in[k]);
+            }
+        });
+    }
+
+    // Visits the fine hogels in the cell of hogel (j, i), in a fixed order.
     template <class Visit>
-    void for_rows(std::size_t j, std::size_t i, std::size_t v, const Visit& visit) const {
+    void for_hogels(std::size_t j, std::size_t i, const Visit& visit) const {
         for (std::size_t fine_t = j * samples_.hogel; fine_t < (j + 1) * samples_.hogel; ++fine_t)
             for (std::size_t fine_s = i * samples_.hogel; fine_s < (i + 1) * samples_.hogel; ++fine_s)
-                for (std::size_t fine_v = v * samples_.direction; fine_v < (v + 1) * samples_.direction; ++fine_v)
-                    visit(fine_t, fine_s, fine_v);
+                visit(fine_t, fine_s);
     }
 
     std::shared_ptr<const LightFieldSource> fine_;

@@ -221,8 +221,7 @@ class Photographer {
             part.width = std::min(block_across, plane.width - part.x0);
             part.height = std::min(block_down, first_row_ + count - part.y0);
             auto powers = powers_.take();
-            const std::size_t samples = hogels_.samples,
-                              size = (samples + SpotBasis::lanes - 1) / SpotBasis::lanes * SpotBasis::lanes * samples;
+            const std::size_t samples = hogels_.samples, size = SpotBasis::in_lanes(samples) * samples;
             if (powers->size() == 0) *powers = Array<float, 2>({block_across * block_down, size});
             waves_.read_powers(part, {powers->data(), {part.samples(), size}});
             for (ExpectedEye& eye : eyes_)

@@ -23,7 +23,8 @@ class SpotNodes {
 
     /// Waves that are processed together; weights are zero beyond count().
     static constexpr std::size_t lanes = 16;
-    std::size_t padded_count() const { return (count() + lanes - 1) / lanes * lanes; }
+    static constexpr std::size_t in_lanes(std::size_t numbers) { return (numbers + lanes - 1) / lanes * lanes; }
+    std::size_t padded_count() const { return in_lanes(count()); }
     /// Points of the pupil at which spots are compared.
     std::size_t points() const;
     /// Products that a SpotBasis of these waves takes.

@@ -302,20 +302,12 @@ double Spots::products(const HogelGrid& hogels, const Camera& camera, const Pair
            waves * (across + down) * size * 2 * static_cast<double>(frame.half);
 }
 
-namespace {
-
-std::size_t in_lanes(std::size_t numbers) {
-    return (numbers + SpotBasis::lanes - 1) / SpotBasis::lanes * SpotBasis::lanes;
-}
-
-}  // namespace
-
 PixelMeans::PixelMeans(const HogelGrid& hogels, const Camera& camera, double half_band, const PixelPlaces& columns,
                        const PixelPlaces& rows) {
     const std::size_t reach = Spots::reach(hogels, camera, half_band);
     const SpotFilm frame(camera, half_band, reach, std::max(columns.width, rows.width));
     const Array<float, 2> by_place = pixel_means(columns, reach, frame.size, frame.period, 2 * frame.half);
-    across = Array<float, 2>({frame.size, in_lanes(by_place.extent(0))});
+    across = Array<float, 2>({frame.size, SpotBasis::in_lanes(by_place.extent(0))});
     for (std::size_t place = 0; place < by_place.extent(0); ++place)
         for (std::size_t k = 0; k < frame.size; ++k) across(k, place) = by_place(place, k);
     down = pixel_means(rows, reach, frame.size, frame.period, 2 * frame.half);
@@ -356,7 +348,7 @@ Spots::Spots(const HogelGrid& hogels, const Camera& camera, const SpotBasis& bas
         float light = 0;
         for (std::size_t row = 0; row < side; ++row) light += std::norm(down(qy, row)) * passing(qx, row);
         fft.backward(film);
-        Array<float, 2> spot({size, in_lanes(size)}), summed_down({down_all, in_lanes(size)});
+        Array<float, 2> spot({size, SpotBasis::in_lanes(size)}), summed_down({down_all, spot.extent(1)});
         for (std::size_t row = 0; row < size; ++row)
             for (std::size_t k = 0; k < size; ++k)
                 spot(row, k) = static_cast<float>(radiance) * std::norm(film(row, k));

@@ -30,7 +30,7 @@ struct Pairs {
     std::vector<Range> of_column;  ///< [q_x]
     std::size_t count = 0;         ///< in all
     /// With zeros, so that those of each hogel begin at a cache line.
-    std::size_t padded_count() const { return (count + SpotBasis::lanes - 1) / SpotBasis::lanes * SpotBasis::lanes; }
+    std::size_t padded_count() const { return SpotBasis::in_lanes(count); }
 
     Pairs(const SpotNodes& basis, double half_band);
 };
