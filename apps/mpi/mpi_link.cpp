@@ -24,6 +24,9 @@ constexpr std::chrono::seconds patience{5};
 // How long messages on their way are waited for.
 constexpr int tries_without_pause = 1000;
 constexpr std::chrono::microseconds between_tries{50};
+// Memory of messages that have left is kept for those that arrive, because that of a new string is cleared: that of so
+// many, of these sizes.
+constexpr std::size_t max_spare = 8, min_spare_bytes = std::size_t{1} << 16, max_spare_bytes = std::size_t{1} << 21;
 
 // What every process of this machine says of itself, in the order of their ranks.
 template <class Value>
@@ -90,8 +93,23 @@ void MpiLink::forget_what_has_left() {
     for (auto each = sent_.begin(); each != sent_.end();) {
         int left = 0;
         MPI_Test(&each->request, &left, MPI_STATUS_IGNORE);
+        if (left != 0) keep_memory(std::move(each->bytes));
         each = left != 0 ? sent_.erase(each) : std::next(each);
     }
+}
+
+void MpiLink::keep_memory(std::string bytes) {
+    if (spare_.size() < max_spare && bytes.size() >= min_spare_bytes && bytes.size() <= max_spare_bytes)
+        spare_.push_back(std::move(bytes));
+}
+
+std::string MpiLink::room_for(std::size_t bytes) {
+    const auto spare = std::ranges::find_if(spare_, [&](const std::string& each) { return each.size() >= bytes; });
+    if (bytes < min_spare_bytes || spare == spare_.end()) return std::string(bytes, '\0');
+    std::string room = std::move(*spare);
+    spare_.erase(spare);
+    room.resize(bytes);
+    return room;
 }
 
 void MpiLink::send(std::size_t to, Kind kind, std::string bytes) {
@@ -115,7 +133,7 @@ std::optional<Message> MpiLink::receive(Kind kind) {
     MPI_Improbe(MPI_ANY_SOURCE, static_cast<int>(kind), all_, &there, &message, &status);
     if (there == 0) return std::nullopt;
     MPI_Get_count(&status, MPI_BYTE, &bytes);
-    Message received{static_cast<std::size_t>(status.MPI_SOURCE), std::string(static_cast<std::size_t>(bytes), '\0')};
+    Message received{static_cast<std::size_t>(status.MPI_SOURCE), room_for(static_cast<std::size_t>(bytes))};
     MPI_Request request = MPI_REQUEST_NULL;
     MPI_Imrecv(received.bytes.data(), bytes, MPI_BYTE, &message, &request);
     // The rest of a long message never comes from a machine that is lost: other threads go on.

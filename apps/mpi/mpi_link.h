@@ -41,12 +41,15 @@ class MpiLink final : public Link {
         MPI_Request request = MPI_REQUEST_NULL;
     };
     void forget_what_has_left();
+    void keep_memory(std::string bytes);
+    std::string room_for(std::size_t bytes);
 
     std::mutex mutex_;
     MPI_Comm all_ = MPI_COMM_NULL;
     std::size_t rank_ = 0, size_ = 1, threads_ = 1;
     std::vector<RankProcess> on_this_machine_;
     std::list<Sent> sent_;
+    std::vector<std::string> spare_;
 };
 
 }  // namespace hogel::mpi

@@ -42,23 +42,20 @@ double dot(const Numbers& a, const Numbers& b, Team* team) {
     });
 }
 
-// a += factor · b
-void add(Numbers& a, double factor, const Numbers& b) {
+// result = a + factor · b; any two may be the same array.
+void add(const Numbers& a, double factor, const Numbers& b, Numbers& result) {
     core::parallel_for(a.extent(0), [&](std::size_t y) {
-        for (std::size_t x = 0; x < a.extent(1); ++x) a(y, x) += static_cast<float>(factor) * b(y, x);
+        for (std::size_t x = 0; x < a.extent(1); ++x) result(y, x) = a(y, x) + static_cast<float>(factor) * b(y, x);
     });
 }
 
-void multiply(Numbers& a, double factor) {
-    core::parallel_for(a.extent(0), [&](std::size_t y) {
-        for (float& value : a[y].elements()) value *= static_cast<float>(factor);
-    });
-}
+void add(Numbers& a, double factor, const Numbers& b) { add(a, factor, b, a); }
 
-Numbers difference(const Numbers& a, const Numbers& b) {
-    Numbers result = a;
-    add(result, -1, b);
-    return result;
+// result = factor · a
+void multiply(const Numbers& a, double factor, Numbers& result) {
+    core::parallel_for(a.extent(0), [&](std::size_t y) {
+        for (std::size_t x = 0; x < a.extent(1); ++x) result(y, x) = static_cast<float>(factor) * a(y, x);
+    });
 }
 
 // The error of the pattern e^{iφ}, and its gradient ∂ε/∂φ = −Im(conj(g) e^{iφ}) with g the error's derivative by the
@@ -149,27 +146,38 @@ class Curvature {
   public:
     explicit Curvature(Team* team) : team_(team) {}
 
-    void remember(Numbers step, Numbers change) {
+    // Takes both, and leaves arrays in their place with any numbers: those of the oldest pair, if it is forgotten.
+    void remember(Numbers& step, Numbers& change) {
         const double product = dot(step, change, team_);
         if (!(product > 0)) return;
-        pairs_.push_back({std::move(step), std::move(change), product});
-        if (pairs_.size() > max_pairs) pairs_.pop_front();
+        Pair pair;
+        if (pairs_.size() == max_pairs) {
+            pair = std::move(pairs_.front());
+            pairs_.pop_front();
+        } else {
+            pair = {Numbers(step.shape()), Numbers(change.shape()), 0};
+        }
+        std::swap(pair.step, step);
+        std::swap(pair.change, change);
+        pair.product = product;
+        pairs_.push_back(std::move(pair));
     }
 
     // The direction of descent that belongs to a gradient.
     // @param samples  of all processes
-    Numbers direction(const Numbers& gradient, double samples) const {
-        Numbers d = gradient;
+    void find_direction(const Numbers& gradient, double samples, Numbers& d) const {
+        multiply(gradient, 1, d);
         std::vector<double> along(pairs_.size());
         for (std::size_t i = pairs_.size(); i-- > 0;) {
             along[i] = dot(pairs_[i].step, d, team_) / pairs_[i].product;
             add(d, -along[i], pairs_[i].change);
         }
-        multiply(d, pairs_.empty() ? -first_step / std::max(std::sqrt(dot(gradient, gradient, team_) / samples), 1e-30)
-                                   : -pairs_.back().product / dot(pairs_.back().change, pairs_.back().change, team_));
+        const double scale =
+            pairs_.empty() ? -first_step / std::max(std::sqrt(dot(gradient, gradient, team_) / samples), 1e-30)
+                           : -pairs_.back().product / dot(pairs_.back().change, pairs_.back().change, team_);
+        multiply(d, scale, d);
         for (std::size_t i = 0; i < pairs_.size(); ++i)
             add(d, -along[i] - dot(pairs_[i].change, d, team_) / pairs_[i].product, pairs_[i].step);
-        return d;
     }
 
   private:
@@ -202,7 +210,7 @@ Array<float, 2> descend_phases(View<const Complex, 2> field, const FieldBand& ba
     PatternError error(band, field.shape(), team);
     const core::LineRange own = error.own_rows();
     const Shape<2> shape{own.count, field.extent(1)};
-    Numbers phases(shape), gradient(shape), next_gradient(shape);
+    Numbers phases(shape), gradient(shape), next(shape), next_gradient(shape), step(shape);
     core::parallel_for(own.count, [&](std::size_t y) {
         for (std::size_t x = 0; x < field.extent(1); ++x) phases(y, x) = std::arg(field(own.first + y, x));
     });
@@ -212,20 +220,24 @@ Array<float, 2> descend_phases(View<const Complex, 2> field, const FieldBand& ba
     Curvature curvature(team);
     for (std::size_t k = 0; k < limit; ++k) {
         progress.report(static_cast<double>(k) / static_cast<double>(limit));
-        Numbers step = curvature.direction(gradient, static_cast<double>(field.size()));
+        curvature.find_direction(gradient, static_cast<double>(field.size()), step);
         const double slope = dot(gradient, step, team);
         if (!(slope < 0)) break;
-        Numbers next = phases;
-        add(next, 1, step);
-        double then = error.find(next, next_gradient), length = 1;
+        double length = 1;
+        const auto error_of_next = [&] {
+            add(phases, length, step, next);
+            return error.find(next, next_gradient);
+        };
+        double then = error_of_next();
         for (int i = 0; i < max_halvings && then > now + sufficient * length * slope; ++i) {
             length *= 0.5;
-            next = phases;
-            add(next, length, step);
-            then = error.find(next, next_gradient);
+            then = error_of_next();
         }
         if (!(then < now)) break;
-        curvature.remember(difference(next, phases), difference(next_gradient, gradient));
+        // The step as it was rounded, and the change, in the place of what is no longer needed.
+        add(next, -1, phases, step);
+        add(next_gradient, -1, gradient, gradient);
+        curvature.remember(step, gradient);
         std::swap(phases, next);
         std::swap(gradient, next_gradient);
         now = then;
