@@ -119,6 +119,16 @@ std::vector<FreedBlocks::Pages> FreedBlocks::take_pages(std::size_t bytes) {
     return taken;
 }
 
+// Kept pages in a row rather than new ones, unless more than half of them would be idle.
+void* FreedBlocks::take_pages_for_block(std::size_t bytes) {
+    const std::size_t pages = whole(bytes, huge_page);
+    if (2 * bytes < pages || pages_.lower_bound(pages) == pages_.end()) return nullptr;
+    std::byte* const memory = take_pages(pages).front().first;
+    in_use_ += pages;
+    used_pages_.emplace(memory, pages);
+    return memory;
+}
+
 // Bytes that may be kept beside so many in use.
 std::size_t FreedBlocks::can_stay(std::size_t in_use) const {
     return spare_ + (max_in_use_ > in_use ? max_in_use_ - in_use : 0);
@@ -151,6 +161,7 @@ void* FreedBlocks::allocate_block(std::size_t bytes) {
     {
         const std::lock_guard lock(mutex_);
         if (void* memory = take_block(bytes, max_idle)) return memory;
+        if (void* memory = take_pages_for_block(bytes)) return memory;
         // Rather than that a larger block goes, it is used.
         const std::size_t needed = in_use_ + bytes;
         if (kept_ > can_stay(needed))

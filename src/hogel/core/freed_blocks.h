@@ -60,6 +60,7 @@ class FreedBlocks {
     void* allocate_pages(std::size_t bytes);
     void* take_block(std::size_t bytes, double idle);
     std::vector<Pages> take_pages(std::size_t bytes);
+    void* take_pages_for_block(std::size_t bytes);
     Surplus overflow(std::size_t max_kept);
     std::size_t can_stay(std::size_t in_use) const;
 
