@@ -72,7 +72,7 @@ void for_rows(const Shape<2>& shape, const Element& element) {
 
 // Scales the field so that |F| <= 1 except for the share `clip` of its samples, whose modulus is clipped to 1.
 void normalise(Array<Complex, 2>& field, double clip) {
-    std::vector<float> moduli(field.size());
+    std::vector<float, CacheLineAllocator<float>> moduli(field.size());
     for_rows(field.shape(), [&](std::size_t i) { moduli[i] = std::abs(field.data()[i]); });
     std::erase(moduli, 0.0f);
     if (moduli.empty()) throw Error(ErrorCode::usage, "the hologram is dark where the modulator is");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "hogel/core/pieces.h"
 #include "hogel/core/shared_order.h"
 #include "hogel/core/shared_tiles.h"
 #include "hogel/hologram/patterns/pattern_parts.h"
@@ -7,9 +8,7 @@
 namespace hogel {
 namespace {
 
-void put(core::MessageWriter& message, const Pattern& pattern) {
-    message.put(pattern.values);
-    message.put(pattern.levels);
+void put_numbers(core::MessageWriter& message, const Pattern& pattern) {
     message.put(pattern.efficiency);
     message.put(pattern.light_field_efficiency);
     message.put(pattern.reference_angle);
@@ -17,27 +16,49 @@ void put(core::MessageWriter& message, const Pattern& pattern) {
     message.put(pattern.correlation);
 }
 
-Pattern get(core::MessageReader& message) {
-    Pattern pattern;
-    pattern.values = message.get_array<float, 2>();
-    pattern.levels = message.get_array<std::uint8_t, 2>();
+void get_numbers(core::MessageReader& message, Pattern& pattern) {
     pattern.efficiency = message.get<double>();
     pattern.light_field_efficiency = message.get<double>();
     pattern.reference_angle = message.get<double>();
     pattern.iterations = message.get<std::size_t>();
     pattern.correlation = message.get<double>();
+}
+
+void put(core::MessageWriter& message, const Pattern& pattern) {
+    message.put(pattern.values);
+    message.put(pattern.levels);
+    put_numbers(message, pattern);
+}
+
+Pattern get(core::MessageReader& message) {
+    Pattern pattern;
+    pattern.values = message.get_array<float, 2>();
+    pattern.levels = message.get_array<std::uint8_t, 2>();
+    get_numbers(message, pattern);
     return pattern;
 }
 
-std::string to_message(const Pattern& pattern) {
+// The arrays follow in pieces.
+void send(Team& team, std::size_t process, const Pattern& pattern) {
     core::MessageWriter message;
-    put(message, pattern);
-    return message.take();
+    message.put(pattern.values.shape());
+    message.put(pattern.levels.shape());
+    put_numbers(message, pattern);
+    team.send_to(process, message.take());
+    core::send_in_pieces<float>(team, process, pattern.values.elements());
+    core::send_in_pieces<std::uint8_t>(team, process, pattern.levels.elements());
 }
 
-Pattern from_message(const std::string& bytes) {
+Pattern receive(Team& team, std::size_t process) {
+    const std::string bytes = team.receive_from(process);
     core::MessageReader message(bytes);
-    return get(message);
+    Pattern pattern;
+    pattern.values = Array<float, 2>(message.get<Shape<2>>());
+    pattern.levels = Array<std::uint8_t, 2>(message.get<Shape<2>>());
+    get_numbers(message, pattern);
+    core::receive_in_pieces(team, process, pattern.values.elements());
+    core::receive_in_pieces(team, process, pattern.levels.elements());
+    return pattern;
 }
 
 }  // namespace
@@ -78,10 +99,10 @@ std::vector<Pattern> encode_patterns(std::span<const std::shared_ptr<const Field
         core::MessageReader message(lists[process]);
         for (const std::size_t i : message.get_vector<std::size_t>()) {
             if (process != all->rank())
-                patterns[i] = from_message(all->receive_from(process));
+                patterns[i] = receive(*all, process);
             else
                 for (std::size_t other = 0; other < all->size(); ++other)
-                    if (other != process) all->send_to(other, to_message(patterns[i]));
+                    if (other != process) send(*all, other, patterns[i]);
         }
     }
     for (std::size_t i = fields.size() - left; i < fields.size(); ++i)
