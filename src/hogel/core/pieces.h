@@ -37,4 +37,11 @@ void receive_in_pieces(Team& team, std::size_t process, std::span<Number> number
     }
 }
 
+/// Gives all processes of a team the numbers of the first one.
+template <class Number>
+void share_in_pieces(Team& team, std::span<Number> numbers) {
+    if (!team.is_first()) return receive_in_pieces(team, 0, numbers);
+    for (std::size_t process = 1; process < team.size(); ++process) send_in_pieces<Number>(team, process, numbers);
+}
+
 }  // namespace hogel::core

@@ -116,33 +116,51 @@ bool has_colour(std::span<const PictureShares> shares, std::size_t colour) {
     });
 }
 
-// Makes the pictures that this process makes by itself, and divides the colours that are left by what each process then
-// has to do.
-std::vector<std::vector<Image>> photograph_alone(Team& team, const Colours& colours,
-                                                 std::span<const PictureShares> shares,
+// Makes the pictures that this process makes by itself, and divides what is left by what each process then has to do:
+// pictures among the processes, or rows of colours that all make together.
+// @param shares  of the processes; gets those of the pictures that were left
+// @param left    colours
+std::vector<std::vector<Image>> photograph_alone(Team& team, const Colours& colours, std::vector<PictureShares>& shares,
                                                  std::span<const std::size_t> left, const std::vector<double>& speeds,
                                                  std::optional<core::UnequalParts>& parts, const Progress& progress) {
     const auto& options = std::get<PhotographOptions>(colours.with);
+    const PictureShares pictures_left = pipeline::take_divided(shares, colours.cameras.size());
     std::optional<core::WorkBefore> before;
-    if (!left.empty() && std::ranges::none_of(shares, &PictureShares::empty))
+    if (!(left.empty() && pictures_left.empty()) && std::ranges::none_of(shares, &PictureShares::empty))
         before.emplace(team, pipeline::costs_of(shares, colours.holograms, colours.cameras, options), speeds);
     const PictureShares& own = shares[team.rank()];
     std::vector<std::vector<Image>> seen;
-    for (const PictureShare& share : own) {
-        const core::AloneScope alone;
-        const Progress part = progress.part(seen.size(), colours.holograms.size());
-        const auto report = [&](double fraction) {
-            const double done = static_cast<double>(seen.size()) + fraction;
-            if (before) before->report(done / static_cast<double>(own.size()));
-            return part(fraction);
-        };
-        seen.push_back(colours.photograph(share, Progress(part.stop(), report)));
-    }
+    const auto photograph_own = [&](std::size_t count) {
+        while (seen.size() < count) {
+            const core::AloneScope alone;
+            const Progress part =
+                progress.part(std::min(seen.size(), colours.holograms.size() - 1), colours.holograms.size());
+            const auto report = [&](double fraction) {
+                const double done = static_cast<double>(seen.size()) + fraction;
+                if (before) before->report(done / static_cast<double>(count));
+                return part(fraction);
+            };
+            seen.push_back(colours.photograph(own[seen.size()], Progress(part.stop(), report)));
+        }
+    };
+    photograph_own(own.size());
     if (!before) return seen;
+    const std::vector<double> to_do = before->finish();
+    before.reset();
+    const auto parts_of = [&](double work) { return core::parts_after(speeds, to_do, work); };
+    if (!pictures_left.empty()) {
+        const double work =
+            pipeline::costs_of({&pictures_left, 1}, colours.holograms, colours.cameras, options).front();
+        const std::vector<PictureShares> more =
+            pipeline::divided(pictures_left, parts_of(work), colours.holograms, colours.cameras, options);
+        for (std::size_t process = 0; process < shares.size(); ++process)
+            shares[process].insert(shares[process].end(), more[process].begin(), more[process].end());
+        photograph_own(own.size());
+        return seen;
+    }
     PictureShares rest;
     for (const std::size_t colour : left) rest.push_back(colours.all_of(colour));
-    const double rows = pipeline::cost_of_rows(rest, colours.holograms, colours.cameras, options);
-    parts.emplace(speeds, core::parts_after(speeds, before->finish(), rows));
+    parts.emplace(speeds, parts_of(pipeline::cost_of_rows(rest, colours.holograms, colours.cameras, options)));
     return seen;
 }
 
@@ -189,7 +207,7 @@ std::vector<Image> photograph_colours(const Fields& holograms, std::span<const C
         }
     }
     pipeline::gather(shares, seen, pictures);
-    for (Image& picture : pictures) core::share_result(picture.pixels, core::sent_array<float, 3>());
+    pipeline::share(pictures);
     return pictures;
 }
 

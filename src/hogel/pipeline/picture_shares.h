@@ -33,6 +33,16 @@ std::vector<PictureShares> shares_of_processes(const Fields& holograms, std::spa
                                                std::span<const Camera> cameras, const WaveCamera& with,
                                                std::span<const double> speeds);
 
+/// Divides pictures among processes by their cost, in order.
+/// @param parts  of the processes; their sum is 1
+std::vector<PictureShares> divided(const PictureShares& pictures, std::span<const double> parts,
+                                   const Fields& holograms, std::span<const Camera> cameras,
+                                   const PhotographOptions& options);
+
+/// Takes the pictures of colours that several processes share out of the shares, where each process has another colour
+/// as well: they are divided once again when it is known how long these have taken.
+PictureShares take_divided(std::vector<PictureShares>& shares, std::size_t cameras);
+
 /// What the own pictures of each process take, in any unit.
 std::vector<double> costs_of(std::span<const PictureShares> shares, const Fields& holograms,
                              std::span<const Camera> cameras, const PhotographOptions& options);
@@ -47,5 +57,8 @@ void put(const PictureShare& share, std::span<const Image> seen, std::span<Image
 /// Puts what the processes of the team have made by themselves into the first one's pictures of all colours.
 /// @param own  pictures of one colour by this process, in the order of its shares
 void gather(std::span<const PictureShares> shares, std::span<const std::vector<Image>> own, std::span<Image> pictures);
+
+/// Gives all processes of the team the first one's pictures.
+void share(std::span<Image> pictures);
 
 }  // namespace hogel::pipeline

@@ -172,9 +172,9 @@ class Curvature {
             along[i] = dot(pairs_[i].step, d, team_) / pairs_[i].product;
             add(d, -along[i], pairs_[i].change);
         }
-        const double scale =
-            pairs_.empty() ? -first_step / std::max(std::sqrt(dot(gradient, gradient, team_) / samples), 1e-30)
-                           : -pairs_.back().product / dot(pairs_.back().change, pairs_.back().change, team_);
+        const double scale = pairs_.empty()
+                                 ? -first_step / std::max(std::sqrt(dot(gradient, gradient, team_) / samples), 1e-30)
+                                 : -pairs_.back().product / dot(pairs_.back().change, pairs_.back().change, team_);
         multiply(d, scale, d);
         for (std::size_t i = 0; i < pairs_.size(); ++i)
             add(d, -along[i] - dot(pairs_[i].change, d, team_) / pairs_[i].product, pairs_[i].step);
