@@ -33,9 +33,6 @@ bool are_independent(std::span<const Camera> cameras) {
 // each process.
 constexpr double drawn_part = 0.75;
 
-// Products of a number of a hogel with a spot that take as long as reading a sample for one camera.
-constexpr double products_of_a_sample = 5;
-
 // What pictures of a colour take, in any unit.
 double cost(const PictureShare& share, const Fields& holograms, std::span<const Camera> cameras,
             const PhotographOptions& options) {
@@ -48,8 +45,9 @@ double cost(const PictureShare& share, const Fields& holograms, std::span<const 
     if (waves == nullptr) return count;
     std::vector<Camera> some;
     for (const std::size_t camera : share.cameras) some.push_back(cameras[camera]);
-    return optics::expected::work(hologram.grid(), waves->counts(), some, options).products +
-           products_of_a_sample * static_cast<double>(hologram.grid().plane.samples());
+    const optics::expected::Work work = optics::expected::work(hologram.grid(), waves->counts(), some, options);
+    return work.products + optics::expected::products_of_a_sample * static_cast<double>(work.eyes) *
+                               static_cast<double>(hologram.grid().plane.samples());
 }
 
 double cost(const PictureShares& shares, const Fields& holograms, std::span<const Camera> cameras,

@@ -2,7 +2,6 @@
 #include "hogel/hologram/eye/stereogram_eyes.h"
 
 #include <algorithm>
-#include <mutex>
 #include <numeric>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include "hogel/core/pieces.h"
 #include "hogel/core/shared_order.h"
 #include "hogel/core/speeds.h"
+#include "hogel/core/steps.h"
 #include "hogel/core/unequal_parts.h"
 
 namespace hogel::hologram::eye {
@@ -135,9 +135,7 @@ class StereogramEyes final : public optics::EyeDrawing {
     // Adds the light of parts to bands whose first row is that of the row t0 of hogels.
     void draw_into(optics::PackedBands& bands, const ColourEyes::Looks& looks,
                    const std::vector<std::vector<HogelPart>>& sets, std::size_t t0, const Progress& progress) const {
-        const std::size_t count = count_of(sets);
-        std::mutex mutex;
-        std::size_t done = 0;
+        core::Steps steps(progress, count_of(sets));
         for (const auto& set : sets)
             core::parallel_for(set.size(), [&](std::size_t i) {
                 const HogelPart& part = set[i];
@@ -147,8 +145,7 @@ class StereogramEyes final : public optics::EyeDrawing {
                     colours_[c]->add(*scratch, {part.s, part.t - t0, part.ns, part.nt},
                                      std::span(bands).subspan(c * each(), each()));
                 }
-                const std::lock_guard lock(mutex);
-                progress.report(static_cast<double>(++done) / static_cast<double>(count));
+                steps.report_one();
             });
     }
 

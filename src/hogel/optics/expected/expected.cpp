@@ -12,6 +12,7 @@
 #include "hogel/core/object_pool.h"
 #include "hogel/core/shared_order.h"
 #include "hogel/core/speeds.h"
+#include "hogel/core/steps.h"
 #include "hogel/core/unequal_parts.h"
 #include "hogel/optics/expected/kernels.h"
 #include "hogel/optics/expected/spots.h"
@@ -108,6 +109,12 @@ Exposure make_exposure(const HogelGrid& hogels, const ExpectedEye& eye, const Ca
     return exposure;
 }
 
+// Products of numbers of hogels with spots.
+double products_of_pixels(const Pairs& pairs, std::size_t reach, const Camera& camera) {
+    const auto taps = static_cast<double>(2 * reach + 1);
+    return static_cast<double>(pairs.padded_count()) * taps * taps * static_cast<double>(camera.picture.samples());
+}
+
 // Photographs for several eyes that share the reading of hogels.
 class Photographer {
   public:
@@ -143,15 +150,20 @@ class Photographer {
         const std::size_t around = reach(), height = hogels_.plane.height;
         first_row_ = first - std::min(first, around);
         const std::size_t last_row = std::min(height, end + around);
-        read(last_row - first_row_, first, end, progress.part(0.0, 0.8));
+        const double reading = reading_share();
+        read(last_row - first_row_, first, end, progress.part(0.0, reading));
+        const Progress exposing = progress.part(reading, 1.0);
+        std::size_t blocks = 0;
+        for (const ExpectedEye& eye : eyes_)
+            for (const Exposure& exposure : eye.exposures) blocks += blocks_of(exposure);
+        core::Steps steps(exposing, blocks);
         for (ExpectedEye& eye : eyes_)
             for (const Exposure& exposure : eye.exposures)
-                expose_blocks(exposure, [&](std::size_t row, std::size_t left, std::size_t right) {
+                expose_blocks(exposure, steps, [&](std::size_t row, std::size_t left, std::size_t right) {
                     const auto base = static_cast<std::size_t>(exposure.rows.base[row]);
                     if (base >= first && base < end)
                         expose_row(eye, exposure, row, left, right, pictures[exposure.camera]);
                 });
-        progress.report(1);
     }
 
     // Gives all processes of a team the pixels and tails that each has made of its own rows of hogels.
@@ -208,6 +220,18 @@ class Photographer {
     }
 
   private:
+    // The part of an exposure's time in which hogels are read.
+    double reading_share() const {
+        double reading = 0, exposing = 0;
+        const auto samples = static_cast<double>(hogels_.plane.samples() * hogels_.samples * hogels_.samples);
+        for (const ExpectedEye& eye : eyes_) {
+            reading += products_of_a_sample * samples;
+            for (const Exposure& exposure : eye.exposures)
+                exposing += products_of_pixels(*eye.pairs, exposure.spots.front().reach(), cameras_[exposure.camera]);
+        }
+        return reading / (reading + exposing);
+    }
+
     // Computes the numbers of `count` rows of hogels from first_row_ on, and the tails of rows [first, end).
     void read(std::size_t count, std::size_t first, std::size_t end, const Progress& progress) {
         const Grid& plane = hogels_.plane;
@@ -216,6 +240,7 @@ class Photographer {
                 eye.numbers = Array<float, 2>({count, plane.width * eye.pairs->padded_count()});
         const std::size_t across = (plane.width + block_across - 1) / block_across,
                           down = (count + block_down - 1) / block_down;
+        core::Steps steps(progress, across * down);
         core::parallel_for(across * down, [&](std::size_t i) {
             Region part{i % across * block_across, first_row_ + i / across * block_down, 0, 0};
             part.width = std::min(block_across, plane.width - part.x0);
@@ -227,8 +252,8 @@ class Photographer {
             for (ExpectedEye& eye : eyes_)
                 for (std::size_t h = 0; h < part.samples(); ++h)
                     add_hogel(eye, part.x0 + h % part.width, part.y0 + h / part.width, &(*powers)(h, 0), first, end);
+            steps.report_one();
         });
-        progress.report(1);
     }
 
     void add_hogel(ExpectedEye& eye, std::size_t s, std::size_t t, const float* powers, std::size_t first,
@@ -261,15 +286,21 @@ class Photographer {
     // Calls expose(row, left, right) for parts of rows of pixels, block by block, so that the numbers around a block
     // stay in the processor's cache.
     template <class Expose>
-    static void expose_blocks(const Exposure& exposure, const Expose& expose) {
+    static void expose_blocks(const Exposure& exposure, core::Steps& steps, const Expose& expose) {
         const std::size_t width = exposure.columns.base.size(), height = exposure.rows.base.size();
-        const std::size_t across = (width + pixels_across - 1) / pixels_across,
-                          down = (height + pixels_down - 1) / pixels_down;
-        core::parallel_for(across * down, [&](std::size_t i) {
+        const std::size_t across = blocks_across(exposure);
+        core::parallel_for(blocks_of(exposure), [&](std::size_t i) {
             const std::size_t left = i % across * pixels_across, top = i / across * pixels_down;
             for (std::size_t row = top; row < std::min(top + pixels_down, height); ++row)
                 if (exposure.rows.seen[row] > 0) expose(row, left, std::min(left + pixels_across, width));
+            steps.report_one();
         });
+    }
+    static std::size_t blocks_across(const Exposure& exposure) {
+        return (exposure.columns.base.size() + pixels_across - 1) / pixels_across;
+    }
+    static std::size_t blocks_of(const Exposure& exposure) {
+        return blocks_across(exposure) * ((exposure.rows.base.size() + pixels_down - 1) / pixels_down);
     }
 
     void expose_row(const ExpectedEye& eye, const Exposure& exposure, std::size_t row, std::size_t first,
@@ -381,13 +412,13 @@ Work work(const FieldGrid& hologram, const WavePowers::Counts& counts, std::span
         const double band = half_band(hogels, cameras[eye.members.front()].eye, eye.pupil);
         const SpotNodes nodes(counts.samples, band * (1 + guard));
         const Pairs list(nodes, band);
+        ++work.eyes;
         work.products += nodes.products();
         const auto pairs = static_cast<double>(list.padded_count());
         work.bytes += pairs * static_cast<double>(hogels.plane.samples()) * sizeof(float);
         for (const std::size_t member : eye.members) {
             const Camera& camera = cameras[member];
-            const auto taps = static_cast<double>(2 * Spots::reach(hogels, camera, band) + 1);
-            work.products += pairs * taps * taps * static_cast<double>(camera.picture.samples());
+            work.products += products_of_pixels(list, Spots::reach(hogels, camera, band), camera);
             const auto [columns, rows] = places_of(hogels, camera, list, band);
             work.products += static_cast<double>(parts(hogels, camera, true) * parts(hogels, camera, false)) *
                              Spots::products(hogels, camera, list, band, columns, rows);
