@@ -5,7 +5,10 @@
 #include <array>
 #include <atomic>
 #include <complex>
+#include <numeric>
+#include <vector>
 
+#include "hogel/core/pieces.h"
 #include "hogel/core/shared_order.h"
 #include "hogel/core/shared_plane.h"
 #include "hogel/core/work_before.h"
@@ -145,6 +148,18 @@ TEST_P(SharedWorkTest, RowsGoToAllThatWantThem) {
 }
 
 // The first has done its work after a fifth of a second, in which the second has done half, and the third says nothing.
+TEST_P(SharedWorkTest, AllGetTheNumbersOfTheFirst) {
+    run_ranks(GetParam(), [&](RankTeam& team) {
+        for (const std::size_t count : {0, 1, 262'144, 262'145, 700'001}) {
+            std::vector<float> numbers(count, static_cast<float>(team.rank()));
+            if (team.is_first()) std::iota(numbers.begin(), numbers.end(), 3.0f);
+            core::share_in_pieces<float>(team, numbers);
+            for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(numbers[i], static_cast<float>(i) + 3) << count;
+        }
+        EXPECT_FALSE(team.settle({}, patience)->failed);
+    });
+}
+
 TEST(WorkBefore, SaysWhatIsLeftWhenTheFirstIsDone) {
     for (const std::size_t fast : {0, 1, 2}) {
         std::array<std::vector<double>, 3> left;

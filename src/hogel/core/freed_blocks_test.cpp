@@ -161,6 +161,28 @@ TEST(FreedBlocks, pages_in_use_stay_where_they_are_and_as_they_are) {
     EXPECT_EQ(blocks.kept(), 34 * mega);
 }
 
+// Films are of one to four MiB, and follow work with larger arrays.
+TEST(FreedBlocks, those_of_megabytes_are_of_kept_pages) {
+    FreedBlocks blocks(1000 * mega);
+    void* large = blocks.allocate(40 * mega);
+    std::memset(large, 1, 40 * mega);
+    blocks.free(large);
+    const long before = faults();
+    std::vector<void*> used;
+    for (const std::size_t kilo : {2376u, 1100u, 3000u, 2048u, 1848u, 3568u, 1024u, 4000u}) {
+        used.push_back(blocks.allocate(kilo << 10));
+        std::memset(used.back(), 2, kilo << 10);
+        EXPECT_EQ(blocks.in_use() + blocks.kept(), 40 * mega) << kilo;
+    }
+    EXPECT_LT(faults() - before, max_faults);
+    for (void* block : used) blocks.free(block);
+    EXPECT_EQ(blocks.kept(), 40 * mega);
+    // Most of a page would be idle.
+    void* small = blocks.allocate(900 << 10);
+    EXPECT_LT(blocks.in_use(), mega);
+    blocks.free(small);
+}
+
 TEST(FreedBlocks, threads_get_blocks_of_their_own) {
     FreedBlocks blocks(200 * mega, 30 * mega);
     const auto work = [&](int mark) {

@@ -106,6 +106,28 @@ TEST(ExpectedPhotograph, fits_into_little_memory) {
     for (std::size_t i = 0; i < cameras.size(); ++i) EXPECT_LT(distance(whole[i], bands[i]), 1e-5 * mean(whole[i]));
 }
 
+// How far it is tells others how much of it is left.
+TEST(ExpectedPhotograph, says_in_small_steps_how_far_it_is) {
+    const Case c = cases().front();
+    const LightField light_field = light_field_of_faces({&c.grid, 1}, stripes);
+    const auto hologram = make_hologram(light_field, {{532_nm, 0}, c.pitch, Fourier{}, 1, 7});
+    PhotographOptions options;
+    options.expected = true;
+    for (const std::size_t memory : {std::size_t{1} << 30, std::size_t{500'000}}) {
+        options.memory = memory;
+        std::vector<double> fractions{0};
+        photograph(*hologram, {&c.camera, 1}, options, [&](double fraction) {
+            fractions.push_back(fraction);
+            return true;
+        });
+        EXPECT_EQ(fractions.back(), 1);
+        for (std::size_t i = 1; i < fractions.size(); ++i) {
+            EXPECT_GE(fractions[i], fractions[i - 1]);
+            EXPECT_LT(fractions[i], fractions[i - 1] + 0.08);
+        }
+    }
+}
+
 TEST(ExpectedPhotograph, needs_independent_random_phases) {
     const Case c = cases().front();
     const LightField light_field = light_field_of_faces({&c.grid, 1}, stripes);
