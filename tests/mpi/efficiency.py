@@ -19,8 +19,9 @@ import time
 ENVIRONMENT = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 LIMIT = 0.95
 # A virtual machine may have given memory that was free for some seconds to its host, and gets it back at up to three
-# seconds a gigabyte, where it needs more than the run before. This much is had back before each run.
-MEMORY_AT_HAND = min(2 << 30, os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // 2)
+# seconds a gigabyte, where it needs more than the run before. This much is had back before each run: more than it takes,
+# because the host takes a sixteenth of what is free every two seconds.
+MEMORY_AT_HAND = min(6 << 30, os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // 2)
 TOUCH = f"""
 import mmap
 memory = mmap.mmap(-1, {MEMORY_AT_HAND}, flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)

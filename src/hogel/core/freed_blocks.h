@@ -13,9 +13,9 @@ namespace hogel::core {
 /// new page: up to a second for each gigabyte on a virtual machine, and more where a page must be had from its host.
 /// Thread-safe.
 ///
-/// Blocks of less than 4 MiB come from malloc, and are handed out again to what needs about as much. Larger ones are of
-/// whole huge pages. These are cut, moved in the address space and joined as needed, so that new pages are taken only
-/// when all that are kept are in use.
+/// Blocks of less than 4 MiB come from malloc, and are handed out again to what needs about as much; from 1 MiB on,
+/// kept pages are used before malloc is asked. Larger ones are of whole huge pages. These are cut, moved in the address
+/// space and joined as needed, so that new pages are taken only when all that are kept are in use.
 ///
 /// A program needs hardly more memory for it: blocks in use and blocks kept are together never more than was in use at
 /// some time before and `spare`, and what is kept is never more than max_kept. Without anything to spare, smaller
