@@ -94,11 +94,7 @@ struct Colours {
         return order;
     }
 
-    PictureShare all_of(std::size_t colour) const {
-        PictureShare all{colour, std::vector<std::size_t>(cameras.size())};
-        std::iota(all.cameras.begin(), all.cameras.end(), std::size_t{0});
-        return all;
-    }
+    PictureShare all_of(std::size_t colour) const { return pipeline::by_all_cameras(colour, cameras.size()); }
 
     std::vector<Image> photograph(const PictureShare& share, const Progress& progress) const {
         std::vector<Camera> some;
@@ -149,8 +145,7 @@ std::vector<std::vector<Image>> photograph_alone(Team& team, const Colours& colo
     before.reset();
     const auto parts_of = [&](double work) { return core::parts_after(speeds, to_do, work); };
     if (!pictures_left.empty()) {
-        const double work =
-            pipeline::costs_of({&pictures_left, 1}, colours.holograms, colours.cameras, options).front();
+        const double work = pipeline::cost(pictures_left, colours.holograms, colours.cameras, options);
         const std::vector<PictureShares> more =
             pipeline::divided(pictures_left, parts_of(work), colours.holograms, colours.cameras, options);
         for (std::size_t process = 0; process < shares.size(); ++process)

@@ -50,20 +50,20 @@ double cost(const PictureShare& share, const Fields& holograms, std::span<const 
                                static_cast<double>(hologram.grid().plane.samples());
 }
 
-double cost(const PictureShares& shares, const Fields& holograms, std::span<const Camera> cameras,
+}  // namespace
+
+double cost(const PictureShares& pictures, const Fields& holograms, std::span<const Camera> cameras,
             const PhotographOptions& options) {
     double sum = 0;
-    for (const PictureShare& share : shares) sum += cost(share, holograms, cameras, options);
+    for (const PictureShare& share : pictures) sum += cost(share, holograms, cameras, options);
     return sum;
 }
 
-PictureShare all_cameras(std::size_t colour, std::size_t cameras) {
+PictureShare by_all_cameras(std::size_t colour, std::size_t cameras) {
     PictureShare all{colour, std::vector<std::size_t>(cameras)};
     std::iota(all.cameras.begin(), all.cameras.end(), std::size_t{0});
     return all;
 }
-
-}  // namespace
 
 std::vector<PictureShares> divided(const PictureShares& pictures, std::span<const double> parts,
                                    const Fields& holograms, std::span<const Camera> cameras,
@@ -105,7 +105,7 @@ std::vector<PictureShares> shares_of_processes(const Fields& holograms, std::spa
         return {};
     if (options->expected && order.size() * cameras.size() >= enough_pictures * processes && are_independent(cameras)) {
         PictureShares all;
-        for (const std::size_t colour : order) all.push_back(all_cameras(colour, cameras.size()));
+        for (const std::size_t colour : order) all.push_back(by_all_cameras(colour, cameras.size()));
         return divided(all, speeds, holograms, cameras, *options);
     }
     std::vector<PictureShares> shares(processes);
@@ -113,7 +113,7 @@ std::vector<PictureShares> shares_of_processes(const Fields& holograms, std::spa
     std::iota(by_speed.begin(), by_speed.end(), std::size_t{0});
     std::ranges::stable_sort(by_speed, std::greater<>(), [&](std::size_t process) { return speeds[process]; });
     for (std::size_t k = 0; k < order.size() / processes * processes; ++k)
-        shares[by_speed[k % processes]].push_back(all_cameras(order[k], cameras.size()));
+        shares[by_speed[k % processes]].push_back(by_all_cameras(order[k], cameras.size()));
     return shares;
 }
 

@@ -19,6 +19,13 @@ struct PictureShare {
 };
 using PictureShares = std::vector<PictureShare>;
 
+/// Those by all of so many cameras.
+PictureShare by_all_cameras(std::size_t colour, std::size_t cameras);
+
+/// What pictures take, in any unit.
+double cost(const PictureShares& pictures, const Fields& holograms, std::span<const Camera> cameras,
+            const PhotographOptions& options);
+
 /// Whether photographs are made colour by colour, with no tiles whose light would be kept for --resume: by the full
 /// camera, or of hogels of which waves are known.
 bool are_of_hogels_or_planes(const Fields& holograms, const WaveCamera& with);

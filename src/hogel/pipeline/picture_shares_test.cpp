@@ -19,11 +19,7 @@ class PictureSharesTest : public testing::Test {
     std::vector<PictureShares> divide(const PictureShares& pictures, const std::vector<double>& parts) const {
         return divided(pictures, parts, colours_, cameras_, {});
     }
-    PictureShare all_of(std::size_t colour) const {
-        PictureShare all{colour, std::vector<std::size_t>(cameras_.size())};
-        std::iota(all.cameras.begin(), all.cameras.end(), std::size_t{0});
-        return all;
-    }
+    PictureShare all_of(std::size_t colour) const { return by_all_cameras(colour, cameras_.size()); }
     static std::vector<std::pair<std::size_t, std::size_t>> pictures_of(const std::vector<PictureShares>& shares) {
         std::vector<std::pair<std::size_t, std::size_t>> pictures;
         for (const PictureShares& own : shares)
