@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <mutex>
 #include <numbers>
 #include <utility>
 
 #include "hogel/core/parallel.h"
 #include "hogel/core/part.h"
 #include "hogel/core/random.h"
+#include "hogel/core/steps.h"
 #include "hogel/direct/scene_points.h"
 #include "hogel/error.h"
 #include "hogel/shading/triangles.h"
@@ -189,9 +189,8 @@ Field sum_over_tiles(const FieldGrid& grid, const Progress& progress,
     validate(grid, ErrorCode::usage, "hologram");
     Field field(grid);
     const std::size_t across = (grid.plane.width + side - 1) / side, down = (grid.plane.height + side - 1) / side;
-    std::mutex reporting;
-    std::size_t done = 0;
     progress.report(0);
+    core::Steps steps(progress, across * down);
     core::parallel_for(across * down, [&](std::size_t i) {
         Region region{i % across * side, i / across * side, side, side};
         region.width = std::min(side, grid.plane.width - region.x0);
@@ -199,8 +198,7 @@ Field sum_over_tiles(const FieldGrid& grid, const Progress& progress,
         Array<std::complex<float>, 2> values({region.height, region.width});
         add(region, values);
         field.write(region, values);
-        const std::lock_guard lock(reporting);
-        progress.report(static_cast<double>(++done) / static_cast<double>(across * down));
+        steps.report_one();
     });
     return field;
 }

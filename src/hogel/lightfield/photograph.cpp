@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "hogel/core/pieces.h"
 #include "hogel/core/shared_order.h"
 #include "hogel/core/shared_plane.h"
 #include "hogel/core/speeds.h"
@@ -121,7 +122,8 @@ void photograph_into(const LightField& light_field, std::span<const Camera> came
             for (std::size_t i = 0; i < pictures.size(); ++i)
                 std::ranges::copy(made[i].pixels.elements(), pictures[i].pixels.data());
         });
-    for (Image& picture : pictures) core::share_result(picture.pixels, core::sent_array<float, 3>());
+    if (Team* const all = core::team_of_several())
+        for (Image& picture : pictures) core::share_in_pieces<float>(*all, picture.pixels.elements());
 }
 
 }  // namespace hogel

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <mutex>
 #include <utility>
 
 #include "hogel/core/parallel.h"
+#include "hogel/core/steps.h"
 #include "hogel/math/fft.h"
 #include "hogel/optics/lines.h"
 #include "hogel/optics/narrow_band/kernels.h"
@@ -142,12 +142,7 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
     const std::vector<Complex> centre_x =
         centring(first_column, columns, window.width, -1, window.pitch_x * window.pitch_y);
     const std::size_t row_blocks = blocks_of(own.count, together), all_blocks = row_blocks + blocks_of(across.count);
-    std::mutex reporting;
-    std::size_t done = 0;
-    const auto report = [&] {
-        const std::lock_guard lock(reporting);
-        progress.report(static_cast<double>(++done) / static_cast<double>(all_blocks));
-    };
+    core::Steps steps(progress, all_blocks);
     const std::size_t left = (window.width - plane.width) / 2, above = (window.height - plane.height) / 2;
     core::parallel_for(row_blocks, [&](std::size_t block) {
         const std::size_t y0 = own.first + block * together, height = std::min(together, own.end() - y0);
@@ -163,7 +158,7 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
             narrow_band::multiply(row.data(), centre_x.data(), row);
             kept.put_row(y0 + y, row.data());
         }
-        report();
+        steps.report_one();
     });
 
     // Transforms the columns and keeps the band's rows.
@@ -181,7 +176,7 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
             const std::size_t at = wrapped(first_row + static_cast<std::ptrdiff_t>(r), window.height);
             for (std::size_t i = 0; i < width; ++i) after(r, x0 + i) = times(lines(i, at), centre_y[r]);
         }
-        report();
+        steps.report_one();
     });
     kept.begin_columns(rows);
     return result;

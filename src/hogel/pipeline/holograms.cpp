@@ -126,20 +126,20 @@ std::vector<std::vector<Image>> photograph_alone(Team& team, const Colours& colo
         before.emplace(team, pipeline::costs_of(shares, colours.holograms, colours.cameras, options), speeds);
     const PictureShares& own = shares[team.rank()];
     std::vector<std::vector<Image>> seen;
-    const auto photograph_own = [&](std::size_t count) {
-        while (seen.size() < count) {
+    const auto photograph_own = [&] {
+        while (seen.size() < own.size()) {
             const core::AloneScope alone;
             const Progress part =
                 progress.part(std::min(seen.size(), colours.holograms.size() - 1), colours.holograms.size());
             const auto report = [&](double fraction) {
                 const double done = static_cast<double>(seen.size()) + fraction;
-                if (before) before->report(done / static_cast<double>(count));
+                if (before) before->report(done / static_cast<double>(own.size()));
                 return part(fraction);
             };
             seen.push_back(colours.photograph(own[seen.size()], Progress(part.stop(), report)));
         }
     };
-    photograph_own(own.size());
+    photograph_own();
     if (!before) return seen;
     const std::vector<double> to_do = before->finish();
     before.reset();
@@ -150,7 +150,7 @@ std::vector<std::vector<Image>> photograph_alone(Team& team, const Colours& colo
             pipeline::divided(pictures_left, parts_of(work), colours.holograms, colours.cameras, options);
         for (std::size_t process = 0; process < shares.size(); ++process)
             shares[process].insert(shares[process].end(), more[process].begin(), more[process].end());
-        photograph_own(own.size());
+        photograph_own();
         return seen;
     }
     PictureShares rest;

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <numbers>
 
 #include "hogel/core/parallel.h"
 #include "hogel/core/part.h"
 #include "hogel/core/random.h"
+#include "hogel/core/steps.h"
 #include "hogel/scene/shapes.h"
 #include "hogel/scene/tessellate.h"
 #include "hogel/shading.h"
@@ -83,15 +83,14 @@ ShadedScene unlit(const Scene& scene) {
 void for_vertices(std::size_t n, const Progress& progress, double from, double to,
                   const std::function<void(std::size_t)>& body) {
     const std::size_t tasks = (n + vertices_per_task - 1) / vertices_per_task;
-    std::mutex mutex;
-    std::size_t done = 0;
+    const Progress part = progress.part(from, to);
+    core::Steps steps(part, tasks);
     core::parallel_for(tasks, [&](std::size_t task) {
         for (std::size_t i = task * vertices_per_task; i < std::min(n, (task + 1) * vertices_per_task); ++i) {
             core::throw_if_stopped();
             body(i);
         }
-        const std::lock_guard lock(mutex);
-        progress.report(from + (to - from) * static_cast<double>(++done) / static_cast<double>(tasks));
+        steps.report_one();
     });
 }
 

@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <mutex>
 
 #include "hogel/core/parallel.h"
+#include "hogel/core/steps.h"
 
 namespace hogel::shading {
 namespace {
@@ -140,13 +140,11 @@ std::vector<ShadowMap> make_shadow_maps(const Scene& scene, const trace::RayCast
     }
     constexpr std::size_t rows_per_task = 64;
     const std::size_t tasks = (work.size() + rows_per_task - 1) / rows_per_task;
-    std::mutex mutex;
-    std::size_t done = 0;
+    core::Steps steps(progress, tasks);
     core::parallel_for(tasks, [&](std::size_t task) {
         for (std::size_t i = task * rows_per_task; i < std::min(work.size(), (task + 1) * rows_per_task); ++i)
             maps[work[i].first].fill(caster, work[i].second);
-        const std::lock_guard lock(mutex);
-        progress.report(static_cast<double>(++done) / static_cast<double>(tasks));
+        steps.report_one();
     });
     return maps;
 }
