@@ -210,6 +210,35 @@ class PassingFile {
     bool keep_;
 };
 
+// Photographs the holograms by waves.
+// @param with  the camera of the pictures of some looks; null: there are none
+void photograph_waves(const Session& session, Report& report, const Fields& holograms, std::span<const Camera> cameras,
+                      const PhotographOptions* with) {
+    struct Way {
+        std::string name;
+        WaveCamera camera;
+        Image PhotographPair::* picture;
+    };
+    std::vector<Way> ways;
+    if (with != nullptr) ways.push_back({"photographs by waves", *with, &PhotographPair::wave});
+    if (report.expected)
+        ways.push_back({"expected photographs", PhotographOptions{.expected = true}, &PhotographPair::expected});
+    const auto photograph = [&](const std::string& name, std::span<const Way> some) {
+        timed(session, report, name, [&](Stage& stage) {
+            std::vector<WaveCamera> by;
+            for (const Way& way : some) by.push_back(way.camera);
+            std::vector<std::vector<Image>> seen = photograph_colours(holograms, cameras, by, stage.progress());
+            for (std::size_t way = 0; way < some.size(); ++way)
+                for (std::size_t i = 0; i < cameras.size(); ++i)
+                    report.pairs[i].*some[way].picture = std::move(seen[way][i]);
+        });
+    };
+    // Processes of a team share all of them in one stage, so that none waits for the others between two.
+    if (const Team* const all = team(); all != nullptr && all->size() > 1 && ways.size() > 1)
+        return photograph(ways.front().name, ways);
+    for (const Way& way : ways) photograph(way.name, std::span(&way, 1));
+}
+
 // The most important facts of report.json.
 Result result_of(const Report& report, const std::string& folder, const Session& session) {
     ResultList photographs;
@@ -313,17 +342,7 @@ int make(const Options& options, const Session& session) {
                                 {.metadata = synthesis.metadata(), .resume = resume}, stage.progress());
             });
         });
-    if (!looks.expected)
-        timed(session, report, "photographs by waves", [&](Stage& stage) {
-            std::vector<Image> pictures = photograph_colours(holograms, cameras, with, stage.progress());
-            for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].wave = std::move(pictures[i]);
-        });
-    if (report.expected)
-        timed(session, report, "expected photographs", [&](Stage& stage) {
-            std::vector<Image> pictures =
-                photograph_colours(holograms, cameras, PhotographOptions{.expected = true}, stage.progress());
-            for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].expected = std::move(pictures[i]);
-        });
+    photograph_waves(session, report, holograms, cameras, looks.expected ? nullptr : &with);
 
     // One exposure for all pictures, from the view from above.
     report.exposure = automatic_exposure(report.pairs[1].geometric);

@@ -191,6 +191,11 @@ HOGEL_API std::vector<Image> photograph_colours(const Fields& holograms, std::sp
                                                 const WaveCamera& with = PhotographOptions(),
                                                 const Progress& progress = {});
 
+/// The same in several ways, [way][camera]. Processes of a team then share all of them together.
+HOGEL_API std::vector<std::vector<Image>> photograph_colours(const Fields& holograms, std::span<const Camera> cameras,
+                                                             std::span<const WaveCamera> ways,
+                                                             const Progress& progress = {});
+
 /// A camera on the axis that frames a hologram of this size (metres) with `resolution` pixels across.
 HOGEL_API Camera camera_for(double width, double height, std::size_t resolution = defaults.resolution);
 

@@ -80,18 +80,25 @@ Fields make_holograms(const LightField& light_field, const HologramRequest& requ
 
 namespace {
 
+// Colours in the order in which they are photographed: short waves first, because their bands have the most samples, and
+// the other colours use the same memory.
+std::vector<std::size_t> in_order(const Fields& holograms) {
+    std::vector<std::size_t> order(holograms.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t c) { return holograms[c]->grid().wavelength; });
+    return order;
+}
+
 // Photographs of holograms in several colours.
 struct Colours {
     const Fields& holograms;
     std::span<const Camera> cameras;
     const WaveCamera& with;
 
-    // Short waves first: their bands have the most samples, and the other colours use the same memory.
-    std::vector<std::size_t> in_order() const {
-        std::vector<std::size_t> order(holograms.size());
-        std::iota(order.begin(), order.end(), std::size_t{0});
-        std::ranges::stable_sort(order, {}, [&](std::size_t c) { return holograms[c]->grid().wavelength; });
-        return order;
+    std::vector<Image> unexposed() const {
+        std::vector<Image> pictures(cameras.size());
+        image::load_film(cameras, holograms.size(), holograms.front()->provenance(), pictures);
+        return pictures;
     }
 
     PictureShare all_of(std::size_t colour) const { return pipeline::by_all_cameras(colour, cameras.size()); }
@@ -112,62 +119,42 @@ bool has_colour(std::span<const PictureShares> shares, std::size_t colour) {
     });
 }
 
-// Makes the pictures that this process makes by itself, and divides what is left by what each process then has to do:
-// pictures among the processes, or rows of colours that all make together.
-// @param shares  of the processes; gets those of the pictures that were left
-// @param left    colours
-std::vector<std::vector<Image>> photograph_alone(Team& team, const Colours& colours, std::vector<PictureShares>& shares,
+// Makes the pictures that this process makes by itself, and divides the rows of the colours that all then make together
+// by what each process still has to do.
+// @param left  colours
+std::vector<std::vector<Image>> photograph_alone(Team& team, const Colours& colours,
+                                                 const std::vector<PictureShares>& shares,
                                                  std::span<const std::size_t> left, const std::vector<double>& speeds,
                                                  std::optional<core::UnequalParts>& parts, const Progress& progress) {
     const auto& options = std::get<PhotographOptions>(colours.with);
-    const PictureShares pictures_left = pipeline::take_divided(shares, colours.cameras.size());
     std::optional<core::WorkBefore> before;
-    if (!(left.empty() && pictures_left.empty()) && std::ranges::none_of(shares, &PictureShares::empty))
+    if (!left.empty() && std::ranges::none_of(shares, &PictureShares::empty))
         before.emplace(team, pipeline::costs_of(shares, colours.holograms, colours.cameras, options), speeds);
     const PictureShares& own = shares[team.rank()];
     std::vector<std::vector<Image>> seen;
-    const auto photograph_own = [&] {
-        while (seen.size() < own.size()) {
-            const core::AloneScope alone;
-            const Progress part =
-                progress.part(std::min(seen.size(), colours.holograms.size() - 1), colours.holograms.size());
-            const auto report = [&](double fraction) {
-                const double done = static_cast<double>(seen.size()) + fraction;
-                if (before) before->report(done / static_cast<double>(own.size()));
-                return part(fraction);
-            };
-            seen.push_back(colours.photograph(own[seen.size()], Progress(part.stop(), report)));
-        }
-    };
-    photograph_own();
+    while (seen.size() < own.size()) {
+        const core::AloneScope alone;
+        const Progress part = progress.part(seen.size(), colours.holograms.size());
+        const auto report = [&](double fraction) {
+            const double done = static_cast<double>(seen.size()) + fraction;
+            if (before) before->report(done / static_cast<double>(own.size()));
+            return part(fraction);
+        };
+        seen.push_back(colours.photograph(own[seen.size()], Progress(part.stop(), report)));
+    }
     if (!before) return seen;
     const std::vector<double> to_do = before->finish();
-    before.reset();
-    const auto parts_of = [&](double work) { return core::parts_after(speeds, to_do, work); };
-    if (!pictures_left.empty()) {
-        const double work = pipeline::cost(pictures_left, colours.holograms, colours.cameras, options);
-        const std::vector<PictureShares> more =
-            pipeline::divided(pictures_left, parts_of(work), colours.holograms, colours.cameras, options);
-        for (std::size_t process = 0; process < shares.size(); ++process)
-            shares[process].insert(shares[process].end(), more[process].begin(), more[process].end());
-        photograph_own();
-        return seen;
-    }
     PictureShares rest;
     for (const std::size_t colour : left) rest.push_back(colours.all_of(colour));
-    parts.emplace(speeds, parts_of(pipeline::cost_of_rows(rest, colours.holograms, colours.cameras, options)));
+    const double work = pipeline::cost_of_rows(rest, colours.holograms, colours.cameras, options);
+    parts.emplace(speeds, core::parts_after(speeds, to_do, work));
     return seen;
 }
 
-}  // namespace
-
-std::vector<Image> photograph_colours(const Fields& holograms, std::span<const Camera> cameras, const WaveCamera& with,
-                                      const Progress& progress) {
-    const core::StopScope scope(progress);
-    if (holograms.empty()) throw Error(ErrorCode::usage, "a photograph needs a hologram; there is none");
-    const Colours colours{holograms, cameras, with};
-    std::vector<Image> pictures(cameras.size());
-    image::load_film(cameras, holograms.size(), holograms.front()->provenance(), pictures);
+// Photographs by one camera or several of all colours, which processes of a team share.
+std::vector<Image> photograph_in_one_way(const Colours& colours, const Progress& progress) {
+    const auto& [holograms, cameras, with] = colours;
+    std::vector<Image> pictures = colours.unexposed();
     const auto* const options = std::get_if<PhotographOptions>(&with);  // null: the full camera's
     Team* const team = core::team_of_several();
     std::vector<double> speeds;
@@ -179,16 +166,15 @@ std::vector<Image> photograph_colours(const Fields& holograms, std::span<const C
     std::optional<std::vector<std::vector<Image>>> together;  // [colour][camera]
     if (options != nullptr && !keeps_colours)
         together = optics::photograph_together(holograms, cameras, *options, progress);
-    std::vector<std::size_t> order = colours.in_order();
+    std::vector<std::size_t> order = in_order(holograms);
     std::vector<PictureShares> shares;
-    if (!together) shares = pipeline::shares_of_processes(holograms, order, cameras, with, speeds);
+    if (!together) shares = pipeline::shares_of_processes(holograms, order, with, cameras.size(), speeds);
     std::erase_if(order, [&](std::size_t colour) { return has_colour(shares, colour); });
     std::vector<std::vector<Image>> seen;  // by this process alone
     if (!shares.empty()) seen = photograph_alone(*team, colours, shares, order, speeds, parts, progress);
     const auto photograph_all = [&](std::size_t k) {
         if (together) return std::move((*together)[order[k]]);
-        const std::size_t done = std::min(seen.size() + k, holograms.size() - 1);
-        return colours.photograph(colours.all_of(order[k]), progress.part(done, holograms.size()));
+        return colours.photograph(colours.all_of(order[k]), progress.part(seen.size() + k, holograms.size()));
     };
     const auto put_all = [&](std::size_t k, std::vector<Image>& one) {
         pipeline::put(colours.all_of(order[k]), one, pictures);
@@ -204,6 +190,74 @@ std::vector<Image> photograph_colours(const Fields& holograms, std::span<const C
     pipeline::gather(shares, seen, pictures);
     pipeline::share(pictures);
     return pictures;
+}
+
+// Photographs in several ways, [way][camera], of which each process of a team makes some when it is free.
+std::vector<std::vector<Image>> photograph_by_jobs(Team& team, const Fields& holograms, std::span<const Camera> cameras,
+                                                   std::span<const WaveCamera> ways,
+                                                   std::span<const pipeline::PictureJob> jobs,
+                                                   const Progress& progress) {
+    const auto colours = [&](std::size_t way) { return Colours{holograms, cameras, ways[way]}; };
+    double sum = 0, done = 0;
+    for (const pipeline::PictureJob& job : jobs) sum += job.cost;
+    const double own_part = sum / static_cast<double>(team.size());
+    std::vector<std::uint64_t> own;                             // jobs
+    std::vector<std::vector<std::vector<Image>>> seen(ways.size());  // [way][job]
+    const std::uint64_t queue = team.next_number();
+    for (Team::Tiles some = team.next_tiles(queue, jobs.size()); some.count > 0;
+         some = team.next_tiles(queue, jobs.size()))
+        for (std::uint64_t i = some.first; i < some.first + some.count; ++i) {
+            const pipeline::PictureJob& job = jobs[i];
+            const core::AloneScope alone;
+            const auto report = [&](double fraction) {
+                return progress(std::min(0.99, (done + fraction * job.cost) / own_part));
+            };
+            seen[job.way].push_back(colours(job.way).photograph(job.pictures, Progress(progress.stop(), report)));
+            own.push_back(i);
+            done += job.cost;
+        }
+    core::MessageWriter message;
+    message.put(own);
+    std::vector<std::vector<PictureShares>> shares(ways.size(), std::vector<PictureShares>(team.size()));
+    const std::vector<std::string> all = core::all_of(team, message.take());
+    for (std::size_t process = 0; process < team.size(); ++process)
+        for (const std::uint64_t i : core::MessageReader(all[process]).get_vector<std::uint64_t>())
+            shares[jobs[i].way][process].push_back(jobs[i].pictures);
+    std::vector<std::vector<Image>> pictures;
+    for (std::size_t way = 0; way < ways.size(); ++way) {
+        pictures.push_back(colours(way).unexposed());
+        pipeline::gather(shares[way], seen[way], pictures.back());
+        pipeline::share(pictures.back());
+    }
+    progress.report(1);
+    return pictures;
+}
+
+}  // namespace
+
+std::vector<std::vector<Image>> photograph_colours(const Fields& holograms, std::span<const Camera> cameras,
+                                                   std::span<const WaveCamera> ways, const Progress& progress) {
+    const core::StopScope scope(progress);
+    if (holograms.empty()) throw Error(ErrorCode::usage, "a photograph needs a hologram; there is none");
+    const auto share_rays = [&](const WaveCamera& with) {
+        const auto* const options = std::get_if<PhotographOptions>(&with);
+        return options != nullptr && optics::are_photographed_together(holograms, cameras, *options);
+    };
+    if (Team* const team = core::team_of_several()) {
+        const auto jobs = pipeline::jobs_of(team->size(), holograms, in_order(holograms), cameras, ways);
+        if (!jobs.empty() && std::ranges::none_of(ways, share_rays))
+            return photograph_by_jobs(*team, holograms, cameras, ways, jobs, progress);
+    }
+    std::vector<std::vector<Image>> pictures;
+    for (const WaveCamera& with : ways)
+        pictures.push_back(
+            photograph_in_one_way({holograms, cameras, with}, progress.part(pictures.size(), ways.size())));
+    return pictures;
+}
+
+std::vector<Image> photograph_colours(const Fields& holograms, std::span<const Camera> cameras, const WaveCamera& with,
+                                      const Progress& progress) {
+    return std::move(photograph_colours(holograms, cameras, std::span(&with, 1), progress).front());
 }
 
 void write_holograms(const std::filesystem::path& path, const Fields& holograms, const HologramFileOptions& options,

@@ -11,15 +11,16 @@
 #include "hogel/core/result_log.h"
 #include "hogel/core/shared_order.h"
 #include "hogel/core/speeds.h"
-#include "hogel/optics/expected/expected.h"
 #include "hogel/optics/eye_light.h"
+#include "hogel/optics/photograph_plan.h"
+#include "hogel/pipeline/plan_rates.h"
 #include "hogel/team.h"
 
 namespace hogel::pipeline {
 namespace {
 
-// Pictures of infinitely many looks for each process, so that all have about as much work.
-constexpr std::size_t enough_pictures = 4;
+// By how much longer than on the average a process may take for its jobs: more is lost where all share a colour.
+constexpr double max_excess = 1.1;
 
 // Whether pictures by one camera do not depend on those by others: an eye's band is that of its widest pupil.
 bool are_independent(std::span<const Camera> cameras) {
@@ -33,24 +34,18 @@ bool are_independent(std::span<const Camera> cameras) {
 // each process.
 constexpr double drawn_part = 0.75;
 
-// What pictures of a colour take, in any unit.
+// What pictures of a colour take, in any unit: processor seconds where waves are known.
 double cost(const PictureShare& share, const Fields& holograms, std::span<const Camera> cameras,
             const PhotographOptions& options) {
     const FieldSource& hologram = *holograms[share.colour];
-    const auto count = static_cast<double>(share.cameras.size());
-    // An eye takes in more of short waves: their spectrum is as much wider, and the pupil has as much finer light. Some
-    // of the work is the same for all. As measured.
-    if (!options.expected) return count * std::pow(hologram.grid().wavelength, -1.5);
-    const optics::WavePowers* waves = dynamic_cast<const optics::EyeLight&>(hologram).wave_powers();
-    if (waves == nullptr) return count;
     std::vector<Camera> some;
     for (const std::size_t camera : share.cameras) some.push_back(cameras[camera]);
-    const optics::expected::Work work = optics::expected::work(hologram.grid(), waves->counts(), some, options);
-    return work.products + optics::expected::products_of_a_sample * static_cast<double>(work.eyes) *
-                               static_cast<double>(hologram.grid().plane.samples());
+    const optics::WavePowers* waves = dynamic_cast<const optics::EyeLight&>(hologram).wave_powers();
+    if (waves != nullptr) return photograph_seconds(hologram, waves->counts(), some, options);
+    // An eye takes in more of short waves: their spectrum is as much wider, and the pupil has as much finer light. Some
+    // of the work is the same for all. As measured.
+    return static_cast<double>(some.size()) * std::pow(hologram.grid().wavelength, -1.5);
 }
-
-}  // namespace
 
 double cost(const PictureShares& pictures, const Fields& holograms, std::span<const Camera> cameras,
             const PhotographOptions& options) {
@@ -59,31 +54,12 @@ double cost(const PictureShares& pictures, const Fields& holograms, std::span<co
     return sum;
 }
 
+}  // namespace
+
 PictureShare by_all_cameras(std::size_t colour, std::size_t cameras) {
     PictureShare all{colour, std::vector<std::size_t>(cameras)};
     std::iota(all.cameras.begin(), all.cameras.end(), std::size_t{0});
     return all;
-}
-
-std::vector<PictureShares> divided(const PictureShares& pictures, std::span<const double> parts,
-                                   const Fields& holograms, std::span<const Camera> cameras,
-                                   const PhotographOptions& options) {
-    const double all = cost(pictures, holograms, cameras, options);
-    std::vector<PictureShares> shares(parts.size());
-    double before = 0, end = parts.front();  // of the process's share
-    std::size_t process = 0;
-    for (const PictureShare& share : pictures) {
-        const double each =
-            cost(share, holograms, cameras, options) / (all * static_cast<double>(share.cameras.size()));
-        for (const std::size_t camera : share.cameras) {
-            while (process + 1 < parts.size() && before + 0.5 * each > end) end += parts[++process];
-            PictureShares& own = shares[process];
-            if (own.empty() || own.back().colour != share.colour) own.push_back({share.colour, {}});
-            own.back().cameras.push_back(camera);
-            before += each;
-        }
-    }
-    return shares;
 }
 
 bool are_of_hogels_or_planes(const Fields& holograms, const WaveCamera& with) {
@@ -95,42 +71,84 @@ bool are_of_hogels_or_planes(const Fields& holograms, const WaveCamera& with) {
            });
 }
 
+namespace {
+
+// Cameras of one eye after each other, which share the numbers of its hogels.
+std::vector<std::size_t> by_eyes(std::span<const Camera> cameras) {
+    std::vector<std::size_t> all(cameras.size()), order;
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    for (const optics::SharedEye& eye : optics::group_by_eye(cameras, all))
+        order.insert(order.end(), eye.members.begin(), eye.members.end());
+    return order;
+}
+
+// How many of the next pictures a process takes that is free: its part of all that is left.
+// @param each  what a picture costs
+std::size_t count_of_part(double left, double each, std::size_t processes, std::size_t pictures) {
+    const double part = left / (each * static_cast<double>(processes));
+    return std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(std::min(part, 1e9))), 1, pictures);
+}
+
+}  // namespace
+
+double end_of(std::span<const PictureJob> jobs, std::size_t processes) {
+    std::vector<double> ends(processes);
+    for (const PictureJob& job : jobs) *std::ranges::min_element(ends) += job.cost;
+    return std::ranges::max(ends);
+}
+
+std::vector<PictureJob> jobs_of(std::size_t processes, const Fields& holograms, std::span<const std::size_t> order,
+                                std::span<const Camera> cameras, std::span<const WaveCamera> ways) {
+    if (processes < 2 || core::result_log() != nullptr) return {};
+    const auto is_possible = [&](const WaveCamera& with) {
+        return std::holds_alternative<PhotographOptions>(with) && are_of_hogels_or_planes(holograms, with);
+    };
+    if (!std::ranges::all_of(ways, is_possible)) return {};
+    std::vector<PictureJob> jobs;
+    double sum = 0, left = 0;  // of all pictures of all colours; of those that can be divided
+    std::vector<PictureJob> divisible;
+    for (std::size_t way = 0; way < ways.size(); ++way) {
+        const auto& options = std::get<PhotographOptions>(ways[way]);
+        for (const std::size_t colour : order) {
+            const PictureShare all = by_all_cameras(colour, cameras.size());
+            const PictureJob job{way, all, cost(all, holograms, cameras, options)};
+            const bool can_divide = options.expected && are_independent(cameras);
+            (can_divide ? divisible : jobs).push_back(job);
+            sum += job.cost;
+            if (can_divide) left += job.cost;
+        }
+    }
+    const std::vector<std::size_t> camera_order = by_eyes(cameras);
+    for (const PictureJob& job : divisible) {
+        const double each = job.cost / static_cast<double>(cameras.size());
+        for (std::size_t first = 0; first < cameras.size();) {
+            const std::size_t count = count_of_part(left, each, processes, cameras.size() - first);
+            const auto begin = camera_order.begin() + static_cast<std::ptrdiff_t>(first);
+            PictureShare some{job.pictures.colour, {begin, begin + static_cast<std::ptrdiff_t>(count)}};
+            const double some_cost = cost(some, holograms, cameras, std::get<PhotographOptions>(ways[job.way]));
+            jobs.push_back({job.way, std::move(some), some_cost});
+            left -= each * static_cast<double>(count);
+            first += count;
+        }
+    }
+    return end_of(jobs, processes) <= max_excess * sum / static_cast<double>(processes) ? jobs
+                                                                                       : std::vector<PictureJob>{};
+}
+
 std::vector<PictureShares> shares_of_processes(const Fields& holograms, std::span<const std::size_t> order,
-                                               std::span<const Camera> cameras, const WaveCamera& with,
+                                               const WaveCamera& with, std::size_t cameras,
                                                std::span<const double> speeds) {
     const std::size_t processes = speeds.size();
-    const auto* const options = std::get_if<PhotographOptions>(&with);
-    if (processes == 0 || options == nullptr || core::result_log() != nullptr ||
+    if (processes == 0 || !std::holds_alternative<PhotographOptions>(with) || core::result_log() != nullptr ||
         !are_of_hogels_or_planes(holograms, with))
         return {};
-    if (options->expected && order.size() * cameras.size() >= enough_pictures * processes && are_independent(cameras)) {
-        PictureShares all;
-        for (const std::size_t colour : order) all.push_back(by_all_cameras(colour, cameras.size()));
-        return divided(all, speeds, holograms, cameras, *options);
-    }
     std::vector<PictureShares> shares(processes);
     std::vector<std::size_t> by_speed(processes);
     std::iota(by_speed.begin(), by_speed.end(), std::size_t{0});
     std::ranges::stable_sort(by_speed, std::greater<>(), [&](std::size_t process) { return speeds[process]; });
     for (std::size_t k = 0; k < order.size() / processes * processes; ++k)
-        shares[by_speed[k % processes]].push_back(by_all_cameras(order[k], cameras.size()));
+        shares[by_speed[k % processes]].push_back(by_all_cameras(order[k], cameras));
     return shares;
-}
-
-PictureShares take_divided(std::vector<PictureShares>& shares, std::size_t cameras) {
-    PictureShares taken;
-    const auto is_whole = [&](const PictureShare& share) { return share.cameras.size() == cameras; };
-    if (!std::ranges::all_of(shares, [&](const PictureShares& own) { return std::ranges::any_of(own, is_whole); }))
-        return taken;
-    for (PictureShares& own : shares) {
-        for (const PictureShare& share : own) {
-            if (is_whole(share)) continue;
-            if (taken.empty() || taken.back().colour != share.colour) taken.push_back({share.colour, {}});
-            taken.back().cameras.insert(taken.back().cameras.end(), share.cameras.begin(), share.cameras.end());
-        }
-        std::erase_if(own, [&](const PictureShare& share) { return !is_whole(share); });
-    }
-    return taken;
 }
 
 std::vector<double> costs_of(std::span<const PictureShares> shares, const Fields& holograms,

@@ -22,33 +22,35 @@ using PictureShares = std::vector<PictureShare>;
 /// Those by all of so many cameras.
 PictureShare by_all_cameras(std::size_t colour, std::size_t cameras);
 
-/// What pictures take, in any unit.
-double cost(const PictureShares& pictures, const Fields& holograms, std::span<const Camera> cameras,
-            const PhotographOptions& options);
-
 /// Whether photographs are made colour by colour, with no tiles whose light would be kept for --resume: by the full
 /// camera, or of hogels of which waves are known.
 bool are_of_hogels_or_planes(const Fields& holograms, const WaveCamera& with);
 
-/// What each process of the team makes by itself, of photographs from hogels: as many whole colours as any other,
-/// because each process would prepare hogels for its share of any colour. Or all pictures of infinitely many looks,
-/// divided by their cost where there are enough of them: their tables are for one camera. Nothing for processes of no
-/// team.
+/// Pictures of a colour that a process of a team makes by itself when it is free.
+struct PictureJob {
+    std::size_t way = 0;  ///< of those in which pictures are taken
+    PictureShare pictures;
+    double cost = 0;  ///< in any unit
+};
+
+/// All photographs from hogels in several ways, for processes that take one job after the other: whole colours, because
+/// each process would prepare hogels for its share of any colour, and at the end few pictures of infinitely many looks,
+/// whose tables are for one camera. None where processes that are equally fast would not end about together, or where
+/// pictures are made or kept otherwise.
+/// @param order  in which colours are photographed, those that take longest first
+std::vector<PictureJob> jobs_of(std::size_t processes, const Fields& holograms, std::span<const std::size_t> order,
+                                std::span<const Camera> cameras, std::span<const WaveCamera> ways);
+
+/// When equally fast processes that take jobs in order have made all of them, in the unit of their cost.
+double end_of(std::span<const PictureJob> jobs, std::size_t processes);
+
+/// What each process of the team makes by itself of photographs from hogels, before all of them share the colours that
+/// are left over: as many whole colours as any other. Nothing for processes of no team.
 /// @param order   in which colours are photographed, those that take longest first
 /// @param speeds  of the processes of the team; empty for those of no team
 std::vector<PictureShares> shares_of_processes(const Fields& holograms, std::span<const std::size_t> order,
-                                               std::span<const Camera> cameras, const WaveCamera& with,
+                                               const WaveCamera& with, std::size_t cameras,
                                                std::span<const double> speeds);
-
-/// Divides pictures among processes by their cost, in order.
-/// @param parts  of the processes; their sum is 1
-std::vector<PictureShares> divided(const PictureShares& pictures, std::span<const double> parts,
-                                   const Fields& holograms, std::span<const Camera> cameras,
-                                   const PhotographOptions& options);
-
-/// Takes the pictures of colours that several processes share out of the shares, where each process has another colour
-/// as well: they are divided once again when it is known how long these have taken.
-PictureShares take_divided(std::vector<PictureShares>& shares, std::size_t cameras);
 
 /// What the own pictures of each process take, in any unit.
 std::vector<double> costs_of(std::span<const PictureShares> shares, const Fields& holograms,

@@ -58,26 +58,25 @@ std::optional<hologram::eye::HogelLayout> layout_of(const HologramMethod& method
 }
 
 // Samples of a look in the bands of all eyes, from hogels.
-double band_samples(const LightFieldGrid& light_field, const hologram::eye::HogelLayout& layout,
-                    std::span<const Camera> cameras) {
+double band_samples(std::size_t hogels, const hologram::eye::HogelLayout& layout, std::span<const Camera> cameras) {
     double samples = 0;
     for (const optics::SharedEye& eye : eyes_of(cameras)) {
         const auto per_hogel = static_cast<double>(
             hologram::eye::band_samples_per_hogel(layout, {cameras[eye.members.front()].eye, eye.pupil}));
-        samples += static_cast<double>(light_field.hogels()) * per_hogel * per_hogel;
+        samples += static_cast<double>(hogels) * per_hogel * per_hogel;
     }
     return samples;
 }
 
 // Seconds for one colour of photographs from hogels.
-double seconds_from_hogels(const LightFieldGrid& light_field, const hologram::eye::HogelLayout& layout,
+double seconds_from_hogels(std::size_t hogels, const hologram::eye::HogelLayout& layout,
                            std::span<const Camera> cameras, std::size_t looks) {
     const FieldGrid& hologram = layout.grid;
-    const auto hogels = static_cast<double>(light_field.hogels()),
-               waves = hogels * static_cast<double>(layout.columns * layout.rows), count = static_cast<double>(looks);
+    const double waves = static_cast<double>(hogels) * static_cast<double>(layout.columns * layout.rows),
+                 count = static_cast<double>(looks);
     const auto eyes = static_cast<double>(eyes_of(cameras).size());
     double seconds = waves * (seconds_an_amplitude + count * (seconds_a_wave + eyes * seconds_a_wave_and_eye));
-    seconds += count * band_samples(light_field, layout, cameras) * seconds_a_band_sample;
+    seconds += count * band_samples(hogels, layout, cameras) * seconds_a_band_sample;
     for (const Camera& camera : cameras) {
         const double cell = resolution_cell(camera, hologram.wavelength) / optics::film::samples_a_cell;
         seconds += count * hologram.plane.size_x() * hologram.plane.size_y() / (cell * cell) * seconds_a_film_sample;
@@ -116,6 +115,15 @@ double seconds_of_films(const FieldGrid& hologram, std::span<const Camera> camer
 }
 
 }  // namespace
+
+double photograph_seconds(const FieldSource& hologram, const optics::WavePowers::Counts& counts,
+                          std::span<const Camera> cameras, const PhotographOptions& options) {
+    const FieldGrid& grid = hologram.grid();
+    if (options.expected)
+        return seconds_of_expected(grid, cameras, optics::expected::work(grid, counts, cameras, options));
+    return seconds_from_hogels(counts.across * counts.down, {grid, counts.samples, counts.samples}, cameras,
+                               hologram.looks());
+}
 
 LightChoice choose_light(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                          std::span<const Camera> cameras, const PhotographOptions& options) {
@@ -161,8 +169,8 @@ Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramReque
         double share = 1;
         if (from_hogels) {
             const hologram::eye::HogelLayout layout = *layout_of(request.method, faces.front(), hologram);
-            seconds += seconds_from_hogels(faces.front(), layout, cameras, request.looks);
-            const double bytes = band_samples(faces.front(), layout, cameras) * sizeof(math::PackedComplex);
+            seconds += seconds_from_hogels(faces.front().hogels(), layout, cameras, request.looks);
+            const double bytes = band_samples(faces.front().hogels(), layout, cameras) * sizeof(math::PackedComplex);
             double narrow = 0;
             for (const optics::SharedEye& eye : eyes_of(cameras))
                 narrow += optics::narrow_band_bytes(hologram, cameras[eye.members.front()].eye, eye.pupil);
