@@ -217,7 +217,7 @@ void photograph_waves(const Session& session, Report& report, const Fields& holo
     struct Way {
         std::string name;
         WaveCamera camera;
-        Image PhotographPair::* picture;
+        Image PhotographPair::*picture;
     };
     std::vector<Way> ways;
     if (with != nullptr) ways.push_back({"photographs by waves", *with, &PhotographPair::wave});

@@ -80,8 +80,8 @@ Fields make_holograms(const LightField& light_field, const HologramRequest& requ
 
 namespace {
 
-// Colours in the order in which they are photographed: short waves first, because their bands have the most samples, and
-// the other colours use the same memory.
+// Colours in the order in which they are photographed: short waves first, because their bands have the most samples,
+// and the other colours use the same memory.
 std::vector<std::size_t> in_order(const Fields& holograms) {
     std::vector<std::size_t> order(holograms.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -201,7 +201,7 @@ std::vector<std::vector<Image>> photograph_by_jobs(Team& team, const Fields& hol
     double sum = 0, done = 0;
     for (const pipeline::PictureJob& job : jobs) sum += job.cost;
     const double own_part = sum / static_cast<double>(team.size());
-    std::vector<std::uint64_t> own;                             // jobs
+    std::vector<std::uint64_t> own;                                  // jobs
     std::vector<std::vector<std::vector<Image>>> seen(ways.size());  // [way][job]
     const std::uint64_t queue = team.next_number();
     for (Team::Tiles some = team.next_tiles(queue, jobs.size()); some.count > 0;

@@ -132,7 +132,7 @@ std::vector<PictureJob> jobs_of(std::size_t processes, const Fields& holograms, 
         }
     }
     return end_of(jobs, processes) <= max_excess * sum / static_cast<double>(processes) ? jobs
-                                                                                       : std::vector<PictureJob>{};
+                                                                                        : std::vector<PictureJob>{};
 }
 
 std::vector<PictureShares> shares_of_processes(const Fields& holograms, std::span<const std::size_t> order,

@@ -30,7 +30,7 @@ constexpr double guard = 0.05;
 constexpr std::size_t block_across = 64, block_down = 2;
 
 // Pixels that are exposed together.
-constexpr std::size_t pixels_across = 32, pixels_down = 16;
+constexpr std::size_t pixels_across = 128, pixels_down = 16;
 
 // By how much, in radians, the phase of the focus at the pupil's rim may vary over the part of the hologram that one
 // table of spots serves.
@@ -316,61 +316,69 @@ class Photographer {
             return (static_cast<double>(base) + 0.5) / extent;
         };
         const double down = position(exposure.rows.base[row], static_cast<double>(hogels_.plane.height));
-        // Pixels whose spots have the same weights are summed together.
-        struct Pixel {
-            std::size_t column, place;
-            std::ptrdiff_t left, right;  // hogels
+        // Pixels around the same hogel read the same numbers, and those at the same place of several hogels the same
+        // weights.
+        struct Hogel {
+            std::ptrdiff_t base, left, right;
+            std::size_t column, count;  // of its pixels
         };
-        thread_local std::vector<Pixel> pixels;
-        pixels.clear();
+        thread_local std::vector<Hogel> lit;
+        lit.clear();
         for (std::size_t column = first; column < end; ++column) {
             const std::ptrdiff_t base = exposure.columns.base[column];
-            if (exposure.columns.seen[column] > 0)
-                pixels.push_back({column, exposure.columns.place[column], std::max<std::ptrdiff_t>(0, base - reach),
-                                  std::min(width, base + reach + 1)});
+            if (exposure.columns.seen[column] == 0) continue;
+            if (lit.empty() || lit.back().base != base || lit.back().count == max_b_together)
+                lit.push_back(
+                    {base, std::max<std::ptrdiff_t>(0, base - reach), std::min(width, base + reach + 1), column, 0});
+            ++lit.back().count;
         }
-        const auto first_weight = [&](const Pixel& pixel) {
-            return pixel.left - exposure.columns.base[pixel.column] + reach;
+        const auto is_alike = [&](const Hogel& one, const Hogel& other) {
+            const auto places = exposure.columns.place.begin();
+            return other.count == one.count && other.left - other.base == one.left - one.base &&
+                   other.right - other.base == one.right - one.base &&
+                   std::equal(places + static_cast<std::ptrdiff_t>(one.column),
+                              places + static_cast<std::ptrdiff_t>(one.column + one.count),
+                              places + static_cast<std::ptrdiff_t>(other.column));
         };
-        for (auto begin = pixels.begin(); begin != pixels.end();) {
-            const Pixel one = *begin;
-            const auto same = std::partition(begin, pixels.end(), [&](const Pixel& other) {
-                return other.place == one.place && first_weight(other) == first_weight(one) &&
-                       other.right - other.left == one.right - one.left;
-            });
-            for (; begin != same;) {
-                const float* numbers[products_together];
-                std::size_t count = 0;
-                for (; count < products_together && begin + static_cast<std::ptrdiff_t>(count) != same; ++count)
-                    numbers[count] = &eye.numbers(
-                        top, static_cast<std::size_t>((begin + static_cast<std::ptrdiff_t>(count))->left) * pairs);
+        for (auto begin = lit.begin(); begin != lit.end();) {
+            const Hogel one = *begin;
+            const auto same =
+                std::partition(begin, lit.end(), [&](const Hogel& other) { return is_alike(one, other); });
+            while (begin != same) {
+                const std::span some(begin,
+                                     std::min(same, begin + static_cast<std::ptrdiff_t>(max_a_together(one.count))));
+                const float *numbers[max_sums_together], *weights[max_b_together];
+                for (std::size_t k = 0; k < some.size(); ++k)
+                    numbers[k] = &eye.numbers(top, static_cast<std::size_t>(some[k].left) * pairs);
                 for (std::size_t i = 0; i < exposure.spots.size(); ++i) {
                     const float share_down = share(down, i / exposure.parts_x, exposure.parts_y);
-                    const View<const float, 4> spots = exposure.spots[i].weights();
-                    const float* weights = &spots(exposure.rows.place[row], one.place, top - base_y + reach,
-                                                  static_cast<std::size_t>(first_weight(one)) * pairs);
-                    float light[products_together], shares[products_together], any = 0;
-                    for (std::size_t k = 0; k < count; ++k) {
-                        const std::size_t column = (begin + static_cast<std::ptrdiff_t>(k))->column;
-                        const double across = position(exposure.columns.base[column], static_cast<double>(width));
+                    float shares[max_sums_together], light[max_sums_together], any = 0;
+                    for (std::size_t k = 0; k < some.size(); ++k) {
+                        const double across = position(some[k].base, static_cast<double>(width));
                         shares[k] = share(across, i % exposure.parts_x, exposure.parts_x) * share_down;
                         any = std::max(any, shares[k]);
                     }
                     if (any == 0) continue;
-                    sum_products({{numbers, count},
-                                  weights,
+                    const View<const float, 4> spots = exposure.spots[i].weights();
+                    for (std::size_t k = 0; k < one.count; ++k)
+                        weights[k] =
+                            &spots(exposure.rows.place[row], exposure.columns.place[one.column + k],
+                                   top - base_y + reach, static_cast<std::size_t>(one.left - one.base + reach) * pairs);
+                    sum_products({{numbers, some.size()},
+                                  {weights, one.count},
                                   eye.numbers.extent(1),
                                   spots.extent(3),
                                   static_cast<std::size_t>(bottom - top),
                                   static_cast<std::size_t>(one.right - one.left) * pairs},
                                  light);
-                    for (std::size_t k = 0; k < count; ++k) {
-                        const std::size_t column = (begin + static_cast<std::ptrdiff_t>(k))->column;
+                    for (std::size_t k = 0; k < some.size() * one.count; ++k) {
+                        const Hogel& hogel = some[k / one.count];
+                        const std::size_t column = hogel.column + k % one.count;
                         picture.pixels(row, column, 0) +=
-                            exposure.rows.seen[row] * exposure.columns.seen[column] * shares[k] * light[k];
+                            exposure.rows.seen[row] * exposure.columns.seen[column] * shares[k / one.count] * light[k];
                     }
                 }
-                begin += static_cast<std::ptrdiff_t>(count);
+                begin += static_cast<std::ptrdiff_t>(some.size());
             }
         }
     }

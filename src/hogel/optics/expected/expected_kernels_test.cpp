@@ -42,16 +42,22 @@ TEST_P(ExpectedKernels, vector_and_plain_sums_of_powers_agree) {
 
 TEST_P(ExpectedKernels, vector_and_plain_sums_of_products_agree) {
     const std::vector<float> values = noise(4000);
+    const auto arrays = [&](std::size_t count, std::size_t step) {
+        std::vector<const float*> all;
+        for (std::size_t i = 0; i < count; ++i) all.push_back(values.data() + step * (i + 1));
+        return all;
+    };
     for (const std::size_t length : {1, 15, 64, 81, 333})
-        for (std::size_t count = 1; count <= products_together; ++count) {
-            std::vector<const float*> a;
-            for (std::size_t i = 0; i < count; ++i) a.push_back(values.data() + 5 * i);
-            const Lines lines{a, values.data() + 17, 340, 350, 7, length};
-            std::vector<float> fast(count), plain(count);
-            sum_products(lines, fast.data());
-            sum_products_plain(lines, plain.data());
-            for (std::size_t i = 0; i < count; ++i) EXPECT_NEAR(fast[i], plain[i], 2e-3f) << length << " " << count;
-        }
+        for (std::size_t b_count = 1; b_count <= max_b_together; ++b_count)
+            for (std::size_t a_count = 1; a_count <= max_a_together(b_count); ++a_count) {
+                const auto a = arrays(a_count, 5), b = arrays(b_count, 17);
+                const Lines lines{a, b, 340, 350, 7, length};
+                std::vector<float> fast(a_count * b_count), plain(a_count * b_count);
+                sum_products(lines, fast.data());
+                sum_products_plain(lines, plain.data());
+                for (std::size_t i = 0; i < fast.size(); ++i)
+                    EXPECT_NEAR(fast[i], plain[i], 2e-3f) << length << " " << a_count << " " << b_count;
+            }
 }
 
 TEST_P(ExpectedKernels, vector_and_plain_products_of_matrices_agree) {

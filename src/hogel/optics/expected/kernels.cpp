@@ -19,13 +19,14 @@ void sum_powers_plain(const SpotBasis& basis, const SpotBasis::Weights& columns,
 }
 
 void sum_products_plain(const Lines& lines, float* sums) {
-    for (const float* a : lines.a) {
-        float sum = 0;
-        for (std::size_t row = 0; row < lines.rows; ++row)
-            for (std::size_t i = 0; i < lines.length; ++i)
-                sum += a[row * lines.a_row + i] * lines.b[row * lines.b_row + i];
-        *sums++ = sum;
-    }
+    for (const float* a : lines.a)
+        for (const float* b : lines.b) {
+            float sum = 0;
+            for (std::size_t row = 0; row < lines.rows; ++row)
+                for (std::size_t i = 0; i < lines.length; ++i)
+                    sum += a[row * lines.a_row + i] * b[row * lines.b_row + i];
+            *sums++ = sum;
+        }
 }
 
 void multiply_plain(View<const float, 2> weights, View<const float, 2> in, View<float, 2> out) {

@@ -22,20 +22,21 @@ void sum_powers(const SpotBasis& basis, const SpotBasis::Weights& columns, const
 
 /// Arrays of the same shape in memory, `rows` of `length` numbers, with the distances from row to row.
 struct Lines {
-    std::span<const float* const> a;
-    const float* b;
+    std::span<const float*const> a, b;
     std::size_t a_row, b_row;
     std::size_t rows, length;
 };
-/// Arrays whose sums are computed at once, so that b is read once for them.
-inline constexpr std::size_t products_together = 8;
-/// sums[i] = Σ a[i] b, for at most products_together arrays a.
+/// How many arrays b are multiplied at once, and sums computed, so that each number is read once for several of them.
+inline constexpr std::size_t max_b_together = 3, max_sums_together = 12;
+/// How many arrays a are multiplied at once with so many arrays b.
+constexpr std::size_t max_a_together(std::size_t b) { return b == 1 ? 8 : max_sums_together / b; }
+/// sums[i · b.size() + j] = Σ a[i] b[j], for at most max_b_together arrays b and max_a_together(b.size()) arrays a.
 void sum_products_plain(const Lines& lines, float* sums);
 void sum_products(const Lines& lines, float* sums);
 /// Σ a b of two arrays.
 inline float sum_products(const float* a, const float* b, std::size_t length) {
     float sum = 0;
-    sum_products({{&a, 1}, b, 0, 0, 1, length}, &sum);
+    sum_products({{&a, 1}, {&b, 1}, 0, 0, 1, length}, &sum);
     return sum;
 }
 

@@ -71,9 +71,9 @@ void Multiply(View<const float, 2> weights, View<const float, 2> in, View<float,
 }
 
 // A sum has several parts where there are few of them, because an addition waits for the one before.
-template <std::size_t count>
+template <std::size_t a_count, std::size_t b_count>
 HWY_INLINE void products(const Lines& lines, float* sums) {
-    constexpr std::size_t parts = count >= 4 ? 1 : 4 / count;
+    constexpr std::size_t count = a_count * b_count, parts = count >= 8 ? 1 : count >= 3 ? 2 : 4;
     const D d;
     const std::size_t width = hn::Lanes(d);
     V sum[count][parts];
@@ -81,21 +81,24 @@ HWY_INLINE void products(const Lines& lines, float* sums) {
         for (V& part : one) part = hn::Zero(d);
     float rest[count] = {};
     for (std::size_t row = 0; row < lines.rows; ++row) {
-        const float* b = lines.b + row * lines.b_row;
-        const float* a[count];
-        for (std::size_t k = 0; k < count; ++k) a[k] = lines.a[k] + row * lines.a_row;
+        const float *a[a_count], *b[b_count];
+        for (std::size_t k = 0; k < a_count; ++k) a[k] = lines.a[k] + row * lines.a_row;
+        for (std::size_t k = 0; k < b_count; ++k) b[k] = lines.b[k] + row * lines.b_row;
+        const auto add = [&](std::size_t i, std::size_t part) HWY_ATTR {
+            V factors[b_count];
+            for (std::size_t k = 0; k < b_count; ++k) factors[k] = hn::LoadU(d, b[k] + i);
+            for (std::size_t k = 0; k < a_count; ++k) {
+                const V value = hn::LoadU(d, a[k] + i);
+                for (std::size_t l = 0; l < b_count; ++l)
+                    sum[k * b_count + l][part] = hn::MulAdd(value, factors[l], sum[k * b_count + l][part]);
+            }
+        };
         std::size_t i = 0;
         for (; i + parts * width <= lines.length; i += parts * width)
-            for (std::size_t part = 0; part < parts; ++part) {
-                const V factor = hn::LoadU(d, b + i + part * width);
-                for (std::size_t k = 0; k < count; ++k)
-                    sum[k][part] = hn::MulAdd(hn::LoadU(d, a[k] + i + part * width), factor, sum[k][part]);
-            }
-        for (; i + width <= lines.length; i += width)
-            for (std::size_t k = 0; k < count; ++k)
-                sum[k][0] = hn::MulAdd(hn::LoadU(d, a[k] + i), hn::LoadU(d, b + i), sum[k][0]);
+            for (std::size_t part = 0; part < parts; ++part) add(i + part * width, part);
+        for (; i + width <= lines.length; i += width) add(i, 0);
         for (; i < lines.length; ++i)
-            for (std::size_t k = 0; k < count; ++k) rest[k] += a[k][i] * b[i];
+            for (std::size_t k = 0; k < count; ++k) rest[k] += a[k / b_count][i] * b[k % b_count][i];
     }
     for (std::size_t k = 0; k < count; ++k) {
         V all = sum[k][0];
@@ -105,7 +108,9 @@ HWY_INLINE void products(const Lines& lines, float* sums) {
 }
 
 void SumProducts(const Lines& lines, float* sums) {
-    with_count<products_together>(lines.a.size(), [&](auto count) HWY_ATTR { products<count()>(lines, sums); });
+    with_count<max_b_together>(lines.b.size(), [&](auto b) HWY_ATTR {
+        with_count<max_a_together(b())>(lines.a.size(), [&](auto a) HWY_ATTR { products<a(), b()>(lines, sums); });
+    });
 }
 
 }  // namespace HWY_NAMESPACE
