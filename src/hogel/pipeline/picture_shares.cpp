@@ -40,8 +40,9 @@ double cost(const PictureShare& share, const Fields& holograms, std::span<const 
     const FieldSource& hologram = *holograms[share.colour];
     std::vector<Camera> some;
     for (const std::size_t camera : share.cameras) some.push_back(cameras[camera]);
-    const optics::WavePowers* waves = dynamic_cast<const optics::EyeLight&>(hologram).wave_powers();
-    if (waves != nullptr) return photograph_seconds(hologram, waves->counts(), some, options);
+    const auto* const light = dynamic_cast<const optics::EyeLight*>(&hologram);
+    if (const auto* const waves = light != nullptr ? light->wave_powers() : nullptr)
+        return photograph_seconds(hologram, waves->counts(), some, options);
     // An eye takes in more of short waves: their spectrum is as much wider, and the pupil has as much finer light. Some
     // of the work is the same for all. As measured.
     return static_cast<double>(some.size()) * std::pow(hologram.grid().wavelength, -1.5);

@@ -3,78 +3,107 @@
 
 #include <gtest/gtest.h>
 
-#include <memory>
-#include <numeric>
-#include <random>
-#include <utility>
+#include <map>
+#include <tuple>
 
-#include "hogel/field.h"
+#include "hogel/units.h"
 
 namespace hogel::pipeline {
 namespace {
 
-// Where all pictures of a colour take equally long.
-class PictureSharesTest : public testing::Test {
+using namespace hogel::literals;
+
+const WaveCamera looks = PhotographOptions(), expected = PhotographOptions{.expected = true};
+
+// Three eyes with two focuses each, of a hologram in three colours.
+class PictureJobsTest : public testing::Test {
   protected:
-    std::vector<PictureShares> divide(const PictureShares& pictures, const std::vector<double>& parts) const {
-        return divided(pictures, parts, colours_, cameras_, {});
+    PictureJobsTest() {
+        HologramRequest of;
+        of.channels = rgb(633_nm, 532_nm, 460_nm);
+        of.pitch = 1.5625_um;
+        of.looks = 16;
+        holograms_ = make_holograms(light_field_, of);
+        for (const double depth : {-1_mm, 2_mm})
+            for (const double x : {-10_mm, 0_mm, 10_mm}) {
+                cameras_.push_back(camera_for(2_mm, 2_mm, 64));
+                cameras_.back().eye.x = x;
+                cameras_.back().focus_depth = depth;
+            }
     }
-    PictureShare all_of(std::size_t colour) const { return by_all_cameras(colour, cameras_.size()); }
-    static std::vector<std::pair<std::size_t, std::size_t>> pictures_of(const std::vector<PictureShares>& shares) {
-        std::vector<std::pair<std::size_t, std::size_t>> pictures;
-        for (const PictureShares& own : shares)
-            for (const PictureShare& share : own)
-                for (const std::size_t camera : share.cameras) pictures.emplace_back(share.colour, camera);
-        return pictures;
-    }
-    static std::vector<std::size_t> counts_of(const std::vector<PictureShares>& shares) {
-        std::vector<std::size_t> counts;
-        for (const PictureShares& own : shares) counts.push_back(pictures_of({own}).size());
-        return counts;
+    std::vector<PictureJob> jobs(std::size_t processes, const std::vector<WaveCamera>& ways) const {
+        return jobs_of(processes, holograms_, order_, cameras_, ways);
     }
 
-    std::vector<Camera> cameras_ = std::vector<Camera>(6);
-    Fields colours_ = Fields(3, std::make_shared<Field>(FieldGrid{{4, 4, 1e-6, 1e-6, 0, 0}, 532e-9}));
+    static LightField rendered() {
+        LightFieldRequest request;
+        request.grid = {8, 8, 0.25_mm, 32, 32, field_of_view(16_deg)};
+        return render_light_field(load_scene("sphere", request), request);
+    }
+
+    LightField light_field_ = rendered();
+    Fields holograms_;
+    std::vector<Camera> cameras_;
+    std::vector<std::size_t> order_{2, 1, 0};
 };
 
-TEST_F(PictureSharesTest, are_as_large_as_the_parts_and_each_picture_is_in_one) {
-    const PictureShares all{all_of(2), all_of(0), all_of(1)};
-    EXPECT_EQ(counts_of(divide(all, {0.5, 0.5})), (std::vector<std::size_t>{9, 9}));
-    EXPECT_EQ(counts_of(divide(all, {0.0, 1.0})), (std::vector<std::size_t>{0, 18}));
-    std::mt19937 random;
-    for (int turn = 0; turn < 100; ++turn) {
-        std::vector<double> parts(1 + random() % 9);
-        for (double& part : parts) part = random() % 4 == 0 ? 0 : std::generate_canonical<double, 32>(random);
-        parts.back() += 1e-3;
-        const double sum = std::accumulate(parts.begin(), parts.end(), 0.0);
-        for (double& part : parts) part /= sum;
-        const std::vector<PictureShares> shares = divide(all, parts);
-        const auto pictures = pictures_of(shares);
-        EXPECT_EQ(pictures, pictures_of({all})) << "in their order";
-        const std::vector<std::size_t> counts = counts_of(shares);
-        for (std::size_t process = 0; process < parts.size(); ++process)
-            EXPECT_NEAR(static_cast<double>(counts[process]), 18 * parts[process], 1.0 + 1e-9);
-    }
+TEST_F(PictureJobsTest, have_each_picture_once_and_end_together) {
+    std::size_t possible = 0;
+    for (const std::vector<WaveCamera>& ways :
+         {std::vector{looks}, std::vector{expected}, std::vector{looks, expected}})
+        for (std::size_t processes = 2; processes < 9; ++processes) {
+            const std::vector<PictureJob> all = jobs(processes, ways);
+            if (all.empty()) continue;
+            ++possible;
+            std::map<std::tuple<std::size_t, std::size_t, std::size_t>, int> pictures;
+            double sum = 0;
+            for (const PictureJob& job : all) {
+                sum += job.cost;
+                for (const std::size_t camera : job.pictures.cameras)
+                    ++pictures[{job.way, job.pictures.colour, camera}];
+            }
+            EXPECT_EQ(pictures.size(), ways.size() * holograms_.size() * cameras_.size());
+            for (const auto& [picture, count] : pictures) EXPECT_EQ(count, 1);
+            EXPECT_LE(end_of(all, processes), 1.11 * sum / static_cast<double>(processes));
+        }
+    EXPECT_GE(possible, 3u);
 }
 
-TEST_F(PictureSharesTest, of_colours_that_are_divided_are_taken_where_each_process_has_another_colour) {
-    std::vector<PictureShares> shares = divide({all_of(2), all_of(0), all_of(1)}, {0.6, 0.4});
-    const PictureShares taken = take_divided(shares, cameras_.size());
-    ASSERT_EQ(taken.size(), 1u);
-    EXPECT_EQ(taken.front().colour, 0u);
-    EXPECT_EQ(taken.front().cameras, all_of(0).cameras);
-    ASSERT_EQ(counts_of(shares), (std::vector<std::size_t>{6, 6}));
-    EXPECT_EQ(shares[0].front().colour, 2u);
-    EXPECT_EQ(shares[1].front().colour, 1u);
+TEST_F(PictureJobsTest, are_whole_colours_and_then_fewer_and_fewer_pictures_of_infinitely_many_looks) {
+    const std::vector<PictureJob> all = jobs(2, {looks, expected});
+    ASSERT_GT(all.size(), 6u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(all[i].way, 0u);
+        EXPECT_EQ(all[i].pictures.colour, order_[i]);
+        EXPECT_EQ(all[i].pictures.cameras.size(), cameras_.size());
+    }
+    for (std::size_t i = 3; i < all.size(); ++i) {
+        EXPECT_EQ(all[i].way, 1u);
+        const PictureShare &some = all[i].pictures, &before = all[i - 1].pictures;
+        EXPECT_TRUE(some.colour != before.colour || some.cameras.size() <= before.cameras.size());
+    }
+    EXPECT_EQ(all.back().pictures.cameras.size(), 1u);
+    // Cameras of an eye follow each other.
+    EXPECT_EQ(all[3].pictures.cameras[0] % 3, all[3].pictures.cameras[1] % 3);
 }
 
-TEST_F(PictureSharesTest, stay_where_a_process_has_no_whole_colour) {
-    for (const std::vector<double>& parts : {std::vector<double>(7, 1.0 / 7), std::vector<double>{0.3, 0.1, 0.6}}) {
-        std::vector<PictureShares> shares = divide({all_of(0), all_of(1), all_of(2)}, parts);
-        const std::vector<std::size_t> before = counts_of(shares);
-        EXPECT_TRUE(take_divided(shares, cameras_.size()).empty());
-        EXPECT_EQ(counts_of(shares), before);
-    }
+TEST_F(PictureJobsTest, are_none_where_colours_cannot_be_divided_evenly) {
+    EXPECT_TRUE(jobs(1, {looks, expected}).empty());
+    EXPECT_TRUE(jobs(2, {looks}).empty());
+    EXPECT_TRUE(jobs(9, {looks}).empty());
+    EXPECT_TRUE(jobs(2, {looks, PlaneWaveCameraOptions()}).empty());
+    EXPECT_TRUE(jobs(2, {PhotographOptions{.from = LightFrom::samples}, expected}).empty());
+    // An eye's band is that of its widest pupil, so that its pictures are not made one by one.
+    cameras_.front().pupil *= 0.5;
+    for (const PictureJob& job : jobs(3, {expected})) EXPECT_EQ(job.pictures.cameras.size(), cameras_.size());
+}
+
+TEST(PictureJobs, are_taken_by_whoever_is_free) {
+    const auto job = [](double cost) { return PictureJob{0, {}, cost}; };
+    EXPECT_EQ(end_of(std::vector{job(3), job(2), job(2), job(1)}, 2), 4);
+    EXPECT_EQ(end_of(std::vector{job(3), job(2), job(2), job(1)}, 1), 8);
+    EXPECT_EQ(end_of(std::vector{job(1), job(1), job(3)}, 2), 4);
+    EXPECT_EQ(end_of({}, 3), 0);
 }
 
 }  // namespace

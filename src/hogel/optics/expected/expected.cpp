@@ -29,8 +29,8 @@ constexpr double guard = 0.05;
 // Hogels that are read together.
 constexpr std::size_t block_across = 64, block_down = 2;
 
-// Pixels that are exposed together.
-constexpr std::size_t pixels_across = 128, pixels_down = 16;
+// Pixels that are exposed together: many with the same weights, because all weights of a table do not fit into the cache.
+constexpr std::size_t pixels_across = 512, pixels_down = 8;
 
 // By how much, in radians, the phase of the focus at the pupil's rim may vary over the part of the hologram that one
 // table of spots serves.
