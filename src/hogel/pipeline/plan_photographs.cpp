@@ -22,15 +22,13 @@ namespace hogel {
 namespace {
 
 // Processor seconds, measured on two threads of one core of an AMD EPYC (Zen 5) with g++ 12, 2026-11-23 and, from
-// hogels, 2026-11-28, other programs beside it. Per sample of a hologram: for the narrow band of one eye.
+// hogels, 2026-11-28 and -29, other programs beside it. Per sample of a hologram: for the narrow band of one eye.
 constexpr double seconds_a_sample_and_eye = 1.8e-9;
-// Per wave of a hogel: for its amplitude, once; for its phase, for each look; for its light, for each look and eye; and
-// for its share in the numbers of the mean of infinitely many looks, for each eye.
-constexpr double seconds_an_amplitude = 1e-9, seconds_a_wave = 0.25e-9, seconds_a_wave_and_eye = 0.15e-9,
-                 seconds_a_power_and_eye = 0.4e-9;
+// Per wave of a hogel: for its amplitude, once; for its phase, for each look; and for its light, for each look and eye.
+constexpr double seconds_an_amplitude = 1e-9, seconds_a_wave = 0.25e-9, seconds_a_wave_and_eye = 0.15e-9;
 // Per sample of a band, for each look; per sample of a film, for each look and photograph; and for each product of a
-// number of a hogel with a spot.
-constexpr double seconds_a_band_sample = 15e-9, seconds_a_film_sample = 10e-9, seconds_a_product = 0.11e-9;
+// number of a hogel with a spot, of the mean of infinitely many looks.
+constexpr double seconds_a_band_sample = 15e-9, seconds_a_film_sample = 10e-9, seconds_a_product = 0.04e-9;
 
 // Per sample of the sines and of the film of a set of lines behind a vertical diffuser, most of which are dark
 // (decision 0088).
@@ -84,13 +82,6 @@ double seconds_from_hogels(std::size_t hogels, const hologram::eye::HogelLayout&
     return seconds;
 }
 
-double seconds_of_expected(const FieldGrid& hologram, std::span<const Camera> cameras,
-                           const optics::expected::Work& work) {
-    return static_cast<double>(hologram.plane.samples()) *
-               (seconds_an_amplitude + static_cast<double>(eyes_of(cameras).size()) * seconds_a_power_and_eye) +
-           work.products * seconds_a_product;
-}
-
 // Bytes of the camera, which computes as many looks together as there is memory for.
 // @param share  of the memory of narrow bands that bands take
 double camera_bytes_of(const FieldGrid& hologram, std::span<const Camera> cameras, const PhotographOptions& options,
@@ -119,8 +110,7 @@ double seconds_of_films(const FieldGrid& hologram, std::span<const Camera> camer
 double photograph_seconds(const FieldSource& hologram, const optics::WavePowers::Counts& counts,
                           std::span<const Camera> cameras, const PhotographOptions& options) {
     const FieldGrid& grid = hologram.grid();
-    if (options.expected)
-        return seconds_of_expected(grid, cameras, optics::expected::work(grid, counts, cameras, options));
+    if (options.expected) return optics::expected::work(grid, counts, cameras, options).products * seconds_a_product;
     return seconds_from_hogels(counts.across * counts.down, {grid, counts.samples, counts.samples}, cameras,
                                hologram.looks());
 }
@@ -162,7 +152,7 @@ Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramReque
             const optics::expected::Work work = optics::expected::work(
                 hologram, {faces.front().hogels_s, faces.front().hogels_t, samples_a_side(faces.front(), hologram)},
                 cameras, options);
-            seconds += seconds_of_expected(hologram, cameras, work);
+            seconds += work.products * seconds_a_product;
             camera_bytes = std::max(camera_bytes, work.bytes);
             continue;
         }

@@ -29,7 +29,8 @@ constexpr double guard = 0.05;
 // Hogels that are read together.
 constexpr std::size_t block_across = 64, block_down = 2;
 
-// Pixels that are exposed together: many with the same weights, because all weights of a table do not fit into the cache.
+// Pixels that are exposed together: many with the same weights, because all weights of a table do not fit into the
+// cache.
 constexpr std::size_t pixels_across = 512, pixels_down = 8;
 
 // By how much, in radians, the phase of the focus at the pupil's rim may vary over the part of the hologram that one
@@ -38,6 +39,10 @@ constexpr double max_change = 0.5;
 
 // Parts of the hologram along each axis that have spots of their own, at most.
 constexpr double max_parts = 9;
+
+// As measured: products that take as long as reading the powers of a sample of a hologram, and as its share in the
+// numbers of its hogel for an eye.
+constexpr double products_of_a_power = 35, products_of_a_power_and_eye = 10;
 
 // A camera: its spots, seen from the middles of the parts of the hologram.
 struct Exposure {
@@ -107,6 +112,12 @@ Exposure make_exposure(const HogelGrid& hogels, const ExpectedEye& eye, const Ca
         }
     exposure.tails = Array<float, 2>({plane.height, plane.width});
     return exposure;
+}
+
+// Products that take as long as reading hogels for some eyes.
+double products_of_reading(const HogelGrid& hogels, std::size_t eyes) {
+    return static_cast<double>(hogels.plane.samples() * hogels.samples * hogels.samples) *
+           (products_of_a_power + static_cast<double>(eyes) * products_of_a_power_and_eye);
 }
 
 // Products of numbers of hogels with spots.
@@ -222,13 +233,11 @@ class Photographer {
   private:
     // The part of an exposure's time in which hogels are read.
     double reading_share() const {
-        double reading = 0, exposing = 0;
-        const auto samples = static_cast<double>(hogels_.plane.samples() * hogels_.samples * hogels_.samples);
-        for (const ExpectedEye& eye : eyes_) {
-            reading += products_of_a_sample * samples;
+        const double reading = products_of_reading(hogels_, eyes_.size());
+        double exposing = 0;
+        for (const ExpectedEye& eye : eyes_)
             for (const Exposure& exposure : eye.exposures)
                 exposing += products_of_pixels(*eye.pairs, exposure.spots.front().reach(), cameras_[exposure.camera]);
-        }
         return reading / (reading + exposing);
     }
 
@@ -415,12 +424,12 @@ std::vector<SharedEye> eyes_of(std::span<const Camera> cameras) {
 Work work(const FieldGrid& hologram, const WavePowers::Counts& counts, std::span<const Camera> cameras,
           const PhotographOptions& options) {
     const HogelGrid hogels = hogel_grid(hologram, counts);
-    Work work;
-    for (const SharedEye& eye : eyes_of(cameras)) {
+    const std::vector<SharedEye> eyes = eyes_of(cameras);
+    Work work{products_of_reading(hogels, eyes.size()), 0};
+    for (const SharedEye& eye : eyes) {
         const double band = half_band(hogels, cameras[eye.members.front()].eye, eye.pupil);
         const SpotNodes nodes(counts.samples, band * (1 + guard));
         const Pairs list(nodes, band);
-        ++work.eyes;
         work.products += nodes.products();
         const auto pairs = static_cast<double>(list.padded_count());
         work.bytes += pairs * static_cast<double>(hogels.plane.samples()) * sizeof(float);

@@ -19,14 +19,11 @@ namespace hogel::optics::expected {
 void photograph(const FieldSource& hologram, const WavePowers& waves, std::span<const Camera> cameras,
                 const PhotographOptions& options, std::span<Image> pictures, const Progress& progress);
 
-/// What photograph() takes, besides the waves' powers.
+/// What photograph() takes.
 struct Work {
-    double products = 0;  ///< of numbers of hogels and spots, and for the tables of spots
+    double products = 0;  ///< of numbers of hogels and spots, and what takes as long
     double bytes = 0;     ///< of the numbers
-    std::size_t eyes = 0;
 };
-/// Products that take as long as reading a sample of a hologram for an eye and computing the numbers of its hogel.
-inline constexpr double products_of_a_sample = 5;
 Work work(const FieldGrid& hologram, const WavePowers::Counts& counts, std::span<const Camera> cameras,
           const PhotographOptions& options);
 
