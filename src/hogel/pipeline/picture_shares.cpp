@@ -22,6 +22,9 @@ namespace {
 // By how much longer than on the average a process may take for its jobs: more is lost where all share a colour.
 constexpr double max_excess = 1.1;
 
+// By how much more some pictures of a colour may cost than their share of all: each job reads all hogels.
+constexpr double max_reading = 1.5;
+
 // Whether pictures by one camera do not depend on those by others: an eye's band is that of its widest pupil.
 bool are_independent(std::span<const Camera> cameras) {
     return std::ranges::all_of(cameras, [&](const Camera& one) {
@@ -84,10 +87,12 @@ std::vector<std::size_t> by_eyes(std::span<const Camera> cameras) {
 }
 
 // How many of the next pictures a process takes that is free: its part of all that is left.
-// @param each  what a picture costs
-std::size_t count_of_part(double left, double each, std::size_t processes, std::size_t pictures) {
-    const double part = left / (each * static_cast<double>(processes));
-    return std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(std::min(part, 1e9))), 1, pictures);
+// @param each    what a picture costs
+// @param enough  of them, so that reading hogels for them alone does not cost too much
+std::size_t count_of_part(double left, double each, std::size_t processes, std::size_t enough, std::size_t pictures) {
+    const double part = std::min(left / (each * static_cast<double>(processes)), 1e9);
+    const std::size_t count = std::max(static_cast<std::size_t>(std::lround(part)), enough);
+    return count + enough > pictures ? pictures : count;
 }
 
 }  // namespace
@@ -121,13 +126,19 @@ std::vector<PictureJob> jobs_of(std::size_t processes, const Fields& holograms, 
     }
     const std::vector<std::size_t> camera_order = by_eyes(cameras);
     for (const PictureJob& job : divisible) {
-        const double each = job.cost / static_cast<double>(cameras.size());
-        for (std::size_t first = 0; first < cameras.size();) {
-            const std::size_t count = count_of_part(left, each, processes, cameras.size() - first);
+        const auto part_of = [&](std::size_t first, std::size_t count) {
             const auto begin = camera_order.begin() + static_cast<std::ptrdiff_t>(first);
-            PictureShare some{job.pictures.colour, {begin, begin + static_cast<std::ptrdiff_t>(count)}};
-            const double some_cost = cost(some, holograms, cameras, std::get<PhotographOptions>(ways[job.way]));
-            jobs.push_back({job.way, std::move(some), some_cost});
+            PictureJob part{job.way, {job.pictures.colour, {begin, begin + static_cast<std::ptrdiff_t>(count)}}};
+            part.cost = cost(part.pictures, holograms, cameras, std::get<PhotographOptions>(ways[job.way]));
+            return part;
+        };
+        const double each = job.cost / static_cast<double>(cameras.size());
+        std::size_t enough = 1;
+        while (enough < cameras.size() && part_of(0, enough).cost > max_reading * each * static_cast<double>(enough))
+            ++enough;
+        for (std::size_t first = 0; first < cameras.size();) {
+            const std::size_t count = count_of_part(left, each, processes, enough, cameras.size() - first);
+            jobs.push_back(part_of(first, count));
             left -= each * static_cast<double>(count);
             first += count;
         }
