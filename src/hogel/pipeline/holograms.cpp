@@ -201,6 +201,8 @@ std::vector<std::vector<Image>> photograph_by_jobs(Team& team, const Fields& hol
     double sum = 0, done = 0;
     for (const pipeline::PictureJob& job : jobs) sum += job.cost;
     const double own_part = sum / static_cast<double>(team.size());
+    std::vector<std::vector<Image>> pictures;
+    for (std::size_t way = 0; way < ways.size(); ++way) pictures.push_back(colours(way).unexposed());
     std::vector<std::uint64_t> own;                                  // jobs
     std::vector<std::vector<std::vector<Image>>> seen(ways.size());  // [way][job]
     const std::uint64_t queue = team.next_number();
@@ -223,11 +225,9 @@ std::vector<std::vector<Image>> photograph_by_jobs(Team& team, const Fields& hol
     for (std::size_t process = 0; process < team.size(); ++process)
         for (const std::uint64_t i : core::MessageReader(all[process]).get_vector<std::uint64_t>())
             shares[jobs[i].way][process].push_back(jobs[i].pictures);
-    std::vector<std::vector<Image>> pictures;
     for (std::size_t way = 0; way < ways.size(); ++way) {
-        pictures.push_back(colours(way).unexposed());
-        pipeline::gather(shares[way], seen[way], pictures.back());
-        pipeline::share(pictures.back());
+        pipeline::gather(shares[way], seen[way], pictures[way]);
+        pipeline::share(pictures[way]);
     }
     progress.report(1);
     return pictures;
@@ -244,9 +244,12 @@ std::vector<std::vector<Image>> photograph_colours(const Fields& holograms, std:
         return options != nullptr && optics::are_photographed_together(holograms, cameras, *options);
     };
     if (Team* const team = core::team_of_several()) {
-        const auto jobs = pipeline::jobs_of(team->size(), holograms, in_order(holograms), cameras, ways);
-        if (!jobs.empty() && std::ranges::none_of(ways, share_rays))
-            return photograph_by_jobs(*team, holograms, cameras, ways, jobs, progress);
+        std::vector<pipeline::PictureJob> jobs;
+        if (team->is_first() && std::ranges::none_of(ways, share_rays))
+            jobs = pipeline::jobs_of(team->size(), holograms, in_order(holograms), cameras, ways);
+        // Costs may differ in their last bits between machines.
+        core::share_result(jobs, pipeline::sent_jobs());
+        if (!jobs.empty()) return photograph_by_jobs(*team, holograms, cameras, ways, jobs, progress);
     }
     std::vector<std::vector<Image>> pictures;
     for (const WaveCamera& with : ways)

@@ -9,7 +9,6 @@
 
 #include "hogel/core/pieces.h"
 #include "hogel/core/result_log.h"
-#include "hogel/core/shared_order.h"
 #include "hogel/core/speeds.h"
 #include "hogel/optics/eye_light.h"
 #include "hogel/optics/photograph_plan.h"
@@ -145,6 +144,29 @@ std::vector<PictureJob> jobs_of(std::size_t processes, const Fields& holograms, 
     }
     return end_of(jobs, processes) <= max_excess * sum / static_cast<double>(processes) ? jobs
                                                                                         : std::vector<PictureJob>{};
+}
+
+core::Sent<std::vector<PictureJob>> sent_jobs() {
+    const auto write = [](core::MessageWriter& message, const std::vector<PictureJob>& jobs) {
+        message.put(jobs.size());
+        for (const PictureJob& job : jobs) {
+            message.put(job.way);
+            message.put(job.pictures.colour);
+            message.put(job.pictures.cameras);
+            message.put(job.cost);
+        }
+    };
+    const auto read = [](core::MessageReader& message) {
+        std::vector<PictureJob> jobs(message.get<std::size_t>());
+        for (PictureJob& job : jobs) {
+            job.way = message.get<std::size_t>();
+            job.pictures.colour = message.get<std::size_t>();
+            job.pictures.cameras = message.get_vector<std::size_t>();
+            job.cost = message.get<double>();
+        }
+        return jobs;
+    };
+    return {write, read};
 }
 
 std::vector<PictureShares> shares_of_processes(const Fields& holograms, std::span<const std::size_t> order,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hogel/camera.h"
+#include "hogel/core/shared_order.h"
 #include "hogel/image.h"
 #include "hogel/pipeline.h"
 
@@ -40,6 +41,8 @@ struct PictureJob {
 /// @param order  in which colours are photographed, those that take longest first
 std::vector<PictureJob> jobs_of(std::size_t processes, const Fields& holograms, std::span<const std::size_t> order,
                                 std::span<const Camera> cameras, std::span<const WaveCamera> ways);
+
+core::Sent<std::vector<PictureJob>> sent_jobs();
 
 /// When equally fast processes that take jobs in order have made all of them, in the unit of their cost.
 double end_of(std::span<const PictureJob> jobs, std::size_t processes);
