@@ -31,7 +31,7 @@ for place in range(0, {MEMORY_AT_HAND}, 4096):
 """
 # Stages of which docs/cluster.md says less, and why; with a tenth for other work on the machine.
 LIMITS = {"compress": 0.85, "hologram": 0.85, "photo by rays": 0.85, "photo, camera narrow": 0.85, "photo, camera narrow, streamed": 0.85,
-          "photo, camera eye": 0.85, "photo, looks expected": 0.85, "photo, camera full": 0.85, "propagate": 0.85, "slm": 0.82, "make": 0.82}
+          "photo, camera eye": 0.85, "photo, looks expected": 0.85, "photo, camera full": 0.85, "propagate": 0.85, "slm": 0.82, "make": 0.85}
 
 
 # name: inputs, command

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <numeric>
 #include <ranges>
 
@@ -20,9 +21,6 @@ namespace {
 
 // By how much longer than on the average a process may take for its jobs: more is lost where all share a colour.
 constexpr double max_excess = 1.1;
-
-// By how much more some pictures of a colour may cost than their share of all: each job reads all hogels.
-constexpr double max_reading = 1.5;
 
 // Whether pictures by one camera do not depend on those by others: an eye's band is that of its widest pupil.
 bool are_independent(std::span<const Camera> cameras) {
@@ -85,13 +83,46 @@ std::vector<std::size_t> by_eyes(std::span<const Camera> cameras) {
     return order;
 }
 
-// How many of the next pictures a process takes that is free: its part of all that is left.
-// @param each    what a picture costs
-// @param enough  of them, so that reading hogels for them alone does not cost too much
-std::size_t count_of_part(double left, double each, std::size_t processes, std::size_t enough, std::size_t pictures) {
-    const double part = std::min(left / (each * static_cast<double>(processes)), 1e9);
-    const std::size_t count = std::max(static_cast<std::size_t>(std::lround(part)), enough);
-    return count + enough > pictures ? pictures : count;
+// A job that can be divided, because it is of pictures of infinitely many looks. Part of its cost is that of reading
+// hogels, which each of its parts does.
+struct LargeJob {
+    PictureJob job;
+    double reading = 0, each = 0;  // cost for all pictures, and for each of them
+};
+
+LargeJob large_job(const PictureJob& job, const Fields& holograms, std::span<const Camera> cameras,
+                   const PhotographOptions& options) {
+    const auto count = static_cast<double>(cameras.size());
+    const double one = cost(PictureShare{job.pictures.colour, {0}}, holograms, cameras, options);
+    const double each = count > 1 ? (job.cost - one) / (count - 1) : one;
+    return {job, std::max(0.0, one - each), each};
+}
+
+// Divides jobs so that a process that is free takes about its part of all that is left.
+// @param camera_order  in which pictures are taken
+// @param enough        pictures for a job
+// @param part          of what is left, times the number of processes
+std::vector<PictureJob> divide(std::span<const LargeJob> large, std::span<const std::size_t> camera_order,
+                               std::size_t processes, std::size_t enough, double part) {
+    std::vector<PictureJob> jobs;
+    double left = 0;
+    for (const LargeJob& one : large) left += one.job.cost;
+    for (const auto& [job, reading, each] : large) {
+        const double mean = job.cost / static_cast<double>(camera_order.size());
+        for (std::size_t first = 0; first < camera_order.size();) {
+            const std::size_t rest = camera_order.size() - first;
+            const double own = std::min(part * left / (mean * static_cast<double>(processes)), 1e9);
+            std::size_t count = std::max(static_cast<std::size_t>(std::lround(own)), enough);
+            if (count + enough > rest) count = rest;
+            const auto begin = camera_order.begin() + static_cast<std::ptrdiff_t>(first);
+            jobs.push_back({job.way,
+                            {job.pictures.colour, {begin, begin + static_cast<std::ptrdiff_t>(count)}},
+                            reading + each * static_cast<double>(count)});
+            left -= mean * static_cast<double>(count);
+            first += count;
+        }
+    }
+    return jobs;
 }
 
 }  // namespace
@@ -109,41 +140,34 @@ std::vector<PictureJob> jobs_of(std::size_t processes, const Fields& holograms, 
         return std::holds_alternative<PhotographOptions>(with) && are_of_hogels_or_planes(holograms, with);
     };
     if (!std::ranges::all_of(ways, is_possible)) return {};
-    std::vector<PictureJob> jobs;
-    double sum = 0, left = 0;  // of all pictures of all colours; of those that can be divided
-    std::vector<PictureJob> divisible;
+    std::vector<PictureJob> whole, best;
+    std::vector<LargeJob> large;
+    double sum = 0;
     for (std::size_t way = 0; way < ways.size(); ++way) {
         const auto& options = std::get<PhotographOptions>(ways[way]);
         for (const std::size_t colour : order) {
             const PictureShare all = by_all_cameras(colour, cameras.size());
             const PictureJob job{way, all, cost(all, holograms, cameras, options)};
-            const bool can_divide = options.expected && are_independent(cameras);
-            (can_divide ? divisible : jobs).push_back(job);
             sum += job.cost;
-            if (can_divide) left += job.cost;
+            if (options.expected && are_independent(cameras))
+                large.push_back(large_job(job, holograms, cameras, options));
+            else
+                whole.push_back(job);
         }
     }
+    // Few pictures to a job end more evenly, but hogels are read more often: the best of some divisions.
     const std::vector<std::size_t> camera_order = by_eyes(cameras);
-    for (const PictureJob& job : divisible) {
-        const auto part_of = [&](std::size_t first, std::size_t count) {
-            const auto begin = camera_order.begin() + static_cast<std::ptrdiff_t>(first);
-            PictureJob part{job.way, {job.pictures.colour, {begin, begin + static_cast<std::ptrdiff_t>(count)}}};
-            part.cost = cost(part.pictures, holograms, cameras, std::get<PhotographOptions>(ways[job.way]));
-            return part;
-        };
-        const double each = job.cost / static_cast<double>(cameras.size());
-        std::size_t enough = 1;
-        while (enough < cameras.size() && part_of(0, enough).cost > max_reading * each * static_cast<double>(enough))
-            ++enough;
-        for (std::size_t first = 0; first < cameras.size();) {
-            const std::size_t count = count_of_part(left, each, processes, enough, cameras.size() - first);
-            jobs.push_back(part_of(first, count));
-            left -= each * static_cast<double>(count);
-            first += count;
+    double end = max_excess * sum / static_cast<double>(processes);
+    for (std::size_t enough = 1; enough <= std::min<std::size_t>(cameras.size(), 8); ++enough)
+        for (const double part : {1.0, 1.25, 1.5}) {
+            std::vector<PictureJob> jobs = whole;
+            std::ranges::move(divide(large, camera_order, processes, enough, part), std::back_inserter(jobs));
+            const double own_end = end_of(jobs, processes);
+            if (own_end > end || (own_end == end && !best.empty())) continue;
+            end = own_end;
+            best = std::move(jobs);
         }
-    }
-    return end_of(jobs, processes) <= max_excess * sum / static_cast<double>(processes) ? jobs
-                                                                                        : std::vector<PictureJob>{};
+    return best;
 }
 
 core::Sent<std::vector<PictureJob>> sent_jobs() {

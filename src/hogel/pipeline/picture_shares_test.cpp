@@ -48,7 +48,7 @@ class PictureJobsTest : public testing::Test {
 };
 
 TEST_F(PictureJobsTest, have_each_picture_once_and_end_together) {
-    std::size_t possible = 0;
+    std::size_t possible = 0, divided = 0;
     for (const std::vector<WaveCamera>& ways :
          {std::vector{looks}, std::vector{expected}, std::vector{looks, expected}})
         for (std::size_t processes = 2; processes < 9; ++processes) {
@@ -59,6 +59,7 @@ TEST_F(PictureJobsTest, have_each_picture_once_and_end_together) {
             double sum = 0;
             for (const PictureJob& job : all) {
                 sum += job.cost;
+                divided += job.pictures.cameras.size() < cameras_.size() ? 1 : 0;
                 for (const std::size_t camera : job.pictures.cameras)
                     ++pictures[{job.way, job.pictures.colour, camera}];
             }
@@ -67,11 +68,12 @@ TEST_F(PictureJobsTest, have_each_picture_once_and_end_together) {
             EXPECT_LE(end_of(all, processes), 1.11 * sum / static_cast<double>(processes));
         }
     EXPECT_GE(possible, 3u);
+    EXPECT_GT(divided, 0u);
 }
 
 TEST_F(PictureJobsTest, are_whole_colours_and_then_fewer_and_fewer_pictures_of_infinitely_many_looks) {
     const std::vector<PictureJob> all = jobs(2, {looks, expected});
-    ASSERT_GT(all.size(), 6u);
+    ASSERT_GE(all.size(), 6u);
     for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_EQ(all[i].way, 0u);
         EXPECT_EQ(all[i].pictures.colour, order_[i]);
@@ -82,7 +84,6 @@ TEST_F(PictureJobsTest, are_whole_colours_and_then_fewer_and_fewer_pictures_of_i
         const PictureShare &some = all[i].pictures, &before = all[i - 1].pictures;
         EXPECT_TRUE(some.colour != before.colour || some.cameras.size() <= before.cameras.size());
     }
-    EXPECT_LE(all.back().pictures.cameras.size(), 3u);
     // Cameras of an eye follow each other.
     EXPECT_EQ(all[3].pictures.cameras[0] % 3, all[3].pictures.cameras[1] % 3);
 }
