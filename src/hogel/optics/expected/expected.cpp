@@ -355,7 +355,7 @@ class Photographer {
                 std::partition(begin, lit.end(), [&](const Hogel& other) { return is_alike(one, other); });
             while (begin != same) {
                 const std::span some(begin,
-                                     std::min(same, begin + static_cast<std::ptrdiff_t>(max_a_together(one.count))));
+                                     std::min(static_cast<std::size_t>(same - begin), max_a_together(one.count)));
                 const float *numbers[max_sums_together], *weights[max_b_together];
                 for (std::size_t k = 0; k < some.size(); ++k)
                     numbers[k] = &eye.numbers(top, static_cast<std::size_t>(some[k].left) * pairs);
