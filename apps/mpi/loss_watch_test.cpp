@@ -33,7 +33,7 @@ TEST(LossWatch, names_the_rank_whose_process_was_killed) {
     const LossWatch watch(others, [&](const RankProcess& rank) { lost.set_value(rank.rank); });
     end(others[1].process);
     std::future<std::size_t> answer = lost.get_future();
-    const bool came = answer.wait_for(std::chrono::seconds(20)) == std::future_status::ready;
+    const bool came = answer.wait_for(std::chrono::seconds(60)) == std::future_status::ready;
     end(others[0].process);
     ASSERT_TRUE(came);
     EXPECT_EQ(answer.get(), 4u);

@@ -61,6 +61,17 @@ void run_ranks(std::size_t size, const Work& work) {
     ranks.clear();
 }
 
-inline constexpr std::chrono::seconds patience{10};
+// After so long a test that waits for others fails: a hang, whatever the machine.
+inline constexpr std::chrono::seconds patience{60};
+
+// Waits until something is the case; whether it was within `patience`.
+bool comes_true(const auto& test) {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (!test()) {
+        if (std::chrono::steady_clock::now() > end) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return true;
+}
 
 }  // namespace hogel::mpi

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double wavelength = 633e-9, pitch = 4e-6;
 constexpr std::size_t side = 256;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Points a depth behind the hologram, and a plane wave of a known frequency where there are none.
 Fields points(double depth) {

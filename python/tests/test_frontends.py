@@ -10,7 +10,6 @@ import struct
 import subprocess
 import sys
 import termios
-import time
 import unittest
 
 import hogel
@@ -44,7 +43,7 @@ class Progress(InFolder):
         program = subprocess.Popen([sys.executable, "-c", LONG.format(before=before, hogels=hogels)], stdout=subprocess.PIPE,
                                    stderr=theirs, text=True)
         os.close(theirs)
-        text, took = "", None
+        text = ""
         while True:
             try:
                 read = os.read(ours, 4096).decode(errors="replace")
@@ -54,24 +53,23 @@ class Progress(InFolder):
                 break
             text += read
             if interrupt and re.search(interrupt, text):
-                asked, interrupt = time.monotonic(), None
+                interrupt = None
                 program.send_signal(signal.SIGINT)
                 self.assertEqual(program.stdout.readline(), "stopped\n")
-                took = time.monotonic() - asked
         os.close(ours)
         said = program.communicate(timeout=60)[0]
         self.assertEqual(program.returncode, 0, text)
         self.assertIsNone(interrupt, text)
-        return said, text, took
+        return said, text
 
     @needs_tqdm
     def test_tqdm_in_terminals(self):
-        said, text, _ = self.shown("")
+        said, text = self.shown("")
         self.assertEqual(said, "ended\n")
         self.assertRegex(text, r"writing: +\d+%\|")
 
     def test_a_line_without_tqdm(self):
-        said, text, _ = self.shown(WITHOUT_TQDM)
+        said, text = self.shown(WITHOUT_TQDM)
         self.assertEqual(said, "ended\n")
         self.assertRegex(text, r"\rwriting: +\d+ %")
         self.assertNotIn("|", text)
@@ -79,19 +77,16 @@ class Progress(InFolder):
     @needs_tqdm
     def test_notebooks(self):
         """By tqdm.auto, which shows a widget, or a line where there are no widgets."""
-        said, text, _ = self.shown(NOTEBOOK)
+        said, text = self.shown(NOTEBOOK)
         self.assertIn("ended\n", said)
         self.assertRegex(text + said, r"writing: +\d+%")
-        said, text, _ = self.shown(NOTEBOOK + "\n" + WITHOUT_TQDM)
+        said, text = self.shown(NOTEBOOK + "\n" + WITHOUT_TQDM)
         self.assertRegex(text, r"\rwriting: +\d+ %")
 
     def test_control_c_while_a_bar_is_shown(self):
         for before in ("", WITHOUT_TQDM):
-            took = []
-            while len(took) < 3 and not (took and took[-1] < 1):  # other programs may be in the way
-                took.append(self.shown(before, hogels=2000, interrupt=r"writing: ")[2])
-                self.assertEqual(os.listdir(), [])
-            self.assertLess(min(took), 1)
+            self.shown(before, hogels=2000, interrupt=r"writing: ")
+            self.assertEqual(os.listdir(), [])  # nor the file of work that came to its end
 
     def test_files_hear_of_nothing(self):
         words = [sys.executable, "-c", LONG.format(before="", hogels=8)]

@@ -145,7 +145,7 @@ async function files(browser) {
 
   // A broken file says so, and what was there stays.
   await drop(page, "broken.ply", Buffer.from("ply\nformat ascii 1.0\n"));
-  await page.waitForFunction(() => document.getElementById("problem-text").textContent.includes("broken.ply"), null, {timeout: 20000});
+  await page.waitForFunction(() => document.getElementById("problem-text").textContent.includes("broken.ply"), null, {timeout: 60000});
   expect((await text(page, "problem-text")).startsWith("broken.ply"), await text(page, "problem-text"));
   expect(await text(page, "name") === "sphere.h5", "a broken file takes the place of another");
   await shot(page, "drop_broken");

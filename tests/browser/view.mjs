@@ -19,7 +19,7 @@ const expect = (truth, what) => { if (!truth) { failures.push(what); console.log
 
 // The next picture at rest, by what the page says of it.
 const picture = (page, samples = 16) => page.evaluate(samples => new Promise((resolve, reject) => {
-  const canvas = document.getElementById("picture"), late = setTimeout(() => reject(new Error("no picture came")), 20000);
+  const canvas = document.getElementById("picture"), late = setTimeout(() => reject(new Error("no picture came")), 60000);
   canvas.addEventListener("hogel-picture", function listen(event) {
     if (event.detail.pupil_samples !== samples) return;
     canvas.removeEventListener("hogel-picture", listen);
@@ -230,7 +230,7 @@ async function run() {
   await page.waitForFunction(() => !document.getElementById("problem").hidden);
   if (shots) await page.screenshot({path: path.join(shots, "view_lost.png")});
   server = await serve(hogel, input, "--looks", "2", "--port", String(port));
-  await page.waitForFunction(() => document.getElementById("problem").hidden, null, {timeout: 20000});
+  await page.waitForFunction(() => document.getElementById("problem").hidden, null, {timeout: 60000});
   await page.evaluate(() => document.getElementById("picture").focus());
   fine = picture(page);
   await page.keyboard.press("ArrowRight");

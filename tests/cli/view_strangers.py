@@ -6,7 +6,7 @@ import pathlib
 import signal
 import socket
 
-from view_client import VIEW, Server, WebSocket, expect, next_state
+from view_client import PATIENCE, VIEW, Server, WebSocket, expect, next_state
 
 
 def check_refusals(server):
@@ -32,7 +32,7 @@ def check_refusals(server):
                  b"GET /" + b"a" * 70000 + b" HTTP/1.1\r\n\r\n", b"GET / HTTP/1.1\r\nHost: a\r\nContent-Length: 99999999999\r\n\r\n"):
         expect(not server.raw(text).startswith(b"HTTP/1.1 200"), f"{text[:30]!r}")
     # Connections that say nothing: more than there may be, and the page still comes.
-    idle = [socket.create_connection(("127.0.0.1", server.port), timeout=20) for _ in range(1000)]
+    idle = [socket.create_connection(("127.0.0.1", server.port), timeout=PATIENCE) for _ in range(1000)]
     for connection in idle[::2]:
         try:
             connection.sendall(b"GET / HTTP/1.1\r\nHo")

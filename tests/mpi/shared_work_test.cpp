@@ -147,7 +147,6 @@ TEST_P(SharedWorkTest, RowsGoToAllThatWantThem) {
     });
 }
 
-// The first has done its work after a fifth of a second, in which the second has done half, and the third says nothing.
 TEST_P(SharedWorkTest, AllGetTheNumbersOfTheFirst) {
     run_ranks(GetParam(), [&](RankTeam& team) {
         for (const std::size_t count : {0, 1, 262'144, 262'145, 700'001}) {
@@ -160,18 +159,33 @@ TEST_P(SharedWorkTest, AllGetTheNumbersOfTheFirst) {
     });
 }
 
+// By a clock that stands still, the first has done its work after a fifth of a second, in which the second has done
+// half, and the third says nothing.
 TEST(WorkBefore, SaysWhatIsLeftWhenTheFirstIsDone) {
+    using Clock = core::WorkBefore::Clock;
     for (const std::size_t fast : {0, 1, 2}) {
         std::array<std::vector<double>, 3> left;
+        std::atomic<int> milliseconds = 0;
+        std::atomic<bool> is_first_done = false;
         run_ranks(3, [&](RankTeam& team) {
             const std::size_t place = (team.rank() + 3 - fast) % 3;
+            core::WorkBefore work(team, {3, 3, 3}, {1. / 3, 1. / 3, 1. / 3},
+                                  [&] { return Clock::time_point(std::chrono::milliseconds(milliseconds)); });
             team.meet();
-            core::WorkBefore work(team, {3, 3, 3}, {1. / 3, 1. / 3, 1. / 3});
-            std::this_thread::sleep_for(std::chrono::milliseconds(190));
+            milliseconds = 200;
             if (place == 1) work.report(0.5);
-            std::this_thread::sleep_for(std::chrono::milliseconds(place == 0 ? 10 : 100));
-            if (place == 2) work.report(1);  // too late
-            left[team.rank()] = work.finish();
+            // After the second meeting what was sent before the first one has come.
+            team.meet();
+            team.meet();
+            if (place == 0) {
+                left[team.rank()] = work.finish();
+                is_first_done = true;
+            } else {
+                EXPECT_TRUE(comes_true([&] { return is_first_done.load(); }));
+                milliseconds = 300;
+                if (place == 2) work.report(1);  // too late
+                left[team.rank()] = work.finish();
+            }
             team.meet();
         });
         EXPECT_EQ(left[1], left[0]);
@@ -180,8 +194,8 @@ TEST(WorkBefore, SaysWhatIsLeftWhenTheFirstIsDone) {
         EXPECT_EQ(of(0), 0);
         // All do 7.5 thirds of their work a second, so that a third process would take 0.267 s, and the second has
         // 0.2 s left, in which they do 0.75.
-        EXPECT_NEAR(of(1), 3 * 0.75, 0.4) << fast;
-        EXPECT_NEAR(of(2), 3 * 0.25, 0.2) << fast;
+        EXPECT_NEAR(of(1), 3 * 0.75, 1e-12) << fast;
+        EXPECT_NEAR(of(2), 3 * 0.25, 1e-12) << fast;
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What test_overhead.py asks of Python, asked in C++ by the public headers: the same requests of the same arrays.
+// What twin_requests.py asks of Python, asked in C++ by the public headers: the same requests of the same arrays.
 // Loaded by ctypes into the same process, so that both find the same memory, threads and caches.
 #include <cmath>
 #include <cstdio>

@@ -15,7 +15,7 @@
 namespace hogel::core {
 namespace {
 
-constexpr ChildLimits limits{.cpu_seconds = 1, .patience = std::chrono::seconds(1)};
+constexpr ChildLimits limits{.cpu_seconds = 1};
 
 int read_int(ChildProcess& child) {
     int value = 0;
@@ -26,9 +26,9 @@ int read_int(ChildProcess& child) {
 void write_int(int pipe, int value) { ChildProcess::write(pipe, &value, sizeof value); }
 
 // How a child that does this work fails.
-ChildFailure::Kind failure_of(const std::function<void(int)>& work) {
+ChildFailure::Kind failure_of(const std::function<void(int)>& work, const ChildLimits& of_child = limits) {
     try {
-        with_child(limits, work, read_int);
+        with_child(of_child, work, read_int);
     } catch (const ChildFailure& failure) {
         return failure.kind();
     }
@@ -70,12 +70,15 @@ TEST(ChildProcess, a_stuck_one_is_tried_again_once) {
         if (before == 0) ::pause();
         write_int(pipe, before);
     };
-    EXPECT_EQ(with_child(limits, stuck_first, read_int), 1);
+    constexpr ChildLimits impatient{.cpu_seconds = 1, .patience = std::chrono::seconds(1)};
+    EXPECT_EQ(with_child(impatient, stuck_first, read_int), 1);
     children = 0;
-    EXPECT_EQ(failure_of([&](int) {
-                  ++children;
-                  ::pause();
-              }),
+    EXPECT_EQ(failure_of(
+                  [&](int) {
+                      ++children;
+                      ::pause();
+                  },
+                  impatient),
               ChildFailure::Kind::stuck);
     EXPECT_EQ(children, 2);
     ::munmap(shared, sizeof(std::atomic<int>));

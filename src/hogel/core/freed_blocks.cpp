@@ -79,7 +79,9 @@ std::byte* FreedBlocks::joined(const std::vector<Pages>& pieces, std::size_t byt
         if (!moved) unmap(piece.first, piece.bytes);
         done += piece.bytes;
     }
-    return moved ? memory : nullptr;
+    if (!moved) return nullptr;
+    new_pages_ += bytes - done;
+    return memory;
 }
 
 void FreedBlocks::give_back(const Surplus& surplus) {
@@ -199,6 +201,7 @@ void* FreedBlocks::allocate_pages(std::size_t bytes) {
     if (memory == nullptr) {
         give_back(overflow(0));
         memory = map(bytes);
+        new_pages_ += memory != nullptr ? bytes : 0;
     }
     if (memory == nullptr) {
         in_use_ -= bytes;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <map>
 #include <mutex>
@@ -40,6 +41,8 @@ class FreedBlocks {
     std::size_t kept() const;
     /// Bytes of the blocks that are in use and would be kept.
     std::size_t in_use() const;
+    /// Bytes of the new pages that blocks of pages were given so far, which the system had to clear.
+    std::size_t new_pages() const { return new_pages_; }
 
   private:
     // Huge pages in a row.
@@ -53,7 +56,7 @@ class FreedBlocks {
         std::vector<Pages> pages;
     };
 
-    static std::byte* joined(const std::vector<Pages>& pieces, std::size_t bytes);
+    std::byte* joined(const std::vector<Pages>& pieces, std::size_t bytes);
     static void give_back(const Surplus& surplus);
 
     void* allocate_block(std::size_t bytes);
@@ -70,6 +73,7 @@ class FreedBlocks {
     std::multimap<std::size_t, std::byte*> pages_;        // kept, by their bytes
     std::unordered_map<void*, std::size_t> used_pages_;   // bytes of the blocks in use that are of pages
     std::size_t kept_ = 0, in_use_ = 0, max_in_use_ = 0;  // bytes of both
+    std::atomic<std::size_t> new_pages_{0};
 };
 
 }  // namespace hogel::core

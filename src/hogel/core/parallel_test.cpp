@@ -8,31 +8,12 @@
 #include <thread>
 
 #include "hogel/core/test_errors.h"
+#include "hogel/core/test_stop.h"
 
 namespace hogel::core {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
-
-// Requests a stop from another thread after 30 ms and records the time.
-class StopSoon {
-  public:
-    Progress progress() const { return Progress(source_.get_token()); }
-    bool asked() const { return asked_; }
-    double seconds_since() const { return std::chrono::duration<double>(Clock::now() - when_).count(); }
-
-  private:
-    std::stop_source source_;
-    std::atomic<bool> asked_{false};
-    Clock::time_point when_;
-    std::jthread thread_{[this] {
-        std::this_thread::sleep_for(milliseconds(30));
-        when_ = Clock::now();
-        source_.request_stop();
-        asked_ = true;
-    }};
-};
 
 TEST(ParallelFor, calls_the_body_once_for_every_index) {
     for (const std::size_t n : {0, 1, 2, 1000}) {
@@ -87,30 +68,21 @@ TEST(ParallelOrdered, merges_in_order_with_few_results_alive) {
 }
 
 TEST(StopScope, ends_a_long_loop_at_once) {
-    const StopSoon soon;
-    const StopScope scope(soon.progress());
-    std::atomic<std::size_t> begun_later{0};
-    EXPECT_TRUE(is_cancelled([&] {
-        parallel_for(100000, [&](std::size_t) {
-            if (soon.asked()) ++begun_later;
-            std::this_thread::sleep_for(milliseconds(1));
-        });
-    }));
-    EXPECT_LT(soon.seconds_since(), 0.2);
-    EXPECT_LE(begun_later, thread_count());
+    StoppedWork work(20 * thread_count());
+    const StopScope scope(work.progress());
+    EXPECT_TRUE(is_cancelled([&] { parallel_for(100000, [&](std::size_t) { work.item(); }); }));
+    EXPECT_LE(work.most_begun_later(), 1u);
 }
 
 TEST(StopScope, ends_loops_inside_the_bodies_of_loops) {
-    const StopSoon soon;
-    const StopScope scope(soon.progress());
+    StoppedWork work(20 * thread_count());
+    const StopScope scope(work.progress());
     EXPECT_TRUE(is_cancelled([&] {
         parallel_for(4, [&](std::size_t) {
-            parallel_for(4, [&](std::size_t) {
-                parallel_for(100000, [](std::size_t) { std::this_thread::sleep_for(milliseconds(1)); });
-            });
+            parallel_for(4, [&](std::size_t) { parallel_for(100000, [&](std::size_t) { work.item(); }); });
         });
     }));
-    EXPECT_LT(soon.seconds_since(), 0.2);
+    EXPECT_LE(work.most_begun_later(), 1u);
 }
 
 TEST(StopScope, of_a_verb_inside_another_obeys_both) {

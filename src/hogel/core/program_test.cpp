@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/core/program.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <stop_token>
 #include <thread>
 
 #include "hogel/core/parallel.h"
-#include "hogel/error.h"
+#include "hogel/core/test_errors.h"
 #include "hogel/progress.h"
 
 namespace hogel::core {
@@ -24,17 +30,33 @@ TEST(Program, IsFoundByPathAndSaysHowItEnded) {
     EXPECT_FALSE(run_program({"/no/such/program"}));
 }
 
+// The number of the process that has written it into a file; 0 as long as it has not.
+pid_t process_in(const std::filesystem::path& file) {
+    pid_t process = 0;
+    std::ifstream(file) >> process;
+    return process;
+}
+
 TEST(Program, EndsWhenTheWorkIsStopped) {
+    const std::filesystem::path begun = std::filesystem::path(testing::TempDir()) / fmt::format("begun_{}", getpid());
     std::stop_source stop;
     const Progress progress(stop.get_token());
     const StopScope scope(progress);
-    const std::jthread other([&] {
-        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    std::jthread other([&](const std::stop_token& ended) {
+        while (process_in(begun) == 0 && !ended.stop_requested())
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
         stop.request_stop();
     });
-    const auto begin = std::chrono::steady_clock::now();
-    EXPECT_THROW(run_program({find_program("sleep"), "20"}), Error);
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+    // The program that follows has the process of the shell.
+    const std::string line = fmt::format("echo $$ > '{}'; exec sleep 60", begun.string());
+    EXPECT_TRUE(is_cancelled([&] { run_program({find_program("sh"), "-c", line}); }));
+    other.request_stop();
+    other.join();
+    const pid_t process = process_in(begun);
+    std::filesystem::remove(begun);
+    ASSERT_GT(process, 0);
+    EXPECT_EQ(kill(process, 0), -1) << "the program runs on";
+    EXPECT_EQ(errno, ESRCH);
 }
 
 }  // namespace

@@ -19,11 +19,13 @@ constexpr double enough = 0.05, nearly = 0.99;
 
 }  // namespace
 
-WorkBefore::WorkBefore(Team& team, std::vector<double> work, std::vector<double> speeds)
+WorkBefore::WorkBefore(Team& team, std::vector<double> work, std::vector<double> speeds,
+                       std::function<Clock::time_point()> now)
     : team_(team),
       work_(std::move(work)),
       speeds_(std::move(speeds)),
       channel_(team.next_number()),
+      now_(std::move(now)),
       reports_(team.size()) {
     if (!team_.is_first()) return;
     team_.listen(channel_, [this](const std::string& bytes) {
@@ -38,7 +40,7 @@ WorkBefore::~WorkBefore() {
 }
 
 void WorkBefore::report(double fraction) {
-    const Clock::time_point now = Clock::now();
+    const Clock::time_point now = now_();
     if (now - said_ < between_reports) return;
     said_ = now;
     say(std::min(fraction, nearly));
@@ -56,7 +58,7 @@ void WorkBefore::say(double fraction) {
 void WorkBefore::take(std::size_t process, double fraction) {
     const std::lock_guard lock(mutex_);
     if (left_) return;
-    const double now = std::chrono::duration<double>(Clock::now() - began_).count();
+    const double now = std::chrono::duration<double>(now_() - began_).count();
     reports_[process] = {fraction, now};
     if (fraction < 1) return;
     left_ = left(now);

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -16,9 +17,13 @@ namespace hogel::core {
 /// processes make one at the same time.
 class WorkBefore {
   public:
+    using Clock = std::chrono::steady_clock;
+
     /// @param work    of each process, in any unit
     /// @param speeds  of the processes; their sum is 1
-    WorkBefore(Team& team, std::vector<double> work, std::vector<double> speeds);
+    /// @param now     the time
+    WorkBefore(Team& team, std::vector<double> work, std::vector<double> speeds,
+               std::function<Clock::time_point()> now = Clock::now);
     ~WorkBefore();
     WorkBefore(const WorkBefore&) = delete;
     WorkBefore& operator=(const WorkBefore&) = delete;
@@ -31,7 +36,6 @@ class WorkBefore {
     std::vector<double> finish();
 
   private:
-    using Clock = std::chrono::steady_clock;
     struct Report {
         double fraction = 0, seconds = 0;
     };
@@ -42,7 +46,8 @@ class WorkBefore {
     Team& team_;
     std::vector<double> work_, speeds_;
     std::uint64_t channel_;
-    Clock::time_point began_ = Clock::now(), said_ = began_;
+    std::function<Clock::time_point()> now_;
+    Clock::time_point began_ = now_(), said_ = began_;
     // In the first process, with the lock: the last report of each, and what was told to all.
     std::mutex mutex_;
     std::vector<Report> reports_;
