@@ -2,21 +2,28 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks that files store the options that acted on them, and no other.
 
-Each case is a command line. Every option of the command gets another value in turn, and the output is compared with that
+Each case is a command line. An option of the command gets another value, and the output is compared with that
 of the case. An option that changes it must be stored with that value, and one that does not must not be; and where the
 case stores an option, or has a default that acts, another value must change the output. So what is stored is held to
 what acted, not to a list.
 
-usage: check_provenance.py COMMAND    in a folder with the files that make_provenance_inputs.sh makes; hogel in the PATH
+With HOGEL_THOROUGH=1 in the environment each option is tried in every case of its command. Otherwise it is tried in the
+cases that are about it, those whose line names it or whose table has another value for it, and then in others, by turns,
+until it acts.
+
+usage: check_provenance.py COMMAND...    in a folder with the files that make_provenance_inputs.sh makes; hogel in the PATH
 """
 import concurrent.futures
 import functools
+import io
 import json
 import os
 import re
 import struct
 import subprocess
 import sys
+
+import h5py
 
 # Options that decide how the work is done or where its result goes.
 SILENT = "help quiet verbose threads output resume part region json force store-hologram".split()
@@ -61,8 +68,22 @@ OTHER = {
     "strips": None, "order": "rows",
 }
 
+# Options that act in no case of these commands.
+IDLE = {
+    "render": "fit interpolate scene-camera seed",
+    "hologram": "cache-spacing fit scene-camera texture point-size",
+    "propagate": "values variable seed",
+    "slm": "device pixel-pitch pitch wavelength values input-phase-code imaginary phases zero variable conjugate order reconstruct focal seed",
+    "compress": "seed",
+    "decompress": "seed",
+    "import": "depth sqnr layout depth-scale estimate-disparity seed",
+    "print": "seed",
+    "photo": "frame-rate preview line-pitch basis tolerance algorithm shadow-map cache-spacing toward fit scene-camera texture point-size "
+             "phase-code imaginary phases zero variable order reconstruct focal",
+}
+
 SMALL = "--hogels 6x4 --directions 8x6 --size 1mm"
-LIGHT = SMALL + " --pitch 1.6um"
+LIGHT = "--hogels 6x4 --directions 8x6 --size 0.5mm --pitch 1.6um"
 PHOTO = "--eye 0,0,40mm --pupil 4mm --resolution 8"
 MODULATOR = "--pixels 128x96 --pixel-pitch 6.4um --window 32"
 
@@ -97,7 +118,7 @@ CASES = [
     ("points", "hologram m.obj --method points --spacing 60um --size 0.2mm --pitch 2um --wavelength 532nm", "o.h5",
      {"method": "edges", "hogels": "10x7"}),
     ("fresnel", "hologram m.obj --method fresnel --size 0.2mm --pitch 2um --wavelength 532nm --front -12 --shading shadowed",
-     "o.h5", {"method": "edges", "hogels": "10x7", "shading": "vertex", "front": "-14", "as-is": ACTS}),
+     "o.h5", {"method": "edges", "hogels": "10x7", "shading": "vertex", "front": "-14", "size": "0.25mm", "as-is": ACTS}),
     ("photo of lines", "photo lines.h5 --eye 0,0,40mm --pupil 1mm --resolution 8 --focus 1mm --diffuser vertical", "o.png",
      {"diffuser": "none", "camera": ACTS, "focus-tilt": ACTS}),
     ("photo of a hologram", f"photo f.h5 {PHOTO} --focus 1mm", "o.png", {"camera": ACTS}),
@@ -191,42 +212,106 @@ def run(words, output):
 
 
 class File:
-    """What hogel info says of a file: `options`, those of the command that made it, and `facts`, without how it was made
-    and how many bytes it takes."""
+    """`options`: what it stores of the command that made it; `facts`: what else it says, and what it holds."""
     MADE_BY = re.compile(r"(source )*(software|command|option .*|camera|(efficiency|correlation|iterations|reference angle) at .*)|exposure|shading"
-                         r"|renderer|bytes|.*_bytes|pixels_per_bit|layers_end_at")
+                         r"|renderer|filler")
 
     def __init__(self, name):
         self.name = name
         with open(name, "rb") as file:
             self.bytes = file.read()
+        metadata, self.contents = READERS[os.path.splitext(name)[1]](self.bytes)
+        self.options = {key[7:]: {"yes": True, "no": False}.get(value, value)
+                        for key, value in metadata.items() if key.startswith("option ")}
+        self.facts = {key: value for key, value in metadata.items() if not self.MADE_BY.fullmatch(key)}
 
-    @functools.cached_property
-    def said(self):
-        return json.loads(hogel("info", "--json", self.name).stdout)
 
-    @property
-    def options(self):
-        return {key[7:]: value for key, value in self.said.items() if key.startswith("option ")}
+def read_hdf5(data):
+    """Texts of the file, and datasets and groups with their attributes."""
+    contents = {}
 
-    @property
-    def facts(self):
-        return {key: value for key, value in self.said.items() if not self.MADE_BY.fullmatch(key)}
+    def add(name, item):
+        contents[name] = {key: repr(value) for key, value in item.attrs.items()}
+        if isinstance(item, h5py.Dataset):
+            contents[name]["data"] = (item.shape, item.dtype, item[()].tobytes())
+
+    with h5py.File(io.BytesIO(data)) as file:
+        file.visititems(add)
+        return {key: value.decode() if isinstance(value, bytes) else value for key, value in file.attrs.items()}, contents
+
+
+def read_png(data):
+    """Texts, and the other parts."""
+    texts, parts, at = {}, [], 8
+    while at < len(data):
+        size, kind = struct.unpack_from(">I4s", data, at)
+        part = data[at + 8:at + 8 + size]
+        if kind == b"tEXt":
+            name, text = part.decode("latin-1").split("\0")
+            texts[name] = text
+        else:
+            parts.append((kind, part))
+        at += size + 12
+    return texts, parts
+
+
+def read_exr(data):
+    """Texts, and the other attributes with the blocks of pixels, which follow the table of their places."""
+    texts, others, at = {}, {}, 8
+    while data[at]:
+        name, kind, rest = data[at:].split(b"\0", 2)
+        size, = struct.unpack_from("<i", rest)
+        at += len(name) + len(kind) + 6
+        (texts if kind == b"string" else others)[name.decode()] = data[at:at + size].decode() if kind == b"string" else data[at:at + size]
+        at += size
+    first, = struct.unpack_from("<Q", data, at + 1)
+    return texts, (others, data[first:])
+
+
+def read_hgl(data):
+    """Texts; what it holds is for hogel to decode."""
+    def text():
+        nonlocal at
+        size, = struct.unpack_from("<I", data, at)
+        at += 4 + size
+        return data[at - size:at].decode()
+
+    at = 16 + 5 * 8 + 5 * 8  # behind the extents and the geometry: docs/format.md
+    text()
+    at += 16
+    text(), text()
+    count, = struct.unpack_from("<I", data, at)
+    at += 4
+    return {text(): text() for _ in range(count)}, None
+
+
+READERS = {".h5": read_hdf5, ".png": read_png, ".exr": read_exr, ".hgl": read_hgl}
+
+
+def told(name):
+    """What hogel says of a stream, without how it was made and how many bytes it takes."""
+    left_out = re.compile(r"bytes|.*_bytes|pixels_per_bit|layers_end_at")
+    said = json.loads(hogel("info", "--json", name).stdout)
+    return {key: value for key, value in said.items() if not File.MADE_BY.fullmatch(key) and not left_out.fullmatch(key)}
+
+
+def same_stream(one, other):
+    """Whether two streams are decoded to the same."""
+    compared = hogel("compare", "--json", one.name, other.name)
+    return compared.returncode == 0 and json.loads(compared.stdout)["max_error"] == 0 and told(one.name) == told(other.name)
+
+
+def same_contents(one, other):
+    if one.bytes == other.bytes:
+        return True
+    if one.facts != other.facts:
+        return False
+    return same_stream(one, other) if one.contents is None else one.contents == other.contents
 
 
 def same(a, b):
     """Whether two outputs have the same contents."""
-    if len(a) != len(b):
-        return False
-    for one, other in zip(a, b):
-        if one.bytes == other.bytes:
-            continue
-        if one.facts != other.facts:
-            return False
-        compared = hogel("compare", "--json", one.name, other.name)
-        if compared.returncode != 0 or json.loads(compared.stdout)["max_error"] != 0:
-            return False
-    return True
+    return len(a) == len(b) and all(map(same_contents, a, b))
 
 
 def with_option(words, option, value):
@@ -240,47 +325,112 @@ def with_option(words, option, value):
     return words + [f"--{option}"] + ([] if value is None else value.split())
 
 
-def check(case, line, output, others):
-    words = line.split()
-    # Cases run at the same time, so each has names of its own.
-    output = re.sub("[^a-z]", "", case) + output
-    base = "base" + output
-    first = run(words, base)
-    if not first:
-        return [f"{case}: refused: {hogel(*words, '-o', base).stderr}"]
-    acted = dict(first[0].options)
-    complaints = []
-    positional = {"render": "scene", "import": "source"}.get(words[0], "input")
-    if acted.pop(positional, None) != words[1]:
-        complaints.append(f"{case}: {positional} is not stored")
-    has_default = options_of(words[0])
-    for option in has_default:
-        value = others.get(option, OTHER.get(option, ""))
-        if option in SILENT or value is ACTS:
-            continue
+class Case:
+    """A command line, its output, and what became of it with other values of its options."""
+
+    def __init__(self, name, line, output, others):
+        self.name, self.line, self.output, self.others = name, line, output, others
+        self.words = line.split()
+        self.command = self.words[0]
+        # Trials run at the same time, so each has a file of its own.
+        self.stem = re.sub("[^a-z]", "", name)
+        self.base = f"{self.stem}-base-{output}"
+        self.tried = {}  # option: whether it acted
+
+    def make(self):
+        """The output as the line says; returns complaints."""
+        self.first = run(self.words, self.base)
+        if not self.first:
+            return [f"{self.name}: refused: {hogel(*self.words, '-o', self.base).stderr}"]
+        self.acted = dict(self.first[0].options)
+        positional = {"render": "scene", "import": "source"}.get(self.command, "input")
+        return [] if self.acted.pop(positional, None) == self.words[1] else [f"{self.name}: {positional} is not stored"]
+
+    def other_value(self, option):
+        return self.others.get(option, OTHER.get(option, ""))
+
+    def names(self, option):
+        return f"--{option}" in self.words
+
+    def attempt(self, option):
+        """The output with another value of an option; returns complaints."""
+        value = self.other_value(option)
         if value == "":
-            complaints.append(f"{case}: no other value of --{option} is known")
-            continue
-        files = run(with_option(words, option, value), output)
-        acts = bool(files) and not same(first, files)
-        alike = bool(files) and files[0].bytes == first[0].bytes
-        says = (first if alike else files)[0].options.get(option) if files else None
-        is_default = acted.get(option) is True and f"--{option}" not in words  # a flag that stands for a default
-        if option in acted and not acts and not is_default:
-            complaints.append(f"{case}: --{option} is stored as {acted[option]} but does not act")
-        if files and not acts and says is not None and not is_default:
-            complaints.append(f"{case}: --{option} does not act, but is stored where it is given")
-        if acts and option not in acted and has_default[option]:
-            complaints.append(f"{case}: the default of --{option} acts, but is not stored")
-        wanted = f"--{option}" not in words if value is None else value.split()[0]
+            return [f"{self.name}: no other value of --{option} is known"]
+        output = f"{self.stem}-{option}-{self.output}"
+        files = run(with_option(self.words, option, value), output)
+        acts = bool(files) and not same(self.first, files)
+        alike = bool(files) and files[0].bytes == self.first[0].bytes
+        says = (self.first if alike else files)[0].options.get(option) if files else None
+        self.tried[option] = acts
+        remove(output)
+        return self.judged(option, value, bool(files), acts, says)
+
+    def judged(self, option, value, made_any, acts, says):
+        """`says`: what the output with the other value stores of the option."""
+        complaints, stored = [], self.acted.get(option)
+        is_default = stored is True and not self.names(option)  # a flag that stands for a default
+        if stored is not None and not acts and not is_default:
+            complaints.append(f"{self.name}: --{option} is stored as {stored} but does not act")
+        if made_any and not acts and says is not None and not is_default:
+            complaints.append(f"{self.name}: --{option} does not act, but is stored where it is given")
+        if acts and stored is None and options_of(self.command)[option]:
+            complaints.append(f"{self.name}: the default of --{option} acts, but is not stored")
+        if acts and stored is None and self.names(option):
+            complaints.append(f"{self.name}: --{option} acts, but is not stored")
+        wanted = not self.names(option) if value is None else value.split()[0]
         if acts and says != wanted and not (wanted is False and says is None) and option != "pitch":
-            complaints.append(f"{case}: --{option} {value} acts, but is stored as {says}")
-    for name in (base, output):
-        for file in made(name):
-            os.remove(file)
-        if os.path.isdir(name):
-            os.rmdir(name)
+            complaints.append(f"{self.name}: --{option} {value} acts, but is stored as {says}")
+        return complaints
+
+
+def remove(output):
+    for file in made(output):
+        os.remove(file)
+    if os.path.isdir(output):
+        os.rmdir(output)
+
+
+def tried_options(command):
+    return [option for option in options_of(command) if option not in SILENT]
+
+
+def about(case, option, cases):
+    """Whether a case is about an option: its table has another value for it, or its line names it and most others do not."""
+    naming = sum(each.names(option) for each in cases)
+    return option in case.others or case.names(option) and 2 * naming < len(cases)
+
+
+def try_option(option, cases):
+    """Returns complaints."""
+    cases = [case for case in cases if case.other_value(option) is not ACTS]
+    wanted = cases if THOROUGH else [case for case in cases if about(case, option, ALL[case.command])]
+    complaints = [line for case in wanted for line in case.attempt(option)]
+    for case in others_by_turns(option, [case for case in cases if case not in wanted]):
+        if any(each.tried.get(option) for each in cases):
+            break
+        complaints += case.attempt(option)
     return complaints
+
+
+def others_by_turns(option, cases):
+    """Each option begins with another case, first of those that store it, where there are any, and goes on with those that
+    store the most others; one that acts nowhere is tried once."""
+    if not cases:
+        return []
+    turn = tried_options(cases[0].command).index(option) % len(cases)
+    first, *rest = sorted(cases[turn:] + cases[:turn], key=lambda case: option not in case.acted)
+    if option in IDLE[first.command].split():
+        return [first]
+    return [first, *sorted(rest, key=lambda case: (option not in case.acted, -len(case.acted)))]
+
+
+def check_idle(command, cases):
+    """That IDLE is right."""
+    acting = {option for case in cases for option, acts in case.tried.items() if acts}
+    idle = set(tried_options(command)) - acting
+    return [f"{command}: no case lets --{option} act" for option in idle - set(IDLE[command].split())] + \
+           [f"{command}: --{option} acts" for option in set(IDLE[command].split()) - idle]
 
 
 # What defaults stand for: a command line, and values that its output stores of options that were not given.
@@ -294,18 +444,19 @@ DEFAULTS = [
     ("compress x.h5 --coder jpeg4d", "o.hgl", {"transform": "dct8", "table": "own"}),
     (f"render m.obj {SMALL}", "o.hgl", {"sqnr": "40"}),
     ("decompress exact.hgl", "o.h5", {"float": True}),
-    ("propagate f.h5 --distance 1mm", "o.h5", {"output-samples": "624x416", "output-pitch": "1.60256um"}),
+    ("propagate f.h5 --distance 1mm", "o.h5", {"output-samples": "312x208", "output-pitch": "1.60256um"}),
     (f"photo x.h5 {PHOTO}", "o.png", {"geometric": True}),
     (f"photo x.h5 {PHOTO} --wave --pitch 1.6um", "o.png", {"wave": True, "looks": "16"}),
 ]
 
 
 def check_default(line, output, values):
-    files = run(line.split(), f"default{DEFAULTS.index((line, output, values))}{output}")
+    name = f"default{DEFAULTS.index((line, output, values))}{output}"
+    files = run(line.split(), name)
     if not files:
         return [f"{line}: refused"]
     said = files[0].options
-    os.remove(files[0].name)
+    remove(name)
     return [f"{line}: {option} is stored as {said.get(option)}, not {value}"
             for option, value in values.items() if said.get(option) != value]
 
@@ -318,11 +469,23 @@ def write_numbers():
         file.write(struct.pack("<40000f", *(i * i % 63 / 10 for i in range(40000))))
 
 
-write_numbers()
-command = sys.argv[1]
-work = [(check, case) for case in CASES if case[1].split()[0] == command]
-work += [(check_default, case) for case in DEFAULTS if case[0].split()[0] == command]
-with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-    complaints = [line for lines in pool.map(lambda task: task[0](*task[1]), work) for line in lines]
-os.remove("real.npy")
-print("\n".join(complaints) if complaints else f"{len(work)} command lines of {command}")
+def main():
+    write_numbers()
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        complaints = [line for lines in pool.map(Case.make, sum(ALL.values(), [])) for line in lines]
+        work = [(try_option, (option, cases)) for command, cases in ALL.items() for option in tried_options(command)]
+        work += [(check_default, case) for case in DEFAULTS if case[0].split()[0] in ALL]
+        if not complaints:
+            complaints = [line for lines in pool.map(lambda task: task[0](*task[1]), work) for line in lines]
+            complaints += [line for command, cases in ALL.items() for line in check_idle(command, cases)]
+    for command, cases in ALL.items():
+        print(f"{sum(len(case.tried) for case in cases)} trials in {len(cases)} cases of {command}")
+    print("\n".join(complaints))
+    for output in ["real.npy", *(case.base for cases in ALL.values() for case in cases)]:
+        remove(output)
+    sys.exit(1 if complaints else 0)
+
+
+THOROUGH = os.environ.get("HOGEL_THOROUGH") == "1"
+ALL = {command: [Case(*case) for case in CASES if case[1].split()[0] == command] for command in sys.argv[1:]}
+main()

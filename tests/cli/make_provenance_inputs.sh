@@ -3,7 +3,7 @@
 # Makes the files that check_provenance.py tries every command with, in the current folder.
 set -e
 printf 'o back\nv -4e-4 -4e-4 -1e-4\nv 4e-4 -4e-4 -1e-4\nv 4e-4 4e-4 -3e-4\nv -4e-4 4e-4 -3e-4\nf 1 2 3\nf 1 3 4\no front\nv -2e-4 -2e-4 4e-5\nv 2e-4 -2e-4 1e-4\nv 4e-5 3e-4 8e-5\nf 5 7 6\no side\nv -4e-4 4e-5 1e-4\nv -1e-4 8e-5 -8e-5\nv -2e-4 4e-4 4e-5\nf 8 9 10\n' > m.obj
-hogel render m.obj -o x.h5 --hogels 6x4 --directions 8x6 --size 1mm -q
+hogel render m.obj -o x.h5 --hogels 6x4 --directions 8x6 --size 0.5mm -q
 hogel render m.obj -o deep.h5 --hogels 6x4 --directions 24x24 --size 0.15mm --depth -q
 hogel render m.obj -o row.h5 --hogels 6x4 --directions 8x1 --size 1mm -q
 hogel render m.obj -o five.h5 --hogels 6x4 --directions 8x8 --size 1mm --hemicube -q
@@ -23,3 +23,6 @@ hogel propagate f.h5 -o re.png --distance 1mm --display amplitude -q
 hogel propagate f.h5 -o im.png --distance 2mm --display amplitude -q
 printf 'v -4e-4 -4e-4 0\nv 4e-4 -4e-4 1e-4\nv 4e-4 4e-4 0\nvt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\n' > u.obj
 for i in 0 1 2 3 4 5; do for k in 0 1 2 3 4 5; do echo "$i $k $((i*k)).1"; done; done > cloud.xyz
+hogel render sphere -o wide.h5 --hogels 40x36 --directions 8x6 --size 4mm -q
+hogel export wide.h5 -o views --layout numbered -q
+hogel export wide.h5 -o ordered -q

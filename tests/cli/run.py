@@ -65,7 +65,7 @@ def matches(expected, text):
 
 def run(command, folder, environment):
     return subprocess.run(["bash", "-c", command], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
-                          capture_output=True, text=True, timeout=550)
+                          capture_output=True, text=True, timeout=550 if environment["HOGEL_THOROUGH"] != "1" else 3600)
 
 
 def check(step, folder, environment):
@@ -90,7 +90,8 @@ def main():
         folder = pathlib.Path(name) / "work"
         folder.mkdir()
         environment = {"PATH": f"{program.parent}:{os.environ['PATH']}", "HOME": name, "LC_ALL": "C.UTF-8",
-                       "TOOLS": str(pathlib.Path(__file__).parent.resolve()), "PYTHON": sys.executable}
+                       "TOOLS": str(pathlib.Path(__file__).parent.resolve()), "PYTHON": sys.executable,
+                       "HOGEL_THOROUGH": os.environ.get("HOGEL_THOROUGH", "")}
         needs, steps = read_script(script)
         for command in needs:
             if run(command, folder, environment).returncode != 0:

@@ -2,9 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs hogel-mpi with several numbers of ranks and compares its files with those of hogel.
 
+With HOGEL_THOROUGH=1 in the environment each command is run by every number of ranks, and ranks are killed 50 times in every
+kind of work. Otherwise each command is run by one number of ranks, by turns, and ranks are killed in work of each kind of file.
+
 usage: ranks.py TEST HOGEL HOGEL_MPI MPIRUN      TEST: same_files, same_streams, same_photographs, same_fields,
                                                        same_make, refused, errors, killed, lost or stopped
 """
+import concurrent.futures
 import os
 import pathlib
 import random
@@ -14,18 +18,31 @@ import sys
 import tempfile
 import time
 
+THOROUGH = os.environ.get("HOGEL_THOROUGH") == "1"
 RANKS = (1, 2, 3, 4, 7)
+TURNS = (2, 3, 7)
+# Beside those by turns: fewer ranks than colours and looks, and more, share photographs in other ways.
+ALSO = {"render.h5": (1, 4), "bent.exr": (2,), "colours.exr": (7,)}
 ENVIRONMENT = os.environ | {
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
 }
 SIZE = "--hogels 24x20 --directions 24x24 --size 4mm".split()
 KILLS = int(os.environ.get("HOGEL_KILLS", 50))
+PATIENCE = 300  # seconds, after which a process hangs
 
 
 class Run:
     def __init__(self, hogel, hogel_mpi, mpirun, folder):
         self.hogel, self.hogel_mpi, self.mpirun, self.folder = hogel, hogel_mpi, mpirun, folder
+
+    # The same programs in another folder, which has the files named.
+    def inside(self, name, *files):
+        folder = self.folder / name
+        folder.mkdir()
+        for file in files:
+            (folder / file).hardlink_to(self.folder / file)
+        return Run(self.hogel, self.hogel_mpi, self.mpirun, folder)
 
     def alone(self, *arguments):
         done = subprocess.run([self.hogel, *arguments], cwd=self.folder, capture_output=True, text=True)
@@ -39,7 +56,7 @@ class Run:
 
     def ranks(self, ranks, *arguments):
         process = self.start(ranks, *arguments)
-        out, error = process.communicate(timeout=300)
+        out, error = process.communicate(timeout=PATIENCE)
         return process.returncode, out, error
 
     def bytes(self, name):
@@ -47,6 +64,12 @@ class Run:
 
     def left(self):
         return sorted(path.name for path in self.folder.iterdir())
+
+
+# Two at once, because mpirun waits most of the time that it takes to start.
+def in_pairs(function, *lists):
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        return list(pool.map(function, *lists))
 
 
 def require(condition, *what):
@@ -64,18 +87,21 @@ def light_field(run):
 
 # Each command gives the bytes of one process with any number of ranks, says so once and leaves nothing behind.
 def require_same(run, commands):
-    for name, command in commands.items():
-        run.alone(*command, "-o", name)
-        whole = run.bytes(name)
-        (run.folder / name).unlink()
-        for ranks in RANKS:
+    whole = run.inside("whole", *run.left())
+
+    def compare(turn, name, command):
+        whole.alone(*command, "-o", name)
+        for ranks in RANKS if THOROUGH else (TURNS[turn % len(TURNS)], *ALSO.get(name, ())):
             status, _, error = run.ranks(ranks, *command, "-o", name)
             require(status == 0, name, ranks, "ranks ended with", status, error)
-            require(run.bytes(name) == whole, name, "of", ranks, "ranks has other bytes")
+            require(run.bytes(name) == whole.bytes(name), name, "of", ranks, "ranks has other bytes")
             said = [line for line in error.splitlines() if line.startswith(f"{name}: ")]
             require(len(said) == 1, name, ranks, "ranks said", error)
             (run.folder / name).unlink()
-    require(not [name for name in run.left() if name.startswith(".")], "left behind:", run.left())
+
+    before = run.left()
+    in_pairs(compare, range(len(commands)), commands.keys(), commands.values())
+    require(run.left() == before, "left behind:", run.left())
 
 
 def same_files(run):
@@ -156,7 +182,7 @@ def same_make(run):
     run.alone(*command, "-o", "whole")
     pictures = sorted(path.name for path in (run.folder / "whole").iterdir())
     require(len(pictures) > 25, "made", pictures)
-    for ranks in RANKS:
+    for ranks in RANKS if THOROUGH else (3,):
         status, _, error = run.ranks(ranks, *command, "-o", "made")
         require(status == 0, ranks, "ranks ended with", status, error)
         require(sorted(path.name for path in (run.folder / "made").iterdir()) == pictures, ranks, "ranks made others")
@@ -171,8 +197,8 @@ def same_make(run):
 def refused(run):
     run.alone("render", "point", *SIZE, "-o", "a.h5")
     before = run.left()
-    for command in (["info", "a.h5"], ["compare", "a.h5", "a.h5"], ["print", "a.h5", "-o", "prints"]):
-        status, _, error = run.ranks(3, *command)
+    commands = (["info", "a.h5"], ["compare", "a.h5", "a.h5"], ["print", "a.h5", "-o", "prints"])
+    for command, (status, _, error) in zip(commands, in_pairs(lambda command: run.ranks(3, *command), commands)):
         lines = lines_of_hogel(error)
         require(status == 5 and len(lines) == 1, command, "ended with", status, error)
         require("cannot share its work" in lines[0] and command[0] in lines[0], lines)
@@ -188,20 +214,24 @@ def refused(run):
 
 
 def errors(run):
-    for ranks in (1, 2, 4):
-        for expected, command in ((2, ["render", "no_such_scene", "-o", "x.h5"]),
-                                  (2, ["render", "point", "--hogels", "none", "-o", "x.h5"]),
-                                  (3, ["hologram", "missing.h5", "-o", "x.h5"]),
-                                  (4, ["render", "point", *SIZE, "-o", "no_folder/x.h5"])):
+    commands = ((2, ["render", "no_such_scene", "-o", "x.h5"]),
+                (2, ["render", "point", "--hogels", "none", "-o", "x.h5"]),
+                (3, ["hologram", "missing.h5", "-o", "x.h5"]),
+                (4, ["render", "point", *SIZE, "-o", "no_folder/x.h5"]))
+
+    def fail(turn, expected, command):
+        for ranks in (1, 2, 4) if THOROUGH else ((2, 4, 1, 2)[turn],):
             status, _, error = run.ranks(ranks, *command)
             require(status == expected, command, ranks, "ranks ended with", status, error)
             require(len(lines_of_hogel(error)) == 1, command, "printed", error)
+
+    in_pairs(fail, range(len(commands)), *zip(*commands))
     # One rank alone finds a damaged sample: the others wait for tiles, and none is left behind.
     import h5py
     run.alone("render", "pumpkin", "--hogels", "64x64", "--directions", "16x16", "--float", "-o", "a.h5")
     with h5py.File(run.folder / "a.h5", "r+") as file:
         file["radiance"][0, 40, 40, 3, 3] = float("nan")
-    for ranks in (2, 4):
+    for ranks in (2, 4) if THOROUGH else (4,):
         status, _, error = run.ranks(ranks, "hologram", "a.h5", "-o", "x.h5", "--pitch", "1um")
         lines = lines_of_hogel(error)
         require(status == 3 and len(lines) == 1 and "40" in lines[0], ranks, "ranks ended with", status, error)
@@ -217,12 +247,12 @@ def children(pid):
 
 # Waits for mpirun. Open MPI 4.1 sometimes waits for itself for ever at its end where a rank was killed while it started
 # (PMIx_server_finalize); by then all ranks have ended.
-def end_of(process, patience=300):
-    deadline = time.monotonic() + patience
+def end_of(process):
+    deadline = time.monotonic() + PATIENCE
     while process.poll() is None:
         if time.monotonic() > deadline:
             process.kill()
-            require(False, "did not end within", patience, "s")
+            require(False, "did not end within", PATIENCE, "s")
         states = [pathlib.Path(f"/proc/{pid}/stat") for pid in children(process.pid)]
         alive = [path for path in states if path.exists() and ") Z " not in path.read_text()]
         if states and not alive:
@@ -260,27 +290,92 @@ def made_alone(run, command):
     return made, whole, time.monotonic() - began
 
 
+# What is left of unfinished work, and how far it is. A journal is there when samples of an HDF5 file begin to be written where
+# they belong; other results are added to a file that begins with less than 4 kB about the work.
+class Kept:
+    PIECES = 64
+
+    def __init__(self, made):
+        self.part, self.journal = (made.with_name(made.name + ending) for ending in (".part", ".part.journal"))
+        self.is_hdf5 = made.suffix == ".h5"
+
+    def is_there(self):
+        return (self.journal if self.is_hdf5 else self.part).exists()
+
+    def has_begun(self):
+        return self.journal.exists() if self.is_hdf5 else self.part.exists() and self.part.stat().st_size >= 4096
+
+    # A third of an HDF5 file, which is more than all ranks have under way.
+    def has_results(self):
+        return self.has_begun() and (not self.is_hdf5 or 3 * self.written() >= self.PIECES)
+
+    # How many pieces all over the file are not zero.
+    def written(self):
+        try:
+            with open(self.part, "rb") as file:
+                size, written = self.part.stat().st_size, 0
+                for piece in range(self.PIECES):
+                    file.seek(size * piece // self.PIECES + 4096)
+                    written += any(file.read(2048))
+                return written
+        except FileNotFoundError:  # it has just got its name
+            return 0
+
+    def remove(self):
+        for path in (self.part, self.journal):
+            path.unlink(missing_ok=True)
+
+
+# Whether it has happened before the process has ended.
+def wait_until(process, happened):
+    deadline = time.monotonic() + PATIENCE
+    while not happened():
+        if process.poll() is not None:
+            return False
+        require(time.monotonic() < deadline, "nothing has happened within", PATIENCE, "s")
+        time.sleep(0.005)
+    return True
+
+
+# Processes may have ended just before.
+def signal_all(pids, number):
+    sent = 0
+    for pid in pids:
+        try:
+            os.kill(pid, number)
+            sent += 1
+        except ProcessLookupError:
+            pass
+    return sent
+
+
+# The processes of ranks that have results and stand still, so that what happens to them next happens before they go on.
+def halted(process, kept):
+    if not wait_until(process, kept.has_begun):
+        require(False, "ended before it began:", *process.communicate())
+    pids = children(process.pid)
+    require(wait_until(process, kept.has_results), "was complete before it had results")
+    signal_all(pids, signal.SIGSTOP)
+    require(kept.is_there(), "was complete before it was halted")
+    return pids
+
+
 # Kills a rank when something has been kept, then at random moments, and again until the work is complete, each time with
 # another number of ranks.
-def kill_until_complete(run, chance, command, made, whole, seconds, kills_wanted):
-    kept = [run.folder / (made.name + ending) for ending in (".part", ".part.journal")]
+def kill_until_complete(run, chance, command, kills_wanted):
+    inputs = run.left()
+    made, whole, seconds = made_alone(run, command)
+    kept = Kept(made)
     kills = completed = resumed = 0
     while kills < kills_wanted or completed == 0:
         process = run.start(chance.choice(RANKS), *command)
         if kills == 0 and command != RAYS:
-            # What is kept begins with less than 4 kB that say of which work it is.
-            log = kept[-1] if made.suffix == ".h5" else kept[0]
-            while process.poll() is None and (not log.exists() or log.suffix == ".part" and log.stat().st_size < 4096):
-                time.sleep(0.01)
+            wait_until(process, kept.has_begun)
         elif kills < kills_wanted:
             time.sleep(chance.uniform(0.1, 0.5 + seconds))
         ranks = children(process.pid) if kills < kills_wanted else []
         if ranks:
-            try:
-                os.kill(chance.choice(ranks), signal.SIGKILL)
-                kills += 1
-            except ProcessLookupError:  # it has just ended
-                pass
+            kills += signal_all([chance.choice(ranks)], signal.SIGKILL)
         _, error = end_of(process)
         # A rank may be killed after the file has got its name.
         if process.returncode == 0 or made.exists():
@@ -289,47 +384,58 @@ def kill_until_complete(run, chance, command, made, whole, seconds, kills_wanted
             made.unlink()
         elif kills == kills_wanted and not ranks:
             require(False, "ended with", process.returncode, error)
-        resumed += kept[-1].exists() if made.suffix == ".h5" else kept[0].exists()
+        resumed += kept.is_there()
         # A killed process leaves a temporary file, which the next one removes; of HDF5 files that is the kept one.
-        wrong = [name for name in run.left() if name not in ("a.h5", "w.h5", "p.h5", "l.h5", kept[0].name, kept[1].name)
+        wrong = [name for name in run.left() if name not in (*inputs, kept.part.name, kept.journal.name)
                  and not (made.suffix != ".h5" and name.endswith(".tmp"))]
         require(not wrong, "left behind:", wrong)
     # A photograph by rays is kept whole, just before it is written.
     require(resumed > 0 or command == RAYS, "nothing was ever kept")
     print(f"{' '.join(command[:6])}: {kills} kills, {completed} completed, {resumed} times something was kept")
-    for part in kept:
-        part.unlink(missing_ok=True)
+    kept.remove()
 
 
 def killed(run):
-    chance = random.Random(7)
-    run.alone("render", "pumpkin", "--hogels", "64x64", "--directions", "48x48", "--size", "8mm", "-o", "a.h5")
-    run.alone("render", "pumpkin", "--hogels", "64x64", "--directions", "48x48", "--size", "8mm", "--fov", "2.5deg", "-o", "s.h5")
-    run.alone("hologram", "s.h5", "--wavelength", "rgb", "--pitch", "8um", "-o", "w.h5")
-    run.alone("hologram", "a.h5", "-o", "p.h5", "--wavelength", "rgb", "--pitch", "1.6um")
-    run.alone("hologram", "tower", *"--hogels 64x96 --directions 64x1 --method lines --line-pitch 80um --size 8mm -o l.h5".split())
-    (run.folder / "s.h5").unlink()
-    commands = (HOLOGRAM, RENDER, COMPRESS, PHOTO, EYE, EXPECTED, FULL_CAMERA, RAYS, PATTERNS, PROPAGATE, LINES)
-    for i, command in enumerate(commands):
-        kill_until_complete(run, chance, command, *made_alone(run, command), (KILLS + i) // (len(commands) + 1))
-    kill_make_until_complete(run, chance, KILLS // (len(commands) + 1))
+    size = ["--hogels", "64x64", "--directions", "48x48", "--size", "8mm"]
+    run.alone("render", "pumpkin", *size, "-o", "a.h5")
+    if not THOROUGH:
+        # An HDF5 file, a stream, a photograph and a folder.
+        works = [(kill_until_complete, command, 2) for command in (HOLOGRAM, COMPRESS, EYE)] + [(kill_make_until_complete, MAKE, 1)]
+    else:
+        run.alone("render", "pumpkin", *size, "--fov", "2.5deg", "-o", "s.h5")
+        run.alone("hologram", "s.h5", "--wavelength", "rgb", "--pitch", "8um", "-o", "w.h5")
+        run.alone("hologram", "a.h5", "-o", "p.h5", "--wavelength", "rgb", "--pitch", "1.6um")
+        run.alone("hologram", "tower", *"--hogels 64x96 --directions 64x1 --method lines --line-pitch 80um --size 8mm -o l.h5".split())
+        (run.folder / "s.h5").unlink()
+        commands = (HOLOGRAM, RENDER, COMPRESS, PHOTO, EYE, EXPECTED, FULL_CAMERA, RAYS, PATTERNS, PROPAGATE, LINES)
+        works = [(kill_until_complete, command, (KILLS + i) // (len(commands) + 1)) for i, command in enumerate(commands)]
+        works.append((kill_make_until_complete, MAKE, KILLS // (len(commands) + 1)))
+    inputs = run.left()
+
+    def work(number, kill, command, kills):
+        kill(run.inside(f"work{number}", *inputs), random.Random(7 + number), command, kills)
+
+    in_pairs(work, range(len(works)), *zip(*works))
 
 
 # As above; what is made is a folder, which is complete when it has its report.
-def kill_make_until_complete(run, chance, kills):
+def kill_make_until_complete(run, chance, command, kills):
+    made, whole = run.folder / "m", run.folder / "whole"
     began = time.monotonic()
-    run.alone(*MAKE, "--threads", "1")
-    seconds, made, whole = time.monotonic() - began, run.folder / "m", run.folder / "whole"
+    run.alone(*command, "--threads", "1")
+    seconds, log = time.monotonic() - began, made / "make.part"
     made.rename(whole)
     resumed = 0
     for kill in range(kills + 1):
-        process = run.start(chance.choice(RANKS), *MAKE)
-        if kill < kills:
+        process = run.start(chance.choice(RANKS), *command)
+        if kill == 0:
+            wait_until(process, log.exists)
+        elif kill < kills:
             time.sleep(chance.uniform(0.5, 0.5 + seconds))
-            if ranks := children(process.pid):
-                os.kill(chance.choice(ranks), signal.SIGKILL)
+        if kill < kills and (ranks := children(process.pid)):
+            signal_all([chance.choice(ranks)], signal.SIGKILL)
         _, error = end_of(process)
-        resumed += (made / "make.part").exists()
+        resumed += log.exists()
         if (made / "report.html").exists():
             break
     require((made / "report.html").exists() and resumed > 0, "resumed", resumed, "times, ended with", process.returncode, error)
@@ -340,64 +446,83 @@ def kill_make_until_complete(run, chance, kills):
     print(f"make: killed {kill} times, resumed {resumed} times")
 
 
-# Some seconds of it, because mpirun takes one before it stops ranks.
-RENDER_LONG = ["224x224" if word == "80x80" else word for word in RENDER]
+# Some seconds of it, of which a third is done when its ranks are halted.
+RENDER_LONG = ["render", "pumpkin", *"--hogels 80x80 --directions 24x24 --size 8mm --algorithm raytrace --samples 2x2".split(),
+               "-o", "x.h5", "--resume"]
+
+
+def rank_of(pid):
+    words = dict(word.partition("=")[::2] for word in pathlib.Path(f"/proc/{pid}/environ").read_text().split("\0"))
+    return int(words["OMPI_COMM_WORLD_RANK"])
 
 
 # The others of a rank that is killed name it, once, and keep what is done.
 def lost(run):
-    _, whole, seconds = made_alone(run, RENDER_LONG)
+    made, whole, _ = made_alone(run, RENDER_LONG)
+    kept = Kept(made)
     for rank in (0, 2):
-        for old in run.folder.glob("x.h5*"):
-            old.unlink()
+        kept.remove()
         process = run.start(4, *RENDER_LONG)
-        deadline = time.monotonic() + 60
-        while not (run.folder / "x.h5.part").exists() and time.monotonic() < deadline:
-            time.sleep(0.02)
-        time.sleep(0.15 * seconds)
-        victim = [pid for pid in children(process.pid)
-                  if f"OMPI_COMM_WORLD_RANK={rank}" in pathlib.Path(f"/proc/{pid}/environ").read_text().split("\0")][0]
+        pids = halted(process, kept)
+        victim = next(pid for pid in pids if rank_of(pid) == rank)
         os.kill(victim, signal.SIGKILL)
-        began = time.monotonic()
-        _, error = process.communicate(timeout=60)
-        require(time.monotonic() - began < 5, "took", time.monotonic() - began, "s to end")
+        signal_all([pid for pid in pids if pid != victim], signal.SIGCONT)
+        _, error = process.communicate(timeout=PATIENCE)
         lines = lines_of_hogel(error)
         require(process.returncode != 0 and len(lines) == 1, "ended with", process.returncode, error)
         require(lines[0].startswith(f"hogel: rank {rank} of 4 (process {victim}) was lost; what is done is kept"), lines)
+        require(not made.exists() and kept.is_there(), "after the loss of rank", rank, "there is", run.left())
     status, _, error = run.ranks(3, *RENDER_LONG)
-    require(status == 0 and run.bytes("x.h5") == whole, "ended with", status, error)
+    require(status == 0 and made.read_bytes() == whole, "ended with", status, error)
 
 
-# What SIGTERM reaches stops within seconds, says so once, and keeps what is done; --resume without ranks completes it.
+# mpirun lets its ranks go on, stops them a second later, and kills them after another: they are halted until the second.
+def stop_by_mpirun(process, pids):
+    os.kill(process.pid, signal.SIGTERM)
+    waiting = set(pids)
+    deadline = time.monotonic() + PATIENCE
+    while waiting:
+        require(time.monotonic() < deadline, "mpirun has not stopped its ranks")
+        signal_all(pids, signal.SIGSTOP)
+        waiting = {pid for pid in pids if not is_stopped(pid)}
+    signal_all(pids, signal.SIGCONT)
+
+
+# Whether SIGTERM waits for the process, or it was killed.
+def is_stopped(pid):
+    try:
+        status = pathlib.Path(f"/proc/{pid}/status").read_text()
+    except (FileNotFoundError, ProcessLookupError):
+        return True
+    values = dict(line.split(":\t", 1) for line in status.splitlines())
+    return values["State"].startswith("Z") or int(values["ShdPnd"], 16) >> (signal.SIGTERM - 1) & 1 == 1
+
+
+def stop_by_rank(process, pids):
+    os.kill(pids[-1], signal.SIGTERM)
+    signal_all(pids, signal.SIGCONT)
+
+
+# What SIGTERM reaches stops, says so once, and keeps what is done; --resume without ranks completes it.
 def stopped(run):
-    _, whole, seconds = made_alone(run, RENDER_LONG)
-    for to in ("mpirun", "a rank"):
-        for old in run.folder.glob("x.h5*"):
-            old.unlink()
+    made, whole, _ = made_alone(run, RENDER_LONG)
+    kept = Kept(made)
+    for stop in (stop_by_mpirun, stop_by_rank):
+        kept.remove()
         process = run.start(3, *RENDER_LONG)
-        deadline = time.monotonic() + 60
-        while not (run.folder / "x.h5.part").exists() and time.monotonic() < deadline:
-            time.sleep(0.02)
-        time.sleep(0.15 * seconds)  # which one rank took alone
-        pids = children(process.pid)
-        os.kill(process.pid if to == "mpirun" else pids[-1], signal.SIGTERM)
-        began = time.monotonic()
-        _, error = process.communicate(timeout=60)
-        took = time.monotonic() - began
-        if process.returncode == 0 or (run.folder / "x.h5").exists():  # a signal that comes late changes mpirun's status alone
-            require(run.bytes("x.h5") == whole, "other bytes")
-            print(f"{to}: was complete before it was stopped")
-            continue
-        require(took < 10, "took", took, "s to stop")
-        if to == "a rank":
+        stop(process, halted(process, kept))
+        _, error = process.communicate(timeout=PATIENCE)
+        require(process.returncode != 0, stop.__name__, "ended with", process.returncode, error)
+        require(not made.exists() and kept.is_there(), stop.__name__, "left", run.left())
+        done = kept.journal.read_bytes().count(b" done ")
+        # mpirun kills what has not ended soon after it was stopped: then what was not yet in the journal is done again.
+        if stop == stop_by_rank:
             require(process.returncode == 143, "ended with", process.returncode, error)
             require(lines_of_hogel(error) == ["hogel: stopped"], error)
-        # mpirun kills what has not ended soon after it was stopped: then what was not yet in the journal is done again.
-        done = run.bytes("x.h5.part.journal").count(b" done ")
-        require(to == "mpirun" or done > 0, to, "nothing was kept")
-        print(f"{to}: stopped within {took:.2f} s, {done} parts were kept")
+            require(done > 0, "nothing was kept")
+        print(f"{stop.__name__}: {done} parts were kept")
     run.alone(*RENDER_LONG)
-    require(run.bytes("x.h5") == whole, "other bytes after a stop")
+    require(made.read_bytes() == whole, "other bytes after a stop")
 
 
 def main():

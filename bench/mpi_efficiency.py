@@ -3,9 +3,9 @@
 """Measures each stage by 1 rank of 2 threads and by 2 ranks of 1 thread, in turns, files and the start of MPI included, and
 prints the table of docs/cluster.md. Figures count on an idle machine of two processors alone.
 
-usage: efficiency.py HOGEL HOGEL_MPI MPIRUN [--stages NAME,NAME] [--rounds N] [--small | --large] [--require]
-       --small: sizes for a try of this program; --large: four times the work; --require: an error unless each stage reaches its limit in one of three tries,
-       and status 77 where there are fewer than two processors
+usage: mpi_efficiency.py HOGEL HOGEL_MPI MPIRUN [--stages NAME,NAME] [--rounds N] [--small | --large] [--require]
+       --small: sizes for a try of this program; --large: four times the work; --require: an error unless each stage reaches
+       its limit in one of three tries, and where there are fewer than two processors
 """
 import argparse
 import os
@@ -30,8 +30,9 @@ for place in range(0, {MEMORY_AT_HAND}, 4096):
     memory[place] = 1
 """
 # Stages of which docs/cluster.md says less, and why; with a tenth for other work on the machine.
-LIMITS = {"compress": 0.85, "hologram": 0.85, "photo by rays": 0.85, "photo, camera narrow": 0.85, "photo, camera narrow, streamed": 0.85,
-          "photo, camera eye": 0.85, "photo, looks expected": 0.85, "photo, camera full": 0.85, "propagate": 0.85, "slm": 0.82, "make": 0.85}
+LIMITS = {"compress": 0.85, "hologram": 0.85, "photo by rays": 0.85, "photo, camera narrow": 0.85,
+          "photo, camera narrow, streamed": 0.85, "photo, camera eye": 0.85, "photo, looks expected": 0.85, "photo, camera full": 0.85,
+          "propagate": 0.85, "slm": 0.82, "make": 0.85}
 
 
 # name: inputs, command
@@ -129,7 +130,7 @@ def main():
     parser.add_argument("--require", action="store_true")
     options = parser.parse_args()
     if options.require and len(os.sched_getaffinity(0)) < 2:
-        sys.exit(77)
+        sys.exit("two processors are needed")
     wanted, low = options.stages.split(","), []
     with tempfile.TemporaryDirectory(prefix="hogel_efficiency_") as folder:
         bench = Bench(options, pathlib.Path(folder))
