@@ -20,11 +20,16 @@ function(hogel_module name)
   set(tests ${sources})
   list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
   list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
+  # Highway includes a source with SIMD code again for each target. The others have names of their own for the same things.
+  set(alone ${sources} ${tests})
+  list(FILTER alone INCLUDE REGEX "(_simd|/stb|/layouts/[a-z_]+|/showpieces/[a-z_]+|/(render|hologram|exchange)/[a-z_/]*_test)\\.cpp$")
+  set_source_files_properties(${alone} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   add_library(hogel_${name} OBJECT ${sources})
   set_target_properties(hogel_${name} PROPERTIES LINKER_LANGUAGE CXX)
   hogel_compile_options(hogel_${name})
   hogel_private_includes(hogel_${name})
   target_link_libraries(hogel_${name} PRIVATE ${arg_LINKS} ${HOGEL_FMT})
+  hogel_precompile(hogel_${name} library)
   # For the module's own tests, which then need no module above it to be compiled.
   add_library(hogel_${name}_archive STATIC EXCLUDE_FROM_ALL $<TARGET_OBJECTS:hogel_${name}>)
   set_target_properties(hogel_${name}_archive PROPERTIES LINKER_LANGUAGE CXX)
@@ -80,7 +85,8 @@ if(HOGEL_MINIMAL)
   target_include_directories(hogel_fmt SYSTEM INTERFACE ${HOGEL_FMT_HEADERS})
   if(fmt_9)
     target_compile_definitions(hogel_fmt INTERFACE FMT_SHARED)
-    set_property(SOURCE ${PROJECT_SOURCE_DIR}/src/hogel/core/own_fmt.cpp PROPERTY COMPILE_OPTIONS -UFMT_SHARED)
+    set_source_files_properties(${PROJECT_SOURCE_DIR}/src/hogel/core/own_fmt.cpp PROPERTIES
+                                COMPILE_OPTIONS -UFMT_SHARED SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
   else()
     target_compile_definitions(hogel_fmt INTERFACE FMT_HEADER_ONLY)
     set_property(GLOBAL APPEND PROPERTY HOGEL_LEFT_OUT core/own_fmt)
@@ -123,9 +129,17 @@ endfunction()
 #                      and vectors of SVE, whose size is known at run time alone, cannot be members of a struct.
 #                      TOOLCHAIN_MISS_SYS_AUXV_H is what Highway calls a compiler that cannot choose at run time
 #   -Wno-psabi         silences g++'s note that passing SIMD vectors by value changed in GCC 4.6; no such call leaves a file
+#   -Wshadow=local     where sources are compiled together, names of one source are no global names of the others; and g++ 12
+#                      takes values for uninitialized, and vectors for empty, that are not
 function(hogel_compile_options target)
+  set(shadow -Wshadow)
+  if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    set(shadow -Wshadow=local -Wno-subobject-linkage -Wno-maybe-uninitialized -Wno-stringop-overflow)
+  elseif(CMAKE_UNITY_BUILD)
+    set(shadow)
+  endif()
   target_compile_features(${target} PRIVATE cxx_std_20)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wno-psabi -ffp-contract=off
+  target_compile_options(${target} PRIVATE -Wall -Wextra ${shadow} -Wnon-virtual-dtor -Wno-psabi -ffp-contract=off
                                            $<$<BOOL:${HOGEL_WERROR}>:-Werror>)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
     target_compile_definitions(${target} PRIVATE TOOLCHAIN_MISS_SYS_AUXV_H
@@ -196,20 +210,39 @@ function(hogel_compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# Compiles gtest and the larger standard headers once, and TARGET's sources with the result.
-function(hogel_precompiled_tests target)
-  if(NOT TARGET hogel_tests_precompiled)
-    # A program, as the tests are: code for programs and for libraries is compiled with different options.
-    file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/tests_precompiled.cpp CONTENT "int main() {}\n")
-    add_executable(hogel_tests_precompiled EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/tests_precompiled.cpp)
-    hogel_compile_options(hogel_tests_precompiled)
-    hogel_compile_quickly(hogel_tests_precompiled)
-    target_link_libraries(hogel_tests_precompiled PRIVATE GTest::gtest)
-    target_precompile_headers(hogel_tests_precompiled PRIVATE <gtest/gtest.h> <algorithm> <cmath> <complex> <filesystem>
-                              <fstream> <functional> <map> <optional> <random> <span> <sstream> <string> <variant> <vector>)
+# Compiles the larger headers of other projects once for all targets of a KIND, and TARGET's sources with the result:
+#   library  the modules of the library
+#   app      the libraries of programs
+#   test     tests, which are programs: code for programs and for libraries is compiled with different options
+# A header of hogel's own is in none of them, so that a change compiles what includes it and no more. Sources include what
+# they use all the same: ./dev lint compiles each of them by itself.
+function(hogel_precompile target kind)
+  set(shared hogel_precompiled_${kind})
+  if(NOT TARGET ${shared})
+    set(headers <algorithm> <array> <cmath> <complex> <filesystem> <functional> <map> <memory> <optional> <span> <string>
+                <thread> <variant> <vector>)
+    set(links ${HOGEL_FMT})
+    file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/${shared}.cpp CONTENT "int main() {}\n")
+    if(kind STREQUAL "test")
+      add_executable(${shared} EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/${shared}.cpp)
+      list(APPEND headers <fstream> <random> <sstream> <gtest/gtest.h>)
+      list(APPEND links GTest::gtest)
+    else()
+      add_library(${shared} OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/${shared}.cpp)
+      list(APPEND headers <fmt/format.h> <fmt/ranges.h>)
+    endif()
+    if(kind STREQUAL "app")
+      list(APPEND headers <CLI/CLI.hpp> <nlohmann/json.hpp>)
+      list(APPEND links CLI11::CLI11 nlohmann_json::nlohmann_json)
+    endif()
+    hogel_compile_options(${shared})
+    if(NOT kind STREQUAL "library")
+      hogel_compile_quickly(${shared})
+    endif()
+    target_link_libraries(${shared} PRIVATE ${links})
+    target_precompile_headers(${shared} PRIVATE ${headers})
   endif()
-  hogel_compile_quickly(${target})
-  target_precompile_headers(${target} REUSE_FROM hogel_tests_precompiled)
+  target_precompile_headers(${target} REUSE_FROM ${shared})
 endfunction()
 
 # A program of the project's own that may use every header: a benchmark, or a test of what crosses modules.
@@ -232,15 +265,24 @@ function(hogel_program_beside name library)
   if(HOGEL_TESTS)
     add_executable(${name}_tests ${arg_TESTS})
     hogel_compile_options(${name}_tests)
-    hogel_precompiled_tests(${name}_tests)
+    hogel_compile_quickly(${name}_tests)
+    hogel_precompile(${name}_tests test)
     target_link_libraries(${name}_tests PRIVATE ${library} GTest::gtest_main)
-    gtest_discover_tests(${name}_tests TEST_PREFIX ${name}. NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60)
+    hogel_discover_tests(${name})
   endif()
+endfunction()
+
+# The tests of the program <name>_tests. Those whose names begin with SLOW_ get the label slow. Names hold the name or number of
+# a test's parameter, not its value, which gtest may print as an address.
+function(hogel_discover_tests name)
+  include(GoogleTest)
+  set(options TEST_PREFIX ${name}. NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60)
+  gtest_discover_tests(${name}_tests ${options} TEST_FILTER "-*.SLOW_*")
+  gtest_discover_tests(${name}_tests ${options} TEST_FILTER "*.SLOW_*" TEST_LIST ${name}_slow_tests PROPERTIES LABELS slow)
 endfunction()
 
 # One test program a module: <module>_tests, from its *_test.cpp.
 function(hogel_module_tests)
-  include(GoogleTest)
   get_property(modules GLOBAL PROPERTY HOGEL_MODULES)
   foreach(module ${modules})
     get_property(tests GLOBAL PROPERTY HOGEL_TESTS_${module})
@@ -248,14 +290,14 @@ function(hogel_module_tests)
       add_executable(${module}_tests ${tests})
       hogel_compile_options(${module}_tests)
       hogel_private_includes(${module}_tests)
-      hogel_precompiled_tests(${module}_tests)
+      hogel_compile_quickly(${module}_tests)
+      hogel_precompile(${module}_tests test)
       get_property(other GLOBAL PROPERTY HOGEL_TESTED_WITH_${module})
       if(other)
         target_link_libraries(${module}_tests PRIVATE hogel_${other}_archive)
       endif()
       target_link_libraries(${module}_tests PRIVATE hogel_${module}_archive GTest::gtest_main)
-      # Names hold the name or number of a test's parameter, not its value, which gtest may print as an address.
-      gtest_discover_tests(${module}_tests TEST_PREFIX ${module}. NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60)
+      hogel_discover_tests(${module})
     endif()
   endforeach()
 endfunction()

@@ -12,7 +12,7 @@ namespace hogel::showpieces {
 namespace {
 
 // Balls are about twice as large as on a real table, where they would be only a few hogels wide.
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double ball_radius = 0.062;
 
 struct PlacedBall {

@@ -8,7 +8,7 @@
 namespace hogel::showpieces {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double rail_width = 0.15, corner = 0.11;
 
 /// Wood with its grain along a direction: dark lines in a light ground.

@@ -11,7 +11,7 @@ namespace hogel::showpieces {
 namespace {
 
 // Lengths in this file are arbitrary: the chandelier is about 2 wide and hangs from y = 1.25.
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double hook = 1.25;
 
 constexpr Rgb gold{0.72f, 0.47f, 0.15f}, old_gold{0.46f, 0.27f, 0.08f}, wax{0.86f, 0.80f, 0.66f};

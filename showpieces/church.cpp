@@ -10,7 +10,7 @@
 namespace hogel::showpieces {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double below_floor = -0.06;  // walls begin here, so that no surface lies in the plane of the floor
 constexpr double wall_thickness = 0.62;
 

@@ -8,7 +8,7 @@
 namespace hogel::showpieces {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr Rgb gold{0.70f, 0.46f, 0.14f}, linen{0.86f, 0.84f, 0.79f};
 
 /// A candlestick with its candle and flame.

@@ -8,7 +8,7 @@
 namespace hogel::showpieces {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double course = 0.145;  // height of a row of blocks
 constexpr double block = 0.3;     // length of a block
 

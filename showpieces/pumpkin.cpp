@@ -11,7 +11,7 @@ namespace hogel::showpieces {
 namespace {
 
 // Lengths in this file are arbitrary (the pumpkin is about one unit in radius); fit_scene gives them their size.
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int ribs = 14;
 constexpr double height = 0.78;        // of the body above its middle
 constexpr double depth_squash = 0.68;  // of the depth to the width

@@ -13,7 +13,7 @@ namespace {
 
 // Lengths in this file are arbitrary (the shaft is 2 wide and the tower about 12 high); fit_scene gives them their
 // size.
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double half_width = 1.0;
 constexpr double shaft_top = 5.0, clock_top = 6.7, belfry_top = 9.0, eaves = 9.35, roof_top = 12.1;
 

@@ -15,7 +15,7 @@
 namespace hogel::cli {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+constexpr double radians_per_degree = std::numbers::pi / 180;
 // The irradiance of a light of the command line without a strength: that of the light that comes first where there is
 // none (add_default_lights()).
 constexpr double usual_strength = 2.2;
@@ -105,7 +105,7 @@ Vec3 parse_rotation(const std::string& text) {
     constexpr const char* expected = "a rotation; write the angles about x, y and z, such as -90,0,0deg";
     if (!text.ends_with("deg")) refuse("--rotate", text, expected);
     const Vec3 angles = parse_vector(text.substr(0, text.size() - 3), text, "--rotate", expected);
-    return degree * angles;
+    return radians_per_degree * angles;
 }
 
 }  // namespace

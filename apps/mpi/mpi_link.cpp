@@ -20,7 +20,7 @@ namespace hogel::mpi {
 namespace {
 
 // How long messages may take to leave at the end.
-constexpr std::chrono::seconds patience{5};
+constexpr std::chrono::seconds link_patience{5};
 // How long messages on their way are waited for.
 constexpr int tries_without_pause = 1000;
 constexpr std::chrono::microseconds between_tries{50};
@@ -71,7 +71,7 @@ MpiLink::MpiLink(int& argc, char**& argv) {
 }
 
 MpiLink::~MpiLink() {
-    const auto end = std::chrono::steady_clock::now() + patience;
+    const auto end = std::chrono::steady_clock::now() + link_patience;
     for (;;) {
         {
             const std::lock_guard lock(mutex_);

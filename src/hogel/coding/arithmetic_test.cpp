@@ -12,7 +12,7 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 // A message of bits of three probabilities, symbols of four alphabets and raw numbers.
-struct Models {
+struct CodedModels {
     std::vector<BitModel> bits = std::vector<BitModel>(3);
     std::vector<SymbolModel> symbols{SymbolModel(1), SymbolModel(2), SymbolModel(5), SymbolModel(700)};
 };
@@ -43,7 +43,7 @@ std::vector<Item> message(std::size_t count, unsigned seed) {
 
 Bytes encode(const std::vector<Item>& items) {
     ArithmeticEncoder encoder;
-    Models models;
+    CodedModels models;
     for (const Item& item : items)
         if (item.kind == 0)
             encoder.bit(models.bits[item.model], item.value != 0);
@@ -57,7 +57,7 @@ Bytes encode(const std::vector<Item>& items) {
 // The number of items that decode correctly before the decoder reports the end of the bytes.
 std::size_t decoded(const std::vector<Item>& items, std::span<const std::uint8_t> bytes, bool* all_read = nullptr) {
     ArithmeticDecoder decoder(bytes);
-    Models models;
+    CodedModels models;
     std::size_t right = 0;
     for (const Item& item : items) {
         const std::uint32_t value = item.kind == 0 ? decoder.bit(models.bits[item.model])
@@ -137,7 +137,7 @@ TEST(Arithmetic, hostile_bytes_stay_within_the_alphabets) {
         Bytes bytes(random() % 40);
         for (std::uint8_t& byte : bytes) byte = trial % 4 == 0 ? 0xFF : static_cast<std::uint8_t>(random());
         ArithmeticDecoder decoder(bytes);
-        Models models;
+        CodedModels models;
         for (const Item& item : message(200, static_cast<unsigned>(trial))) {
             if (item.kind == 0) {
                 decoder.bit(models.bits[item.model]);

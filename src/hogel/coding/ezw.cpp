@@ -15,9 +15,9 @@ namespace hogel::coding {
 namespace {
 
 constexpr int planes = 30;
-constexpr std::size_t header = 4;
+constexpr std::size_t ezw_header_bytes = 4;
 
-struct Models {
+struct EzwModels {
     // [0 neither, 1 leaf, 2 known not to be a zerotree][parent found][previous found]
     std::array<std::array<std::array<BitModel, 2>, 2>, 3> significant;
     std::array<BitModel, 2> zerotree;  // [parent found]
@@ -85,7 +85,7 @@ class Encoding {
     double error_ = 0, allowed_ = 0;
     std::optional<std::size_t> enough_;  // bytes
     std::vector<std::uint32_t> twice_;
-    Models models_;
+    EzwModels models_;
     ArithmeticEncoder encoder_;
 };
 
@@ -118,11 +118,11 @@ class Decoding {
     double half_unit_;
     std::span<float> values_;
     std::vector<std::uint32_t> twice_;
-    Models models_;
+    EzwModels models_;
     ArithmeticDecoder decoder_;
 };
 
-void check_size(const transform::Pyramid& pyramid, std::size_t size) {
+void check_ezw_size(const transform::Pyramid& pyramid, std::size_t size) {
     if (size != pyramid.size())
         throw Error(ErrorCode::usage,
                     fmt::format("EZW: {} values given, expected the {} of the pyramid", size, pyramid.size()));
@@ -132,7 +132,7 @@ void check_size(const transform::Pyramid& pyramid, std::size_t size) {
 
 std::vector<std::uint8_t> ezw_encode(const transform::Pyramid& pyramid, std::span<const float> values,
                                      const EzwLimit& limit) {
-    check_size(pyramid, values.size());
+    check_ezw_size(pyramid, values.size());
     if (limit.sqnr && !(*limit.sqnr > 0))
         throw Error(ErrorCode::usage, fmt::format("EZW: an SQNR of {} dB, expected more than 0", *limit.sqnr));
     const float max_value = max_magnitude(values);
@@ -158,15 +158,15 @@ std::vector<std::uint8_t> ezw_encode(const transform::Pyramid& pyramid, std::spa
 }
 
 void ezw_decode(const transform::Pyramid& pyramid, std::span<const std::uint8_t> bytes, std::span<float> values) {
-    check_size(pyramid, values.size());
+    check_ezw_size(pyramid, values.size());
     std::fill(values.begin(), values.end(), 0.0f);
-    if (bytes.size() < header) return;
+    if (bytes.size() < ezw_header_bytes) return;
     const float max_value = get_float(bytes);
     if (!(max_value >= 0) || !std::isfinite(max_value))
         throw Error(ErrorCode::bad_input,
                     "EZW stream: its largest magnitude is impossible, expected an undamaged stream");
     if (max_value == 0) return;
-    Decoding decoding(bytes.subspan(header), std::ldexp(static_cast<double>(max_value), -planes), values);
+    Decoding decoding(bytes.subspan(ezw_header_bytes), std::ldexp(static_cast<double>(max_value), -planes), values);
     ezw_passes(Forest(pyramid), planes, decoding);
 }
 

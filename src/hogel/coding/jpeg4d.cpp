@@ -19,18 +19,18 @@ namespace hogel::coding {
 namespace {
 
 constexpr int b_limit = 30;
-constexpr std::size_t header = 5;
+constexpr std::size_t jpeg4d_header_bytes = 5;
 constexpr int own_table = 0x80;  // flag in the byte of b_max
 
-struct Models {
-    explicit Models(int b_max) : tuples(static_cast<std::size_t>((z_max + 1) * (b_max + 1))) {}
+struct LevelModels {
+    explicit LevelModels(int b_max) : tuples(static_cast<std::size_t>((z_max + 1) * (b_max + 1))) {}
     SymbolModel tuples;
     // Models of the bit below the leading one, by the number of bits. Lower bits are nearly equally likely and have
     // none.
     std::array<BitModel, b_limit + 1> second;
 };
 
-void check_size(const transform::Pyramid& pyramid, std::size_t size) {
+void check_jpeg4d_size(const transform::Pyramid& pyramid, std::size_t size) {
     if (size != pyramid.size())
         throw Error(ErrorCode::usage,
                     fmt::format("jpeg4d: {} values given, expected the {} of the pyramid", size, pyramid.size()));
@@ -50,7 +50,7 @@ double max_level(const Blocks& blocks, std::span<const float> values, const Quan
     return std::floor(max_steps + (1 - quantisation.round_up));
 }
 
-void write_level(ArithmeticEncoder& encoder, Models& models, int bits, std::int32_t level) {
+void write_level(ArithmeticEncoder& encoder, LevelModels& models, int bits, std::int32_t level) {
     const auto magnitude = static_cast<std::uint32_t>(std::abs(level));
     encoder.raw(level < 0, 1);
     if (bits < 2) return;
@@ -58,7 +58,7 @@ void write_level(ArithmeticEncoder& encoder, Models& models, int bits, std::int3
     encoder.raw(magnitude, bits - 2);
 }
 
-std::int32_t read_level(ArithmeticDecoder& decoder, Models& models, int bits) {
+std::int32_t read_level(ArithmeticDecoder& decoder, LevelModels& models, int bits) {
     const bool negative = decoder.raw(1) != 0;
     std::uint32_t magnitude = 1;
     if (bits >= 2) {
@@ -71,7 +71,7 @@ std::int32_t read_level(ArithmeticDecoder& decoder, Models& models, int bits) {
 // Calls take(position, level) for the levels of a block of `count` entries that are not zero. Returns false if the
 // tuples exceed the block.
 template <class Take>
-bool read_block(ArithmeticDecoder& decoder, Models& models, std::size_t count, Take&& take) {
+bool read_block(ArithmeticDecoder& decoder, LevelModels& models, std::size_t count, Take&& take) {
     for (std::size_t at = 0; at < count && !decoder.ended(); ++at) {
         const auto symbol = static_cast<int>(decoder.symbol(models.tuples));
         const int bits = symbol / (z_max + 1), zeros = symbol % (z_max + 1);
@@ -91,7 +91,7 @@ bool read_block(ArithmeticDecoder& decoder, Models& models, std::size_t count, T
 
 std::vector<std::uint8_t> jpeg4d_encode(const transform::Pyramid& pyramid, std::span<const float> values, double scale,
                                         QuantisationTable table) {
-    check_size(pyramid, values.size());
+    check_jpeg4d_size(pyramid, values.size());
     const float max_value = max_magnitude(values), stored_scale = static_cast<float>(scale);
     const auto impossible = [&] {
         throw Error(ErrorCode::usage,
@@ -121,7 +121,7 @@ std::vector<std::uint8_t> jpeg4d_encode(const transform::Pyramid& pyramid, std::
     bytes.push_back(static_cast<std::uint8_t>(b_max | (own ? own_table : 0)));
     ArithmeticEncoder encoder;
     if (own) write_exponents(encoder, blocks, exponents);
-    Models models(b_max);
+    LevelModels models(b_max);
     SparseLevels levels;
     const auto min_magnitudes = min_values(blocks, quantisation);
     for (std::size_t number = 0; number < blocks.count(); ++number) {
@@ -139,25 +139,25 @@ std::vector<std::uint8_t> jpeg4d_encode(const transform::Pyramid& pyramid, std::
 }
 
 void jpeg4d_decode(const transform::Pyramid& pyramid, std::span<const std::uint8_t> bytes, std::span<float> values) {
-    check_size(pyramid, values.size());
+    check_jpeg4d_size(pyramid, values.size());
     const auto damaged = [](const char* what) {
         throw Error(ErrorCode::bad_input, fmt::format("jpeg4d stream: {}, expected a whole undamaged one", what));
     };
-    if (bytes.size() < header) damaged("it ends within its header");
+    if (bytes.size() < jpeg4d_header_bytes) damaged("it ends within its header");
     const double scale = get_float(bytes);
     if (!(scale > 0) || !std::isfinite(scale)) damaged("its scale is not a positive number");
     const bool own = (bytes[4] & own_table) != 0;
     const int b_max = bytes[4] & ~own_table;
     if (b_max > b_limit) damaged("it has levels of more than 30 bits");
     const Blocks blocks(pyramid);
-    ArithmeticDecoder decoder(bytes.subspan(header));
+    ArithmeticDecoder decoder(bytes.subspan(jpeg4d_header_bytes));
     Quantisation quantisation = jpegs_quantisation(scale, blocks.axes());
     if (own) {
         Exponents exponents;
         if (!read_exponents(decoder, blocks, exponents)) damaged("its quantisation table is damaged");
         quantisation = own_quantisation(scale, exponents);
     }
-    Models models(b_max);
+    LevelModels models(b_max);
     std::ranges::fill(values, 0.0f);
     for (std::size_t number = 0; number < blocks.count(); ++number) {
         const Blocks::Block block = blocks[number];

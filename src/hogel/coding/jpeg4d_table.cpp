@@ -36,7 +36,7 @@ class Prediction {
 
 // Models of a difference from the prediction: whether it is not zero (context: that of the previous frequency), its
 // sign, and its size in unary.
-struct Models {
+struct DifferenceModels {
     std::array<BitModel, 2> differs;
     BitModel sign;
     std::array<BitModel, max_exponent + 1> more;
@@ -144,7 +144,7 @@ Exponents choose_exponents(const Blocks& blocks, std::span<const float> values, 
 }
 
 void write_exponents(ArithmeticEncoder& encoder, const Blocks& blocks, const Exponents& exponents) {
-    Models models;
+    DifferenceModels models;
     const Prediction predict(exponents);
     bool differed = false;
     for (const Frequency& frequency : blocks.frequencies()) {
@@ -160,7 +160,7 @@ void write_exponents(ArithmeticEncoder& encoder, const Blocks& blocks, const Exp
 
 bool read_exponents(ArithmeticDecoder& decoder, const Blocks& blocks, Exponents& exponents) {
     exponents.assign(zigzag(blocks.axes()).size(), 0);
-    Models models;
+    DifferenceModels models;
     const Prediction predict(exponents);
     bool differed = false;
     for (const Frequency& frequency : blocks.frequencies()) {

@@ -83,9 +83,9 @@ TEST(Jpeg4d, tuples_count_zeros_and_bits) {
               (std::vector<Tuple>{{31, 1}, {7, 2}}));  // the last entry is not zero: no end of block
 }
 
-std::vector<float> picture(const transform::Pyramid& pyramid) { return transformed_waves(pyramid, "dct8"); }
+std::vector<float> jpeg4d_picture(const transform::Pyramid& pyramid) { return transformed_waves(pyramid, "dct8"); }
 
-std::vector<transform::Pyramid> pyramids() {
+std::vector<transform::Pyramid> jpeg4d_pyramids() {
     return {transform::Pyramid::interleaved({1}),
             transform::Pyramid::interleaved({37}),
             transform::Pyramid::interleaved({16, 31}),
@@ -113,9 +113,9 @@ void for_each_entry(const transform::Pyramid& pyramid, Visit&& visit) {
 }
 
 TEST(Jpeg4d, decodes_to_the_nearest_multiple_of_the_table) {
-    for (const transform::Pyramid& pyramid : pyramids())
+    for (const transform::Pyramid& pyramid : jpeg4d_pyramids())
         for (double scale : {1e-6, 1e-3, 0.02, 10.0}) {
-            const std::vector<float> values = picture(pyramid);
+            const std::vector<float> values = jpeg4d_picture(pyramid);
             std::vector<float> decoded(values.size(), 7.0f);
             jpeg4d_decode(pyramid, jpeg4d_encode(pyramid, values, scale, QuantisationTable::jpeg), decoded);
             for_each_entry(pyramid, [&](std::size_t offset, const Frequency& frequency) {
@@ -129,7 +129,7 @@ TEST(Jpeg4d, decodes_to_the_nearest_multiple_of_the_table) {
 TEST(Jpeg4d, every_truncation_is_noticed_and_hostile_bytes_do_no_harm) {
     const transform::Pyramid pyramid = transform::Pyramid::interleaved({9, 16, 10});
     for (const QuantisationTable table : {QuantisationTable::jpeg, QuantisationTable::own}) {
-        const Bytes good = jpeg4d_encode(pyramid, picture(pyramid), 0.05, table);
+        const Bytes good = jpeg4d_encode(pyramid, jpeg4d_picture(pyramid), 0.05, table);
         ASSERT_EQ(good[4] >= 0x80, table == QuantisationTable::own);
         std::vector<float> decoded(pyramid.size());
         for (std::size_t length = 0; length < good.size(); ++length)

@@ -14,7 +14,7 @@
 namespace hogel::coding {
 namespace {
 
-constexpr std::size_t header = 5;
+constexpr std::size_t three_pass_header_bytes = 5;
 
 // A bit of the byte with the number of bit planes: set if symbols are coded from alphabets.
 constexpr std::uint8_t with_alphabets = 0x80;
@@ -23,7 +23,7 @@ constexpr std::uint8_t with_alphabets = 0x80;
     throw Error(ErrorCode::bad_input, fmt::format("three-pass stream: {}, expected a whole undamaged one", what));
 }
 
-void check_size(const transform::Pyramid& pyramid, std::size_t size) {
+void check_three_pass_size(const transform::Pyramid& pyramid, std::size_t size) {
     if (size != pyramid.size())
         throw Error(ErrorCode::usage, fmt::format("three-pass coder: {} values given, expected the {} of the pyramid",
                                                   size, pyramid.size()));
@@ -33,7 +33,7 @@ void check_size(const transform::Pyramid& pyramid, std::size_t size) {
 
 std::vector<std::uint8_t> three_pass_encode(const transform::Pyramid& pyramid, std::span<const float> values,
                                             double step, ThreePassSymbols symbols) {
-    check_size(pyramid, values.size());
+    check_three_pass_size(pyramid, values.size());
     const float max_value = max_magnitude(values), stored_step = static_cast<float>(step);
     if (!(stored_step > 0) || !std::isfinite(stored_step) || max_value / stored_step > std::ldexp(1.0f, max_planes))
         throw Error(
@@ -59,8 +59,8 @@ std::vector<std::uint8_t> three_pass_encode(const transform::Pyramid& pyramid, s
 
 void three_pass_decode(const transform::Pyramid& pyramid, std::span<const std::uint8_t> bytes,
                        std::span<float> values) {
-    check_size(pyramid, values.size());
-    if (bytes.size() < header) damaged("it ends within its header");
+    check_three_pass_size(pyramid, values.size());
+    if (bytes.size() < three_pass_header_bytes) damaged("it ends within its header");
     const float step = get_float(bytes);
     const int planes = bytes[4] & ~with_alphabets;
     if (!(step > 0) || !std::isfinite(step)) damaged("its step is not a positive number");
@@ -71,9 +71,9 @@ void three_pass_decode(const transform::Pyramid& pyramid, std::span<const std::u
         if (!decoding.decoder().all_read()) damaged("bytes are left over");
     };
     if (bytes[4] & with_alphabets)
-        read(Decoding<AlphabetSymbols>(planes, bytes.subspan(header)));
+        read(Decoding<AlphabetSymbols>(planes, bytes.subspan(three_pass_header_bytes)));
     else
-        read(Decoding<BitSymbols>(planes, bytes.subspan(header)));
+        read(Decoding<BitSymbols>(planes, bytes.subspan(three_pass_header_bytes)));
 }
 
 void three_pass_round(std::span<const std::uint8_t> bytes, std::span<float> values) {

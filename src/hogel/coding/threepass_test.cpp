@@ -52,7 +52,7 @@ TEST(ThreePass, figure_4_17_c_symbol_by_symbol) {
     EXPECT_EQ(recorder.levels, (std::vector<std::uint32_t>{7, 5, 3, 1, 3, 3, 1, 4, 1, 2}));
 }
 
-std::vector<float> picture(const transform::Pyramid& pyramid) { return transformed_waves(pyramid, "cdf97"); }
+std::vector<float> three_pass_picture(const transform::Pyramid& pyramid) { return transformed_waves(pyramid, "cdf97"); }
 
 double sqnr(std::span<const float> a, std::span<const float> b) {
     double signal = 0, noise = 0;
@@ -63,7 +63,7 @@ double sqnr(std::span<const float> a, std::span<const float> b) {
     return 10 * std::log10(signal / noise);
 }
 
-std::vector<transform::Pyramid> pyramids() {
+std::vector<transform::Pyramid> three_pass_pyramids() {
     return {transform::Pyramid::interleaved({1}),          transform::Pyramid::interleaved({37}),
             transform::Pyramid::interleaved({13, 1}),      transform::Pyramid::interleaved({16, 31, 9}),
             transform::Pyramid::interleaved({7, 6, 9, 8}), transform::Pyramid::separate({7, 6, 9, 8}, {{0, 1}, {2, 3}}),
@@ -101,7 +101,7 @@ struct Counter {
 // sign and b_max − p_n − 1 for each magnitude. Adaptive models approach that, and gain where the frequencies drift.
 TEST(ThreePass, alphabets_take_the_entropy_of_the_symbols) {
     const transform::Pyramid pyramid = transform::Pyramid::interleaved({40, 50, 30});
-    const std::vector<float> values = picture(pyramid);
+    const std::vector<float> values = three_pass_picture(pyramid);
     for (const double step : {0.001, 0.01, 0.1}) {
         const Quantiser quantiser(static_cast<float>(step));
         const int planes = std::bit_width(quantiser.level(max_magnitude(values)));
@@ -117,9 +117,9 @@ TEST(ThreePass, alphabets_take_the_entropy_of_the_symbols) {
 }
 
 TEST(ThreePass, decodes_to_the_middles_of_the_levels) {
-    for (const transform::Pyramid& pyramid : pyramids())
+    for (const transform::Pyramid& pyramid : three_pass_pyramids())
         for (double step : {0.001, 0.1, 1.0, 100.0}) {
-            const std::vector<float> values = picture(pyramid);
+            const std::vector<float> values = three_pass_picture(pyramid);
             const Bytes bytes = three_pass_encode(pyramid, values, step);
             std::vector<float> decoded(values.size(), 7.0f);
             three_pass_decode(pyramid, bytes, decoded);
@@ -150,7 +150,7 @@ TEST(ThreePass, zeros_take_next_to_nothing) {
 TEST(ThreePass, every_truncation_is_noticed) {
     const transform::Pyramid pyramid = transform::Pyramid::interleaved({9, 8, 7});
     for (const ThreePassSymbols symbols : {ThreePassSymbols::bits, ThreePassSymbols::alphabets}) {
-        const Bytes bytes = three_pass_encode(pyramid, picture(pyramid), 0.05, symbols);
+        const Bytes bytes = three_pass_encode(pyramid, three_pass_picture(pyramid), 0.05, symbols);
         std::vector<float> decoded(pyramid.size());
         three_pass_decode(pyramid, bytes, decoded);
         for (std::size_t length = 0; length < bytes.size(); ++length)
@@ -161,8 +161,9 @@ TEST(ThreePass, every_truncation_is_noticed) {
 TEST(ThreePass, hostile_bytes_end_in_an_error_or_in_finite_values) {
     std::mt19937 random(3);
     const transform::Pyramid pyramid = transform::Pyramid::interleaved({9, 8, 7});
-    const Bytes with_bits = three_pass_encode(pyramid, picture(pyramid), 0.05);
-    const Bytes with_alphabets = three_pass_encode(pyramid, picture(pyramid), 0.05, ThreePassSymbols::alphabets);
+    const Bytes with_bits = three_pass_encode(pyramid, three_pass_picture(pyramid), 0.05);
+    const Bytes with_alphabets =
+        three_pass_encode(pyramid, three_pass_picture(pyramid), 0.05, ThreePassSymbols::alphabets);
     std::vector<float> decoded(pyramid.size());
     for (int trial = 0; trial < 6000; ++trial) {
         Bytes bytes = trial < 3000 ? with_bits : with_alphabets;
@@ -180,7 +181,7 @@ TEST(ThreePass, hostile_bytes_end_in_an_error_or_in_finite_values) {
 
 TEST(ThreePass, meets_the_sqnr_asked_for) {
     const transform::Pyramid pyramid = transform::Pyramid::interleaved({40, 50, 30});
-    const std::vector<float> values = picture(pyramid);
+    const std::vector<float> values = three_pass_picture(pyramid);
     std::vector<float> decoded(values.size());
     for (double asked : {5.0, 20.0, 40.0, 80.0, 110.0}) {
         three_pass_decode(pyramid, three_pass_encode(pyramid, values, step_for_sqnr(values, asked)), decoded);

@@ -20,7 +20,7 @@
 namespace hogel::core {
 namespace {
 
-constexpr std::string_view first_line = "hogel journal 1";
+constexpr std::string_view journal_heading = "hogel journal 1";
 // The time between writes, which is the maximum of work that is lost when the machine stops.
 constexpr std::chrono::seconds between_writes{20};
 
@@ -88,11 +88,11 @@ void Journal::fail(int error) const {
 void Journal::read(const std::string& text) {
     std::istringstream lines(text);
     std::string line;
-    if (!std::getline(lines, line) || line != first_line)
+    if (!std::getline(lines, line) || line != journal_heading)
         throw Error(ErrorCode::bad_input, fmt::format("cannot resume '{}': it is not a journal of hogel; remove it and "
                                                       "the file beside it to begin again",
                                                       path_.string()));
-    std::size_t known = 0, end = first_line.size() + 1;
+    std::size_t known = 0, end = journal_heading.size() + 1;
     // The first line that is damaged or incomplete, and all lines after it, are ignored.
     while (std::getline(lines, line) && !lines.eof()) {
         const std::size_t length = line.size() + 1;
@@ -122,7 +122,7 @@ void Journal::read(const std::string& text) {
 void Journal::begin() {
     if (::ftruncate(file_, 0) != 0 || ::lseek(file_, 0, SEEK_SET) != 0) fail(errno);
     before_.clear();
-    std::string text = fmt::format("{}\n", first_line);
+    std::string text = fmt::format("{}\n", journal_heading);
     for (const std::string& line : work_) text += with_checksum("work " + line);
     append(text + with_checksum("begin"));
     written_ = std::chrono::steady_clock::now();

@@ -12,7 +12,7 @@ namespace hogel::exchange {
 namespace {
 
 // Pixels between candidates, rows that are worked on together, and the sides of the windows, 2 r + 1 pixels.
-constexpr double step = 0.25;
+constexpr double disparity_step = 0.25;
 constexpr std::size_t strip = 48;
 constexpr long window = 2;
 // Views to each side of the middle one.
@@ -91,13 +91,13 @@ Array<float, 2> windowed(const Array<float, 2>& cost) {
 void sweep(const Array<float, 2>& middle, const std::vector<Neighbour>& around, double max_disparity, std::size_t first,
            DisparityMap& map) {
     const std::size_t rows = std::min(strip, middle.extent(0) - first), width = middle.extent(1);
-    const long most = std::lround(std::ceil(max_disparity / step));
+    const long most = std::lround(std::ceil(max_disparity / disparity_step));
     Array<float, 2> before, now, least({rows, width}, INFINITY);
     // Candidates in rising order: `now` is known with those on both sides when `next` is there.
     Array<float, 2> cost({rows + 2 * window, width});
     for (long k = -most - 1; k <= most + 1; ++k) {
         core::throw_if_stopped();
-        costs(middle, around, static_cast<double>(k) * step, static_cast<long>(first) - window, cost);
+        costs(middle, around, static_cast<double>(k) * disparity_step, static_cast<long>(first) - window, cost);
         Array<float, 2> next = windowed(cost);
         if (before.size() > 0)
             for (std::size_t i = 0; i < now.size(); ++i) {
@@ -107,7 +107,8 @@ void sweep(const Array<float, 2>& middle, const std::vector<Neighbour>& around, 
                 const float left = before.data()[i], right = next.data()[i], bend = left + right - 2 * value;
                 const double beside =
                     bend > 0 ? std::clamp(0.5 * static_cast<double>((left - right) / bend), -0.5, 0.5) : 0;
-                map.data()[first * width + i] = static_cast<float>((static_cast<double>(k - 1) + beside) * step);
+                map.data()[first * width + i] =
+                    static_cast<float>((static_cast<double>(k - 1) + beside) * disparity_step);
             }
         before = std::move(now);
         now = std::move(next);

@@ -12,7 +12,7 @@
 namespace hogel::exchange {
 namespace {
 
-constexpr std::size_t block = 16;
+constexpr std::size_t block_side = 16;
 // A block has texture if a shift by one pixel costs more than noise of this standard deviation would.
 constexpr double noise = 4.0 / 255;
 // Shares of the evidence by which one explanation must be better than the other.
@@ -21,12 +21,12 @@ constexpr double clear_ratio = 1.5;
 double squared_difference(View<const float, 2> a, View<const float, 2> b, std::size_t y0, std::size_t x0, long dy,
                           long dx) {
     double sum = 0;
-    for (std::size_t y = 0; y < block; ++y) {
+    for (std::size_t y = 0; y < block_side; ++y) {
         const float* p = &a(y0 + y, x0);
         const float* q = &b(static_cast<std::size_t>(static_cast<long>(y0 + y) + dy),
                             static_cast<std::size_t>(static_cast<long>(x0) + dx));
         float row = 0;
-        for (std::size_t x = 0; x < block; ++x) row += (p[x] - q[x]) * (p[x] - q[x]);
+        for (std::size_t x = 0; x < block_side; ++x) row += (p[x] - q[x]) * (p[x] - q[x]);
         sum += row;
     }
     return sum;
@@ -38,7 +38,8 @@ constexpr double enough_movement = 0.25 * 0.25;
 // The index of the smallest error, or of one that is hardly larger and nearer to no shift at all, because patterns
 // repeat.
 std::size_t nearest_minimum(const std::vector<double>& errors, std::size_t no_shift) {
-    const double least = *std::ranges::min_element(errors), enough = 1.25 * least + block * block / (255.0 * 255.0);
+    const double least = *std::ranges::min_element(errors),
+                 enough = 1.25 * least + block_side * block_side / (255.0 * 255.0);
     std::size_t best = 0;
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -54,7 +55,8 @@ BlockMatch match_block(View<const float, 2> a, View<const float, 2> b, std::size
                        int max_shift) {
     const auto size = static_cast<long>(along_y ? a.extent(0) : a.extent(1));
     const auto begin = static_cast<long>(along_y ? y0 : x0);
-    const long low = std::max<long>(-max_shift, -begin), high = std::min<long>(max_shift, size - begin - long{block});
+    const long low = std::max<long>(-max_shift, -begin),
+               high = std::min<long>(max_shift, size - begin - long{block_side});
     std::vector<double> errors;
     for (long shift = low; shift <= high; ++shift)
         errors.push_back(squared_difference(a, b, y0, x0, along_y ? shift : 0, along_y ? 0 : shift));
@@ -70,7 +72,7 @@ BlockMatch match_block(View<const float, 2> a, View<const float, 2> b, std::size
     return match;
 }
 
-bool has_texture(const BlockMatch& match) { return match.texture > block * block * noise * noise; }
+bool has_texture(const BlockMatch& match) { return match.texture > block_side * block_side * noise * noise; }
 
 double percentile98(std::vector<double> values) {
     if (values.empty()) return 0;
@@ -107,10 +109,10 @@ double total_error(const Array<BlockMatch, 2>& matches) {
 }  // namespace
 
 Array<BlockMatch, 2> match_blocks(View<const float, 2> a, View<const float, 2> b, bool along_y, int max_shift) {
-    Array<BlockMatch, 2> matches({a.extent(0) / block, a.extent(1) / block});
+    Array<BlockMatch, 2> matches({a.extent(0) / block_side, a.extent(1) / block_side});
     core::parallel_for(matches.extent(0), [&](std::size_t row) {
         for (std::size_t column = 0; column < matches.extent(1); ++column)
-            matches(row, column) = match_block(a, b, row * block, column * block, along_y, max_shift);
+            matches(row, column) = match_block(a, b, row * block_side, column * block_side, along_y, max_shift);
     });
     return matches;
 }

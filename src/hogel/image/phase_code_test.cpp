@@ -10,7 +10,7 @@
 namespace hogel {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double around(double phase) { return std::remainder(phase, 2 * pi); }
 

@@ -14,7 +14,7 @@ using namespace image;
 
 namespace {
 
-std::string format_of(const std::filesystem::path& path) {
+std::string levels_format_of(const std::filesystem::path& path) {
     const PictureFormat* format = format_by_extension(path);
     if (format != nullptr && !format->built_in)
         refuse_not_built_in(*format, path.string(), &PictureFormat::written_as_levels);
@@ -25,10 +25,10 @@ std::string format_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-void require_raw_pixels_name(const std::filesystem::path& path) { format_of(path); }
+void require_raw_pixels_name(const std::filesystem::path& path) { levels_format_of(path); }
 
 void write_raw_pixels(const std::filesystem::path& path, View<const std::uint8_t, 3> levels, const Metadata& metadata) {
-    const std::string format = format_of(path), what = fmt::format("the pattern '{}'", path.string());
+    const std::string format = levels_format_of(path), what = fmt::format("the pattern '{}'", path.string());
     const std::size_t channels = levels.extent(2);
     if (levels.size() == 0 || (channels != 1 && channels != 3))
         fail_write(what, fmt::format("{}x{} pixels in {} channels", levels.extent(1), levels.extent(0), channels));

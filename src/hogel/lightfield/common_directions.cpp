@@ -84,7 +84,7 @@ class WithCommonDirections final : public LightFieldSource {
 };
 
 // As many directions as hogels with `count` of them have together, whose middles are `shift` steps apart at the most.
-std::size_t together(std::size_t count, double shift) {
+std::size_t joint_count(std::size_t count, double shift) {
     return count == 1 ? 1 : count + static_cast<std::size_t>(std::ceil(std::min(shift, 1e15) - 1e-9));
 }
 
@@ -96,8 +96,8 @@ LightFieldGrid common_directions(const LightFieldGrid& grid) {
     LightFieldGrid common = grid;
     DirectionRange range = *plane;
     const double step_u = grid.step_u(), step_v = grid.step_v(), per_hogel = grid.pitch / std::abs(plane->depth);
-    common.directions_u = together(grid.directions_u, static_cast<double>(grid.hogels_s - 1) * per_hogel / step_u);
-    common.directions_v = together(grid.directions_v, static_cast<double>(grid.hogels_t - 1) * per_hogel / step_v);
+    common.directions_u = joint_count(grid.directions_u, static_cast<double>(grid.hogels_s - 1) * per_hogel / step_u);
+    common.directions_v = joint_count(grid.directions_v, static_cast<double>(grid.hogels_t - 1) * per_hogel / step_v);
     range.half_u = 0.5 * step_u * static_cast<double>(common.directions_u);
     range.half_v = 0.5 * step_v * static_cast<double>(common.directions_v);
     common.view = Perspective{range};

@@ -38,7 +38,7 @@ Camera camera_at(Vec3 eye, double pupil, double focus, const Grid& picture) {
     return camera;
 }
 
-double sum(const Image& image) {
+double sum_behind_diffuser(const Image& image) {
     double total = 0;
     for (const float value : image.pixels.elements()) total += value;
     return total;
@@ -73,7 +73,7 @@ TEST(LineDiffuser, is_the_sum_of_the_intensities_of_all_heights_by_direct_summat
                     expected.pixels.data()[k] += height.pixels.data()[k] / float(heights);
             }
         EXPECT_LT(relative_difference(found, expected), 0.008) << focus;
-        EXPECT_NEAR(sum(found) / sum(expected), 1, 0.003) << focus;
+        EXPECT_NEAR(sum_behind_diffuser(found) / sum_behind_diffuser(expected), 1, 0.003) << focus;
     }
 }
 
@@ -99,7 +99,7 @@ TEST(LineDiffuser, uniform_light_has_its_radiance_from_all_heights) {
         const Image seen = photograph(field, {&camera, 1}, diffuse).front();
         const double cosine = 100_mm / std::hypot(100_mm, height);
         const double expected = 2 * 5_um * 62.5_um * cosine / (633_nm * 633_nm);
-        EXPECT_NEAR(sum(seen) / double(seen.pixels.size()) / expected, 1, 0.03) << height;
+        EXPECT_NEAR(sum_behind_diffuser(seen) / double(seen.pixels.size()) / expected, 1, 0.03) << height;
         EXPECT_THROW(require_light_towards(grid, camera), Error);
         require_light_towards(grid, camera, true);
     }

@@ -10,12 +10,12 @@
 namespace hogel {
 namespace {
 
-using Complex = std::complex<double>;
+using DoubleComplex = std::complex<double>;
 
 struct PupilPoint {
     Vec3 position;
     double area;
-    Complex field;
+    DoubleComplex field;
 };
 
 // Points on rings around the pupil's centre, at the radii of a quadrature by Gauss and Legendre, as far apart on a ring
@@ -61,14 +61,14 @@ Image photograph_directly(const FieldSource& hologram, const Camera& camera, std
         hologram.read({0, 0, plane.width, plane.height}, look, field);
         // Rayleigh and Sommerfeld: every sample of the hologram sends a wave z/(iλr²) e^{ikr} to the pupil.
         core::parallel_for(pupil.size(), [&](std::size_t i) {
-            Complex sum = 0;
+            DoubleComplex sum = 0;
             for (std::size_t row = 0; row < plane.height; ++row)
                 for (std::size_t column = 0; column < plane.width; ++column) {
                     const Vec3 from{plane.x(static_cast<double>(column)), plane.y(static_cast<double>(row)), 0};
                     const double r = length(pupil[i].position - from);
-                    sum += Complex(field(row, column)) * std::polar(camera.eye.z / (r * r), k * r);
+                    sum += DoubleComplex(field(row, column)) * std::polar(camera.eye.z / (r * r), k * r);
                 }
-            pupil[i].field = sum * plane.pitch_x * plane.pitch_y / Complex(0, grid.wavelength);
+            pupil[i].field = sum * plane.pitch_x * plane.pitch_y / DoubleComplex(0, grid.wavelength);
         });
         // A perfect lens: waves from a point p of the plane in focus arrive in phase at the image of p on the film.
         core::parallel_for(camera.picture.height, [&](std::size_t row) {
@@ -79,7 +79,7 @@ Image photograph_directly(const FieldSource& hologram, const Camera& camera, std
                                                camera.picture.y(static_cast<double>(row) + within.points[b]), 0};
                         const Vec3 p =
                             camera.eye + focus_ratio(camera, on_hologram.x, on_hologram.y) * (on_hologram - camera.eye);
-                        Complex film = 0;
+                        DoubleComplex film = 0;
                         for (const PupilPoint& q : pupil)
                             film += q.field * std::polar(q.area, -k * length(q.position - p));
                         // Radiance of a diffuse surface: |film|² cos θ / (λ² · area of the pupil).

@@ -15,7 +15,7 @@ namespace hogel {
 namespace {
 
 using Complex = std::complex<float>;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Field whole(const FieldSource& source) {
     Field field(source.grid());

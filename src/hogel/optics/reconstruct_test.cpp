@@ -16,7 +16,7 @@ namespace {
 
 using namespace literals;
 using Complex = std::complex<float>;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double x_of(const Grid& plane, std::size_t column) {
     return (double(column) + 0.5 - double(plane.width) / 2) * plane.pitch_x;

@@ -16,7 +16,7 @@
 namespace hogel::scene {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Rgb background{0.02f, 0.02f, 0.03f};
 

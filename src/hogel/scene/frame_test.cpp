@@ -37,7 +37,7 @@ Scene before_a_camera() {
     return scene;
 }
 
-void expect_near(Vec3 a, Vec3 b) { EXPECT_LT(length(a - b), 1e-12) << a.x << ' ' << a.y << ' ' << a.z; }
+void expect_vector_near(Vec3 a, Vec3 b) { EXPECT_LT(length(a - b), 1e-12) << a.x << ' ' << a.y << ' ' << a.z; }
 
 TEST(Frame, of_a_camera_is_the_hologram) {
     Scene scene = before_a_camera();
@@ -56,15 +56,15 @@ TEST(Frame, of_a_camera_is_the_hologram) {
     // Half of the disparity is in front: 1/p = (1/2 + 1/6) / 2 is the plane's depth p = 3.
     EXPECT_NEAR(scene.meshes[0].positions[0].z, eye * (1 - 2.0 / 3), 1e-12);
     EXPECT_NEAR(scene.meshes[1].positions[0].z, eye * (1 - 6.0 / 3), 1e-12);
-    expect_near(scene.meshes[0].normals[0], {0, 0, 1});
-    expect_near(scene.lights[0].position, {0, 0, eye});
+    expect_vector_near(scene.meshes[0].normals[0], {0, 0, 1});
+    expect_vector_near(scene.lights[0].position, {0, 0, eye});
     EXPECT_NEAR(scene.lights[0].intensity.r, (eye / 3) * (eye / 3), 1e-9);
     // A surface far away that the picture does not show does not move the plane.
     Scene wide = before_a_camera();
     wide.meshes.push_back(wide.meshes[0]);
     for (Vec3& p : wide.meshes.back().positions) p = p + Vec3{-500, 400, 0};
     frame_scene(wide, wide.cameras[0], {.width = 0.2, .height = 0.1, .front = 0.5});
-    expect_near(wide.meshes[1].positions[1], scene.meshes[1].positions[1]);
+    expect_vector_near(wide.meshes[1].positions[1], scene.meshes[1].positions[1]);
 }
 
 TEST(Frame, cuts_off_what_reaches_behind_the_eye) {

@@ -10,7 +10,7 @@
 namespace hogel::scene {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double angle_of(std::size_t i, std::size_t columns) {
     return 2 * pi * static_cast<double>(i % columns) / static_cast<double>(columns);

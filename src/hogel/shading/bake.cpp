@@ -23,8 +23,8 @@ using namespace shading;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr std::size_t vertices_per_task = 256;
+using std::numbers::pi;
+constexpr std::size_t baked_vertices_per_task = 256;
 constexpr std::size_t fewer_rays = 8;  // all rounds but the last divide the number of rays by this
 // The fraction of the way from a vertex to the middle of its triangles at which rays start, because vertices are often
 // on edges where other surfaces begin.
@@ -82,11 +82,12 @@ ShadedScene unlit(const Scene& scene) {
 /// Calls body(vertex) for all vertices, and reports progress from `from` to `to`.
 void for_vertices(std::size_t n, const Progress& progress, double from, double to,
                   const std::function<void(std::size_t)>& body) {
-    const std::size_t tasks = (n + vertices_per_task - 1) / vertices_per_task;
+    const std::size_t tasks = (n + baked_vertices_per_task - 1) / baked_vertices_per_task;
     const Progress part = progress.part(from, to);
     core::Steps steps(part, tasks);
     core::parallel_for(tasks, [&](std::size_t task) {
-        for (std::size_t i = task * vertices_per_task; i < std::min(n, (task + 1) * vertices_per_task); ++i) {
+        for (std::size_t i = task * baked_vertices_per_task; i < std::min(n, (task + 1) * baked_vertices_per_task);
+             ++i) {
             core::throw_if_stopped();
             body(i);
         }
@@ -169,7 +170,7 @@ std::vector<Rgb> indirect_light(const Scene& scene, Surfaces& surfaces, const Ba
     return indirect;
 }
 
-void require_normals(const Scene& scene) {
+void require_normals_to_bake(const Scene& scene) {
     for (const Mesh& mesh : scene.meshes)
         if (mesh.normals.empty() && !mesh.triangles.empty() && mesh.radiance.empty())
             throw Error(ErrorCode::bad_input, "mesh '" + mesh.name + "': no normals; expected one a vertex");
@@ -182,7 +183,7 @@ Scene bake_scene(const Scene& scene, const BakeOptions& options, const Progress&
     core::require_part("Embree", "baking");
     if (options.rays == 0) throw Error(ErrorCode::usage, "baking with 0 rays a vertex; expected 1 or more");
     validate(scene);
-    require_normals(scene);
+    require_normals_to_bake(scene);
     if (unlit(scene).layers)
         throw Error(
             ErrorCode::bad_input,

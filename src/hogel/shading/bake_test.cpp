@@ -15,7 +15,7 @@
 namespace hogel::shading {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A sphere of radius 1, seen from the inside.
 Scene hollow_ball(float albedo, std::size_t columns = 40, std::size_t rows = 20) {

@@ -10,7 +10,7 @@
 namespace hogel::shading {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double schlick(double cosine) {
     const double rest = 1 - std::clamp(cosine, 0.0, 1.0), squared = rest * rest;
@@ -56,23 +56,23 @@ LobeAlbedo integrate(double cosine, double roughness) {
     return sum;
 }
 
-constexpr std::size_t cells = 32;
+constexpr std::size_t table_cells = 32;
 
 struct AlbedoTable {
-    std::array<std::array<LobeAlbedo, cells>, cells> albedo;  // [roughness][cosine]
-    std::array<LobeAlbedo, cells> mean;
+    std::array<std::array<LobeAlbedo, table_cells>, table_cells> albedo;  // [roughness][cosine]
+    std::array<LobeAlbedo, table_cells> mean;
 
     static double cosine(std::size_t i) {
         // Denser towards grazing angles, where the albedo changes rapidly.
-        const double x = (static_cast<double>(i) + 1e-3) / (cells - 1 + 1e-3);
+        const double x = (static_cast<double>(i) + 1e-3) / (table_cells - 1 + 1e-3);
         return x * x;
     }
     static double roughness(std::size_t k) {
-        return min_roughness + (1 - min_roughness) * static_cast<double>(k) / (cells - 1);
+        return min_roughness + (1 - min_roughness) * static_cast<double>(k) / (table_cells - 1);
     }
     AlbedoTable() {
-        for (std::size_t k = 0; k < cells; ++k) {
-            for (std::size_t i = 0; i < cells; ++i) albedo[k][i] = integrate(cosine(i), roughness(k));
+        for (std::size_t k = 0; k < table_cells; ++k) {
+            for (std::size_t i = 0; i < table_cells; ++i) albedo[k][i] = integrate(cosine(i), roughness(k));
             // ∫ 2 µ E(µ) dµ with E as look_up() interpolates it, linear in √µ between nodes.
             LobeAlbedo sum{0, 0};
             constexpr int steps = 512;
@@ -86,8 +86,8 @@ struct AlbedoTable {
         }
     }
     LobeAlbedo look_up(std::size_t k, double cosine_at) const {
-        const double at = std::sqrt(std::clamp(cosine_at, 0.0, 1.0)) * (cells - 1);
-        const auto i = std::min(static_cast<std::size_t>(at), cells - 2);
+        const double at = std::sqrt(std::clamp(cosine_at, 0.0, 1.0)) * (table_cells - 1);
+        const auto i = std::min(static_cast<std::size_t>(at), table_cells - 2);
         const double w = at - static_cast<double>(i);
         const LobeAlbedo &a = albedo[k][i], &b = albedo[k][i + 1];
         return {a.scale + w * (b.scale - a.scale), a.offset + w * (b.offset - a.offset)};
@@ -106,8 +106,9 @@ struct Row {
 };
 
 Row row_of(double roughness) {
-    const double at = (std::clamp(roughness, min_roughness, 1.0) - min_roughness) / (1 - min_roughness) * (cells - 1);
-    const auto k = std::min(static_cast<std::size_t>(at), cells - 2);
+    const double at =
+        (std::clamp(roughness, min_roughness, 1.0) - min_roughness) / (1 - min_roughness) * (table_cells - 1);
+    const auto k = std::min(static_cast<std::size_t>(at), table_cells - 2);
     return {k, at - static_cast<double>(k)};
 }
 

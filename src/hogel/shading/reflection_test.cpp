@@ -11,7 +11,7 @@
 namespace hogel::shading {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Material material(float reflectance, float metallic, float roughness) {
     Material m;

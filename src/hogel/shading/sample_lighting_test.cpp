@@ -14,7 +14,7 @@
 namespace hogel::shading {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 const Rgb violet{0.8f, 0.4f, 1};
 

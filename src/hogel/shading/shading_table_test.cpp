@@ -12,7 +12,7 @@
 namespace hogel::shading {
 namespace {
 
-ShadingOptions by(const std::string& model) { return {.model = model, .shadow_map = 32}; }
+ShadingOptions model_named(const std::string& model) { return {.model = model, .shadow_map = 32}; }
 
 std::shared_ptr<const Image> picture(float value) {
     auto image = std::make_shared<Image>(4, 4, 1);
@@ -58,7 +58,7 @@ TEST(ShadeSceneInto, gives_what_shade_scene_gives) {
             for (const bool filtered : {true, false})
                 for (const auto& texture : {first, second, std::shared_ptr<const Image>()}) {
                     const Scene scene = moving_scene(0.1 * double(lamps), lamps, texture);
-                    ShadingOptions options = by(model);
+                    ShadingOptions options = model_named(model);
                     options.filter_textures = filtered;
                     shade_scene_into(scene, options, shaded);
                     expect_same(shaded, shade_scene(scene, options));
@@ -69,13 +69,13 @@ TEST(ShadeSceneInto, gives_what_shade_scene_gives) {
 TEST(ShadeSceneInto, uses_the_memory_of_the_last_shading) {
     const auto texture = picture(0.5f);
     for (const char* model : {"vertex", "direct", "shadowed"}) {
-        ShadedScene shaded = shade_scene(moving_scene(0, 2, texture), by(model));
+        ShadedScene shaded = shade_scene(moving_scene(0, 2, texture), model_named(model));
         add_radiance_cache(shaded, std::vector<float>(shaded.triangles.size(), 0.1f));
         const Vec3* positions = shaded.positions.data();
         const Rgb* radiance = shaded.radiance.data();
         const ShadedScene::Triangle* triangles = shaded.triangles.data();
         const SampleLighting* lighting = shaded.lighting.get();
-        shade_scene_into(moving_scene(0.2, 2, texture), by(model), shaded);
+        shade_scene_into(moving_scene(0.2, 2, texture), model_named(model), shaded);
         EXPECT_EQ(shaded.positions.data(), positions);
         EXPECT_EQ(shaded.radiance.data(), radiance);
         EXPECT_EQ(shaded.triangles.data(), triangles);
@@ -86,11 +86,11 @@ TEST(ShadeSceneInto, uses_the_memory_of_the_last_shading) {
 
 TEST(ShadeSceneInto, leaves_lighting_alone_that_another_scene_shares) {
     const Scene first = moving_scene(0, 1, nullptr), second = moving_scene(0.4, 2, nullptr);
-    ShadedScene shaded = shade_scene(first, by("direct"));
+    ShadedScene shaded = shade_scene(first, model_named("direct"));
     const ShadedScene copied = shaded;
-    shade_scene_into(second, by("direct"), shaded);
-    expect_same(copied, shade_scene(first, by("direct")));
-    expect_same(shaded, shade_scene(second, by("direct")));
+    shade_scene_into(second, model_named("direct"), shaded);
+    expect_same(copied, shade_scene(first, model_named("direct")));
+    expect_same(shaded, shade_scene(second, model_named("direct")));
 }
 
 // What `vertex` cannot show is not left out silently: maps on more than a tenth of the surface are lit by `direct`.
@@ -118,8 +118,8 @@ TEST(ShadingModels, auto_is_direct_for_large_triangles_and_for_maps_of_gloss_or_
 TEST(ShadingModels, unknown_names_are_usage_errors_that_list_the_known_ones) {
     for (const bool bytes : {false, true}) {
         try {
-            bytes ? static_cast<void>(shadow_map_bytes({}, by("phong")))
-                  : static_cast<void>(shade_scene(moving_scene(0, 1, nullptr), by("phong")));
+            bytes ? static_cast<void>(shadow_map_bytes({}, model_named("phong")))
+                  : static_cast<void>(shade_scene(moving_scene(0, 1, nullptr), model_named("phong")));
             FAIL();
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::usage);
@@ -141,11 +141,11 @@ TEST(ShadingModels, a_model_that_a_program_adds_is_used_like_any_other) {
                           .shadow_map_bytes = [](const Scene& scene,
                                                  const ShadingOptions&) { return 5.0 * double(scene.lights.size()); }});
     const Scene scene = moving_scene(0, 2, nullptr);
-    ShadedScene shaded = shade_scene(scene, by("direct"));
-    shade_scene_into(scene, by("counted"), shaded);
+    ShadedScene shaded = shade_scene(scene, model_named("direct"));
+    shade_scene_into(scene, model_named("counted"), shaded);
     EXPECT_EQ(radiance_at(shaded, 0, 0.2f, 0.3f, 0.5f).g, 2);
-    EXPECT_EQ(shadow_map_bytes(scene, by("counted")), 10);
-    ShadingOptions little = by("counted");
+    EXPECT_EQ(shadow_map_bytes(scene, model_named("counted")), 10);
+    ShadingOptions little = model_named("counted");
     little.max_shadow_bytes = 9;
     EXPECT_THROW(shade_scene(scene, little), Error);
 }

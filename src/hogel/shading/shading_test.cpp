@@ -14,7 +14,7 @@
 namespace hogel::shading {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Light directional(Vec3 direction, float irradiance) {
     Light light;

@@ -12,7 +12,7 @@
 namespace hogel::shading {
 namespace {
 
-constexpr std::size_t vertices_per_task = 4096;
+constexpr std::size_t shadowed_vertices_per_task = 4096;
 
 /// Interpolates the light of each lamp between the vertices, where it is computed without shadows, and multiplies it
 /// by the visibility from the lamp's shadow map at each sample.
@@ -82,8 +82,9 @@ class ShadowedLighting final : public SampleLighting {
             unshadowed_.push_back(color * scene.ambient + vertex_emission(mesh.material));
         }
         irradiance_.resize((base + n) * lights);
-        core::parallel_for((n + vertices_per_task - 1) / vertices_per_task, [&](std::size_t task) {
-            for (std::size_t i = task * vertices_per_task; i < std::min(n, (task + 1) * vertices_per_task); ++i)
+        core::parallel_for((n + shadowed_vertices_per_task - 1) / shadowed_vertices_per_task, [&](std::size_t task) {
+            for (std::size_t i = task * shadowed_vertices_per_task;
+                 i < std::min(n, (task + 1) * shadowed_vertices_per_task); ++i)
                 for (std::size_t k = 0; k < lights; ++k) {
                     const Illumination from = illuminate(scene.lights[k], mesh.positions[i]);
                     const double cosine = mesh.normals.empty() ? 0 : dot(mesh.normals[i], from.to_light);

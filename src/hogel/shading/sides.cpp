@@ -14,7 +14,7 @@
 namespace hogel::shading {
 namespace {
 
-constexpr std::size_t triangles_per_task = 1024;
+constexpr std::size_t sides_per_task = 1024;
 
 bool has_sides(const Mesh& mesh) { return mesh.material.double_sided && mesh.radiance.empty(); }
 
@@ -57,9 +57,9 @@ std::vector<char> find_seen_backs(const Scene& scene, const ShadedScene& shaded)
     const BackFinder finder(scene, shaded);
     const std::size_t count = shaded.triangles.size();
     std::vector<char> seen(count);
-    core::parallel_for((count + triangles_per_task - 1) / triangles_per_task, [&](std::size_t task) {
-        const std::size_t first = task * triangles_per_task;
-        for (std::size_t i = first; i < std::min(count, first + triangles_per_task); ++i)
+    core::parallel_for((count + sides_per_task - 1) / sides_per_task, [&](std::size_t task) {
+        const std::size_t first = task * sides_per_task;
+        for (std::size_t i = first; i < std::min(count, first + sides_per_task); ++i)
             seen[i] =
                 has_sides(scene.meshes[shaded.triangles[i].mesh]) && finder.is_seen_from_behind(shaded.triangles[i]);
     });

@@ -14,7 +14,7 @@
 namespace hogel::shading {
 namespace {
 
-constexpr std::size_t vertices_per_task = 16;
+constexpr std::size_t visible_vertices_per_task = 16;
 // Of the scene's diagonal: what is finer is finer than the hogels of most holograms.
 constexpr double min_side = 0.004, coarse_side = 0.012;
 // Of the light of all lamps: stairs of a fainter one are hardly seen. Where there are many lamps each is a small part:
@@ -78,9 +78,9 @@ VertexVisibility::VertexVisibility(const Scene& scene, const ShadedScene& shaded
 void VertexVisibility::trace_vertices(const Part& part) {
     const Mesh& mesh = *part.mesh;
     const std::size_t n = mesh.positions.size();
-    core::parallel_for((n + vertices_per_task - 1) / vertices_per_task, [&](std::size_t task) {
-        const std::size_t first = task * vertices_per_task;
-        for (std::size_t i = first; i < std::min(n, first + vertices_per_task); ++i)
+    core::parallel_for((n + visible_vertices_per_task - 1) / visible_vertices_per_task, [&](std::size_t task) {
+        const std::size_t first = task * visible_vertices_per_task;
+        for (std::size_t i = first; i < std::min(n, first + visible_vertices_per_task); ++i)
             for (std::size_t k = 0; k < reach_.size(); ++k) {
                 const float reach = trace(scene_.lights[k], part, mesh.positions[i], mesh.normals[i]);
                 reach_[k][part.base + i] = reach;

@@ -17,9 +17,9 @@ using namespace format;
 
 namespace {
 
-constexpr std::size_t tried = 2;        // tiles of each face, of the size for the layout stacked
-constexpr double separate_step = 2;     // estimate: the step of `faces` with the quality of a step of `stacked`
-constexpr double sqnr_tolerance = 1.5;  // decibels
+constexpr std::size_t tried = 2;         // tiles of each face, of the size for the layout stacked
+constexpr double separate_step = 2;      // estimate: the step of `faces` with the quality of a step of `stacked`
+constexpr double probe_tolerance = 1.5;  // decibels
 constexpr double bytes_tolerance = 0.2;
 constexpr double db_per_doubling = 8;  // estimate: decibels gained by twice as many bytes
 
@@ -104,8 +104,8 @@ double cost(const CodingOutcome& outcome) { return std::log2(outcome.bytes) - ou
 
 StepBand near(double sqnr) {
     StepBand band = band_of_sqnr(sqnr);
-    band.low = sqnr - sqnr_tolerance;
-    band.high = sqnr + sqnr_tolerance;
+    band.low = sqnr - probe_tolerance;
+    band.high = sqnr + probe_tolerance;
     return band;
 }
 

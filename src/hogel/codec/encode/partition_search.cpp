@@ -11,8 +11,8 @@ using namespace format;
 namespace {
 
 // Estimated bits.
-constexpr float first_candidate = 0.3f, each_candidate = 1.5f, new_disparity = 14;
-constexpr float best_of_all_sides = 1, one_side = 2.5f;
+constexpr float first_candidate_bits = 0.3f, each_candidate_bits = 1.5f, new_disparity_bits = 14;
+constexpr float best_of_all_sides_bits = 1, one_side_bits = 2.5f;
 
 // The edge with the smallest sum of both partitions' costs. Compares eight edges at once.
 std::size_t cheapest_edge(const BestPerEdge& main, const BestPerEdge& second) {
@@ -34,7 +34,7 @@ void PartitionSearch::try_all_sides(int disparity, float bits) {
         const InterPrediction from{static_cast<std::int16_t>(disparity), side};
         if (choice(from).count == 0) continue;
         BlockSamples scratch;
-        const float cost = rate_weight_ * (bits + (side == 0 ? best_of_all_sides : one_side));
+        const float cost = rate_weight_ * (bits + (side == 0 ? best_of_all_sides_bits : one_side_bits));
         keep_better(predict(from, scratch), *target_, cost, static_cast<float>(tried_.size()), edge_row_cuts(), main_,
                     second_);
         tried_.push_back(from);
@@ -48,12 +48,12 @@ void PartitionSearch::begin(const BlockSamples& target, const Candidates& candid
     main_.cost.fill(std::numeric_limits<float>::infinity());
     second_.cost.fill(std::numeric_limits<float>::infinity());
     for (std::size_t k = 0; k < candidates.count; ++k)
-        try_all_sides(candidates.disparity[k], first_candidate + each_candidate * static_cast<float>(k));
+        try_all_sides(candidates.disparity[k], first_candidate_bits + each_candidate_bits * static_cast<float>(k));
 }
 
 void PartitionSearch::add(int disparity) {
     if (std::ranges::none_of(tried_, [&](InterPrediction from) { return from.disparity == disparity; }))
-        try_all_sides(disparity, new_disparity);
+        try_all_sides(disparity, new_disparity_bits);
 }
 
 std::optional<Block> PartitionSearch::best(BlockSamples& prediction) {

@@ -9,7 +9,7 @@ namespace hogel::codec::format {
 namespace {
 
 constexpr float third = 0.57735026918962576f, half = 0.70710678118654752f, sixth = 0.40824829046386302f;
-constexpr std::size_t batch = 1 << 16;
+constexpr std::size_t colours_per_task = 1 << 16;
 
 void separate(float& a, float& b, float& c) {
     const float red = a, green = b, blue = c;
@@ -27,12 +27,13 @@ void join(float& a, float& b, float& c) {
 
 // Calls change() with the three channels of parts of the tile, on all threads.
 template <class Change>
-void for_each_part(View<float, 5> radiance, Change&& change) {
+void for_each_three_channels(View<float, 5> radiance, Change&& change) {
     if (radiance.extent(0) != 3) return;
     const std::size_t count = radiance.size() / 3;
-    core::parallel_for((count + batch - 1) / batch, [&](std::size_t part) {
+    core::parallel_for((count + colours_per_task - 1) / colours_per_task, [&](std::size_t part) {
         const auto of = [&](std::size_t channel) {
-            return radiance[channel].elements().subspan(part * batch, std::min(batch, count - part * batch));
+            return radiance[channel].elements().subspan(part * colours_per_task,
+                                                        std::min(colours_per_task, count - part * colours_per_task));
         };
         change(of(0), of(1), of(2));
     });
@@ -49,11 +50,11 @@ void join_colours(std::span<float> a, std::span<float> b, std::span<float> c) {
 }
 
 void separate_colours(View<float, 5> radiance) {
-    for_each_part(radiance, [](auto a, auto b, auto c) { separate_colours(a, b, c); });
+    for_each_three_channels(radiance, [](auto a, auto b, auto c) { separate_colours(a, b, c); });
 }
 
 void join_colours(View<float, 5> radiance) {
-    for_each_part(radiance, [](auto a, auto b, auto c) { join_colours(a, b, c); });
+    for_each_three_channels(radiance, [](auto a, auto b, auto c) { join_colours(a, b, c); });
 }
 
 }  // namespace hogel::codec::format

@@ -9,7 +9,7 @@
 namespace hogel::codec::format {
 namespace {
 
-constexpr std::size_t batch = 1 << 14;
+constexpr std::size_t rays_per_task = 1 << 14;
 
 float luminance(float red, float green, float blue) { return (red + green + blue) / 3; }
 
@@ -17,9 +17,10 @@ float luminance(float red, float green, float blue) { return (red + green + blue
 template <class Change>
 void for_each_part(View<float, 5> radiance, Change&& change) {
     const std::size_t channels = radiance.extent(0), count = radiance.size() / channels;
-    core::parallel_for((count + batch - 1) / batch, [&](std::size_t part) {
+    core::parallel_for((count + rays_per_task - 1) / rays_per_task, [&](std::size_t part) {
         const auto of = [&](std::size_t channel) {
-            return radiance[channel].elements().subspan(part * batch, std::min(batch, count - part * batch));
+            return radiance[channel].elements().subspan(part * rays_per_task,
+                                                        std::min(rays_per_task, count - part * rays_per_task));
         };
         if (channels == 3)
             change(of(0), of(1), of(2));

@@ -15,7 +15,7 @@ namespace {
 using math::Quadrature;
 using optics::dirichlet;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Nodes beyond either end of a hogel, at most.
 constexpr std::size_t max_beyond = 8;

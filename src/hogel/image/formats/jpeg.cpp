@@ -47,9 +47,9 @@ void limit_scans(j_common_ptr jpeg) {
     std::longjmp(errors->back, 1);
 }
 
-class Reader {
+class JpegReader {
   public:
-    explicit Reader(const PictureBytes& file) : file_(file) {
+    explicit JpegReader(const PictureBytes& file) : file_(file) {
         jpeg_.err = jpeg_std_error(&errors_.base);
         errors_.base.error_exit = fail_by_jump;
         errors_.base.emit_message = refuse_early_end;
@@ -59,9 +59,9 @@ class Reader {
         run([&] { jpeg_create_decompress(&jpeg_); });
         jpeg_.progress = &progress_;
     }
-    ~Reader() { jpeg_destroy_decompress(&jpeg_); }
-    Reader(const Reader&) = delete;
-    Reader& operator=(const Reader&) = delete;
+    ~JpegReader() { jpeg_destroy_decompress(&jpeg_); }
+    JpegReader(const JpegReader&) = delete;
+    JpegReader& operator=(const JpegReader&) = delete;
 
     void read_header() {
         run([&] {
@@ -196,7 +196,7 @@ std::vector<unsigned char> jpeg_file(View<const std::uint8_t, 3> pixels, int qua
 }
 
 Picture read_jpeg(const PictureBytes& file) {
-    Reader reader(file);
+    JpegReader reader(file);
     reader.read_header();
     Picture picture{{}, reader.texts()};
     if (!file.only_texts) picture.samples = reader.pixels();

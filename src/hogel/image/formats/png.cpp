@@ -45,22 +45,22 @@ bool attempt(png_structp png, const Step& step) {
     return true;
 }
 
-struct Source {
+struct PngSource {
     const unsigned char* at;
     std::size_t left;
 };
 
 void take(png_structp png, png_bytep into, std::size_t size) {
-    auto* source = static_cast<Source*>(png_get_io_ptr(png));
+    auto* source = static_cast<PngSource*>(png_get_io_ptr(png));
     if (size > source->left) png_error(png, "it ends before its last chunk");
     std::memcpy(into, source->at, size);
     source->at += size;
     source->left -= size;
 }
 
-class Reader {
+class PngReader {
   public:
-    explicit Reader(const PictureBytes& file) : file_(file), source_{file.bytes.data(), file.bytes.size()} {
+    explicit PngReader(const PictureBytes& file) : file_(file), source_{file.bytes.data(), file.bytes.size()} {
         png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &failure_, note_failure, ignore_warning);
         info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
         if (info_ == nullptr) {
@@ -68,9 +68,9 @@ class Reader {
             throw std::bad_alloc();
         }
     }
-    ~Reader() { png_destroy_read_struct(&png_, &info_, nullptr); }
-    Reader(const Reader&) = delete;
-    Reader& operator=(const Reader&) = delete;
+    ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+    PngReader(const PngReader&) = delete;
+    PngReader& operator=(const PngReader&) = delete;
 
     void read_header() {
         run([&] {
@@ -144,7 +144,7 @@ class Reader {
     }
 
     const PictureBytes& file_;
-    Source source_;
+    PngSource source_;
     Failure failure_;
     png_structp png_ = nullptr;
     png_infop info_ = nullptr;
@@ -222,7 +222,7 @@ std::vector<unsigned char> encode(View<const T, 3> pixels, const Metadata& texts
 Picture read_png(const PictureBytes& file) {
     const std::string damage = png_structure_error(file.bytes);
     if (!damage.empty()) file.fail(damage);
-    Reader reader(file);
+    PngReader reader(file);
     reader.read_header();
     Picture picture{{}, reader.texts()};
     if (!file.only_texts) picture.samples = reader.pixels();

@@ -55,13 +55,13 @@ namespace {
 
 // Where stb_image reads. It takes what is missing at the end of a file as zeros, by which it may run for ever, so the
 // end is an exception here.
-struct Source {
+struct StbSource {
     std::span<const unsigned char> bytes;
     std::size_t at = 0;
 };
 
 int take(void* user, char* into, int size) {
-    auto& source = *static_cast<Source*>(user);
+    auto& source = *static_cast<StbSource*>(user);
     const std::size_t count = std::min(static_cast<std::size_t>(std::max(size, 0)), source.bytes.size() - source.at);
     if (count == 0 && size > 0) throw std::runtime_error("it ends too early");
     if (count > 0) std::memcpy(into, source.bytes.data() + source.at, count);
@@ -70,14 +70,14 @@ int take(void* user, char* into, int size) {
 }
 
 void skip(void* user, int count) {  // a negative number goes back
-    auto& source = *static_cast<Source*>(user);
+    auto& source = *static_cast<StbSource*>(user);
     const std::int64_t to = static_cast<std::int64_t>(source.at) + count;
     source.at =
         static_cast<std::size_t>(std::clamp<std::int64_t>(to, 0, static_cast<std::int64_t>(source.bytes.size())));
 }
 
 int at_end(void* user) {
-    const auto& source = *static_cast<Source*>(user);
+    const auto& source = *static_cast<StbSource*>(user);
     return source.at >= source.bytes.size() ? 1 : 0;
 }
 
@@ -110,7 +110,7 @@ bool has_grey_palette(std::span<const unsigned char> bytes) {
 // `load` is stb_image's function for the type of the samples.
 template <class T, class Load>
 Samples load_samples(const PictureBytes& file, int channels, const Load& load) {
-    Source source{file.bytes};
+    StbSource source{file.bytes};
     int width = 0, height = 0, stored = 0;
     const std::unique_ptr<T, Free> pixels(load(&callbacks, &source, &width, &height, &stored, channels));
     if (!pixels) fail(file);
@@ -125,10 +125,10 @@ Samples load_samples(const PictureBytes& file, int channels, const Load& load) {
 Picture read_with_stb(const PictureBytes& file) {
     if (file.only_texts) return {};
     const ReleaseAll at_the_end;
-    Source source{file.bytes};
+    StbSource source{file.bytes};
     int width = 0, height = 0, stored = 0;
     if (stbi_info_from_callbacks(&callbacks, &source, &width, &height, &stored) == 0) fail(file);
-    Source start{file.bytes};
+    StbSource start{file.bytes};
     const bool linear = stbi_is_hdr_from_callbacks(&callbacks, &start) != 0;
     const auto positive = [](int size) { return static_cast<std::uint64_t>(std::max(size, 0)); };
     const bool alpha = file.with_alpha && !linear && (stored == 2 || stored == 4);

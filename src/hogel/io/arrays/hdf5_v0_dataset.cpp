@@ -13,13 +13,13 @@ namespace {
 using Bytes = std::vector<unsigned char>;
 
 constexpr std::uint64_t undefined = ~std::uint64_t{0};
-constexpr std::size_t max_axes = 32;
+constexpr std::size_t max_rank = 32;
 constexpr std::size_t max_blocks = 1024;  // no valid header has as many; blocks of a damaged one may be circular
 
 std::vector<std::uint64_t> extents(const Hdf5V0& file, std::span<const unsigned char> message) {
     ByteCursor rest(file, message);
     const std::uint64_t version = rest.number(1), rank = rest.number(1);
-    if ((version != 1 && version != 2) || rank > max_axes) file.fail("an array's extents are damaged");
+    if ((version != 1 && version != 2) || rank > max_rank) file.fail("an array's extents are damaged");
     rest.skip(version == 1 ? 6 : 2);
     std::vector<std::uint64_t> shape;
     for (std::uint64_t axis = 0; axis < rank; ++axis) shape.push_back(rest.number(8));
@@ -124,7 +124,7 @@ void take_layout(const Hdf5V0& file, const Bytes& message, Hdf5V0Dataset& datase
         case 2: {
             dataset.layout = Hdf5V0Dataset::Layout::chunked;
             const std::uint64_t axes = rest.number(1);  // the axes of the array, plus one for the bytes of an element
-            if (axes < 2 || axes > max_axes + 1) file.fail("an array's layout is damaged");
+            if (axes < 2 || axes > max_rank + 1) file.fail("an array's layout is damaged");
             dataset.address = address();
             for (std::uint64_t axis = 0; axis + 1 < axes; ++axis) dataset.chunk.push_back(rest.number(4));
             break;

@@ -15,7 +15,6 @@ namespace {
 using Bytes = std::vector<unsigned char>;
 
 // Deflate expands by at most 1032.
-constexpr std::uint64_t max_expansion = 1040;
 
 Bytes inflated(const Hdf5V0& file, const Bytes& packed, std::size_t bytes) {
     Bytes plain(bytes);

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <span>
 
 namespace hogel::io::arrays {
+
+/// Data expand to at most 1032 times their deflated size; with some reserve.
+constexpr std::size_t max_expansion = 1040;
 
 /// How much of the data inflate() is to fill.
 enum class Extent {

@@ -11,14 +11,12 @@
 #include "hogel/core/raw_file.h"
 #include "hogel/io/arrays/inflate.h"
 #include "hogel/io/arrays/mat.h"
+#include "hogel/io/arrays/mat5_types.h"
 
 namespace hogel::io::arrays {
 namespace {
 
-constexpr std::uint32_t type_int8 = 1, type_int32 = 5, type_uint32 = 6, type_array = 14, type_compressed = 15;
 constexpr std::size_t header_bytes = 128;
-// Deflate expands by at most 1032.
-constexpr std::size_t max_expansion = 1040;
 
 struct Element {
     std::uint32_t type = 0;

@@ -11,13 +11,12 @@
 #include <string_view>
 
 #include "hogel/error.h"
+#include "hogel/io/arrays/mat5_types.h"
 
 namespace hogel::io::arrays {
 namespace {
 
-// Types of elements, and classes of arrays.
-constexpr unsigned type_int8 = 1, type_uint8 = 2, type_uint16 = 4, type_int32 = 5, type_uint32 = 6, type_single = 7,
-                   type_double = 9, type_array = 14;
+// Classes of arrays.
 constexpr unsigned char class_text = 4, class_double = 6, class_single = 7, class_uint8 = 9, class_uint16 = 11;
 
 template <class T>

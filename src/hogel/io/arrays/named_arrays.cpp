@@ -112,7 +112,7 @@ Chosen chosen(const std::filesystem::path& path, const std::string& variable, co
                 fmt::format("'{}' holds several arrays; which one is meant of {}?", path.string(), names_of(fields)));
 }
 
-Planes planes_of(const std::filesystem::path& path, const NumberArray& array, const Chosen& chosen) {
+Planes planes_of_array(const std::filesystem::path& path, const NumberArray& array, const Chosen& chosen) {
     // Two arrays are the parts of samples, so that none of their axes is.
     return arrays::planes_of(path, array.shape, array.by_columns, chosen.content != Content::real);
 }
@@ -266,7 +266,7 @@ ExternalFacts facts_of_arrays(const std::filesystem::path& path, const ExternalF
                               const std::vector<NumberArray>& arrays, const std::string& format) {
     ExternalFacts facts;
     const Chosen field = chosen(path, what.variable, arrays);
-    const Planes planes = planes_of(path, *field.first, field);
+    const Planes planes = planes_of_array(path, *field.first, field);
     facts.format = format;
     facts.numbers = kind_of(field, planes.step_pair > 0);
     facts.width = planes.width;
@@ -293,7 +293,7 @@ std::unique_ptr<FieldSource> open_arrays(const std::filesystem::path& path, cons
                                          const std::vector<NumberArray>& arrays) {
     const Chosen parts = chosen(path, what.variable, arrays);
     const NumberArray &first = *parts.first, &second = parts.second ? *parts.second : first;
-    const Planes a = planes_of(path, first, parts), b = planes_of(path, second, parts);
+    const Planes a = planes_of_array(path, first, parts), b = planes_of_array(path, second, parts);
     ExternalField meant = what;
     const Content content = a.step_pair > 0 ? take_pairs(path, meant) : parts.content;
     const SampleConverter convert(path, meant, content, first.kind(),

@@ -45,14 +45,14 @@ Bytes arranged(const std::string& axes, std::size_t colours) {
     return bytes;
 }
 
-using Members = std::vector<std::pair<std::string, Bytes>>;
-Bytes npz(const Members& members) {
+using StrangeMembers = std::vector<std::pair<std::string, Bytes>>;
+Bytes npz(const StrangeMembers& members) {
     ZipWriter zip("x.npz");
     for (const auto& [name, bytes] : members) zip.add(name + ".npy", bytes);
     return zip.finish();
 }
 
-Bytes npy_of(const std::vector<double>& values, const std::vector<std::size_t>& shape) {
+Bytes strange_npy(const std::vector<double>& values, const std::vector<std::size_t>& shape) {
     const std::string start = npy_beginning("<f8", shape);
     Bytes bytes(start.begin(), start.end());
     for (const double value : values) put(bytes, value);
@@ -98,7 +98,7 @@ void expect_refused(const fs::path& path, const ExternalField& what, ErrorCode c
 }
 
 TEST_F(StrangeFields, of_pairs_are_what_is_said) {
-    const fs::path pairs = write("p.npy", arranged("yxp", 1)), one = write("f.npy", npy_of({1, 2, 3, 4}, {2, 2})),
+    const fs::path pairs = write("p.npy", arranged("yxp", 1)), one = write("f.npy", strange_npy({1, 2, 3, 4}, {2, 2})),
                    complex = write("c.npy", arranged("yx", 1));
     const Complex sample = all_of(*open_external_field(pairs, known(Values::amplitude_phase)))(1, 2);
     EXPECT_LT(std::abs(sample - Complex(std::polar(number(0, 1, 2, 0), number(0, 1, 2, 1)))), 1e-5f);
@@ -113,7 +113,7 @@ TEST_F(StrangeFields, of_pairs_are_what_is_said) {
 TEST_F(StrangeFields, of_levels_that_lost_their_type_are_refused) {
     ExternalField coded = known(Values::phase);
     coded.phase_code = parse_phase_code("odak");
-    expect_refused(write("f.npy", npy_of({0, 128, 200, 255}, {2, 2})), coded, ErrorCode::bad_input, "from 0 to 1");
+    expect_refused(write("f.npy", strange_npy({0, 128, 200, 255}, {2, 2})), coded, ErrorCode::bad_input, "from 0 to 1");
     const auto whole = [&](const char* type, auto first) {
         const std::string start = npy_beginning(type, std::vector<std::size_t>{2, 2});
         Bytes bytes(start.begin(), start.end());
@@ -138,31 +138,34 @@ TEST_F(StrangeFields, have_parameters_of_many_names) {
          {std::pair("dx", 8e-6), std::pair("pixel_pitch", 8e-6), std::pair("PixelSize_um", 8.0),
           std::pair("pitch_mm", 0.008), std::pair("pixelPitchUm", 8.0), std::pair("dx_nm", 8000.0),
           std::pair("sample_spacing", 8e-6)})
-        EXPECT_NEAR(external_facts(write("p.npz", npz({{"u", samples}, {name, npy_of({value}, {})}}))).pitch_x, 8e-6,
-                    1e-15)
+        EXPECT_NEAR(external_facts(write("p.npz", npz({{"u", samples}, {name, strange_npy({value}, {})}}))).pitch_x,
+                    8e-6, 1e-15)
             << name;
     for (const auto& [name, value] :
          {std::pair("lambda", 532e-9), std::pair("wavelength_nm", 532.0), std::pair("wlen", 532e-9),
           std::pair("lambda0", 532e-9), std::pair("wavelengthNm", 532.0), std::pair("lam_um", 0.532),
           std::pair("wl", 532e-9)}) {
-        const ExternalFacts facts = external_facts(write("w.npz", npz({{"u", samples}, {name, npy_of({value}, {1})}})));
+        const ExternalFacts facts =
+            external_facts(write("w.npz", npz({{"u", samples}, {name, strange_npy({value}, {1})}})));
         ASSERT_EQ(facts.wavelengths.size(), 1u) << name;
         EXPECT_NEAR(facts.wavelengths[0], 532e-9, 1e-15) << name;
     }
     // Millimetres and micrometres that no name tells are not metres, and other variables are no parameters.
     for (const auto& [name, value] :
          {std::pair("lambda", 0.000532), std::pair("lambda", 0.532), std::pair("dx", 0.008), std::pair("pitch", 8.0)}) {
-        const ExternalFacts facts = external_facts(write("x.npz", npz({{"u", samples}, {name, npy_of({value}, {})}})));
+        const ExternalFacts facts =
+            external_facts(write("x.npz", npz({{"u", samples}, {name, strange_npy({value}, {})}})));
         EXPECT_TRUE(facts.wavelengths.empty() && facts.pitch_x == 0) << name << " " << value;
         EXPECT_NE(facts.complaint.find(name), std::string::npos) << facts.complaint;
     }
-    EXPECT_TRUE(external_facts(write("y.npz", npz({{"u", samples}, {"m", npy_of({1}, {})}, {"room", npy_of({1}, {})}})))
+    EXPECT_TRUE(external_facts(
+                    write("y.npz", npz({{"u", samples}, {"m", strange_npy({1}, {})}, {"room", strange_npy({1}, {})}})))
                     .complaint.empty());
 }
 
 // A data set has one pair of arrays whose names say that they are parts.
 TEST_F(StrangeFields, are_found_among_pictures) {
-    const auto plane = [](double value) { return npy_of({value, value, value, value}, {2, 2}); };
+    const auto plane = [](double value) { return strange_npy({value, value, value, value}, {2, 2}); };
     const fs::path path =
         write("t.npz", npz({{"img", plane(9)}, {"amp", plane(2)}, {"depth", plane(8)}, {"phs", plane(0.5)}}));
     EXPECT_LT(std::abs(all_of(*open_external_field(path, known()))(0, 1) - std::polar(2.0f, 0.5f)), 1e-6f);

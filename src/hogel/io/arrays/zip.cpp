@@ -17,7 +17,6 @@ namespace {
 constexpr std::uint32_t local_mark = 0x04034b50, directory_mark = 0x02014b50, end_mark = 0x06054b50,
                         end64_mark = 0x06064b50, locator_mark = 0x07064b50;
 constexpr std::size_t local_bytes = 30, directory_bytes = 46, end_bytes = 22, locator_bytes = 20, end64_bytes = 56;
-constexpr std::uint64_t max_expansion = 1040;   // of deflate
 constexpr std::uint32_t in_extra = 0xffffffff;  // the number is in the extra field of 64 bits
 
 // Numbers of an archive at offsets that are checked.

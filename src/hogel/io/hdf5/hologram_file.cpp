@@ -63,14 +63,14 @@ class FieldReader final : public FieldSource {
 };
 
 // The file that several sinks share; the last one to finish gives it its name.
-struct SharedFile {
+struct SharedHologramFile {
     DatasetFile file;
     std::atomic<std::size_t> unfinished;
 };
 
 class FieldWriter final : public FieldSink, public core::SharedSink {
   public:
-    FieldWriter(const FieldGrid& grid, Parts parts, std::size_t index, std::shared_ptr<SharedFile> shared)
+    FieldWriter(const FieldGrid& grid, Parts parts, std::size_t index, std::shared_ptr<SharedHologramFile> shared)
         : grid_(grid), parts_(parts), index_(index), shared_(std::move(shared)) {}
 
     void write(const Region& region, View<const std::complex<float>, 2> values) override {
@@ -131,7 +131,7 @@ class FieldWriter final : public FieldSink, public core::SharedSink {
     FieldGrid grid_;
     Parts parts_;
     std::size_t index_;
-    std::shared_ptr<SharedFile> shared_;
+    std::shared_ptr<SharedHologramFile> shared_;
     std::atomic<std::size_t> written_{0};
 };
 
@@ -222,7 +222,8 @@ std::vector<std::unique_ptr<FieldSink>> create(const std::filesystem::path& path
                                      shape_of(grid, parts), field_attributes(grid, parts)});
     }
     if (part != nullptr) contents.part = PartOf{part->number, part->count, std::move(bands), part->input};
-    std::shared_ptr<SharedFile> shared(new SharedFile{{path, std::move(contents), options.resume}, grids.size()});
+    std::shared_ptr<SharedHologramFile> shared(
+        new SharedHologramFile{{path, std::move(contents), options.resume}, grids.size()});
     std::vector<std::unique_ptr<FieldSink>> sinks;
     for (FieldGrid grid : grids) {
         grid.plane.height = rows[sinks.size()].count;

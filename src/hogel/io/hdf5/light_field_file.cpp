@@ -65,7 +65,7 @@ class LightFieldReader final : public LightFieldSource, public lightfield::Chann
 };
 
 // The file that several sinks share; the last one to finish gives it its name.
-struct SharedFile {
+struct SharedLightFieldFile {
     DatasetFile file;
     std::atomic<std::size_t> unfinished;
 };
@@ -73,7 +73,7 @@ struct SharedFile {
 class LightFieldWriter final : public LightFieldSink, public core::SharedSink {
   public:
     LightFieldWriter(const LightFieldGrid& grid, std::size_t first_dataset, bool with_depth,
-                     std::shared_ptr<SharedFile> shared)
+                     std::shared_ptr<SharedLightFieldFile> shared)
         : grid_(grid), first_dataset_(first_dataset), with_depth_(with_depth), shared_(std::move(shared)) {}
 
     void write(const LightFieldTile& tile) override {
@@ -116,7 +116,7 @@ class LightFieldWriter final : public LightFieldSink, public core::SharedSink {
     LightFieldGrid grid_;
     std::size_t first_dataset_;  // index of the radiance; depth is the next one
     bool with_depth_;
-    std::shared_ptr<SharedFile> shared_;
+    std::shared_ptr<SharedLightFieldFile> shared_;
     std::atomic<std::size_t> hogels_{0};
 };
 
@@ -246,7 +246,8 @@ std::vector<std::unique_ptr<LightFieldSink>> create(const std::filesystem::path&
         bands.push_back({0, rows.first, rows.count});
     }
     if (part != nullptr) contents.part = PartOf{part->number, part->count, std::move(bands), part->input};
-    std::shared_ptr<SharedFile> shared(new SharedFile{{path, std::move(contents), options.resume}, grids.size()});
+    std::shared_ptr<SharedLightFieldFile> shared(
+        new SharedLightFieldFile{{path, std::move(contents), options.resume}, grids.size()});
     std::vector<std::unique_ptr<LightFieldSink>> sinks;
     const std::size_t datasets_per_face = options.with_depth ? 2 : 1;
     for (LightFieldGrid grid : grids) {

@@ -19,7 +19,7 @@ namespace hogel::io::hdf5 {
 namespace {
 
 constexpr std::string_view first_words = "hogel part 1 ";
-constexpr std::uint64_t alignment = 4096;
+constexpr std::uint64_t chunk_alignment = 4096;
 // The text of the header and the image of a file are kilobytes, unless options are long.
 constexpr std::uint64_t max_text = std::uint64_t{16} << 20, max_image = std::uint64_t{64} << 20;
 constexpr std::size_t max_datasets = 256, max_axes = 8, first_line_bytes = 64;
@@ -39,7 +39,9 @@ std::string text_of(const PartHeader& header) {
     return text + fmt::format("image {}\n", header.image.size());
 }
 
-std::uint64_t aligned(std::uint64_t offset) { return (offset + alignment - 1) / alignment * alignment; }
+std::uint64_t aligned(std::uint64_t offset) {
+    return (offset + chunk_alignment - 1) / chunk_alignment * chunk_alignment;
+}
 
 // Where the bands lie, after first line, text and image.
 void place_bands(PartHeader& header, std::uint64_t text_bytes) {

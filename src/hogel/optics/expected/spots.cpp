@@ -20,7 +20,7 @@
 namespace hogel::optics::expected {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 using Complex = std::complex<float>;
 

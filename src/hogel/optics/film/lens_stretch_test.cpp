@@ -16,7 +16,7 @@ namespace {
 
 HOGEL_TEST_ON_EVERY_TARGET(FilmLensStretch);
 
-constexpr std::size_t both = 2 * lines_together;
+constexpr std::size_t both_stretches = 2 * lines_together;
 constexpr double radius = 3e-3, length = 32;
 
 const PupilEdge& edge() {
@@ -55,7 +55,7 @@ struct Rows {
 TEST_P(FilmLensStretch, is_the_transmission_at_each_place) {
     for (const double left : {-0.4e-3, 1.9e-3, 4e-3}) {
         const Rows rows(left);
-        Array<float, 1> fast({32 * both}), plain({32 * both});
+        Array<float, 1> fast({32 * both_stretches}), plain({32 * both_stretches});
         lens_stretch(rows.stretch, edge(), radius, fast.data());
         lens_stretch_plain(rows.stretch, edge(), radius, plain.data());
         for (std::size_t column = 0; column < rows.stretch.columns; ++column)
@@ -64,13 +64,13 @@ TEST_P(FilmLensStretch, is_the_transmission_at_each_place) {
                 const std::complex<double> expected =
                     std::polar(rows.weight(row, t) * edge().transmission(radius - distance),
                                2 * std::numbers::pi * rows.cycles(row, t));
-                const std::size_t at = column * both + row;
+                const std::size_t at = column * both_stretches + row;
                 ASSERT_NEAR(fast(at), expected.real(), 3e-4) << left << " " << column << " " << row;
                 ASSERT_NEAR(fast(at + lines_together), expected.imag(), 3e-4) << left << " " << column << " " << row;
                 ASSERT_NEAR(fast(at), plain(at), 1e-4) << left << " " << column << " " << row;
                 ASSERT_NEAR(fast(at + lines_together), plain(at + lines_together), 1e-4) << left;
             }
-        EXPECT_EQ(fast(rows.stretch.columns * both), 0) << left;  // nothing beyond the last column
+        EXPECT_EQ(fast(rows.stretch.columns * both_stretches), 0) << left;  // nothing beyond the last column
     }
 }
 

@@ -20,7 +20,7 @@ namespace {
 
 using namespace literals;
 using Complex = std::complex<float>;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Goes through the frequencies of a field, cycles a sample.
 void filter(Field& field, const std::function<std::complex<double>(double fx, double fy)>& factor) {

@@ -10,17 +10,17 @@
 namespace hogel::optics::propagation {
 namespace {
 
-using Complex = std::complex<double>;
+using DoubleComplex = std::complex<double>;
 using std::numbers::pi;
 
 // The integral less the trapezoidal rule, at t.
-Complex missing(double t) {
-    if (std::abs(t) < 1e-3) return Complex(0, -pi * t / 6);  // the first term of the series
-    return Complex(0, -1) * (0.5 / (pi * t) - 0.5 / std::tan(pi * t));
+DoubleComplex missing(double t) {
+    if (std::abs(t) < 1e-3) return DoubleComplex(0, -pi * t / 6);  // the first term of the series
+    return DoubleComplex(0, -1) * (0.5 / (pi * t) - 0.5 / std::tan(pi * t));
 }
 
 // Solves a x = b by elimination with row pivots; a has b's size squared.
-std::vector<Complex> solved(std::vector<Complex> a, std::vector<Complex> b) {
+std::vector<DoubleComplex> solved(std::vector<DoubleComplex> a, std::vector<DoubleComplex> b) {
     const std::size_t n = b.size();
     for (std::size_t column = 0; column < n; ++column) {
         std::size_t pivot = column;
@@ -29,7 +29,7 @@ std::vector<Complex> solved(std::vector<Complex> a, std::vector<Complex> b) {
         for (std::size_t i = 0; i < n; ++i) std::swap(a[column * n + i], a[pivot * n + i]);
         std::swap(b[column], b[pivot]);
         for (std::size_t row = column + 1; row < n; ++row) {
-            const Complex factor = a[row * n + column] / a[column * n + column];
+            const DoubleComplex factor = a[row * n + column] / a[column * n + column];
             for (std::size_t i = column; i < n; ++i) a[row * n + i] -= factor * a[column * n + i];
             b[row] -= factor * b[column];
         }
@@ -51,7 +51,7 @@ BandEdge::BandEdge(double low, double high) {
         return unit_phasor((static_cast<double>(k) - static_cast<double>(max_beyond)) * t);
     };
     // The normal equations.
-    std::vector<Complex> a(count * count), b(count), waves(count);
+    std::vector<DoubleComplex> a(count * count), b(count), waves(count);
     for (std::size_t p = 0; p < points; ++p) {
         for (std::size_t i = 0; i < count; ++i) waves[i] = wave(i, at(p));
         for (std::size_t i = 0; i < count; ++i) {
@@ -63,7 +63,7 @@ BandEdge::BandEdge(double low, double high) {
     corrections = solved(a, b);
     double sum = 0;
     for (std::size_t p = 0; p < points; ++p) {
-        Complex rest = missing(at(p));
+        DoubleComplex rest = missing(at(p));
         for (std::size_t i = 0; i < count; ++i) rest -= corrections[i] * wave(i, at(p));
         sum += std::norm(rest);
     }

@@ -12,7 +12,7 @@
 namespace hogel::optics::propagation {
 namespace {
 
-using Complex = std::complex<double>;
+using DoubleComplex = std::complex<double>;
 using std::numbers::pi;
 
 struct Nodes {
@@ -58,7 +58,7 @@ double path_at_edge(const FieldGrid& grid, double distance) {
 
 }  // namespace
 
-std::vector<Complex> sum_of_plane_waves(const Field& field, double distance, std::span<const PlanePoint> points) {
+std::vector<DoubleComplex> sum_of_plane_waves(const Field& field, double distance, std::span<const PlanePoint> points) {
     const Grid& plane = field.grid().plane;
     const double k = 1 / field.grid().wavelength;
     double path_x = plane.size_x(), path_y = plane.size_y();
@@ -69,27 +69,27 @@ std::vector<Complex> sum_of_plane_waves(const Field& field, double distance, std
     const double aside = path_at_edge(field.grid(), distance);
     const Nodes x = nodes_of(plane.pitch_x, path_x + aside, field.grid().wavelength),
                 y = nodes_of(plane.pitch_y, path_y + aside, field.grid().wavelength);
-    std::vector<Complex> result(points.size()), column(plane.height), along_x(points.size());
-    std::vector<Complex> along_y;  // [node][point]
+    std::vector<DoubleComplex> result(points.size()), column(plane.height), along_x(points.size());
+    std::vector<DoubleComplex> along_y;  // [node][point]
     for (const double f : y.at)
         for (const PlanePoint& point : points) along_y.push_back(unit_phasor(f * point.y));
     for (std::size_t i = 0; i < x.at.size(); ++i) {
         // The transform along the rows at f_x, then along the column at each f_y.
-        std::ranges::fill(column, Complex(0));
+        std::ranges::fill(column, DoubleComplex(0));
         for (std::size_t s = 0; s < plane.width; ++s) {
-            const Complex wave = unit_phasor(-x.at[i] * plane.x(static_cast<double>(s)));
-            for (std::size_t t = 0; t < plane.height; ++t) column[t] += times(wave, Complex(field.samples(t, s)));
+            const DoubleComplex wave = unit_phasor(-x.at[i] * plane.x(static_cast<double>(s)));
+            for (std::size_t t = 0; t < plane.height; ++t) column[t] += times(wave, DoubleComplex(field.samples(t, s)));
         }
         for (std::size_t p = 0; p < points.size(); ++p) along_x[p] = x.weight[i] * unit_phasor(x.at[i] * points[p].x);
         for (std::size_t j = 0; j < y.at.size(); ++j) {
             const double square = k * k - x.at[i] * x.at[i] - y.at[j] * y.at[j];
             if (square < 0 && distance < 0) continue;
-            Complex value = 0;
-            const Complex step = unit_phasor(y.at[j] * plane.pitch_y);
-            Complex wave = unit_phasor(-y.at[j] * plane.y(0));
+            DoubleComplex value = 0;
+            const DoubleComplex step = unit_phasor(y.at[j] * plane.pitch_y);
+            DoubleComplex wave = unit_phasor(-y.at[j] * plane.y(0));
             for (std::size_t t = 0; t < plane.height; ++t, wave = times(wave, step)) value += times(wave, column[t]);
             value *= square >= 0 ? unit_phasor(std::sqrt(square) * distance)
-                                 : Complex(std::exp(-2 * pi * std::sqrt(-square) * distance));
+                                 : DoubleComplex(std::exp(-2 * pi * std::sqrt(-square) * distance));
             value *= y.weight[j] * plane.pitch_x * plane.pitch_y;
             for (std::size_t p = 0; p < points.size(); ++p)
                 result[p] += times(times(value, along_x[p]), along_y[j * points.size() + p]);
@@ -98,21 +98,22 @@ std::vector<Complex> sum_of_plane_waves(const Field& field, double distance, std
     return result;
 }
 
-std::vector<Complex> sum_of_spherical_waves(const Field& field, double distance, std::span<const PlanePoint> points) {
+std::vector<DoubleComplex> sum_of_spherical_waves(const Field& field, double distance,
+                                                  std::span<const PlanePoint> points) {
     const Grid& plane = field.grid().plane;
     const double wavelength = field.grid().wavelength, z = std::abs(distance);
-    std::vector<Complex> result;
+    std::vector<DoubleComplex> result;
     for (const PlanePoint& point : points) {
-        Complex sum = 0;
+        DoubleComplex sum = 0;
         for (std::size_t t = 0; t < plane.height; ++t)
             for (std::size_t s = 0; s < plane.width; ++s) {
                 const double r =
                     std::hypot(point.x - plane.x(static_cast<double>(s)), point.y - plane.y(static_cast<double>(t)), z);
-                Complex kernel =
-                    z / (2 * pi * r * r) * Complex(1 / r, -2 * pi / wavelength) * unit_phasor(r / wavelength);
+                DoubleComplex kernel =
+                    z / (2 * pi * r * r) * DoubleComplex(1 / r, -2 * pi / wavelength) * unit_phasor(r / wavelength);
                 // Light that goes backwards is the conjugate of light that goes forwards.
                 if (distance < 0) kernel = std::conj(kernel);
-                sum += kernel * Complex(field.samples(t, s));
+                sum += kernel * DoubleComplex(field.samples(t, s));
             }
         result.push_back(sum * plane.pitch_x * plane.pitch_y);
     }

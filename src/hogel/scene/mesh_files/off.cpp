@@ -13,7 +13,7 @@
 namespace hogel::scene::mesh_files {
 namespace {
 
-constexpr std::string_view spaces = " \t\r\f\v";
+constexpr std::string_view off_spaces = " \t\r\f\v";
 
 /// Lines without comments; empty ones are skipped.
 class Lines {
@@ -34,12 +34,12 @@ class Lines {
     }
     /// Whether the line has no further word.
     bool at_end() {
-        line_.remove_prefix(std::min(line_.find_first_not_of(spaces), line_.size()));
+        line_.remove_prefix(std::min(line_.find_first_not_of(off_spaces), line_.size()));
         return line_.empty();
     }
     std::string_view word() {
         if (at_end()) reject("ends early", "a further number");
-        const std::string_view word = line_.substr(0, line_.find_first_of(spaces));
+        const std::string_view word = line_.substr(0, line_.find_first_of(off_spaces));
         line_.remove_prefix(word.size());
         return word;
     }
@@ -76,14 +76,14 @@ class Lines {
     std::size_t number_ = 0;
 };
 
-struct Header {
+struct OffHeader {
     bool has_texture = false, has_colors = false, has_normals = false, has_weight = false, has_dimensions = false;
     unsigned dimensions = 3;
     std::uint32_t vertices = 0, faces = 0;
 };
 
 /// The letters before "OFF".
-bool take_keyword(Lines& lines, Header& header) {
+bool take_keyword(Lines& lines, OffHeader& header) {
     header.has_texture = lines.take("ST");
     header.has_colors = lines.take("C");
     header.has_normals = lines.take("N");
@@ -92,8 +92,8 @@ bool take_keyword(Lines& lines, Header& header) {
     return lines.take("OFF");
 }
 
-Header read_header(Lines& lines) {
-    Header header;
+OffHeader read_header(Lines& lines) {
+    OffHeader header;
     if (!lines.next()) reject_file(lines.file(), "has no line", "an OFF file");
     // The keyword may be missing; then the first line begins with the number of vertices.
     Lines first = lines;
@@ -115,7 +115,7 @@ Header read_header(Lines& lines) {
     return header;
 }
 
-void read_vertex(Lines& lines, const Header& header, Mesh& mesh) {
+void read_vertex(Lines& lines, const OffHeader& header, Mesh& mesh) {
     const auto number = [&] { return lines.number<float>("a number"); };
     float at[4] = {0, 0, 0, 1};
     for (unsigned i = 0; i < header.dimensions; ++i) at[i] = number();
@@ -167,13 +167,13 @@ void normalize(Mesh& mesh) {
 bool starts_like_off(std::string_view bytes) {
     const std::string none;
     Lines lines(none, bytes.substr(0, 4096));
-    Header header;
+    OffHeader header;
     return lines.next() && take_keyword(lines, header);
 }
 
 Mesh read_off(const std::string& file, std::string_view bytes) {
     Lines lines(file, bytes);
-    const Header header = read_header(lines);
+    const OffHeader header = read_header(lines);
     Mesh mesh;
     mesh.material.base_color = {0.6f, 0.6f, 0.6f};
     for (std::uint32_t i = 0; i < header.vertices; ++i) {

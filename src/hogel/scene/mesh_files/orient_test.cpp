@@ -15,7 +15,7 @@
 namespace hogel::scene::mesh_files {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A ball about a point, its triangles outwards.
 Mesh ball(Vec3 center = {}, double radius = 1) {
