@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Prints how many lines of each module the tests reach.
 
-usage: coverage_by_module.py FILE      FILE: what `gcovr --json-summary` wrote
+usage: coverage_by_module.py BUILD     in the project's folder; BUILD: a build folder with gcov's counts, which gets the
+                                       same line by line, coverage.html
 A module is a folder of src/hogel; the public headers count as one.
 """
 import collections
 import json
 import pathlib
+import subprocess
 import sys
 
 
@@ -16,9 +18,16 @@ def module(path):
     return parts[2] if parts[:2] == ("src", "hogel") else "public headers"
 
 
+def files(build):
+    subprocess.run(["gcovr", "--root", ".", "--object-directory", build, "--filter", "include/", "--filter", "src/",
+                    "--exclude", r".*_test\.cpp$", "--json-summary", build / "coverage.json", "--html-details", build / "coverage.html"],
+                   check=True)
+    return json.loads((build / "coverage.json").read_text())["files"]
+
+
 def main():
     lines, reached = collections.Counter(), collections.Counter()
-    for file in json.loads(pathlib.Path(sys.argv[1]).read_text())["files"]:
+    for file in files(pathlib.Path(sys.argv[1])):
         for name in (module(file["filename"]), "all"):
             lines[name] += file["line_total"]
             reached[name] += file["line_covered"]
