@@ -239,7 +239,7 @@ std::vector<std::string> renderer_names() {
 }
 
 // Requests a stop while work is going on.
-std::jthread soon(std::stop_source stop) {
+std::jthread soon(const std::stop_source& stop) {
     return std::jthread([stop]() mutable {
         std::this_thread::sleep_for(std::chrono::milliseconds(150));
         stop.request_stop();

@@ -21,7 +21,7 @@ try:
 except ImportError as missing:
     print(missing)
     sys.exit(77)
-from common.checks import Checks, run
+from common.checks import Checks, by_turns, run
 
 MAX_MIDDLE = {"fourier": 0.05, "phase-added": 0.07, "phase-added-exact": 0.07, "olas": 0.05}
 MAX_ALL = 0.02
@@ -79,15 +79,15 @@ def main():
     wide = Fan(90, 3e-6, 17, 0.28)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        for title, fan, method, pitch, wavelength, far, seeds in (
+        for number, (title, fan, method, pitch, wavelength, far, seeds) in enumerate((
                 ("fourier", stereogram, "fourier", 2e-6, 633e-9, 2e-3, 6),
                 ("phase-added", stereogram, "phase-added", 2e-6, 633e-9, 2e-3, 3),
                 ("phase-added-exact", stereogram, "phase-added-exact", 2e-6, 633e-9, 2e-3, 3),
                 ("olas, near an eye", near_eye, "olas", 6.4e-6, 520e-9, 2e-3, 6),
                 ("olas, two samples a hogel", two_samples, "olas", 4e-6, 633e-9, 2e-3, 3),
-                ("olas, wide", wide, "olas", 1e-6, 633e-9, 0.25e-3, 2)):
-            for depth in (0.1 * far, -0.35 * far, far):
-                for slope in SLOPES if method != "fourier" else (0,):
+                ("olas, wide", wide, "olas", 1e-6, 633e-9, 0.25e-3, 2))):
+            for turn, depth in enumerate((0.1 * far, -0.35 * far, far)):
+                for slope in by_turns(SLOPES, number + turn) if method != "fourier" else (0,):
                     fan.write(folder / "plane.h5", depth, slope)
                     middle, all_light = measure(hogel, folder, fan, method, pitch, wavelength, seeds)
                     where = f"{title}, depth {depth * 1e3:.3g} mm, slope {slope}"

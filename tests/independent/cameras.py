@@ -21,7 +21,7 @@ except ImportError as missing:
     print(missing)
     sys.exit(77)
 
-from common.checks import Checks, run
+from common.checks import Checks, by_turns, run
 from common.pictures import read_exr
 
 MAX_BRIGHTNESS = 3e-3
@@ -114,11 +114,11 @@ def noise(checks, hogel, folder):
     field = read_field(folder / "hologram.h5")
     pupil, columns, rows = 1.4e-3, 32, 27
     pixel = field.shape[1] * PITCH / columns
-    for degrees, azimuth in ((0, 0), (15, 40), (30, 200)):
+    for turn, (degrees, azimuth) in enumerate(((0, 0), (15, 40), (30, 200))):
         eye = eye_at(degrees, azimuth, 9e-3)
         lens = Lens(eye, pupil)
         light = lens.light_of(field)
-        for focus in (0.0, 0.1e-3, -0.1e-3):
+        for focus in by_turns((0.0, 0.1e-3, -0.1e-3), turn):
             summed = lens.picture(light, columns, rows, pixel, focus)
             for camera in ("full", "narrow", "eye"):
                 source, more = (folder / "noise.h5", ["--wave", "--looks", "1", *making]) if camera == "eye" else (
@@ -147,7 +147,7 @@ def places(checks, hogel, folder):
         soft = np.exp(-((x**2 + y**2) / 30e-6**2) ** 3)
         field = (soft * turned(np.copysign(r, depth)) / r).astype(np.complex64)
         np.save(folder / "point.npy", field)
-        lens = Lens(eye, pupil)
+        lens = Lens(eye, pupil, rings=20, spokes=60)
         summed = lens.picture(lens.light_of(field), pixels, pixels, pixel, depth)
         for camera in ("full", "narrow"):
             there = photograph(hogel, folder / "point.npy", folder, camera, eye, pupil, depth, pixels, "--pitch", "0.5um",

@@ -11,6 +11,7 @@ A field is read as the band-limited one through its samples (docs/notation.md, s
 
 The error is the root mean square of the differences over that of the sums, at some of the output's samples.
 """
+import os
 import pathlib
 import subprocess
 import sys
@@ -90,9 +91,10 @@ def main():
     random = np.random.default_rng(7)
     right = True
     with tempfile.TemporaryDirectory() as name:
-        for size in (0.1e-3, 0.5e-3, 2e-3, 20e-3):
-            for z in (0.0, 1e-3, 20e-3, -0.2, 1.0, 10.0):
-                for wavelength in (450e-9, 650e-9):
+        for row, size in enumerate((0.1e-3, 0.5e-3, 2e-3, 20e-3)):
+            for column, z in enumerate((0.0, 1e-3, 20e-3, -0.2, 1.0, 10.0)):
+                both = (450e-9, 650e-9)
+                for wavelength in both if os.environ.get("HOGEL_THOROUGH") == "1" else both[(row + column) % 2:][:1]:
                     samples = 56
                     pitch = size / samples
                     field = random_field(random, samples)

@@ -101,7 +101,7 @@ def lobe(normal, viewer, way, roughness):
 
 def albedos(cosines, roughness):
     """Of the lobe, by a sum over half vectors of the distribution: the light in uniform surroundings of radiance 1."""
-    count = 400
+    count = 200
     at, turn = np.meshgrid((np.arange(count) + 0.5) / count, 2 * np.pi * (np.arange(count) + 0.5) / count)
     a2 = roughness**4
     nh = np.sqrt((1 - at) / (1 + (a2 - 1) * at))

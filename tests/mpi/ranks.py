@@ -446,9 +446,10 @@ def kill_make_until_complete(run, chance, command, kills):
     print(f"make: killed {kill} times, resumed {resumed} times")
 
 
-# Some seconds of it, of which a third is done when its ranks are halted.
+# Some seconds of it, of which a third is done when its ranks are halted; and a minute, of which nobody sees the end.
 RENDER_LONG = ["render", "pumpkin", *"--hogels 80x80 --directions 24x24 --size 8mm --algorithm raytrace --samples 2x2".split(),
                "-o", "x.h5", "--resume"]
+RENDER_ENDLESS = [{"80x80": "160x160", "2x2": "3x3", "x.h5": "endless.h5"}.get(word, word) for word in RENDER_LONG]
 
 
 def rank_of(pid):
@@ -476,53 +477,35 @@ def lost(run):
     require(status == 0 and made.read_bytes() == whole, "ended with", status, error)
 
 
-# mpirun lets its ranks go on, stops them a second later, and kills them after another: they are halted until the second.
-def stop_by_mpirun(process, pids):
-    os.kill(process.pid, signal.SIGTERM)
-    waiting = set(pids)
-    deadline = time.monotonic() + PATIENCE
-    while waiting:
-        require(time.monotonic() < deadline, "mpirun has not stopped its ranks")
-        signal_all(pids, signal.SIGSTOP)
-        waiting = {pid for pid in pids if not is_stopped(pid)}
-    signal_all(pids, signal.SIGCONT)
-
-
-# Whether SIGTERM waits for the process, or it was killed.
-def is_stopped(pid):
-    try:
-        status = pathlib.Path(f"/proc/{pid}/status").read_text()
-    except (FileNotFoundError, ProcessLookupError):
-        return True
-    values = dict(line.split(":\t", 1) for line in status.splitlines())
-    return values["State"].startswith("Z") or int(values["ShdPnd"], 16) >> (signal.SIGTERM - 1) & 1 == 1
-
-
-def stop_by_rank(process, pids):
-    os.kill(pids[-1], signal.SIGTERM)
-    signal_all(pids, signal.SIGCONT)
-
-
-# What SIGTERM reaches stops, says so once, and keeps what is done; --resume without ranks completes it.
+# A rank that SIGTERM reaches stops all, says so once, and keeps what is done; --resume without ranks completes it.
 def stopped(run):
     made, whole, _ = made_alone(run, RENDER_LONG)
     kept = Kept(made)
-    for stop in (stop_by_mpirun, stop_by_rank):
-        kept.remove()
-        process = run.start(3, *RENDER_LONG)
-        stop(process, halted(process, kept))
-        _, error = process.communicate(timeout=PATIENCE)
-        require(process.returncode != 0, stop.__name__, "ended with", process.returncode, error)
-        require(not made.exists() and kept.is_there(), stop.__name__, "left", run.left())
-        done = kept.journal.read_bytes().count(b" done ")
-        # mpirun kills what has not ended soon after it was stopped: then what was not yet in the journal is done again.
-        if stop == stop_by_rank:
-            require(process.returncode == 143, "ended with", process.returncode, error)
-            require(lines_of_hogel(error) == ["hogel: stopped"], error)
-            require(done > 0, "nothing was kept")
-        print(f"{stop.__name__}: {done} parts were kept")
+    process = run.start(3, *RENDER_LONG)
+    pids = halted(process, kept)
+    os.kill(pids[-1], signal.SIGTERM)
+    signal_all(pids, signal.SIGCONT)
+    _, error = process.communicate(timeout=PATIENCE)
+    require(process.returncode == 143 and lines_of_hogel(error) == ["hogel: stopped"], "ended with", process.returncode, error)
+    require(not made.exists() and kept.is_there(), "a rank was stopped, and there is", run.left())
+    require(kept.journal.read_bytes().count(b" done ") > 0, "nothing was kept")
     run.alone(*RENDER_LONG)
     require(made.read_bytes() == whole, "other bytes after a stop")
+    stopped_by_mpirun(run)
+
+
+# mpirun stops its ranks a second after it was stopped, and kills those that are left after another: what was not yet in the
+# journal then is done again.
+def stopped_by_mpirun(run):
+    made = run.folder / "endless.h5"
+    kept = Kept(made)
+    process = run.start(3, *RENDER_ENDLESS)
+    require(wait_until(process, lambda: kept.has_begun() and kept.written() > 0), "ended before it was stopped")
+    process.send_signal(signal.SIGTERM)
+    _, error = process.communicate(timeout=PATIENCE)
+    require(process.returncode != 0 and lines_of_hogel(error) in ([], ["hogel: stopped"]), "ended with", process.returncode, error)
+    require(not made.exists() and kept.is_there(), "mpirun was stopped, and there is", run.left())
+    print(f"mpirun was stopped: {kept.journal.read_bytes().count(b' done ')} parts were kept")
 
 
 def main():

@@ -190,7 +190,7 @@ TEST(FreedBlocks, all_sizes_about_the_smallest_that_is_kept_are_counted_alike) {
     FreedBlocks blocks(64 * mega);
     std::vector<void*> used;
     for (int turn = 0; turn < 2; ++turn) {
-        for (std::size_t bytes = 120 * 1000; bytes < 132 * 1000; bytes += 7) used.push_back(blocks.allocate(bytes));
+        for (std::size_t bytes = 120000; bytes < 132000; bytes += 7) used.push_back(blocks.allocate(bytes));
         for (void* block : used) blocks.free(block);
         used.clear();
         ASSERT_EQ(blocks.in_use(), 0u);
