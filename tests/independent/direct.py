@@ -48,7 +48,7 @@ def main():
         for number, (method, cards) in enumerate((("fresnel", ((4e-3, 0.3), (-3e-3, 0.3))), ("planes", ((4e-3, 0.3), (-3e-3, 0.3))),
                                                   ("polygons", ((-3e-3, 0.3), (4e-3, 1.2))), ("polygons-visible", ((4e-3, 1.2),)),
                                                   ("points-tiled", ((4e-3, 0.3),)))):
-            seeds = 4 if method == "points-tiled" else 12 if THOROUGH else 6
+            seeds = 4 if method == "points-tiled" else 12 if THOROUGH else 8
             for depth, slope in by_turns(cards, number):
                 radiance = write_card(folder / "card.ply", depth, slope)
                 found = []

@@ -9,8 +9,11 @@ function(run)
 endfunction()
 
 set(launcher)
-if(LAUNCHER)
-  set(launcher -D CMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(ENV{CCACHE_BASEDIR} ${SOURCE_DIR})
+  set(ENV{CCACHE_SLOPPINESS} pch_defines,time_macros)
+  set(launcher -D CMAKE_CXX_COMPILER_LAUNCHER=${CCACHE})
 endif()
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK_DIR} -G ${GENERATOR} -D CMAKE_CXX_COMPILER=${CXX} ${launcher}
     -D "CMAKE_CXX_FLAGS=-O0 -g0" -D HOGEL_SOURCE_DIR=${SOURCE_DIR} -D BUILD_SHARED_LIBS=OFF)
