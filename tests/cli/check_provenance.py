@@ -73,7 +73,8 @@ IDLE = {
     "render": "fit interpolate scene-camera seed",
     "hologram": "cache-spacing fit scene-camera texture point-size",
     "propagate": "values variable seed",
-    "slm": "device pixel-pitch pitch wavelength values input-phase-code imaginary phases zero variable conjugate order reconstruct focal seed",
+    "slm": "device pixel-pitch pitch wavelength values input-phase-code imaginary phases zero variable conjugate order reconstruct "
+           "focal seed",
     "compress": "seed",
     "decompress": "seed",
     "import": "depth sqnr layout depth-scale estimate-disparity seed",

@@ -37,7 +37,7 @@ MAX_UNLIKENESS = 0.04  # root mean square of the differences of two pictures of 
 MIN_SHOWN = 0.3        # unlikeness to the theory without a term of a fifth of a wavelength or more
 
 
-def disc(diameter, rings=40, spokes=96):
+def disc(diameter, rings=64, spokes=144):
     node, weight = np.polynomial.legendre.leggauss(rings)
     radius = diameter / 4 * (node + 1)
     angle = 2 * np.pi * np.arange(spokes) / spokes

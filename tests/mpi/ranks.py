@@ -303,7 +303,10 @@ class Kept:
         return (self.journal if self.is_hdf5 else self.part).exists()
 
     def has_begun(self):
-        return self.journal.exists() if self.is_hdf5 else self.part.exists() and self.part.stat().st_size >= 4096
+        try:
+            return self.journal.exists() if self.is_hdf5 else self.part.stat().st_size >= 4096
+        except FileNotFoundError:
+            return False
 
     # A third of an HDF5 file, which is more than all ranks have under way.
     def has_results(self):
