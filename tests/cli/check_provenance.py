@@ -9,7 +9,7 @@ what acted, not to a list.
 
 With HOGEL_THOROUGH=1 in the environment each option is tried in every case of its command. Otherwise it is tried in the
 cases that are about it, those whose line names it or whose table has another value for it, and then in others, by turns,
-until it acts.
+until it acts; where it acts in none, in no others.
 
 usage: check_provenance.py COMMAND...    in a folder with the files that make_provenance_inputs.sh makes; hogel in the PATH
 """
@@ -123,7 +123,7 @@ CASES = [
     ("photo of lines", "photo lines.h5 --eye 0,0,40mm --pupil 1mm --resolution 8 --focus 1mm --diffuser vertical", "o.png",
      {"diffuser": "none", "camera": ACTS, "focus-tilt": ACTS}),
     ("photo of a hologram", f"photo f.h5 {PHOTO} --focus 1mm", "o.png", {"camera": ACTS}),
-    ("photo, full camera", f"photo f.h5 {PHOTO} --camera full", "o.exr", {"camera": "narrow"}),
+    ("photo, full camera", "photo f.h5 --eye 0,0,40mm --pupil 1mm --resolution 8 --camera full", "o.exr", {"camera": "narrow"}),
     ("photo, f-number", f"photo f.h5 --eye 0,0,40mm --f-number 12 --resolution 8", "o.exr", {}),
     ("photo, linear", f"photo f.h5 {PHOTO}", "o.exr", {}),
     ("photo, logarithmic", f"photo f.h5 {PHOTO} --display log", "o.exr", {"display": "intensity"}),
@@ -133,7 +133,7 @@ CASES = [
     ("photo by waves", f"photo x.h5 {PHOTO} --wave --pitch 1.6um --looks 2", "o.exr", {}),
     ("photo without speckle", "photo x.h5 --eye 0,0,40mm --pupil 1mm --resolution 8 --wave --pitch 1.6um --looks expected",
      "o.exr", {"camera": ACTS, "method": ACTS, "phase": ACTS, "focus-tilt": ACTS, "wave": ACTS}),
-    ("photo of a scene", f"photo m.obj {LIGHT} {PHOTO} --looks 2", "o.exr", {"algorithm": ACTS, "toward": ACTS}),
+    ("photo of a scene", f"photo m.obj {LIGHT} {PHOTO} --looks 2", "o.exr", {"algorithm": ACTS, "toward": ACTS, "size": "0.6mm"}),
     ("photo of an array", f"photo f.npy {PHOTO} --pitch 1.6um --wavelength 532nm", "o.exr", {}),
     ("photo of phases", f"photo real.npy {PHOTO} --pitch 1.6um --wavelength 532nm --values phase", "o.png",
      {"values": "amplitude"}),
@@ -416,13 +416,11 @@ def try_option(option, cases):
 
 def others_by_turns(option, cases):
     """Each option begins with another case, first of those that store it, where there are any, and goes on with those that
-    store the most others; one that acts nowhere is tried once."""
-    if not cases:
+    store the most others."""
+    if not cases or option in IDLE[cases[0].command].split():
         return []
     turn = tried_options(cases[0].command).index(option) % len(cases)
     first, *rest = sorted(cases[turn:] + cases[:turn], key=lambda case: option not in case.acted)
-    if option in IDLE[first.command].split():
-        return [first]
     return [first, *sorted(rest, key=lambda case: (option not in case.acted, -len(case.acted)))]
 
 
