@@ -94,7 +94,8 @@ TEST(HologramSubject, shows_the_local_spectrum) {
     ASSERT_EQ(spectrum.width(), 128u);
     const auto all = spectrum.pixels.elements();
     const auto brightest = static_cast<std::size_t>(std::ranges::max_element(all) - all.begin());
-    const double x = static_cast<double>(brightest % 128) - 64, y = 64 - static_cast<double>(brightest / 128);
+    const std::size_t column = brightest % 128, row = brightest / 128;
+    const double x = static_cast<double>(column) - 64, y = 64 - static_cast<double>(row);
     EXPECT_NEAR(x, 128.0 / 8, 1);
     EXPECT_NEAR(y, 128.0 / 16, 1);
 }

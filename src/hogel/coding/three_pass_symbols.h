@@ -103,7 +103,8 @@ class AlphabetSymbols {
 
   private:
     int coded(SymbolModel& model, int symbol) {
-        return static_cast<int>(coder.symbol(model, static_cast<std::size_t>(symbol + 1))) - 1;
+        const int index = symbol + 1;
+        return static_cast<int>(coder.symbol(model, static_cast<std::size_t>(index))) - 1;
     }
 
     SymbolModel tree_, node_;

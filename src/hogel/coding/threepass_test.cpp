@@ -76,7 +76,7 @@ struct Alphabet {
     int signs = 0, bits = 0;
     std::vector<std::size_t> counts(const std::vector<int>& symbols, int planes) const {
         std::vector<std::size_t> result(static_cast<std::size_t>(planes) + 1);
-        for (const int symbol : symbols) ++result[static_cast<std::size_t>(symbol + 1)];
+        for (int symbol : symbols) ++result[static_cast<std::size_t>(++symbol)];
         return result;
     }
 };

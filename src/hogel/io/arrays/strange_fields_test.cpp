@@ -3,6 +3,7 @@
 // like a field and cannot be read as one.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string_view>
 
@@ -36,9 +37,9 @@ Bytes arranged(const std::string& axes, std::size_t colours) {
     const std::string start = npy_beginning(complex ? "<c8" : "<f4", shape);
     Bytes bytes(start.begin(), start.end());
     for (std::size_t i = 0; i < count; ++i) {
-        std::size_t at[128] = {}, rest = i;
-        for (std::size_t a = axes.size(); a-- > 0; rest /= extent(axes[a]))
-            at[static_cast<unsigned char>(axes[a])] = rest % extent(axes[a]);
+        std::map<char, std::size_t> at;
+        std::size_t rest = i;
+        for (std::size_t a = axes.size(); a-- > 0; rest /= extent(axes[a])) at[axes[a]] = rest % extent(axes[a]);
         put(bytes, float(number(at['c'], at['y'], at['x'], at['p'])));
         if (complex) put(bytes, float(number(at['c'], at['y'], at['x'], 1)));
     }

@@ -37,6 +37,8 @@ class InterpolationTable {
     /// The weights for a fraction of a sample, in steps of the table: 0 … phases.
     const float* weights_of_phase(std::size_t phase) const { return &weights_[phase * taps]; }
     const float* weights(double fraction) const {
+        // A fraction is not negative, and lround would be a call for each sample.
+        // NOLINTNEXTLINE(bugprone-incorrect-roundings)
         return weights_of_phase(static_cast<std::size_t>(fraction * phases + 0.5));
     }
 
@@ -64,7 +66,8 @@ class InterpolationTable {
 /// The place of point `point` of `count` (even) in a pixel of −1/2 … 1/2: Gauss' two points in each of count/2 parts.
 inline double gauss_place(std::size_t point, std::size_t count) {
     constexpr double inner = 0.28867513459481287;  // 1/√12
-    const double middle = static_cast<double>(point / 2) + 0.5 + (point % 2 == 0 ? -inner : inner);
+    const std::size_t part = point / 2;
+    const double middle = static_cast<double>(part) + 0.5 + (point % 2 == 0 ? -inner : inner);
     return 2 * middle / static_cast<double>(count) - 0.5;
 }
 
