@@ -221,8 +221,9 @@ endfunction()
 #   library  the modules of the library
 #   app      the libraries of programs
 #   test     tests, which are programs: code for programs and for libraries is compiled with different options
-# A header of hogel's own is in none of them, so that a change compiles what includes it and no more. Sources include what
-# they use all the same: ./dev lint compiles each of them by itself.
+# A header of hogel's own is in none of them, so that a change compiles what includes it and no more; nor one that brings code
+# into every source, as CLI11's does with its virtual functions. Sources include what they use all the same: ./dev lint
+# compiles each of them by itself.
 function(hogel_precompile target kind)
   set(shared hogel_precompiled_${kind})
   if(NOT TARGET ${shared})
@@ -237,10 +238,6 @@ function(hogel_precompile target kind)
     else()
       add_library(${shared} OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/${shared}.cpp)
       list(APPEND headers <fmt/format.h> <fmt/ranges.h>)
-    endif()
-    if(kind STREQUAL "app")
-      list(APPEND headers <CLI/CLI.hpp> <nlohmann/json.hpp>)
-      list(APPEND links CLI11::CLI11 nlohmann_json::nlohmann_json)
     endif()
     hogel_compile_options(${shared})
     if(NOT kind STREQUAL "library")

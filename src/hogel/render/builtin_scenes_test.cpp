@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include "hogel/bake.h"
@@ -29,10 +30,10 @@ Scene quick_scene(std::string_view name) {
     return bake_scene(church, {.rays = 2, .bounces = 1, .tessellation = 2});
 }
 
-// Renders the scene as it is, or moved behind the hologram plane for a renderer that needs that.
-LightFieldBuffer render_scene(std::string_view algorithm, std::string_view name, const LightFieldGrid& grid,
-                              bool behind = false) {
-    LightFieldBuffer light_field(grid, true);
+using SharedScene = std::shared_ptr<const ShadedScene>;
+
+// The scene as it is, or moved behind the hologram plane for a renderer that needs that.
+SharedScene shaded_scene(std::string_view name, bool behind = false) {
     Scene scene = quick_scene(name);
     const double back = behind ? bounds(scene).high.z + 1_mm : 0;
     for (Mesh& mesh : scene.meshes)
@@ -42,8 +43,12 @@ LightFieldBuffer render_scene(std::string_view algorithm, std::string_view name,
         light.position.z -= back;
         light.casts_shadows = false;
     }
-    const auto shaded = std::make_shared<const ShadedScene>(shade_scene_vertices(scene));
-    copy(*make_renderer(algorithm, shaded, grid), light_field);
+    return std::make_shared<const ShadedScene>(shade_scene_vertices(scene));
+}
+
+LightFieldBuffer rendered(std::string_view algorithm, const SharedScene& scene, const LightFieldGrid& grid) {
+    LightFieldBuffer light_field(grid, true);
+    copy(*make_renderer(algorithm, scene, grid), light_field);
     return light_field;
 }
 
@@ -71,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(RenderersAndScenes, ClosedForm, ::testing::ValuesIn(ana
 TEST_P(ClosedForm, is_what_the_renderer_gives) {
     const auto& [algorithm, scene] = GetParam();
     const LightFieldGrid grid{16, 16, size / 16, 40, 40, Perspective{0.4, 0.4}, 3};
-    const LightFieldBuffer seen = render_scene(algorithm, scene, grid);
+    const LightFieldBuffer seen = rendered(algorithm, shaded_scene(scene), grid);
     std::size_t compared = 0, hits = 0;
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
         for (std::size_t s = 0; s < grid.hogels_s; ++s)
@@ -125,9 +130,8 @@ TEST_P(Showpieces, agree_with_ray_casting_away_from_silhouettes) {
     if (algorithm == "oblique") grid = {5, 5, size / 5, 24, 24, Perspective{0.0375, 0.0375}, 3};
     if (algorithm == "simplex3d") grid = {3, 3, size / 30, 24, 24, Perspective{0.09, 0.09}, 3};
     if (cuts_simplices(algorithm)) grid = {2, 2, size / 20, 8, 8, Perspective{0.03, 0.03}, 3};
-    const bool behind = !crosses_plane(algorithm);
-    const LightFieldBuffer rays = render_scene("raytrace", scene, grid, behind),
-                           other = render_scene(algorithm, scene, grid, behind);
+    const SharedScene shaded = shaded_scene(scene, !crosses_plane(algorithm));
+    const LightFieldBuffer rays = rendered("raytrace", shaded, grid), other = rendered(algorithm, shaded, grid);
     std::size_t compared = 0, hits = 0, different = 0;
     double worst = 0;
     for (std::size_t t = 0; t < grid.hogels_t; ++t)
