@@ -4,7 +4,9 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include <array>
 #include <csignal>
+#include <cstdlib>
 
 #include "hogel/core/half.h"
 #include "hogel/io/hdf5/rehearsal.h"
@@ -120,7 +122,8 @@ TEST_F(DamagedFiles, missing_truncated_and_other_files_are_refused) {
     EXPECT_NE(refusal(path_), "");
 }
 
-// Damages each byte of a file except the samples, one at a time, and reads the file, which may throw only Error.
+// Damages each byte of a file except the samples, one at a time, and reads the file, which may throw only Error. Each
+// byte is changed in one of three ways, by turns, and with HOGEL_THOROUGH in the environment in all of them.
 template <class Samples, class Read>
 void damage_every_byte(const fs::path& path, const Samples& samples, const Read& read) {
     const hdf5::NoRehearsal fast;
@@ -132,11 +135,15 @@ void damage_every_byte(const fs::path& path, const Samples& samples, const Read&
     const auto put = [&](std::size_t at, char value) {
         file.seekp(static_cast<std::streamoff>(at)).put(value).flush();
     };
+    static constexpr std::array changes{0x01, 0x80, 0xff};
+    const bool thorough = std::getenv("HOGEL_THOROUGH") != nullptr;
     std::size_t refused = 0;
     for (std::size_t at = 0; at < whole.size(); ++at) {
         if (at == first_sample) at += bytes.size();
         if (at >= whole.size()) break;
-        for (const int change : {0x01, 0x80, 0xff}) {
+        for (std::size_t i = 0; i < changes.size(); ++i) {
+            if (!thorough && i != at % changes.size()) continue;
+            const int change = changes[i];
             put(at, static_cast<char>(whole[at] ^ change));
             try {
                 read();
@@ -147,7 +154,7 @@ void damage_every_byte(const fs::path& path, const Samples& samples, const Read&
         }
         put(at, whole[at]);
     }
-    EXPECT_GT(refused, 1000u) << "checksums cover the headers";
+    EXPECT_GT(refused, thorough ? 1000u : 333u) << "checksums cover the headers";
 }
 
 TEST_F(DamagedFiles, a_light_field_damaged_in_any_byte_of_its_header_is_refused_or_unchanged) {
