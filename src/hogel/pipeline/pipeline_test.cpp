@@ -250,7 +250,7 @@ TEST_F(Pipeline, radiance_that_is_not_finite_is_refused_by_place) {
                                       {nan, SampleType::single},
                                       {infinity, SampleType::half},
                                       {nan, SampleType::half}}) {
-        LightFieldBuffer rays({5, 4, 64_um, 8, 6, Perspective{{0.1, 0.1}}, 3});
+        LightFieldBuffer rays({5, 4, 64_um, 8, 6, Perspective{0.1, 0.1}, 3});
         rays.radiance(1, 3, 2, 4, 5) = value;
         LightFieldFileOptions file;
         file.type = type;
@@ -342,7 +342,7 @@ TEST(Plan, of_lines_behind_a_diffuser_grows_with_the_lines_that_overlap) {
 }
 
 TEST(Plan, of_photographs_counts_what_they_are_computed_from) {
-    const LightFieldGrid grid{100, 100, 50e-6, 32, 32, Perspective{{0.14, 0.14}}, 3};
+    const LightFieldGrid grid{100, 100, 50e-6, 32, 32, Perspective{0.14, 0.14}, 3};
     const std::span<const LightFieldGrid> faces(&grid, 1);
     HologramRequest request;
     request.looks = 16;

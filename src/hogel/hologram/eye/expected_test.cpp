@@ -41,9 +41,9 @@ Camera camera_at(Vec3 eye, double pupil, double focus, std::size_t pixels, doubl
 }
 
 std::vector<Case> cases() {
-    const LightFieldGrid grid{72, 68, 48_um, 24, 24, Perspective{{0.15, 0.15}}, 1};
-    const LightFieldGrid small{100, 100, 24_um, 24, 24, Perspective{{0.15, 0.15}}, 1};
-    const LightFieldGrid odd{50, 50, 40.5_um, 24, 24, Perspective{{0.15, 0.15}}, 1};
+    const LightFieldGrid grid{72, 68, 48_um, 24, 24, Perspective{0.15, 0.15}, 1};
+    const LightFieldGrid small{100, 100, 24_um, 24, 24, Perspective{0.15, 0.15}, 1};
+    const LightFieldGrid odd{50, 50, 40.5_um, 24, 24, Perspective{0.15, 0.15}, 1};
     return {
         {"on the hologram", grid, 1.5_um, camera_at({0, 0, 30_mm}, 0.7_mm, 0, 72, 72 * 48_um)},
         {"behind it, oblique", grid, 1.5_um, camera_at({3_mm, -2_mm, 30_mm}, 0.7_mm, 3_mm, 57, 72 * 48_um)},
