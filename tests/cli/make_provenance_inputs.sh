@@ -43,6 +43,3 @@ propagate f.h5 -o im.png --distance 2mm --display amplitude
 END
 printf 'v -4e-4 -4e-4 0\nv 4e-4 -4e-4 1e-4\nv 4e-4 4e-4 0\nvt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\n' > u.obj
 for i in 0 1 2 3 4 5; do for k in 0 1 2 3 4 5; do echo "$i $k $((i*k)).1"; done; done > cloud.xyz
-hogel render sphere -o wide.h5 --hogels 40x36 --directions 8x6 --size 4mm -q
-hogel export wide.h5 -o views --layout numbered -q
-hogel export wide.h5 -o ordered -q

@@ -4,9 +4,9 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
-#include <array>
 #include <csignal>
 #include <cstdlib>
+#include <span>
 
 #include "hogel/core/half.h"
 #include "hogel/io/hdf5/rehearsal.h"
@@ -135,15 +135,14 @@ void damage_every_byte(const fs::path& path, const Samples& samples, const Read&
     const auto put = [&](std::size_t at, char value) {
         file.seekp(static_cast<std::streamoff>(at)).put(value).flush();
     };
-    static constexpr std::array changes{0x01, 0x80, 0xff};
+    static constexpr int changes[] = {0x01, 0x80, 0xff};
+    const std::span<const int> all(changes);
     const bool thorough = std::getenv("HOGEL_THOROUGH") != nullptr;
     std::size_t refused = 0;
     for (std::size_t at = 0; at < whole.size(); ++at) {
         if (at == first_sample) at += bytes.size();
         if (at >= whole.size()) break;
-        for (std::size_t i = 0; i < changes.size(); ++i) {
-            if (!thorough && i != at % changes.size()) continue;
-            const int change = changes[i];
+        for (const int change : thorough ? all : all.subspan(at % all.size(), 1)) {
             put(at, static_cast<char>(whole[at] ^ change));
             try {
                 read();
