@@ -20,36 +20,64 @@ constexpr std::size_t max_digits = 18;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-// Splits a name into its shape and its numbers.
-std::pair<std::string, std::vector<std::uint64_t>> parse(const std::string& name) {
-    std::string shape;
-    std::vector<std::uint64_t> numbers;
+/// A number in a name: its sign and its digits.
+struct NameNumber {
+    std::size_t begin, end;
+    std::int64_t value;
+};
+
+std::vector<NameNumber> numbers_in(const std::string& name) {
+    std::vector<NameNumber> numbers;
     for (std::size_t i = 0; i < name.size();) {
         if (!is_digit(name[i])) {
-            shape += name[i++];
+            ++i;
             continue;
         }
-        std::uint64_t number = 0;
         const std::size_t first = i;
+        const bool negative = first > 1 && name[first - 1] == '-' && (name[first - 2] == '_' || name[first - 2] == ' ');
+        std::int64_t value = 0;
         for (; i < name.size() && is_digit(name[i]) && i - first < max_digits; ++i)
-            number = 10 * number + static_cast<std::uint64_t>(name[i] - '0');
-        shape += '#';
-        numbers.push_back(number);
+            value = 10 * value + (name[i] - '0');
+        numbers.push_back({negative ? first - 1 : first, i, negative ? -value : value});
     }
-    return {shape, numbers};
+    return numbers;
+}
+
+// Splits a name into its shape and its numbers.
+std::pair<std::string, std::vector<std::int64_t>> parse(const std::string& name) {
+    std::string shape;
+    std::vector<std::int64_t> values;
+    std::size_t done = 0;
+    for (const NameNumber& number : numbers_in(name)) {
+        shape += name.substr(done, number.begin - done) + '#';
+        done = number.end;
+        values.push_back(number.value);
+    }
+    return {shape + name.substr(done), values};
+}
+
+/// Whether files with the same number at `i` have the same number at `k`.
+bool follows_from(const std::vector<NumberedFile>& files, std::size_t k, std::size_t i) {
+    std::map<std::int64_t, std::int64_t> values;
+    return std::ranges::all_of(files, [&](const NumberedFile& file) {
+        return values.emplace(file.numbers[i], file.numbers[k]).first->second == file.numbers[k];
+    });
 }
 
 std::vector<std::size_t> varying_of(const std::vector<NumberedFile>& files) {
     std::vector<std::size_t> varying;
-    for (std::size_t i = 0; i < files.front().numbers.size(); ++i)
-        if (std::ranges::any_of(files, [&](const auto& file) { return file.numbers[i] != files.front().numbers[i]; }))
-            varying.push_back(i);
+    for (std::size_t k = 0; k < files.front().numbers.size(); ++k) {
+        const bool varies =
+            std::ranges::any_of(files, [&](const auto& file) { return file.numbers[k] != files.front().numbers[k]; });
+        if (varies && std::ranges::none_of(varying, [&](std::size_t i) { return follows_from(files, k, i); }))
+            varying.push_back(k);
+    }
     return varying;
 }
 
 // The distinct values of a number, in rising order, at even steps.
-std::vector<std::uint64_t> steps(const NumberedFiles& group, std::size_t number) {
-    std::vector<std::uint64_t> values;
+std::vector<std::int64_t> steps(const NumberedFiles& group, std::size_t number) {
+    std::vector<std::int64_t> values;
     for (const NumberedFile& file : group.files) values.push_back(file.numbers[number]);
     std::ranges::sort(values);
     values.erase(std::unique(values.begin(), values.end()), values.end());
@@ -63,24 +91,20 @@ std::vector<std::uint64_t> steps(const NumberedFiles& group, std::size_t number)
 }
 
 // The name of a file that is missing: another one's, with two of its numbers replaced at their widths.
-std::string name_with(const std::string& name, std::size_t a, std::uint64_t a_value, std::size_t b,
-                      std::uint64_t b_value) {
+std::string name_with(const std::string& name, std::size_t a, std::int64_t a_value, std::size_t b,
+                      std::int64_t b_value) {
     std::string replaced;
-    std::size_t number = 0;
-    for (std::size_t i = 0; i < name.size();) {
-        if (!is_digit(name[i])) {
-            replaced += name[i++];
-            continue;
-        }
-        const std::size_t first = i;
-        while (i < name.size() && is_digit(name[i]) && i - first < max_digits) ++i;
-        const std::size_t digits = i - first;
-        replaced += number == a   ? fmt::format("{:0{}}", a_value, digits)
-                    : number == b ? fmt::format("{:0{}}", b_value, digits)
-                                  : name.substr(first, digits);
-        ++number;
+    std::size_t done = 0;
+    const std::vector<NameNumber> numbers = numbers_in(name);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const auto [begin, end, value] = numbers[i];
+        replaced += name.substr(done, begin - done);
+        replaced += i == a   ? fmt::format("{:0{}}", a_value, end - begin)
+                    : i == b ? fmt::format("{:0{}}", b_value, end - begin)
+                             : name.substr(begin, end - begin);
+        done = end;
     }
-    return replaced;
+    return replaced + name.substr(done);
 }
 
 // Whether pictures are by their names something else than what cameras saw: disparity, depth, labels, small copies.
@@ -119,7 +143,7 @@ std::vector<NumberedFiles> numbered_pictures(const fs::path& folder) {
 }
 
 PictureGrid in_rows_and_columns(const NumberedFiles& group, std::size_t row_number, std::size_t column_number) {
-    const std::vector<std::uint64_t> rows = steps(group, row_number), columns = steps(group, column_number);
+    const std::vector<std::int64_t> rows = steps(group, row_number), columns = steps(group, column_number);
     PictureGrid grid{rows.size(), columns.size(), std::vector<fs::path>(rows.size() * columns.size())};
     for (const NumberedFile& file : group.files) {
         const auto row = static_cast<std::size_t>(std::ranges::find(rows, file.numbers[row_number]) - rows.begin());
@@ -148,7 +172,7 @@ PictureGrid counted(const NumberedFiles& group, std::size_t number, std::size_t 
     std::vector<NumberedFile> files = group.files;
     std::ranges::sort(files, {}, [&](const NumberedFile& file) { return file.numbers[number]; });
     for (std::size_t i = 1; i < files.size(); ++i) {
-        const std::uint64_t before = files[i - 1].numbers[number], now = files[i].numbers[number];
+        const std::int64_t before = files[i - 1].numbers[number], now = files[i].numbers[number];
         if (now == before)
             throw Error(ErrorCode::bad_input, fmt::format("{}: is the same view as {}", files[i].path.string(),
                                                           files[i - 1].path.filename().string()));

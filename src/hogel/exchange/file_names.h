@@ -9,17 +9,19 @@
 /// What the names of a folder's pictures say of the order of views.
 namespace hogel::exchange {
 
-/// A picture and the whole numbers in its name, in their order.
+/// A picture and the whole numbers in its name, in their order. A '-' behind a blank or '_' is the sign of a number.
 struct NumberedFile {
     std::filesystem::path path;
-    std::vector<std::uint64_t> numbers;
+    std::vector<std::int64_t> numbers;
 };
 
 /// Pictures whose names differ in numbers alone.
 struct NumberedFiles {
     std::string shape;  ///< the name with '#' in place of each number
     std::vector<NumberedFile> files;
-    std::vector<std::size_t> varying;  ///< indices of the numbers that are not the same in all names
+    /// Indices of the numbers that are not the same in all names, without those that follow from one before them, as a
+    /// camera's place from its column.
+    std::vector<std::size_t> varying;
 };
 
 /// The pictures of a folder, by the shape of their names, the largest group first, and last those that are maps of

@@ -57,6 +57,22 @@ TEST(SetVariations, MapsAreNoViewsThoughTheyAreAsMany) {
     EXPECT_NE(set.pictures->name(1, 2).find("view "), std::string::npos) << set.pictures->name(1, 2);
 }
 
+// As a light-field camera of Blender names them: column and row, the camera's place, and the size of the array.
+TEST(SetVariations, NumbersThatFollowFromOthersSayNothingOfTheOrder) {
+    const TestFolder folder;
+    const TestScene large{.columns = 3, .rows = 3};
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            folder.write(fmt::format("Original Camera_{:02}_{:02}_{:f}_{:f}_30_36.png", 1 + 3 * column, 1 + 3 * row,
+                                     90.0 - 90 * column, 90.0 * row - 90),
+                         large.png(static_cast<std::size_t>(row), static_cast<std::size_t>(column)));
+    const ViewSet set = open_views(folder.path(), {});
+    EXPECT_EQ(set.layout, "rows-columns");
+    EXPECT_EQ(set.columns, 3u);
+    EXPECT_EQ(set.rows, 3u);
+    EXPECT_TRUE(set.pictures->name(0, 2).find("_07_01_-90") != std::string::npos) << set.pictures->name(0, 2);
+}
+
 TEST(SetVariations, ParametersWithoutAllNumbersSayNothing) {
     const TestFolder folder;
     for (std::size_t i = 0; i < 9; ++i) folder.write(fmt::format("input_Cam{:03}.png", i), scene.png(i / 3, i % 3));

@@ -46,6 +46,7 @@ std::vector<FileFormat> mesh_rows() {
     add("obj", {".obj"}, "Wavefront OBJ");
     add("ply", {".ply"}, "Stanford polygons, and point clouds");
     add("xyz", {".xyz", ".pts", ".asc"}, "point clouds as text: x y z, and a colour or a normal");
+    add("dat", {".dat"}, "point clouds of OpenHolo: index, x y z, phase, amplitude");
     add("stl", {".stl"}, "stereolithography");
     add("off", {".off"}, "Object File Format");
     add("dae", {".dae"}, "COLLADA");

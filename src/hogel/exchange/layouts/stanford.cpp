@@ -19,7 +19,7 @@ namespace {
 
 // A name: its two numbers and the place of its camera.
 struct Name {
-    std::uint64_t row = 0, column = 0;
+    std::int64_t row = 0, column = 0;
     double y = 0, x = 0;
 };
 

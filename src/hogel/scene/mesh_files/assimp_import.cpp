@@ -239,12 +239,20 @@ class Conversion {
     std::map<std::string, std::uint32_t> textures_;
 };
 
-/// The materials of the libraries that assimp opened.
-std::vector<MtlMaterial> read_libraries(const FolderFiles& files, const std::string& file) {
+/// The materials of the libraries that assimp opened. Pictures are named relative to the folder of the mesh; a library
+/// in another folder may name them relative to its own.
+std::vector<MtlMaterial> read_libraries(const FolderFiles& files, const std::filesystem::path& folder,
+                                        const std::string& file) {
     std::vector<MtlMaterial> materials;
     for (const std::filesystem::path& path : files.opened())
         if (has_extension(path, {".mtl"})) {
-            const std::vector<MtlMaterial> read = parse_mtl(read_file(path, std::filesystem::file_size(path), file));
+            const std::filesystem::path own = path.parent_path().lexically_relative(folder);
+            std::vector<MtlMaterial> read = parse_mtl(read_file(path, std::filesystem::file_size(path), file));
+            for (MtlMaterial& material : read)
+                for (MtlTexture* map : {&material.color, &material.opacity, &material.emission_map})
+                    if (const std::string beside = (own / map->name).string();
+                        !map->name.empty() && own != "." && find_in_folder(folder, beside))
+                        map->name = beside;
             materials.insert(materials.end(), read.begin(), read.end());
         }
     return materials;
@@ -254,6 +262,13 @@ const char* const readable = "a mesh file that assimp can read";
 
 [[noreturn]] void reject_size(const std::string& file) {
     reject_file(file, "needs more memory than a file of its size should", "a smaller or undamaged mesh");
+}
+
+/// A message of assimp in a line, in which the file has no folders.
+std::string without_folder(std::string message, const std::filesystem::path& path) {
+    for (std::size_t at = 0; (at = message.find(path.string(), at)) != message.npos;)
+        message.replace(at, path.string().size(), path.filename().string());
+    return one_line(message);
 }
 
 void import_or_throw(const std::filesystem::path& path, const std::string& file, std::string_view contents,
@@ -266,13 +281,13 @@ void import_or_throw(const std::filesystem::path& path, const std::string& file,
     const aiScene* source = importer.ReadFile(path.string(), 0);
     if (!source || !source->mRootNode) {
         if (importer.GetException()) std::rethrow_exception(importer.GetException());
-        const std::string message = one_line(importer.GetErrorString());
+        const std::string message = without_folder(importer.GetErrorString(), path);
         if (message.find("std::bad_") != message.npos || message.find("length_error") != message.npos)
             reject_size(file);
         reject_file(file, message.empty() ? "not readable" : message, readable);
     }
     for (const auto& opened : files->opened()) Sender(pipe).send_file(opened);
-    const std::vector<MtlMaterial> mtl = read_libraries(*files, file);
+    const std::vector<MtlMaterial> mtl = read_libraries(*files, path.parent_path(), file);
     const bool is_obj = has_extension(path, {".obj"});
     for (const std::string& note : notes_of(mtl)) Sender(pipe).send_note(note);
     if (!numbered)
@@ -298,7 +313,7 @@ void import_with_assimp(const std::filesystem::path& path, const std::string& fi
         } catch (const std::length_error&) {
             reject_size(file);
         } catch (const std::exception& error) {
-            reject_file(file, one_line(error.what()), readable);
+            reject_file(file, without_folder(error.what(), path), readable);
         }
     } catch (const std::exception& error) {
         sender.send_error(error.what());

@@ -41,11 +41,14 @@ bool is_gltf(const std::filesystem::path& path) { return has_extension(path, {".
 
 bool starts_like_ply(std::string_view bytes) { return lower_case(std::string(bytes.substr(0, 3))) == "ply"; }
 
+bool starts_with_mark(std::string_view bytes) { return bytes.starts_with("\xEF\xBB\xBF"); }
+
 std::string read_file(const std::filesystem::path& path, std::uintmax_t size, const std::string& file) {
     std::string bytes(size, '\0');
     std::ifstream stream(path, std::ios::binary);
     if (!stream.read(bytes.data(), static_cast<std::streamsize>(size)))
         reject_file(file, fmt::format("{} cannot be read", one_line(path.filename().string())), "a readable file");
+    if (starts_with_mark(bytes)) bytes.erase(0, 3);
     return bytes;
 }
 

@@ -23,17 +23,13 @@ bool has_extension(const std::filesystem::path& path, std::initializer_list<std:
 bool is_gltf(const std::filesystem::path& path);
 bool starts_like_ply(std::string_view bytes);
 
-/// All bytes of a file. Throws Error(bad_input), which names `file`.
+/// Whether a text begins with the byte order mark of UTF-8, which some editors write.
+bool starts_with_mark(std::string_view bytes);
+
+/// All bytes of a file but such a mark. Throws Error(bad_input), which names `file`.
 std::string read_file(const std::filesystem::path& path, std::uintmax_t size, const std::string& file);
 
 /// Throws Error(bad_input) for a file that is missing, not regular, empty or larger than any mesh.
 std::uintmax_t check_regular_file(const std::filesystem::path& path);
-
-/// Checks what a PLY file announces, which assimp 5.2 does not check. `bytes` is the whole file. Throws
-/// Error(bad_input) by reject_file().
-void check_ply(const std::string& file, std::string_view bytes);
-
-/// What a PLY file has that is not shown, a note each: colours of faces, edges, strips of triangles.
-std::vector<std::string> notes_of_ply(const std::string& file, std::string_view bytes);
 
 }  // namespace hogel::scene::mesh_files

@@ -4,9 +4,13 @@
 #include <assimp/MemoryIOWrapper.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <charconv>
+#include <fstream>
 #include <string_view>
 
+#include "hogel/scene/mesh_files/checks.h"
 #include "hogel/scene/mesh_files/limits.h"
 
 namespace hogel::scene::mesh_files {
@@ -27,18 +31,66 @@ std::string percent_decoded(const std::string& text) {
     return decoded;
 }
 
+/// A path in a folder with letters of either case; the first by name where several fit. None: there is none.
+std::optional<std::filesystem::path> find_in_other_case(const std::filesystem::path& folder,
+                                                        const std::filesystem::path& name) {
+    const auto lower = [](std::string text) {
+        std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+        return text;
+    };
+    std::filesystem::path at = folder;
+    for (const std::filesystem::path& part : name) {
+        std::error_code error;
+        if (std::filesystem::exists(at / part, error)) {
+            at /= part;
+            continue;
+        }
+        std::optional<std::filesystem::path> found;
+        for (std::filesystem::directory_iterator entry(at, error), end; !error && entry != end; entry.increment(error))
+            if (lower(entry->path().filename().string()) == lower(part.string()) && (!found || entry->path() < *found))
+                found = entry->path();
+        if (!found) return std::nullopt;
+        at = *found;
+    }
+    return at;
+}
+
+/// The regular file that a path leads to, if it is in the folder or below.
+std::optional<std::filesystem::path> regular_file(const std::filesystem::path& folder,
+                                                  const std::filesystem::path& path) {
+    std::error_code error;
+    const auto real = std::filesystem::canonical(path, error);
+    if (error || !std::filesystem::is_regular_file(real, error)) return std::nullopt;
+    if (std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first != folder.end())
+        return std::nullopt;
+    return real;
+}
+
+/// A file without the byte order mark of UTF-8 that it begins with; null for one that does not begin so.
+Assimp::IOStream* open_without_mark(const std::filesystem::path& path) {
+    std::string start(3, '\0');
+    std::ifstream(path, std::ios::binary).read(start.data(), 3);
+    if (!starts_with_mark(start)) return nullptr;
+    const std::string bytes = read_file(path, std::filesystem::file_size(path), path.filename().string());
+    auto* copy = new std::uint8_t[bytes.size()];
+    std::ranges::copy(bytes, copy);
+    return new Assimp::MemoryIOStream(copy, bytes.size(), true);
+}
+
 }  // namespace
 
 std::optional<std::filesystem::path> find_in_folder(const std::filesystem::path& folder, const std::string& name) {
     std::string slashes = name;
     std::replace(slashes.begin(), slashes.end(), '\\', '/');
-    for (const std::string& candidate : {name, slashes, percent_decoded(slashes)}) {
-        if (candidate.find('\0') != std::string::npos) continue;
-        std::error_code error;
-        const auto real = std::filesystem::canonical(folder / candidate, error);
-        if (error || !std::filesystem::is_regular_file(real, error)) continue;
-        if (std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first == folder.end()) return real;
-    }
+    const std::array candidates{name, slashes, percent_decoded(slashes)};
+    const auto is_path = [](const std::string& candidate) { return candidate.find('\0') == std::string::npos; };
+    for (const std::string& candidate : candidates)
+        if (is_path(candidate))
+            if (auto real = regular_file(folder, folder / candidate)) return real;
+    for (const std::string& candidate : candidates)
+        if (is_path(candidate) && !std::filesystem::path(candidate).has_root_path())
+            if (const auto path = find_in_other_case(folder, candidate))
+                if (auto real = regular_file(folder, *path)) return real;
     return std::nullopt;
 }
 
@@ -68,6 +120,7 @@ Assimp::IOStream* FolderFiles::Open(const char* file, const char* mode) {
     }
     if (*real == mesh_ && !contents_.empty())
         return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(contents_.data()), contents_.size());
+    if (Assimp::IOStream* unmarked = open_without_mark(*real)) return unmarked;
     return DefaultIOSystem::Open(real->c_str(), mode);
 }
 

@@ -12,8 +12,8 @@
 namespace hogel::scene::mesh_files {
 
 /// The file that a mesh file means by a relative path or URI ("my%20wood.png" is "my wood.png" where no file has the
-/// undecoded name), after following symbolic links: a regular file in the folder or below, or none. Paths in a mesh
-/// file are not trusted.
+/// undecoded name), after following symbolic links: a regular file in the folder or below, or none. Where there is no
+/// such file, letters may be of the other case. Paths in a mesh file are not trusted.
 /// @param folder  canonical
 std::optional<std::filesystem::path> find_in_folder(const std::filesystem::path& folder, const std::string& name);
 

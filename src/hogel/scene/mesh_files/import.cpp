@@ -14,7 +14,6 @@
 #include "hogel/scene/mesh_files/assimp_import.h"
 #include "hogel/scene/mesh_files/checks.h"
 #include "hogel/scene/mesh_files/gltf_looks.h"
-#include "hogel/scene/mesh_files/inside_out.h"
 #include "hogel/scene/mesh_files/limits.h"
 #include "hogel/scene/mesh_files/materials.h"
 #include "hogel/scene/mesh_files/mtl.h"
@@ -22,6 +21,8 @@
 #include "hogel/scene/mesh_files/off.h"
 #include "hogel/scene/mesh_files/orient.h"
 #include "hogel/scene/mesh_files/points.h"
+#include "hogel/scene/mesh_files/read_ply.h"
+#include "hogel/scene/mesh_files/stl.h"
 #include "hogel/scene/mesh_files/transfer.h"
 #include "hogel/scenes.h"
 
@@ -68,10 +69,11 @@ Read import_file(const std::filesystem::path& path, std::uintmax_t size, const s
     std::ifstream stream(path, std::ios::binary);
     stream.read(start.data(), static_cast<std::streamsize>(start.size()));
     start.resize(static_cast<std::size_t>(stream.gcount()));
+    if (starts_with_mark(start)) start.erase(0, 3);
     Read read;
     const std::size_t first = start.find_first_not_of(" \t\r\n");
     if (has_extension(path, {".off"}) || starts_like_off(start)) {
-        read.imported.meshes.push_back({read_off(file, read_file(path, size, file))});
+        read.imported = read_off(file, read_file(path, size, file));
     } else if (is_gltf(path) || start.starts_with("glTF") || (first != start.npos && start[first] == '{')) {
         CheckedGltf checked = check_gltf(file, path.parent_path(), read_file(path, size, file));
         read.has_looks = !checked.contents.empty();
@@ -81,16 +83,23 @@ Read import_file(const std::filesystem::path& path, std::uintmax_t size, const s
     } else if (has_extension(path, {".obj"})) {
         std::string text = read_file(path, size, file);
         std::vector<std::string> notes = notes_of_obj(text, path.parent_path());
-        read.imported = import_in_child(path, file, with_leading_zeros(std::move(text)));
+        Vec3 offset;
+        read.imported = import_in_child(path, file, with_leading_zeros(about_the_origin(std::move(text), offset)));
+        for (ImportedMesh& part : read.imported.meshes)
+            for (Vec3& position : part.mesh.positions) position = position + offset;
         read.imported.notes.insert(read.imported.notes.begin(), notes.begin(), notes.end());
     } else if (has_extension(path, {".ply"}) || starts_like_ply(start)) {
         const std::string bytes = read_file(path, size, file);
-        check_ply(file, bytes);
-        if (const auto points = read_ply_points(file, bytes))
-            read.imported.meshes.push_back({discs_of(*points, options, file)});
-        else
-            read.imported = import_in_child(path, file, {});
-        for (std::string& note : notes_of_ply(file, bytes)) read.imported.notes.push_back(std::move(note));
+        PlyContents contents = read_ply(file, bytes);
+        read.imported = std::move(contents.surfaces);
+        if (contents.points) read.imported.meshes.push_back({discs_of(*contents.points, options, file)});
+    } else if (has_extension(path, {".stl"})) {
+        std::vector<std::string> notes;
+        const std::string bytes = with_counted_triangles(file, read_file(path, size, file), notes);
+        read.imported = import_in_child(path, file, bytes);
+        read.imported.notes.insert(read.imported.notes.end(), notes.begin(), notes.end());
+    } else if (has_extension(path, {".dat"})) {
+        read.imported.meshes.push_back({discs_of(read_dat(file, read_file(path, size, file)), options, file)});
     } else if (has_extension(path, {".xyz", ".pts", ".asc"})) {
         read.imported.meshes.push_back({discs_of(read_xyz(file, read_file(path, size, file)), options, file)});
     } else if (has_extension(path, {".splat", ".ksplat", ".spz"})) {
@@ -111,7 +120,8 @@ void show_unlit(ImportedMesh& part) {
 
 /// What was turned of meshes whose files do not say which side is the front.
 struct Turned {
-    std::size_t bodies = 0;     ///< as a whole
+    std::size_t closed = 0;     ///< surfaces that enclose a volume
+    std::size_t bodies = 0;     ///< those of them that are turned as a whole
     std::size_t triangles = 0;  ///< because their neighbours faced the other way
 };
 
@@ -121,17 +131,15 @@ void face_outwards(Mesh& mesh, bool has_facet_normals, Turned& turned) {
     if (mesh.name == points_name || mesh.triangles.empty()) return;
     if (has_facet_normals) mesh.normals.clear();
     const bool lacks_normals = mesh.normals.empty();
-    std::vector<scene::TriangleEdge> edges;
+    std::vector<scene::TriangleEdge> edges = scene::sorted_edges(mesh);
     std::size_t neighbors = 0;
-    if (lacks_normals) {
-        edges = scene::sorted_edges(mesh);
-        turned.triangles += neighbors = orient_neighbors(mesh, edges);
-    }
-    const Sides sides = turn_inside_out(mesh);
-    if (sides.turned) ++turned.bodies;
+    if (lacks_normals) turned.triangles += neighbors = orient_neighbors(mesh, edges);
+    const Sides sides = turn_inside_out(mesh, edges);
+    turned.closed += sides.bodies;
+    turned.bodies += sides.turned;
     if (!sides.is_body) mesh.material.double_sided = true;
     if (!lacks_normals) return;
-    if (neighbors > 0 || sides.turned) edges = scene::sorted_edges(mesh);
+    if (neighbors > 0 || sides.turned > 0) edges = scene::sorted_edges(mesh);
     scene::add_normals(mesh, edges, crease);
 }
 
@@ -139,7 +147,22 @@ void note(const Turned& turned, std::vector<std::string>& notes) {
     if (turned.triangles > 0)
         notes.push_back(
             fmt::format("{} triangles face the other way than their neighbours: they are turned", turned.triangles));
-    if (turned.bodies > 0) notes.push_back("its surfaces face inwards: they are turned inside out");
+    if (turned.bodies == 0) return;
+    notes.push_back(turned.bodies == turned.closed
+                        ? "its surfaces face inwards: they are turned inside out"
+                        : fmt::format("{} of its {} closed surfaces face inwards: they are turned inside out",
+                                      turned.bodies, turned.closed));
+}
+
+/// Vertices that no triangle uses may have any coordinates in a file; they get those of one that is used.
+void place_unused_vertices(Mesh& mesh) {
+    std::vector<bool> is_used(mesh.positions.size());
+    for (const auto& corners : mesh.triangles)
+        for (const std::uint32_t vertex : corners)
+            if (vertex < is_used.size()) is_used[vertex] = true;
+    const auto first = static_cast<std::size_t>(std::ranges::find(is_used, true) - is_used.begin());
+    for (std::size_t i = 0; first < is_used.size() && i < is_used.size(); ++i)
+        if (!is_used[i]) mesh.positions[i] = mesh.positions[first];
 }
 
 /// Some programs write black for a colour that they leave to another.
@@ -197,6 +220,7 @@ Scene convert(Read read, const std::filesystem::path& path, const std::string& f
     for (const std::string& name : textures.missing())
         scene.notes.push_back(fmt::format("its texture '{}' is not found: surfaces have none", one_line(name)));
     if (!read.has_looks) show_black_as_white(scene);
+    for (Mesh& mesh : scene.meshes) place_unused_vertices(mesh);
     if (scene.meshes.empty())
         reject_file(file,
                     "no triangles that have an area" + (scene.notes.empty() ? "" : " (" + scene.notes.front() + ")"),
@@ -210,7 +234,9 @@ Scene convert(Read read, const std::filesystem::path& path, const std::string& f
         Turned turned;
         for (Mesh& mesh : scene.meshes) face_outwards(mesh, has_extension(path, {".stl"}), turned);
         note(turned, scene.notes);
-        note_distance(scene, scene.notes);
+        // These keep double floats.
+        if (!has_extension(path, {".obj", ".ply", ".off", ".xyz", ".pts", ".asc", ".dat"}))
+            note_distance(scene, scene.notes);
     }
     add_missing_normals(scene, crease);
     return scene;

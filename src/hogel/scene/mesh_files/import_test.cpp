@@ -270,7 +270,9 @@ TEST_F(Import, files_that_are_black_all_over_are_shown_in_grey) {
 TEST_F(Import, a_mesh_far_from_the_origin_is_named) {
     const auto notes_at = [&](double x) {
         return import_scene(
-                   write("t.obj", fmt::format("v {:.3f} 0 0\nv {:.3f} 0 0\nv {:.3f} 1 0\nf 1 2 3\n", x, x + 1, x)))
+                   write("t.stl", fmt::format("solid t\nfacet normal 0 0 1\nouter loop\nvertex {:.3f} 0 0\n"
+                                              "vertex {:.3f} 0 0\nvertex {:.3f} 1 0\nendloop\nendfacet\nendsolid t\n",
+                                              x, x + 1, x)))
             .notes;
     };
     EXPECT_TRUE(notes_at(100).empty());

@@ -176,11 +176,17 @@ void apply_obj_looks(ImportedMesh& part, Textures& textures) {
     if (!material.emission_texture && material.base_color_texture) material.emission_texture = white_picture();
 }
 
-/// By its name or, where that is a path on another machine, by the last part of it.
+/// By its name or, where that is a path on another machine, by the longest end of it that exists.
 std::optional<std::filesystem::path> Textures::find(const TextureSource& source) const {
-    if (auto path = find_in_folder(folder_, source.name)) return path;
-    const std::size_t last = source.name.find_last_of("/\\");
-    return last == source.name.npos ? std::nullopt : find_in_folder(folder_, source.name.substr(last + 1));
+    constexpr int most_parts = 32;
+    std::string name = source.name;
+    for (int i = 0; i < most_parts; ++i) {
+        if (auto path = find_in_folder(folder_, name)) return path;
+        const std::size_t first = name.find_first_of("/\\");
+        if (first == name.npos) break;
+        name.erase(0, first + 1);
+    }
+    return std::nullopt;
 }
 
 bool Textures::is_left_out(const TextureSource& source) {

@@ -84,7 +84,9 @@ MtlTexture parse_texture(Line line, std::set<std::string>& left_out) {
             break;
         }
     }
-    texture.name = line.rest();
+    std::string_view name = line.rest();
+    if (name.size() > 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
+    texture.name = name;
     return texture;
 }
 

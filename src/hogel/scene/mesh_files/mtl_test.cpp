@@ -124,10 +124,10 @@ TEST_F(Libraries, say_what_is_left_out) {
 }
 
 TEST_F(Libraries, of_other_formats_are_noted_too) {
-    const std::string end = "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255 0 0\n";
+    const std::string end = "end_header\n0 0 0 9 9 9\n1 0 0 9 9 9\n0 1 0 9 9 9\n3 0 1 2 255 0 0\n";
     expect_note(
-        import_scene(write(
-            "f.ply", ply_vertices(3) + "element face 1\nproperty list uchar int vertex_indices\n" + ply_colors + end)),
+        import_scene(write("f.ply", ply_vertices(3, ply_colors) +
+                                        "element face 1\nproperty list uchar int vertex_indices\n" + ply_colors + end)),
         "colours of faces are left out");
     const Scene part = import_scene(write("p.stl",
                                           "solid p\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"

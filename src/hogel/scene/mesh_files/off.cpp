@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <limits>
+#include <utility>
+#include <vector>
 
 #include "hogel/scene/mesh_files/checks.h"
+#include "hogel/scene/mesh_files/face_meshes.h"
 #include "hogel/scene/mesh_files/polygons.h"
 
 namespace hogel::scene::mesh_files {
@@ -115,19 +117,20 @@ OffHeader read_header(Lines& lines) {
     return header;
 }
 
-void read_vertex(Lines& lines, const OffHeader& header, Mesh& mesh) {
+void read_vertex(Lines& lines, const OffHeader& header, Vertices& vertices) {
     const auto number = [&] { return lines.number<float>("a number"); };
-    float at[4] = {0, 0, 0, 1};
-    for (unsigned i = 0; i < header.dimensions; ++i) at[i] = number();
-    if (header.has_weight) at[3] = number();
-    mesh.positions.push_back({at[0] / at[3], at[1] / at[3], at[2] / at[3]});
+    const auto coordinate = [&] { return lines.number<double>("a number"); };
+    double at[4] = {0, 0, 0, 1};
+    for (unsigned i = 0; i < header.dimensions; ++i) at[i] = coordinate();
+    if (header.has_weight) at[3] = coordinate();
+    vertices.positions.push_back({at[0] / at[3], at[1] / at[3], at[2] / at[3]});
     if (header.has_normals) {
         const float x = number(), y = number(), z = number();
-        mesh.normals.push_back({x, y, z});
+        vertices.normals.push_back({x, y, z});
     }
     if (header.has_colors) {
         const float r = number(), g = number(), b = number();
-        mesh.colors.push_back({r, g, b});
+        vertices.colors.push_back({r, g, b});
         // Opacity may follow, which texture coordinates hide.
         if (!header.has_texture) return;
     }
@@ -135,31 +138,64 @@ void read_vertex(Lines& lines, const OffHeader& header, Mesh& mesh) {
         const float u = number(), v = number();
         if (header.has_colors && !lines.at_end()) {  // then u was the opacity
             const float w = number();
-            mesh.texture_coordinates.push_back({v, w});
+            vertices.coordinates.push_back({v, w});
         } else {
-            mesh.texture_coordinates.push_back({u, v});
+            vertices.coordinates.push_back({u, v});
         }
     }
 }
 
 /// Colours are display values, 0 to 1 or 0 to 255.
-void decode_colors(Mesh& mesh) {
+void decode(std::vector<Rgb>& colors) {
     float largest = 0;
-    for (const Rgb& c : mesh.colors) largest = std::max({largest, c.r, c.g, c.b});
+    for (const Rgb& c : colors) largest = std::max({largest, c.r, c.g, c.b});
     const float scale = largest > 1 ? 255.0f : 1.0f;
-    for (Rgb& c : mesh.colors) c = {srgb_decode(c.r / scale), srgb_decode(c.g / scale), srgb_decode(c.b / scale)};
+    for (Rgb& c : colors) c = {srgb_decode(c.r / scale), srgb_decode(c.g / scale), srgb_decode(c.b / scale)};
 }
 
-/// New normals are made if one has no direction.
-void normalize(Mesh& mesh) {
-    for (Vec3& normal : mesh.normals) {
-        const double size = length(normal);
-        if (!(size > 0 && size <= std::numeric_limits<double>::max())) {
-            mesh.normals.clear();
-            return;
-        }
-        normal = normal / size;
+constexpr Rgb grey{0.6f, 0.6f, 0.6f};  // where a file has no colour
+
+/// The faces of a file, one behind the other.
+struct Faces {
+    std::vector<std::uint32_t> corners;
+    std::vector<std::size_t> ends;  ///< of each face, in `corners`
+    std::vector<bool> have_color;   ///< of each face
+    std::vector<Rgb> colors;        ///< of the faces that have one
+    std::size_t numbered = 0;       ///< whose colour is a number in a table of another file
+};
+
+void read_face(Lines& lines, std::uint32_t vertices, Faces& faces) {
+    const auto count = lines.number<std::uint32_t>("a number of corners");
+    for (std::uint32_t k = 0; k < count; ++k) {
+        faces.corners.push_back(lines.number<std::uint32_t>("the number of a vertex"));
+        if (faces.corners.back() >= vertices)
+            lines.reject(fmt::format("has the vertex index {}", faces.corners.back()),
+                         fmt::format("less than {}", vertices));
     }
+    faces.ends.push_back(faces.corners.size());
+    std::vector<float> color;
+    while (!lines.at_end() && color.size() < 4) color.push_back(lines.number<float>("a colour"));
+    faces.have_color.push_back(color.size() >= 3);  // opacity may follow
+    if (color.size() >= 3) faces.colors.push_back({color[0], color[1], color[2]});
+    if (color.size() == 1) ++faces.numbered;
+}
+
+Mesh mesh_of(const Vertices& vertices, const Faces& faces, const std::string& file) {
+    const bool from_faces = !faces.colors.empty() && vertices.colors.empty();
+    FaceMeshes parts(vertices, {.colors = from_faces});
+    Mesh& mesh = parts.mesh(0);
+    if (!from_faces && vertices.colors.empty()) mesh.material.base_color = grey;
+    std::vector<std::uint32_t> polygon;
+    std::size_t at = 0;
+    auto color = faces.colors.begin();
+    for (std::size_t i = 0; i < faces.ends.size(); ++i) {
+        CornerLook look;
+        if (from_faces) look.color = faces.have_color[i] ? *color++ : grey;
+        polygon.clear();
+        for (; at < faces.ends[i]; ++at) polygon.push_back(parts.corner(faces.corners[at], 0, look));
+        add_polygon(polygon, false, file, mesh);
+    }
+    return std::move(mesh);
 }
 
 }  // namespace
@@ -171,31 +207,30 @@ bool starts_like_off(std::string_view bytes) {
     return lines.next() && take_keyword(lines, header);
 }
 
-Mesh read_off(const std::string& file, std::string_view bytes) {
+Imported read_off(const std::string& file, std::string_view bytes) {
     Lines lines(file, bytes);
     const OffHeader header = read_header(lines);
-    Mesh mesh;
-    mesh.material.base_color = {0.6f, 0.6f, 0.6f};
+    Vertices vertices;
     for (std::uint32_t i = 0; i < header.vertices; ++i) {
         if (!lines.next()) reject_file(file, fmt::format("has {} vertices", i), fmt::format("{}", header.vertices));
-        read_vertex(lines, header, mesh);
+        read_vertex(lines, header, vertices);
     }
-    std::vector<std::uint32_t> corners;
+    Faces faces;
     for (std::uint32_t i = 0; i < header.faces; ++i) {
         if (!lines.next()) reject_file(file, fmt::format("has {} faces", i), fmt::format("{}", header.faces));
-        const auto count = lines.number<std::uint32_t>("a number of corners");
-        corners.clear();
-        for (std::uint32_t k = 0; k < count; ++k) {
-            corners.push_back(lines.number<std::uint32_t>("the number of a vertex"));
-            if (corners.back() >= header.vertices)
-                lines.reject(fmt::format("has the vertex index {}", corners.back()),
-                             fmt::format("less than {}", header.vertices));
-        }
-        add_polygon(corners, false, file, mesh);
+        read_face(lines, header.vertices, faces);
     }
-    decode_colors(mesh);
-    normalize(mesh);
-    return mesh;
+    decode(vertices.colors);
+    decode(faces.colors);
+    normalize_or_clear(vertices.normals);
+    Imported imported;
+    imported.meshes.push_back({mesh_of(vertices, faces, file)});
+    if (faces.numbered > 0)
+        imported.notes.push_back(fmt::format(
+            "colours of {} faces are left out: they are numbers in a table of another file", faces.numbered));
+    if (!faces.colors.empty() && !vertices.colors.empty())
+        imported.notes.push_back("colours of faces are left out: vertices have colours");
+    return imported;
 }
 
 }  // namespace hogel::scene::mesh_files

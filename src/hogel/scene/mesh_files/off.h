@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "hogel/scene.h"
+#include "hogel/scene/mesh_files/transfer.h"
 
 namespace hogel::scene::mesh_files {
 
@@ -12,8 +12,9 @@ namespace hogel::scene::mesh_files {
 bool starts_like_off(std::string_view bytes);
 
 /// Reads a text file in the Object File Format of Geomview: vertices, with normals, colours and texture coordinates
-/// where the header says so, and polygons, whose colours are ignored. Throws Error(bad_input), which names the line.
+/// where the header says so, and polygons, whose colours are shown where vertices have none. Throws Error(bad_input),
+/// which names the line.
 /// @param bytes  the whole file
-Mesh read_off(const std::string& file, std::string_view bytes);
+Imported read_off(const std::string& file, std::string_view bytes);
 
 }  // namespace hogel::scene::mesh_files

@@ -15,4 +15,17 @@ namespace hogel::scene::mesh_files {
 /// @param edges  sorted_edges() of the mesh as it was
 std::size_t orient_neighbors(Mesh& mesh, const std::vector<TriangleEdge>& edges);
 
+/// What turn_inside_out() finds.
+struct Sides {
+    bool is_body = false;    ///< nearly all of the mesh encloses volumes
+    std::size_t bodies = 0;  ///< surfaces that enclose a volume
+    std::size_t turned = 0;  ///< those of them of which triangles or normals were turned
+};
+
+/// Turns bodies whose triangles face inwards, as some programs write scans: their corners, and normals that agree with
+/// them. Normals of a body that face inwards alone are turned as well. Each connected surface is decided by itself;
+/// those that enclose no volume alone, together.
+/// @param edges  sorted_edges() of the mesh, before or after orient_neighbors()
+Sides turn_inside_out(Mesh& mesh, const std::vector<TriangleEdge>& edges);
+
 }  // namespace hogel::scene::mesh_files

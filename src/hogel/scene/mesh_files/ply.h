@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,7 +35,8 @@ enum class Format { ascii, little_endian, big_endian };
 struct Header {
     Format format = Format::ascii;
     std::vector<Element> elements;
-    std::size_t size = 0;  ///< bytes up to the data
+    std::vector<std::string> textures;  ///< lines "comment TextureFile NAME"
+    std::size_t size = 0;               ///< bytes up to the data
 };
 
 /// Throws Error(bad_input), which names the line.
@@ -51,5 +53,46 @@ class Words {
   private:
     std::string_view rest_;
 };
+
+/// One row of an element.
+struct Row {
+    std::vector<double> values;
+    std::vector<std::size_t> ends;  ///< of each property's values
+
+    /// The value of a property, or the values of its list.
+    std::span<const double> operator[](std::size_t property) const {
+        const std::size_t begin = property == 0 ? 0 : ends[property - 1];
+        return std::span(values).subspan(begin, ends[property] - begin);
+    }
+};
+
+/// Reads the rows of elements in the order of the file. Throws Error(bad_input), which names the element and the row,
+/// where the data end early or hold no number.
+class RowReader {
+  public:
+    /// @param file  for messages; this and `data` live longer than the reader
+    /// @param data  what follows the header
+    RowReader(const std::string& file, Format format, std::string_view data)
+        : file_(&file), format_(format), data_(data) {}
+    /// Throws unless the rest of the data may hold all rows of an element, so that memory for them can be reserved.
+    void check_room(const Element& element) const;
+    /// @param number  of the row in its element
+    void read(const Element& element, std::size_t number, Row& row);
+    /// Passes over all rows of an element, and checks them.
+    void skip(const Element& element);
+
+  private:
+    void read_text(const Element& element, std::size_t number, Row& row);
+    void read_binary(const Element& element, std::size_t number, Row& row);
+    std::string_view take(const Element& element, std::size_t number, std::size_t bytes);
+    [[noreturn]] void reject_end(const Element& element, std::size_t rows) const;
+
+    const std::string* file_;
+    Format format_;
+    std::string_view data_;
+};
+
+/// The number that a word is; none if it is none.
+std::optional<double> parse_number(std::string_view word);
 
 }  // namespace hogel::scene::mesh_files::ply

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,13 +16,17 @@ struct Points {
     std::vector<Rgb> colors;    ///< linear
 };
 
-/// The vertices of a PLY file without faces, which check_ply() has accepted; none if it has faces. Throws
-/// Error(bad_input) for Gaussian splats and for a file without points.
-std::optional<Points> read_ply_points(const std::string& file, std::string_view bytes);
-
 /// A text of lines with x y z, and behind them r g b (0 to 255, or 0 to 1 with a decimal point), intensity r g b, or
 /// nx ny nz; the first line may be a count or a comment (#, //). Throws Error(bad_input), which names the line.
 Points read_xyz(const std::string& file, std::string_view bytes);
+
+/// A point cloud of OpenHolo: a count, and a line of index, x, y, z, phase and amplitude for each point. Phases are
+/// left out; points whose amplitudes differ are grey with the square of theirs. Throws Error(bad_input), which names
+/// the line.
+Points read_dat(const std::string& file, std::string_view bytes);
+
+/// Makes normals unit vectors; without a direction of each, removes them all, so that they are made anew.
+void normalize_or_clear(std::vector<Vec3>& normals);
 
 /// Throws Error(bad_input): the file holds Gaussian splats.
 [[noreturn]] void reject_splats(const std::string& file);

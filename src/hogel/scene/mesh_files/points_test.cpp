@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hogel/scene/mesh_files/import_fixture.h"
+#include "hogel/scene/mesh_files/read_ply.h"
 
 namespace hogel::scene::mesh_files {
 namespace {
@@ -110,7 +111,7 @@ TEST_F(PointFiles, of_ply_are_read_as_text_and_as_bytes_of_either_order) {
         text += fmt::format("{} {} {} 255 0 128\n", x, y, z);
     }
     for (const std::string& bytes : {little, big, text}) {
-        const auto points = read_ply_points("x.ply", bytes);
+        const auto points = read_ply("x.ply", bytes).points;
         ASSERT_TRUE(points);
         ASSERT_EQ(points->positions.size(), 4u);
         EXPECT_EQ(points->positions[3], (Vec3{1, 1, 0.75}));
@@ -147,6 +148,10 @@ TEST_F(PointFiles, as_text_have_coordinates_and_a_colour_or_a_normal) {
 
 TEST_F(PointFiles, of_gaussian_splats_are_refused_by_that_name) {
     const std::string splats = ply_vertices(1, "property float f_dc_0\n") + "end_header\n0 0 0 1\n";
+    const std::string packed =
+        "ply\nformat ascii 1.0\nelement chunk 0\nproperty float min_x\nelement vertex 1\n"
+        "property uint packed_position\nend_header\n0\n";
+    expect_refusal("c.ply", packed, "Gaussian splats");
     expect_refusal("s.ply", splats, "Gaussian splats");
     expect_refusal("s.splat", "0123456789", "Gaussian splats");
 }

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/scene/mesh_files/face_meshes.h"
+
+namespace hogel::scene::mesh_files {
+namespace {
+
+bool are_equal(const CornerLook& a, const CornerLook& b) {
+    return a.coordinate.u == b.coordinate.u && a.coordinate.v == b.coordinate.v && a.color == b.color;
+}
+
+}  // namespace
+
+Mesh& FaceMeshes::mesh(std::size_t picture) {
+    const auto [found, is_new] = meshes_.try_emplace(picture);
+    if (is_new) found->second.material.base_color = {1, 1, 1};
+    return found->second;
+}
+
+std::uint32_t FaceMeshes::corner(std::size_t vertex, std::size_t picture, const CornerLook& look) {
+    constexpr int longest_search = 32;  // so that no file takes quadratic time
+    std::uint32_t copy = newest_[vertex];
+    for (int i = 0; copy != none && i < longest_search; copy = copies_[copy].older, ++i)
+        if (copies_[copy].picture == picture && are_equal(copies_[copy].look, look)) return copies_[copy].index;
+    Mesh& to = mesh(picture);
+    const auto index = static_cast<std::uint32_t>(to.positions.size());
+    copies_.push_back({look, picture, index, newest_[vertex]});
+    newest_[vertex] = static_cast<std::uint32_t>(copies_.size() - 1);
+    append(vertex, look, to);
+    return index;
+}
+
+void FaceMeshes::append(std::size_t vertex, const CornerLook& look, Mesh& to) const {
+    const auto copy = [vertex](const auto& from, auto& list) {
+        if (!from.empty()) list.push_back(from[vertex]);
+    };
+    copy(vertices_.positions, to.positions);
+    copy(vertices_.normals, to.normals);
+    // What faces have replaces what vertices have.
+    if (from_faces_.colors)
+        to.colors.push_back(look.color);
+    else
+        copy(vertices_.colors, to.colors);
+    if (from_faces_.coordinates)
+        to.texture_coordinates.push_back(look.coordinate);
+    else
+        copy(vertices_.coordinates, to.texture_coordinates);
+}
+
+}  // namespace hogel::scene::mesh_files
