@@ -11,6 +11,7 @@
 #include "hogel/exchange/disparity.h"
 #include "hogel/exchange/test_views.h"
 #include "hogel/exchange/view_set.h"
+#include "hogel/io/arrays/npy.h"
 
 namespace hogel::exchange {
 namespace {
@@ -71,6 +72,28 @@ TEST(SetVariations, NumbersThatFollowFromOthersSayNothingOfTheOrder) {
     EXPECT_EQ(set.columns, 3u);
     EXPECT_EQ(set.rows, 3u);
     EXPECT_TRUE(set.pictures->name(0, 2).find("_07_01_-90") != std::string::npos) << set.pictures->name(0, 2);
+}
+
+// Programs for neural networks write axes of one in front.
+TEST(SetVariations, ArraysOfBatchesAreViewsOrFields) {
+    const TestFolder folder;
+    const auto is_set = [&](const char* type, const std::vector<std::size_t>& shape) {
+        std::size_t bytes = 8;
+        for (const std::size_t extent : shape) bytes *= extent;
+        folder.write("a.npy", io::arrays::npy_beginning(type, shape) + std::string(bytes, '\0'));
+        return is_view_set(folder.path() / "a.npy");
+    };
+    EXPECT_TRUE(is_set("<f4", {3, 4, 8, 8, 3}));
+    EXPECT_TRUE(is_set("<f4", {1, 5, 8, 8}));  // a row of views
+    EXPECT_TRUE(is_set("|u1", {1, 3, 4, 8, 8, 1}));
+    const ViewSet set = open_views(folder.path() / "a.npy", {});
+    EXPECT_EQ(set.rows, 3u);
+    EXPECT_EQ(set.columns, 4u);
+    EXPECT_FALSE(is_set("<c8", {1, 5, 8, 8}));
+    EXPECT_FALSE(is_set("<f4", {1, 1, 8, 8}));
+    EXPECT_FALSE(is_set("<f4", {1, 3, 8, 8}));
+    EXPECT_FALSE(is_set("<f4", {1, 8, 8, 2}));
+    EXPECT_FALSE(is_set("<f4", {1, 1, 3, 8, 8}));
 }
 
 TEST(SetVariations, ParametersWithoutAllNumbersSayNothing) {

@@ -17,12 +17,27 @@ namespace {
 using io::arrays::NpyHeader;
 using io::arrays::Number;
 
+/// The extents without those of one before the five that views have, as arrays of batches have them.
+std::vector<std::size_t> without_batches(std::vector<std::size_t> shape) {
+    while (shape.size() > 5 && shape.front() == 1) shape.erase(shape.begin());
+    return shape;
+}
+
+/// Whether an array is rather that of a field, with axes of one before its colours, or its real and imaginary parts.
+bool is_field(const NpyHeader& header, const std::vector<std::size_t>& shape) {
+    if (header.complex) return true;
+    if (shape.size() == 4) return shape[0] == 1 && (shape[1] <= 3 || shape[3] <= 3);
+    return shape.size() == 5 && shape[0] == 1 && shape[1] == 1 && shape[4] != 1 && shape[4] != 3;
+}
+
 bool probe(const fs::path& source) {
     std::error_code none;
     if (source.extension() != ".npy" || !fs::is_regular_file(source, none)) return false;
     try {
         const core::RawFile file(source, core::RawFile::Mode::read, source);
-        return io::arrays::read_npy_header(source, file).shape.size() >= 4;
+        const NpyHeader header = io::arrays::read_npy_header(source, file);
+        const std::vector<std::size_t> shape = without_batches(header.shape);
+        return shape.size() >= 4 && !is_field(header, shape);
     } catch (const Error&) {
         return false;
     }
@@ -32,7 +47,7 @@ class NpyPictures final : public ViewPictures {
   public:
     explicit NpyPictures(const fs::path& source)
         : file_(source, core::RawFile::Mode::read, source), header_(io::arrays::read_npy_header(source, file_)) {
-        const std::vector<std::size_t>& shape = header_.shape;
+        const std::vector<std::size_t>& shape = header_.shape = without_batches(header_.shape);
         if (shape.size() != 4 && shape.size() != 5)
             fail_source(source, "views are an array of the axes row of views, column of views, y, x and channel");
         if (shape.size() == 4) header_.shape.push_back(1);
