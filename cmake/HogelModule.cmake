@@ -76,7 +76,7 @@ endfunction()
 
 # Tells a source by macros, 1 or 0, which parts there are.
 function(hogel_tell_parts source)
-  foreach(part ASSIMP MESHOPT EMBREE HDF5 PICTURES ZLIB TIFF WEBP)
+  foreach(part ASSIMP DRACO MESHOPT EMBREE HDF5 PICTURES ZLIB TIFF WEBP)
     set_property(SOURCE ${source} APPEND PROPERTY COMPILE_DEFINITIONS HOGEL_${part}=$<BOOL:${HOGEL_${part}}>)
   endforeach()
   set_property(SOURCE ${source} APPEND PROPERTY COMPILE_DEFINITIONS HOGEL_FFTW=$<STREQUAL:${HOGEL_FFT},fftw>)

@@ -211,6 +211,8 @@ Fields open_fields(const std::string& name, const FieldOptions& options, const C
     if (!is_external(name, options)) {
         require_described(name, options);
         std::error_code status;
+        if (!std::filesystem::exists(name, status))
+            throw Error(ErrorCode::bad_input, fmt::format("{}: no such file", name));
         if (std::filesystem::is_regular_file(name, status) && file_kind(name) == FileKind::unknown)
             throw Error(ErrorCode::bad_input,
                         fmt::format("{}: is neither a hologram nor a field of a format that is read: .npy, .npz, .mat "

@@ -14,6 +14,7 @@ namespace hogel {
 const std::vector<Part>& parts() {
     static const std::vector<Part> table{
         {"assimp", "mesh files", "HOGEL_ASSIMP=ON", HOGEL_ASSIMP},
+        {"Draco", "packed glTF files (KHR_draco_mesh_compression)", "HOGEL_DRACO=ON", HOGEL_DRACO},
         {"meshoptimizer", "packed glTF files (EXT_meshopt_compression)", "HOGEL_MESHOPT=ON", HOGEL_MESHOPT},
         {"Embree", "rays: shadows, baking, the renderer 'raytrace'", "HOGEL_EMBREE=ON", HOGEL_EMBREE},
         {"HDF5", "light fields and holograms in HDF5 files", "HOGEL_HDF5=ON", HOGEL_HDF5},

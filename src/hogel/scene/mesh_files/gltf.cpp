@@ -9,6 +9,7 @@
 #include <set>
 
 #include "hogel/scene/mesh_files/checks.h"
+#include "hogel/scene/mesh_files/draco.h"
 #include "hogel/scene/mesh_files/gltf_looks.h"
 #include "hogel/scene/mesh_files/meshopt.h"
 
@@ -17,11 +18,12 @@ namespace {
 
 constexpr int max_json_depth = 100;
 
-// Extensions that a file may require: those that hogel shows, and those of looks that a note names. Other packed
-// geometry and packed pictures are not among them.
+// Extensions that a file may require: those that hogel shows, and those of looks that a note names. Packed
+// pictures are not among them.
 constexpr std::array supported_extensions{"EXT_mesh_gpu_instancing",
                                           "EXT_meshopt_compression",
                                           "EXT_texture_webp",
+                                          "KHR_draco_mesh_compression",
                                           "KHR_lights_punctual",
                                           "KHR_materials_anisotropy",
                                           "KHR_materials_clearcoat",
@@ -193,9 +195,8 @@ std::optional<std::size_t> material_number(std::string_view name) {
 }
 
 bool is_known_extension(const std::string& name) {
-    // Those of which the document itself holds what to show without them.
-    constexpr std::array replaceable{"KHR_draco_mesh_compression", "KHR_texture_basisu"};
-    return std::ranges::count(supported_extensions, name) > 0 || std::ranges::count(replaceable, name) > 0;
+    // Of KHR_texture_basisu the document itself holds what to show without it.
+    return std::ranges::count(supported_extensions, name) > 0 || name == "KHR_texture_basisu";
 }
 
 void Gltf::reject(const std::string& where, const std::string& what, const std::string& expected) const {
@@ -257,6 +258,7 @@ CheckedGltf check_gltf(const std::string& file, const std::filesystem::path& fol
     Gltf gltf = parse_gltf(file, folder, bytes);
     if (!gltf.is_version_2) return {};
     unpack_views(gltf);
+    unpack_draco(gltf);
     CheckedGltf checked;
     checked.provenance = stored_provenance(gltf.json);
     {

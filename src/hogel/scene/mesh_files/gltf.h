@@ -78,6 +78,12 @@ struct GltfAccessor {
     std::vector<float> floats(bool normalized) const;
 };
 
+/// Bytes of a component of a type as glTF numbers them; 0 for a type that does not exist.
+std::size_t component_size(unsigned type);
+
+/// What an accessor says of its elements: their type, size and number; no data.
+GltfAccessor read_accessor_type(const Gltf& gltf, const Json& object, const std::string& where);
+
 /// Checks views and accessors: sizes, offsets, alignment, strides, sparse elements.
 std::vector<GltfAccessor> check_accessors(const Gltf& gltf, const GltfBuffers& buffers);
 

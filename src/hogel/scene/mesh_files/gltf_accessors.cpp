@@ -30,6 +30,8 @@ constexpr std::array element_types{ElementType{"SCALAR", 1, 1}, ElementType{"VEC
                                    ElementType{"VEC4", 1, 4},   ElementType{"MAT2", 2, 2}, ElementType{"MAT3", 3, 3},
                                    ElementType{"MAT4", 4, 4}};
 
+}  // namespace
+
 std::size_t component_size(unsigned type) {
     switch (type) {
         case 5120:
@@ -45,6 +47,30 @@ std::size_t component_size(unsigned type) {
             return 0;
     }
 }
+
+GltfAccessor read_accessor_type(const Gltf& gltf, const Json& object, const std::string& where) {
+    GltfAccessor accessor;
+    accessor.component_type = static_cast<unsigned>(gltf.number(object, where, "componentType", max_size));
+    accessor.component_size = component_size(accessor.component_type);
+    if (accessor.component_size == 0)
+        gltf.reject(where + ".componentType", fmt::format("is {}", accessor.component_type),
+                    "5120, 5121, 5122, 5123, 5125 or 5126");
+    const auto type = object.find("type");
+    const auto found = std::find_if(element_types.begin(), element_types.end(), [&](const ElementType& t) {
+        return type != object.end() && *type == std::string(t.name);
+    });
+    if (found == element_types.end())
+        gltf.reject(where + ".type", "is unknown", "SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4");
+    accessor.type = found->name;
+    std::size_t column = found->rows * accessor.component_size;
+    if (found->columns > 1) column = (column + 3) / 4 * 4;  // columns of matrices begin at whole words
+    accessor.element_size = found->columns * column;
+    accessor.count = gltf.number(object, where, "count", max_size);
+    if (accessor.count == 0) gltf.reject(where + ".count", "is 0", "at least 1");
+    return accessor;
+}
+
+namespace {
 
 std::uint64_t read_whole_number(const char* at, std::size_t size) {
     std::uint64_t value = 0;  // little-endian, like this machine
@@ -69,10 +95,7 @@ class Accessors {
     }
 
     GltfAccessor read(const Json& object, const std::string& where) const {
-        GltfAccessor accessor;
-        read_type(object, where, accessor);
-        accessor.count = gltf_.number(object, where, "count", max_size);
-        if (accessor.count == 0) gltf_.reject(where + ".count", "is 0", "at least 1");
+        GltfAccessor accessor = read_accessor_type(gltf_, object, where);
         const std::uint64_t offset = gltf_.number(object, where, "byteOffset", max_size, 0);
         if (const auto number = gltf_.reference(object, where, "bufferView", "bufferViews")) {
             const View& view = views_[*number];
@@ -112,24 +135,6 @@ class Accessors {
                 gltf_.reject(where + ".byteStride", fmt::format("is {}", view.stride), "a multiple of 4 from 4 to 252");
         }
         return view;
-    }
-
-    void read_type(const Json& object, const std::string& where, GltfAccessor& accessor) const {
-        accessor.component_type = static_cast<unsigned>(gltf_.number(object, where, "componentType", max_size));
-        accessor.component_size = component_size(accessor.component_type);
-        if (accessor.component_size == 0)
-            gltf_.reject(where + ".componentType", fmt::format("is {}", accessor.component_type),
-                         "5120, 5121, 5122, 5123, 5125 or 5126");
-        const auto type = object.find("type");
-        const auto found = std::find_if(element_types.begin(), element_types.end(), [&](const ElementType& t) {
-            return type != object.end() && *type == std::string(t.name);
-        });
-        if (found == element_types.end())
-            gltf_.reject(where + ".type", "is unknown", "SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4");
-        accessor.type = found->name;
-        std::size_t column = found->rows * accessor.component_size;
-        if (found->columns > 1) column = (column + 3) / 4 * 4;  // columns of matrices begin at whole words
-        accessor.element_size = found->columns * column;
     }
 
     std::string_view part(const std::string& where, const View& view, std::size_t offset, std::uint64_t count,

@@ -71,7 +71,7 @@ TEST_F(Gltf, one_wrong_number_is_refused_by_name) {
         {"TEXCOORD_0", "TEXCOORD_-1", "TEXCOORD_-1 skips numbers"},
         {R"("scene":0)", R"("scene":1)", "scene is 1"},
         // What cannot be read at all.
-        {R"("asset")", R"("extensionsRequired":["KHR_draco_mesh_compression"],"asset")", "KHR_draco_mesh_compression"},
+        {R"("asset")", R"("extensionsRequired":["KHR_texture_basisu"],"asset")", "KHR_texture_basisu"},
         {R"("version":"2.0")", R"("version":"3.0")", "asset.version is \"3.0\""},
         {R"("version":"2.0")", R"("version":"2.1","minVersion":"2.1")", "asset.minVersion is \"2.1\""},
         {R"("scene":0)", R"("scene":0,"scene":0)", "the key \"scene\" occurs twice"},

@@ -325,8 +325,8 @@ TEST_F(Looks, what_is_left_out_is_noted_by_name) {
 }
 
 TEST_F(Looks, what_packs_a_file_is_refused_by_name_where_it_is_required) {
-    for (const std::string name : {"KHR_draco_mesh_compression", "KHR_texture_basisu"})
-        expect_refusal("x.gltf", file({.document = R"("extensionsRequired":[")" + name + R"("],)"}), name);
+    const std::string name = "KHR_texture_basisu";
+    expect_refusal("x.gltf", file({.document = R"("extensionsRequired":[")" + name + R"("],)"}), name);
 }
 
 TEST_F(Looks, wrong_values_are_refused_with_their_place) {
