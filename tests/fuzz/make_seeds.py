@@ -18,7 +18,7 @@ except ImportError:
     h5py = None  # then there are no files in chunks
 
 SMALL = "--hogels 3x2 --directions 4x3 -q".split()
-MESH_EXTENSIONS = [".gltf", ".glb", ".obj", ".ply", ".stl", ".off", ".fbx", ".xyz"]  # as in mesh_fuzz.cpp
+MESH_EXTENSIONS = [".gltf", ".glb", ".obj", ".ply", ".stl", ".off", ".fbx", ".xyz", ".dat"]  # as in mesh_fuzz.cpp
 PICTURE_EXTENSIONS = [".png", ".exr", ".bmp", ".jpg", ".tga", ".gif", ".hdr", ".ppm", ".pfm"]  # as in picture_fuzz.cpp
 
 TRIANGLE = {
@@ -39,6 +39,20 @@ MORE_MESHES = {
     "points.xyz": b"# x y z r g b\n0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0 0 0 255\n1 1 0 9 9 9\n0 0 1 1 2 3\n1 0 1 1 2 3\n0 1 1 1 2 3\n",
     "points.ply": b"ply\nformat ascii 1.0\nelement vertex 7\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
                   b"0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n",
+    "points.dat": b"7\n" + b"".join(b"%d %d %d %d 0.5 %d\n" % (i, i & 1, i >> 1 & 1, i >> 2, i) for i in range(7)),
+    "faces.ply": b"ply\nformat ascii 1.0\ncomment TextureFile a.ppm\nelement face 1\nproperty list uchar int vertex_indices\n"
+                 b"property list uchar float texcoord\nproperty int texnumber\nproperty uchar red\nproperty uchar green\n"
+                 b"property uchar blue\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                 b"element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+                 b"3 0 1 2 6 0 0 1 0 0 1 0 255 0 0\n0 0 0\n1 0 0\n0 1 0\n7 0 1 2 -1 2 1 0\n",
+    "faces.off": b"COFF\n3 1 0\n0 0 0 1 0 0 1\n1 0 0 1 0 0 1\n0 1 0 1 0 0 1\n3 0 1 2 255 0 0\n",
+    # A triangle as libdraco packs it.
+    "draco.gltf": TRIANGLE[".gltf"].replace(
+        b'{"attributes":{"POSITION":0}}', b'{"attributes":{"POSITION":0},"extensions":{"KHR_draco_mesh_compression":'
+        b'{"bufferView":0,"attributes":{"POSITION":0}}}}').replace(b'"accessors":[{"bufferView":0,', b'"accessors":[{').replace(
+        b'"byteLength":36', b'"byteLength":61').replace(
+        b"AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA",
+        b"RFJBQ08CAgEAAAABAwEAAQIBAQAJAwAAAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAA=="),
     "looks.gltf": TRIANGLE[".gltf"].replace(b'"nodes":[{"mesh":0}]', b'"nodes":[{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":'
                   b'{"attributes":{"TRANSLATION":0}},"KHR_lights_punctual":{"light":0}}}],"extensions":{"KHR_lights_punctual":'
                   b'{"lights":[{"type":"spot","color":[1,1,0]}]}},"materials":[{"alphaMode":"MASK","emissiveFactor":[1,1,1],'
