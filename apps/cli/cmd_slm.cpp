@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "commands.h"
@@ -17,6 +18,9 @@
 
 namespace hogel::cli {
 namespace {
+
+// Below that a picture is unlike that of the hologram.
+constexpr double poor_correlation = 0.9;
 
 struct Options {
     std::string input, output, encoding = "auto", device;
@@ -45,11 +49,16 @@ Modulator modulator_of(const Options& options) {
 }
 
 // The share of light that a pattern uses, and its direction.
-Result result_of(const Pattern& pattern, double wavelength, Encoding encoding) {
+// @param per_cycle  wavelength over pixel pitch
+Result result_of(const Pattern& pattern, double wavelength, double per_cycle, Encoding encoding) {
     Result result{{"wavelength_m", wavelength}, {"efficiency", pattern.efficiency}};
     if (is_phase_only(encoding)) {
         result.emplace_back("light_field_efficiency", pattern.light_field_efficiency);
         result.emplace_back("correlation", pattern.correlation);
+        result.emplace_back("aperture_cycles", pattern.aperture.radius);
+        result.emplace_back("aperture_x_cycles", pattern.aperture.x);
+        result.emplace_back("aperture_y_cycles", pattern.aperture.y);
+        result.emplace_back("aperture_per_focal_length", pattern.aperture.radius * per_cycle);
     }
     if (pattern.iterations > 0) result.emplace_back("iterations", pattern.iterations);
     if (pattern.reference_angle != 0)
@@ -57,20 +66,75 @@ Result result_of(const Pattern& pattern, double wavelength, Encoding encoding) {
     return result;
 }
 
-// The encoding that was asked for, or the one that suits the fields of all wavelengths: phases alone must suit each.
-std::string encoding_for(const Options& options, const Fields& fields, const PatternOptions& pattern,
-                         const Session& session) {
-    if (options.encoding != "auto") return options.encoding;
-    Stage stage(session, "choosing the encoding");
-    const bool alone =
-        with_options({{"pixels", options.device.empty() ? "--pixel-pitch" : "--device"}, {"share", "--clip"}}, [&] {
-            return std::ranges::all_of(
-                fields, [&](const auto& field) { return suitable_encoding(*field, pattern) == Encoding::phase; });
-        });
-    session.detail(fmt::format("encoding {}: the field's phase alone correlates with it by {} {} within its band",
-                               alone ? "phase" : "gradient", alone ? "at least" : "less than",
-                               phase_alone_correlation));
-    return alone ? "phase" : "gradient";
+// The patterns by the encoding that was asked for, or by the one that suits the fields of all wavelengths.
+SuitablePatterns encode(const Options& options, const Fields& fields, PatternOptions& pattern,
+                        const Progress& progress) {
+    return with_options({{"reference", options.pattern.reference_angle != 0 ? "--reference" : "--encoding"},
+                         {"squares", "--window"},
+                         {"share", "--clip"},
+                         {"columns", "--encoding"},
+                         {"pixels", options.device.empty() ? "--pixel-pitch" : "--device"}},
+                        [&] {
+                            if (options.encoding == "auto") return encode_suitably(fields, pattern, progress);
+                            pattern.encoding = encodings().find(options.encoding).encoding;
+                            return SuitablePatterns{pattern.encoding, encode_patterns(fields, pattern, progress)};
+                        });
+}
+
+constexpr double example_focal_length = 0.2;
+
+// The aperture in words: in cycles, as an angle, and in millimetres behind a lens.
+std::string in_words(const Aperture& aperture, double per_cycle) {
+    std::string middle;
+    if (aperture.x != 0 || aperture.y != 0)
+        middle = fmt::format(" around {:.4f} to the right and {:.4f} up", aperture.x, -aperture.y);
+    return fmt::format("radius {:.4f} cycles a pixel{}, {:.2f} mm at a lens of 200 mm", aperture.radius, middle,
+                       aperture.radius * per_cycle * example_focal_length / 1e-3);
+}
+
+// The widest field of view, radians, whose light an aperture of a quarter of the band lets through; double phases show
+// that well.
+double fine_view(double per_cycle) { return 2 * std::asin(std::min(1.0, per_cycle / 8)); }
+
+// What is said of one pattern, and stored with it.
+void report(const Pattern& pattern, double wavelength, double per_cycle, Encoding encoding, const Session& session,
+            Metadata& metadata) {
+    const std::string name = format_length(wavelength);
+    const bool phases = is_phase_only(encoding);
+    std::string line = fmt::format("{}: efficiency {:.2f} %", name, 100 * pattern.efficiency);
+    metadata.emplace_back("efficiency at " + name, fmt::format("{:.6f}", pattern.efficiency));
+    if (phases) {
+        line += fmt::format(", of its light field {:.2f} %, correlation {:.4f}", 100 * pattern.light_field_efficiency,
+                            pattern.correlation);
+        metadata.emplace_back("correlation at " + name, fmt::format("{:.6f}", pattern.correlation));
+    }
+    if (pattern.iterations > 0) {
+        line += fmt::format(" after {} iterations", pattern.iterations);
+        metadata.emplace_back("iterations at " + name, fmt::format("{}", pattern.iterations));
+    }
+    if (pattern.reference_angle != 0) {
+        const double degrees = pattern.reference_angle * 180 / std::numbers::pi;
+        line += fmt::format(", the hologram's order at {:.3f} degrees", -degrees);
+        metadata.emplace_back("reference angle at " + name, fmt::format("{:.6f}deg", degrees));
+    }
+    session.say(line);
+    if (!phases) return;
+    const std::string aperture = in_words(pattern.aperture, per_cycle);
+    session.say(fmt::format("{}: aperture: {}", name, aperture));
+    metadata.emplace_back("aperture at " + name, aperture);
+    if (pattern.correlation < poor_correlation)
+        session.say(
+            fmt::format("{}: warning: what this aperture lets through differs from the hologram (correlation "
+                        "below {}); light within {:.2g} degrees would do, as of hogel hologram --method olas "
+                        "--phase fixed --fov {:.2g}deg, by --encoding double-phase",
+                        name, poor_correlation, fine_view(per_cycle) * 90 / std::numbers::pi,
+                        fine_view(per_cycle) * 180 / std::numbers::pi));
+}
+
+std::string name_of(Encoding encoding) {
+    for (const EncodingInfo& info : encodings().rows())
+        if (info.encoding == encoding) return info.name;
+    return "";
 }
 
 // Records the options that act with an encoding.
@@ -86,7 +150,7 @@ void record_pattern(RunRecord& record, const Options& options, const std::string
     // The two values of binary patterns are levels of every modulator.
     if (options.device.empty() && encoding != Encoding::binary) record.acted({"levels"});
     const bool iterated = encoding == Encoding::gerchberg_saxton || encoding == Encoding::gradient;
-    if (iterated) record.acted({"window"});
+    if (encoding == Encoding::gerchberg_saxton) record.acted({"window"});
     if (iterated && options.pattern.iterations > 0) record.acted({"iterations"});
     // Phases and signs alone do not depend on how large a modulus is.
     if (encoding != Encoding::phase && encoding != Encoding::binary) record.acted({"clip"});
@@ -115,44 +179,22 @@ int slm(const Options& options, const Session& session) {
 
     pattern_options.phase_code =
         with_options({{"", "--phase-code"}}, [&] { return parse_phase_code(options.phase_code); });
-    const std::string encoding = encoding_for(options, fields, pattern_options, session);
-    pattern_options.encoding = encodings().find(encoding).encoding;
     const Modulator& modulator = pattern_options.modulator;
     Array<std::uint8_t, 3> levels({modulator.height, modulator.width, colours});
     Stage stage(session, "pattern");
+    const SuitablePatterns encoded = encode(options, fields, pattern_options, stage.progress());
+    const std::string encoding = name_of(encoded.encoding);
+    if (options.encoding == "auto") session.detail(fmt::format("encoding {} suits the field", encoding));
     record_pattern(record, options, encoding);
     Metadata metadata = record.metadata();
     ResultList patterns;
-    const std::vector<Pattern> encoded =
-        with_options({{"reference", options.pattern.reference_angle != 0 ? "--reference" : "--encoding"},
-                      {"squares", "--window"},
-                      {"share", "--clip"},
-                      {"columns", "--encoding"},
-                      {"pixels", options.device.empty() ? "--pixel-pitch" : "--device"}},
-                     [&] { return encode_patterns(fields, pattern_options, stage.progress()); });
     for (std::size_t c = 0; c < colours; ++c) {
-        const Pattern& pattern = encoded[c];
+        const Pattern& pattern = encoded.patterns[c];
         for (std::size_t i = 0; i < pattern.levels.size(); ++i)
             levels.data()[i * colours + c] = pattern.levels.data()[i];
-        const std::string name = format_length(fields[c]->grid().wavelength);
-        std::string line = fmt::format("{}: efficiency {:.2f} %", name, 100 * pattern.efficiency);
-        if (is_phase_only(pattern_options.encoding))
-            line += fmt::format(", of its light field {:.2f} %, correlation {:.4f}",
-                                100 * pattern.light_field_efficiency, pattern.correlation);
-        if (pattern.iterations > 0) line += fmt::format(" after {} iterations", pattern.iterations);
-        if (pattern.reference_angle != 0)
-            line += fmt::format(", the hologram's order at {:.3f} degrees",
-                                -pattern.reference_angle * 180 / std::numbers::pi);
-        session.say(line);
-        metadata.emplace_back("efficiency at " + name, fmt::format("{:.6f}", pattern.efficiency));
-        if (is_phase_only(pattern_options.encoding))
-            metadata.emplace_back("correlation at " + name, fmt::format("{:.6f}", pattern.correlation));
-        if (pattern.iterations > 0)
-            metadata.emplace_back("iterations at " + name, fmt::format("{}", pattern.iterations));
-        if (pattern.reference_angle != 0)
-            metadata.emplace_back("reference angle at " + name,
-                                  fmt::format("{:.6f}deg", pattern.reference_angle * 180 / std::numbers::pi));
-        patterns.push_back(result_of(pattern, fields[c]->grid().wavelength, pattern_options.encoding));
+        const double wavelength = fields[c]->grid().wavelength, per_cycle = wavelength / modulator.pitch;
+        report(pattern, wavelength, per_cycle, encoded.encoding, session, metadata);
+        patterns.push_back(result_of(pattern, wavelength, per_cycle, encoded.encoding));
     }
     if (!is_first_process()) return 0;
     write_raw_pixels(options.output, levels, with_history(metadata, to_metadata(fields.front()->provenance())));
@@ -186,11 +228,11 @@ void add_slm(Command& command, Session& session) {
     command.group("Pattern");
     command.choice(
         "--encoding", options->encoding, names, "NAME",
-        "auto: phase where that alone correlates with the field by 0.99 within its band, else gradient\n"
+        "auto: phase, double-phase or gradient: the first that correlates with the field by 0.998, or the best\n"
         "phase: the field's phase alone: for fields of even modulus, such as plane and spherical waves\n"
         "double-phase: the modulus as the difference of two phases: for any field, dark, without iteration\n"
         "gerchberg-saxton: phases iterated to show the spectra of hogels: for random phases, not smooth ones\n"
-        "gradient: phases that show the field within its band: for any field; an aperture takes the rest\n"
+        "gradient: phases that show the field behind its aperture, which must be of that size: for any field\n"
         "intensity: |F + R|² with a reference beam R\n"
         "bipolar: 2 Re(F R*), raised to be positive\n"
         "burckhardt, lee: three or four real components, in columns by turns\n"
@@ -199,8 +241,7 @@ void add_slm(Command& command, Session& session) {
                   "Angle of the reference beam; 0: between the least and the most that will do");
     command.number("--clip", options->pattern.clip, "0..1",
                    "Share of the samples whose modulus may be cut to the largest");
-    command.count("--window", options->pattern.window,
-                  "Iterated phases: pixels of a hogel's side, by whose spectra the field's band is judged too");
+    command.count("--window", options->pattern.window, "Gerchberg-Saxton: pixels of a hogel's side");
     command
         .count("--iterations", options->pattern.iterations,
                "Gerchberg-Saxton: how many steps (default: 40); gradient: at most (default: 200), until the\n"

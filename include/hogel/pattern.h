@@ -63,11 +63,18 @@ struct PatternOptions {
     /// range of angles that keep the diffraction orders apart.
     double reference_angle = 0;
     double clip = 0.001;      ///< share of the samples whose modulus is clipped to the largest that is shown
-    std::size_t window = 32;  ///< side in pixels of the squares whose spectra are the local spectra, by which the band
-                              ///< of the field is judged, too; best the side of a hogel
+    std::size_t window = 32;  ///< side in pixels of the squares whose spectra are the local spectra; best the side of
+                              ///< a hogel
     /// Iterations of Gerchberg–Saxton, or the limit of the descent, which ends when it no longer gains. 0: 40, and 200.
     std::size_t iterations = 0;
     PhaseCode phase_code = {};  ///< how levels stand for phases
+};
+
+/// A round aperture in the plane where a lens makes the spectrum of a modulator's light, cycles per pixel. What
+/// diffracts to ν cycles per pixel arrives λfν/p beside the axis, with p the pixels' pitch and f the focal length.
+struct Aperture {
+    double x = 0, y = 0;  ///< its middle, to the right and downwards
+    double radius = 0;
 };
 
 /// The values of a modulator's pixels for one wavelength.
@@ -84,16 +91,23 @@ struct Pattern {
     /// angle, also where successive columns make it.
     double reference_angle = 0;
     std::size_t iterations = 0;  ///< of an iterated encoding
-    /// For phases, |Σ P F*| / √(Σ|P|² Σ|F|²) over the band of frequencies in which the field has light, after rounding
-    /// to levels: 1 if an aperture of that shape lets the field F through alone.
+    /// For phases, the aperture for the field: it lets 99.9 % of its light through, or less where that would take a
+    /// radius above 0.4. Beside frequency zero only where that makes it smaller by a fifth.
+    Aperture aperture;
+    /// For phases, |Σ P F*| / √(Σ|P|² Σ|F|²), after rounding to levels: the pattern's spectrum P within the aperture and
+    /// a tenth of its radius farther, up to 0.4, the field's spectrum F everywhere. 1 if the aperture lets the field
+    /// through, and nothing else.
     double correlation = 0;
+    /// Power of the light on a pixel for which the useful order is F, in units of |F|². Between the patterns of several
+    /// wavelengths its ratio is that of the powers which show the field's colours.
+    double power = 0;
 };
 
-/// The encoding for a modulator of phase that suits a field: `phase` where the field's phase alone correlates with the
-/// field by 0.99 or more within its band, because its modulus varies little, and otherwise `gradient`. Throws
-/// Error(usage) as encode_pattern() does.
+/// The encoding for a modulator of phase that suits a field: the first of `phase`, `double_phase` and `gradient` whose
+/// pattern correlates with the field by 0.998 or more, or else the one that correlates most. Throws Error(usage) as
+/// encode_pattern() does.
 HOGEL_API Encoding suitable_encoding(const FieldSource& field, const PatternOptions& options);
-inline constexpr double phase_alone_correlation = 0.99;
+inline constexpr double sufficient_correlation = 0.998;
 
 /// Encodes look 0 of a field for a modulator. A field larger than the modulator is cropped to its middle, a smaller one
 /// gets a dark border. The whole modulator is in memory. Throws Error(usage) if the pitches differ, and if a reference
@@ -105,6 +119,17 @@ HOGEL_API Pattern encode_pattern(const FieldSource& field, const PatternOptions&
 /// take a field each, and all of them get all patterns.
 HOGEL_API std::vector<Pattern> encode_patterns(std::span<const std::shared_ptr<const FieldSource>> fields,
                                                const PatternOptions& options, const Progress& progress = {});
+
+/// The patterns of several fields by the encoding that suits all of them.
+struct SuitablePatterns {
+    Encoding encoding = Encoding::phase;
+    std::vector<Pattern> patterns;
+};
+
+/// encode_patterns() by the encoding that suits all fields, as suitable_encoding() judges it, without computing the
+/// patterns again.
+HOGEL_API SuitablePatterns encode_suitably(std::span<const std::shared_ptr<const FieldSource>> fields,
+                                           const PatternOptions& options, const Progress& progress = {});
 
 /// The complex transmission of a pattern [y][x], e^{2πi v} for phases or v for amplitudes, with v its values rounded to
 /// levels. It is the field behind the modulator in a uniform laser beam.

@@ -116,6 +116,10 @@ void add_patterns(py::module_& module) {
         .def_readwrite("window", &PatternOptions::window)
         .def_readwrite("iterations", &PatternOptions::iterations)
         .def_readwrite("phase_code", &PatternOptions::phase_code);
+    py::class_<Aperture>(module, "Aperture")
+        .def_readonly("x", &Aperture::x)
+        .def_readonly("y", &Aperture::y)
+        .def_readonly("radius", &Aperture::radius);
     py::class_<Pattern, std::shared_ptr<Pattern>>(module, "Pattern")
         .def_property_readonly("values",
                                [](const std::shared_ptr<Pattern>& p) {
@@ -129,6 +133,7 @@ void add_patterns(py::module_& module) {
         .def_readonly("light_field_efficiency", &Pattern::light_field_efficiency)
         .def_readonly("reference_angle", &Pattern::reference_angle)
         .def_readonly("iterations", &Pattern::iterations)
+        .def_readonly("aperture", &Pattern::aperture)
         .def_readonly("correlation", &Pattern::correlation);
     module.def(
         "suitable_encoding",
@@ -136,6 +141,17 @@ void add_patterns(py::module_& module) {
             return run_for(py::none(), [&](const Progress&) { return suitable_encoding(*field, options); });
         },
         arg("field"), arg("options"));
+    module.def(
+        "encode_suitably",
+        [](const std::vector<Source>& fields, const PatternOptions& options, const py::object& report) {
+            SuitablePatterns suitable =
+                run_for(report, [&](const Progress& p) { return encode_suitably(fields, options, p); });
+            std::vector<std::shared_ptr<Pattern>> patterns;
+            for (Pattern& pattern : suitable.patterns)
+                patterns.push_back(std::make_shared<Pattern>(std::move(pattern)));
+            return py::make_tuple(suitable.encoding, patterns);
+        },
+        arg("fields"), arg("options"), arg("report"));
     module.def(
         "encode_pattern",
         [](const Source& field, const PatternOptions& options, const py::object& report) {

@@ -38,8 +38,14 @@ class Pattern:
 
     @property
     def correlation(self) -> list[float]:
-        """For each wavelength, of patterns of phases: how like the hologram's wave theirs is within its band."""
+        """For each wavelength, of patterns of phases: how like the hologram's wave theirs is behind the aperture."""
         return [part.correlation for part in self._parts]
+
+    @property
+    def aperture(self) -> list[_core.Aperture]:
+        """For each wavelength, of patterns of phases: the round aperture in the plane of the spectrum that lets the
+        hologram's light through, its middle (x to the right, y downwards) and radius in cycles per pixel."""
+        return [part.aperture for part in self._parts]
 
     @property
     def reference_angle(self) -> list[float]:
@@ -84,12 +90,22 @@ class Pattern:
                 entries.append((f"iterations at {name}", str(part.iterations)))
             if part.reference_angle != 0:
                 entries.append((f"reference angle at {name}", f"{part.reference_angle / units.deg:.6f}deg"))
+            if phases:
+                entries.append((f"aperture at {name}", _in_words(part.aperture, field.grid.wavelength / self.modulator.pitch)))
         return _core.with_history(entries, self._fields[0].provenance)
 
     def __repr__(self) -> str:
         m = self.modulator
         shares = ", ".join(f"{100 * share:.3g} %" for share in self.efficiency)
         return f"Pattern({m.width}x{m.height} pixels {units.say_length(m.pitch)} apart, {self.encoding}, efficiency {shares})"
+
+
+def _in_words(aperture: _core.Aperture, per_cycle: float) -> str:
+    """The words of `hogel slm`; per_cycle: wavelength over pixel pitch."""
+    middle = ""
+    if aperture.x != 0 or aperture.y != 0:
+        middle = f" around {aperture.x:.4f} to the right and {-aperture.y:.4f} up"
+    return f"radius {aperture.radius:.4f} cycles a pixel{middle}, {aperture.radius * per_cycle * 0.2 / 1e-3:.2f} mm at a lens of 200 mm"
 
 
 def modulator_of(
@@ -137,12 +153,13 @@ def pattern_of(
         options.window = window
     options.iterations = iterations
     options.phase_code = _core.parse_phase_code(phase_code) if isinstance(phase_code, str) else phase_code
-    if encoding == "auto":
-        alone = all(_core.suitable_encoding(field, options) == _core.Encoding.phase for field in fields)
-        encoding = "phase" if alone else "gradient"
-    options.encoding = _core.encoding(encoding)
     with reporting(progress, "pattern") as report:
-        parts = [_core.encode_pattern(field, options, report) for field in fields]
+        if encoding == "auto":
+            options.encoding, parts = _core.encode_suitably(fields, options, report)
+            encoding = options.encoding.name.replace("_", "-")
+        else:
+            options.encoding = _core.encoding(encoding)
+            parts = [_core.encode_pattern(field, options, report) for field in fields]
     pattern = Pattern(np.stack([part.levels for part in parts], axis=-1), encoding, modulator, parts)
     if made is None:
         return pattern
@@ -155,10 +172,10 @@ def pattern_of(
             acted["levels"] = str(modulator.levels)
     else:
         acted["device"] = device
-    if encoding in ("gerchberg-saxton", "gradient"):
+    if encoding == "gerchberg-saxton":
         acted["window"] = str(options.window)
-        if iterations:
-            acted["iterations"] = str(iterations)
+    if encoding in ("gerchberg-saxton", "gradient") and iterations:
+        acted["iterations"] = str(iterations)
     if encoding not in ("phase", "binary"):
         acted["clip"] = _record.number(options.clip)
     if encoding in ("intensity", "bipolar", "binary"):

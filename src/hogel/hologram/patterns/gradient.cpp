@@ -202,9 +202,9 @@ Numbers all_rows(Numbers own, std::size_t rows, Team* team) {
 
 }  // namespace
 
-// Descent on the phases φ for ε = 1 − C², with C the correlation of e^{iφ} and the field within the field's band; the
-// light beyond is free, and an aperture blocks it. The objective is that of Chakravarthula, Peng, Kollin, Fuchs and
-// Heide, Wirtinger holography, ACM TOG 38(6), 2019, in the field's own plane.
+// Descent on the phases φ for ε = 1 − C², with C the correlation of the field and of what an aperture for it lets
+// through of e^{iφ}; the light that the aperture blocks is free. The objective is that of Chakravarthula, Peng, Kollin,
+// Fuchs and Heide, Wirtinger holography, ACM TOG 38(6), 2019, in the field's own plane.
 Array<float, 2> descend_phases(View<const Complex, 2> field, const FieldBand& band, const PatternOptions& options,
                                Convergence& convergence, const Progress& progress, Team* team) {
     PatternError error(band, field.shape(), team);

@@ -70,8 +70,9 @@ void for_rows(const Shape<2>& shape, const Element& element) {
     });
 }
 
-// Scales the field so that |F| <= 1 except for the share `clip` of its samples, whose modulus is clipped to 1.
-void normalise(Array<Complex, 2>& field, double clip) {
+// Scales the field so that |F| <= 1 except for the share `clip` of its samples, whose modulus is clipped to 1. The
+// modulus that became 1.
+float normalise(Array<Complex, 2>& field, double clip) {
     std::vector<float, CacheLineAllocator<float>> moduli(field.size());
     for_rows(field.shape(), [&](std::size_t i) { moduli[i] = std::abs(field.data()[i]); });
     std::erase(moduli, 0.0f);
@@ -85,6 +86,7 @@ void normalise(Array<Complex, 2>& field, double clip) {
         value *= scale;
         if (const float modulus = std::abs(value); modulus > 1) value /= modulus;
     });
+    return 1 / scale;
 }
 
 float cycles_of(Complex value) {
@@ -147,6 +149,16 @@ double efficiency_of(View<const Complex, 2> transmitted, View<const Complex, 2> 
         return row;
     });
     return std::norm(sums.product) / (sums.energy * static_cast<double>(field.size()));
+}
+
+double mean_power(View<const Complex, 2> field) {
+    return sum_of_lines(field.extent(0), nullptr,
+                        [&](std::size_t y) {
+                            double row = 0;
+                            for (std::size_t x = 0; x < field.extent(1); ++x) row += std::norm(field(y, x));
+                            return row;
+                        }) /
+           static_cast<double>(field.size());
 }
 
 struct LightShare {
@@ -225,21 +237,22 @@ Pattern hologram::patterns::encode_by(Team* team, const FieldSource& source, con
     const core::StopScope scope(progress);
     require_fitting(source.grid(), options);
     Array<Complex, 2> field = fit(source, options.modulator);
-    normalise(field, options.clip);
+    const double unit = normalise(field, options.clip);
     Pattern pattern;
     Carrier carrier;
     Convergence convergence;
     const bool phases = is_phase_only(options.encoding);
     std::optional<FieldBand> band;
-    if (options.encoding == Encoding::gradient) require_squares_fit(field, options.window);
-    if (phases) band.emplace(field, options.window);
+    if (phases) band.emplace(field);
     pattern.values = phases
                          ? encode_phase(field, *band, options, convergence, progress, team)
                          : encode_amplitude(field, options, source.grid().wavelength, carrier, pattern.reference_angle);
     pattern.levels = round_to_levels(pattern.values, options.modulator.levels, phases, options.phase_code);
     const Array<Complex, 2> transmitted = transmission(pattern, options.encoding, options.phase_code);
     pattern.efficiency = efficiency_of(transmitted, field, carrier);
+    pattern.power = unit * unit * mean_power(field) / pattern.efficiency;
     if (!phases) return pattern;
+    pattern.aperture = band->aperture();
     pattern.light_field_efficiency = light_field_efficiency_of(transmitted, field, options.window, team);
     pattern.iterations = convergence.iterations;
     Array<Complex, 2> spectrum = transmitted;
@@ -248,12 +261,11 @@ Pattern hologram::patterns::encode_by(Team* team, const FieldSource& source, con
 }
 
 Encoding suitable_encoding(const FieldSource& source, const PatternOptions& options) {
-    require_fitting(source.grid(), options);
-    const Array<Complex, 2> field = fit(source, options.modulator);
-    Array<Complex, 2> phases(field.shape());
-    for_rows(field.shape(), [&](std::size_t i) { phases.data()[i] = std::polar(1.0f, std::arg(field.data()[i])); });
-    const double error = FieldBand(field, options.window).match(phases).error;
-    return std::sqrt(1 - error) >= phase_alone_correlation ? Encoding::phase : Encoding::gradient;
+    return find_suitable(options, {},
+                         [&](const PatternOptions& tried, const Progress& progress) {
+                             return std::vector{encode_pattern(source, tried, progress)};
+                         })
+        .encoding;
 }
 
 Array<Complex, 2> transmission(const Pattern& pattern, Encoding encoding, const PhaseCode& phase_code) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <complex>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hogel/core/parallel.h"
@@ -62,7 +64,7 @@ Array<float, 2> iterate_phases(View<const std::complex<float>, 2> field, const P
 /// How often the phases of a pattern were changed, and what was reached.
 struct Convergence {
     std::size_t iterations = 0;
-    double correlation = 0;  ///< within the field's band, before rounding to levels
+    double correlation = 0;  ///< behind the aperture, before rounding to levels
 };
 
 class FieldBand;
@@ -76,12 +78,13 @@ Array<float, 2> descend_phases(View<const std::complex<float>, 2> field, const F
 /// Iterations where PatternOptions::iterations is 0: alternating projections, and the most of a descent.
 inline constexpr std::size_t projections = 40, max_descent_steps = 200;
 
-/// The band of a field: the frequencies at which it has light, judged by its mean spectrum in squares. An aperture of
-/// that shape would pass them alone.
+/// The band of a field: the frequencies that the aperture for it lets through, and a tenth farther. See
+/// Pattern::aperture.
 class FieldBand {
   public:
-    /// @param side  of the squares, samples
-    FieldBand(View<const std::complex<float>, 2> field, std::size_t side);
+    explicit FieldBand(View<const std::complex<float>, 2> field);
+
+    const Aperture& aperture() const { return aperture_; }
 
     /// Sums over frequencies of the band, of a pattern's spectrum P and the field's F.
     struct Sums {
@@ -101,7 +104,8 @@ class FieldBand {
 
     /// How a pattern and the field match within the band.
     struct Match {
-        double error = 1;                ///< ε = 1 − |Σ P F*|² / (Σ|P|² Σ|F|²) over the band's frequencies
+        /// ε = 1 − |Σ P F*|² / (Σ|P|² Σ|F|²), of P over the band's frequencies, of F over all
+        double error = 1;
         std::complex<double> scale = 0;  ///< s, for which Σ|s P − F|² is least: ε Σ|F|²
         std::complex<float> slope = 0;   ///< 2 s* / Σ|F|²
     };
@@ -119,13 +123,34 @@ class FieldBand {
     math::Fft2 fft_;
     Array<std::complex<float>, 2> wanted_;  // the field's spectrum, 0 beyond the band
     std::vector<std::uint8_t> lit_;         // whether a frequency belongs to the band
-    double energy_ = 0;                     // Σ|F|²
+    double energy_ = 0;                     // Σ|F|², also beyond the band
+    Aperture aperture_;
 };
 
 /// encode_pattern(), by the processes of a team together where the encoding allows it: see can_be_shared().
 Pattern encode_by(Team* team, const FieldSource& source, const PatternOptions& options, const Progress& progress);
 /// Whether processes can work on one pattern together.
 inline bool can_be_shared(Encoding encoding) { return encoding == Encoding::gradient; }
+
+/// The first of `phase`, `double_phase` and `gradient` by which all patterns have sufficient_correlation, or else the
+/// one whose least correlation is highest, with the patterns.
+/// @param encode  patterns encode(options, progress), for the encoding that the options name
+template <class Encode>
+SuitablePatterns find_suitable(PatternOptions options, const Progress& progress, const Encode& encode) {
+    SuitablePatterns best;
+    double highest = -1;
+    std::size_t tried = 0;
+    for (const Encoding encoding : {Encoding::phase, Encoding::double_phase, Encoding::gradient}) {
+        options.encoding = encoding;
+        std::vector<Pattern> patterns = encode(options, progress.part(tried++, 3));
+        const double correlation = std::ranges::min(patterns, {}, &Pattern::correlation).correlation;
+        if (correlation <= highest) continue;
+        highest = correlation;
+        best = {encoding, std::move(patterns)};
+        if (highest >= sufficient_correlation) break;
+    }
+    return best;
+}
 
 /// Throws Error(usage) unless squares of this side fit the modulator.
 void require_squares_fit(View<const std::complex<float>, 2> field, std::size_t side);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "hogel/core/random.h"
@@ -225,14 +226,89 @@ TEST(Pattern, its_correlation_is_that_behind_an_aperture) {
     EXPECT_NEAR(std::abs(product) / std::sqrt(energy * all), pattern.correlation, 0.003);
 }
 
-TEST(Pattern, the_encoding_that_suits_a_field_is_phase_for_an_even_modulus_alone) {
+TEST(Pattern, the_encoding_that_suits_a_field_is_the_first_that_shows_it) {
     PatternOptions options = descent_options();
     EXPECT_EQ(suitable_encoding(plane_wave(), options), Encoding::phase);
     EXPECT_EQ(suitable_encoding(speckle(0.2), options), Encoding::gradient);
-    EXPECT_EQ(suitable_encoding(smooth_phase(), options), Encoding::gradient);
+    EXPECT_EQ(suitable_encoding(smooth_phase(), options), Encoding::double_phase);
     options.encoding = Encoding::phase;
-    EXPECT_GT(encode_pattern(plane_wave(), options).correlation, phase_alone_correlation);
+    EXPECT_GT(encode_pattern(plane_wave(), options).correlation, sufficient_correlation);
     EXPECT_LT(encode_pattern(smooth_phase(), options).correlation, 0.95);
+}
+
+// A bright even field with a weak, fine texture: nearly all light is at frequency zero, and the picture is elsewhere.
+Field textured(double band, double strength, double carrier = 0) {
+    Field field = speckle(band, 5);
+    double mean = 0;
+    for (const Complex& value : field.samples.elements()) mean += std::norm(value) / (side * side);
+    for (std::size_t y = 0; y < side; ++y)
+        for (std::size_t x = 0; x < side; ++x) {
+            Complex& value = field.samples(y, x);
+            value = (1.0f + value * float(strength / std::sqrt(mean))) *
+                    Complex(std::polar(1.0, 2 * std::numbers::pi * carrier * double(x)));
+        }
+    return field;
+}
+
+// What an aperture around frequency zero lets through of a pattern, against the field: PSNR of the intensity, dB.
+double psnr_behind(double radius, const Pattern& pattern, Encoding encoding, const Field& field) {
+    Array<Complex, 2> shown = transmission(pattern, encoding);
+    const math::Fft2 fft(side, side);
+    fft.forward(shown);
+    const auto frequency = [](std::size_t k) { return double(std::min(k, side - k)) / side; };
+    for (std::size_t y = 0; y < side; ++y)
+        for (std::size_t x = 0; x < side; ++x)
+            if (std::hypot(frequency(x), frequency(y)) > radius) shown(y, x) = 0;
+    fft.backward(shown);
+    double product = 0, energy = 0, peak = 0, error = 0;
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        const double a = std::norm(shown.data()[i]), b = std::norm(field.samples.data()[i]);
+        product += a * b;
+        energy += a * a;
+        peak = std::max(peak, b);
+    }
+    for (std::size_t i = 0; i < shown.size(); ++i)
+        error += std::pow(product / energy * std::norm(shown.data()[i]) - std::norm(field.samples.data()[i]), 2);
+    return 10 * std::log10(peak * peak * double(shown.size()) / error);
+}
+
+TEST(Pattern, what_suits_a_smooth_field_shows_its_picture_behind_the_aperture) {
+    for (const double band : {0.05, 0.2}) {
+        const Field field = textured(band, band < 0.1 ? 0.15 : 0.5);
+        PatternOptions options = descent_options();
+        options.encoding = suitable_encoding(field, options);
+        const Pattern pattern = encode_pattern(field, options);
+        EXPECT_EQ(options.encoding, band < 0.1 ? Encoding::double_phase : Encoding::gradient);
+        EXPECT_GT(pattern.aperture.radius, band);
+        EXPECT_LT(pattern.aperture.radius, 1.5 * band);
+        EXPECT_EQ(pattern.aperture.x, 0);
+        for (const double scale : {1.0, 1.08})
+            EXPECT_GT(psnr_behind(scale * pattern.aperture.radius, pattern, options.encoding, field), 32);
+    }
+}
+
+TEST(Pattern, the_aperture_is_around_the_light_of_a_field_beside_frequency_zero) {
+    const Pattern pattern = encode_pattern(textured(0.05, 0.15, 0.25), options_for(Encoding::phase));
+    EXPECT_NEAR(pattern.aperture.x, 0.25, 0.002);
+    EXPECT_NEAR(pattern.aperture.y, 0, 0.002);
+    EXPECT_NEAR(pattern.aperture.radius, 0.06, 0.01);
+}
+
+TEST(Pattern, a_field_that_fills_the_band_of_the_modulator_correlates_little) {
+    const Pattern pattern = encode_pattern(speckle(0.49), descent_options());
+    EXPECT_EQ(pattern.aperture.radius, 0.4);
+    EXPECT_LT(pattern.correlation, 0.8);
+}
+
+TEST(Pattern, encodes_suitably_several_fields_by_one_encoding) {
+    const auto wave = std::make_shared<Field>(plane_wave()), other = std::make_shared<Field>(speckle(0.2));
+    const PatternOptions options = descent_options();
+    const std::shared_ptr<const FieldSource> fields[] = {wave, other};
+    const SuitablePatterns suitable = encode_suitably(fields, options);
+    EXPECT_EQ(suitable.encoding, Encoding::gradient);
+    ASSERT_EQ(suitable.patterns.size(), 2u);
+    EXPECT_TRUE(
+        std::ranges::equal(suitable.patterns[1].levels.elements(), encode_pattern(*other, options).levels.elements()));
 }
 
 TEST(Pattern, is_the_middle_of_the_field_or_has_a_border_and_rounds_to_levels) {

@@ -14,6 +14,8 @@ void put_numbers(core::MessageWriter& message, const Pattern& pattern) {
     message.put(pattern.reference_angle);
     message.put(pattern.iterations);
     message.put(pattern.correlation);
+    message.put(pattern.aperture);
+    message.put(pattern.power);
 }
 
 void get_numbers(core::MessageReader& message, Pattern& pattern) {
@@ -22,6 +24,8 @@ void get_numbers(core::MessageReader& message, Pattern& pattern) {
     pattern.reference_angle = message.get<double>();
     pattern.iterations = message.get<std::size_t>();
     pattern.correlation = message.get<double>();
+    pattern.aperture = message.get<Aperture>();
+    pattern.power = message.get<double>();
 }
 
 void put(core::MessageWriter& message, const Pattern& pattern) {
@@ -108,6 +112,13 @@ std::vector<Pattern> encode_patterns(std::span<const std::shared_ptr<const Field
     for (std::size_t i = fields.size() - left; i < fields.size(); ++i)
         patterns[i] = hologram::patterns::encode_by(all, *fields[i], options, progress.part(i, fields.size()));
     return patterns;
+}
+
+SuitablePatterns encode_suitably(std::span<const std::shared_ptr<const FieldSource>> fields,
+                                 const PatternOptions& options, const Progress& progress) {
+    return hologram::patterns::find_suitable(options, progress, [&](const PatternOptions& tried, const Progress& part) {
+        return encode_patterns(fields, tried, part);
+    });
 }
 
 }  // namespace hogel
