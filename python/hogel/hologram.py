@@ -9,6 +9,7 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from . import _core, _record, units
+from ._keywords import passes_options_to
 from ._progress import Progress, reporting
 from ._samples import Path
 from .camera import camera as camera_of
@@ -216,6 +217,7 @@ class Hologram:
         """
         return Hologram([field.load(progress=progress) for field in self])
 
+    @passes_options_to(Field.propagate)
     def propagate(self, distance: units.Length, **options: Any) -> "Hologram":
         """All fields on a parallel plane: Field.propagate().
 
@@ -238,6 +240,7 @@ class Hologram:
                 made._made["output-pitch"] = _record.length(plane.pitch_x)
         return made
 
+    @passes_options_to(camera_of)
     def photograph(
         self,
         *,

@@ -9,6 +9,7 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from . import _core, _record, units
+from ._keywords import passes_options_to
 from ._progress import Progress, reporting
 from ._rays import Rays
 from ._samples import Path, array_of
@@ -95,6 +96,7 @@ class LightField(Rays):
         return cls(_core.light_field_of_array(grid, values, depths, metadata), "in memory")
 
     @classmethod
+    @passes_options_to(request)
     def from_function(
         cls, function: Callable[..., Any], *, channels: int = 3, depth: bool = False, metadata: Any = None, **options: Any
     ) -> "LightField":
@@ -270,6 +272,7 @@ class LightField(Rays):
             return _core.open_for_holograms(self.where, wanted, any_transform)
         return _core.with_common_directions(self._light_field)
 
+    @passes_options_to(camera)
     def photograph(
         self, *, cameras: Optional[Sequence[_core.Camera]] = None, pupil_samples: Optional[int] = None,
         progress: Progress = None, **options: Any
@@ -291,6 +294,7 @@ class LightField(Rays):
             pictures[0]._made = ("photo", {**_record.renamed(self._made, "scene", "input"), **acted})
         return pictures[0] if cameras is None else pictures
 
+    @passes_options_to(export_views)
     def export(self, target: Path, **options: Any) -> _core.ExportedViews:
         """Writes the light field as a set of views, or a film of its middle row: hogel.export_views().
 
@@ -302,6 +306,7 @@ class LightField(Rays):
         """
         return export_views(self, target, **options)
 
+    @passes_options_to(write_printer_images)
     def print(self, folder: Path, **options: Any) -> list[str]:
         """Writes the pictures that a hologram printer shows: hogel.exports.write_printer_images().
 

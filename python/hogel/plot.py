@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any, Optional, Union
 import numpy as np
 
 from . import _core, units
+from ._keywords import passes_options_to
 from ._progress import Progress
 from .errors import NotBuiltInError, UsageError
 from .field import Field
@@ -184,6 +185,7 @@ def _photograph_axes(axis: Any, picture: Picture, factor: float, title: str) -> 
     axis.tick_params(labelsize=7)
 
 
+@passes_options_to(LightField.photograph, Hologram.photograph)
 def focal_stack(
     source: Union[LightField, Hologram],
     depths: Sequence[units.Length] = ("-4mm", "0mm", "4mm"),
@@ -213,6 +215,7 @@ def focal_stack(
     return figure
 
 
+@passes_options_to(LightField.photograph, Hologram.photograph)
 def twins(
     hologram: Hologram, lf: LightField, *, exposure: Union[str, float] = "auto", **camera: Any
 ) -> "Figure":

@@ -10,6 +10,7 @@ import numpy as np
 
 from . import _core, _record, units
 from . import pose as pose_of
+from ._keywords import passes_options_to
 from ._progress import Progress, reporting
 from .errors import BadInputError, UsageError
 from .hologram import Hologram
@@ -204,6 +205,7 @@ class Scene:
                 return _core.load_scene(self.name, wanted, report)
             return _core.prepare_scene(self._scene, wanted)
 
+    @passes_options_to(request)
     def advise(
         self, hologram: Optional[_core.HologramRequest] = None, *, progress: Progress = None, **options: Any
     ) -> list[_core.Advice]:
@@ -219,6 +221,7 @@ class Scene:
         wanted = request(**options)
         return _core.advise(self.placed(wanted, progress), wanted, _core.HologramRequest() if hologram is None else hologram)
 
+    @passes_options_to(request)
     def render(self, *, progress: Progress = None, **options: Any) -> LightField:
         """The light field of the scene, rendered when it is read: by save(), np.asarray(), slices or load().
 
@@ -265,6 +268,7 @@ class Scene:
                 made["front"] = _record.words(options.get("front"), _core.defaults["front"])
         return made
 
+    @passes_options_to(request)
     def hologram(
         self,
         *,

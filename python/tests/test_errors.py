@@ -56,6 +56,25 @@ class Errors(InFolder):
             with self.subTest(f"{number} {pattern}"), self.assertRaisesRegex(hogel.UsageError, pattern):
                 work()
 
+    def test_an_unknown_option_names_the_function_that_was_called(self):
+        lf, _ = light_field()
+        scene = hogel.Scene.load("pumpkin")
+        cases = [
+            (lambda: scene.render(hogel=16), r"^Scene\.render\(\) .* 'hogel'; did you mean 'hogels'\?$"),
+            (lambda: scene.advise(sizes=1), r"^Scene\.advise\(\) .*'size'"),
+            (lambda: scene.hologram(methods="points"), r"^Scene\.hologram\(\) .*'method'"),
+            (lambda: hogel.LightField.from_function(abs, hogel=1), r"^LightField\.from_function\(\) .*'hogels'"),
+            (lambda: lf.photograph(resolutions=3), r"^LightField\.photograph\(\) .*'resolution'"),
+            (lambda: lf.photograph(cameras=[], nonsense=3), r"^LightField\.photograph\(\) .* argument 'nonsense'$"),
+            (lambda: lf.export("views", layouts="hci"), r"^LightField\.export\(\) .*'layout'"),
+            (lambda: lf.print("prints", strip=True), r"^LightField\.print\(\) .*'strips'"),
+            (lambda: lf.hologram().photograph(pupils=1), r"^Hologram\.photograph\(\) .*'pupil'"),
+            (lambda: lf.hologram().propagate("1mm", ofset_x=1), r"^Hologram\.propagate\(\) .*'offset_x'"),
+        ]
+        for number, (work, pattern) in enumerate(cases):
+            with self.subTest(f"{number} {pattern}"), self.assertRaisesRegex(TypeError, pattern):
+                work()
+
     def test_nothing_is_written_after_an_error(self):
         lf, _ = light_field()
         with self.assertRaises(hogel.UsageError):
