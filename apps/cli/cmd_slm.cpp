@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +52,7 @@ Modulator modulator_of(const Options& options) {
 // The share of light that a pattern uses, and its direction.
 // @param per_cycle  wavelength over pixel pitch
 Result result_of(const Pattern& pattern, double wavelength, double per_cycle, Encoding encoding) {
-    Result result{{"wavelength_m", wavelength}, {"efficiency", pattern.efficiency}};
+    Result result{{"wavelength_m", wavelength}, {"efficiency", pattern.efficiency}, {"power", pattern.power}};
     if (is_phase_only(encoding)) {
         result.emplace_back("light_field_efficiency", pattern.light_field_efficiency);
         result.emplace_back("correlation", pattern.correlation);
@@ -118,6 +119,7 @@ void report(const Pattern& pattern, double wavelength, double per_cycle, Encodin
         metadata.emplace_back("reference angle at " + name, fmt::format("{:.6f}deg", degrees));
     }
     session.say(line);
+    metadata.emplace_back("power at " + name, fmt::format("{:.6g}", pattern.power));
     if (!phases) return;
     const std::string aperture = in_words(pattern.aperture, per_cycle);
     session.say(fmt::format("{}: aperture: {}", name, aperture));
@@ -129,6 +131,13 @@ void report(const Pattern& pattern, double wavelength, double per_cycle, Encodin
                         "--phase fixed --fov {:.2g}deg, by --encoding double-phase",
                         name, poor_correlation, fine_view(per_cycle) * 90 / std::numbers::pi,
                         fine_view(per_cycle) * 180 / std::numbers::pi));
+}
+
+// The ratio of the powers that show the colours of the hologram, that of the second wavelength being 1.
+std::string powers_of(const std::vector<Pattern>& patterns) {
+    std::vector<std::string> ratio;
+    for (const Pattern& pattern : patterns) ratio.push_back(fmt::format("{:.3g}", pattern.power / patterns[1].power));
+    return fmt::format("white where the powers of the light on the modulator are {}", fmt::join(ratio, " : "));
 }
 
 std::string name_of(Encoding encoding) {
@@ -196,6 +205,7 @@ int slm(const Options& options, const Session& session) {
         report(pattern, wavelength, per_cycle, encoded.encoding, session, metadata);
         patterns.push_back(result_of(pattern, wavelength, per_cycle, encoded.encoding));
     }
+    if (colours == 3) session.say(powers_of(encoded.patterns));
     if (!is_first_process()) return 0;
     write_raw_pixels(options.output, levels, with_history(metadata, to_metadata(fields.front()->provenance())));
     kept.complete();

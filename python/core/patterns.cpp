@@ -134,7 +134,8 @@ void add_patterns(py::module_& module) {
         .def_readonly("reference_angle", &Pattern::reference_angle)
         .def_readonly("iterations", &Pattern::iterations)
         .def_readonly("aperture", &Pattern::aperture)
-        .def_readonly("correlation", &Pattern::correlation);
+        .def_readonly("correlation", &Pattern::correlation)
+        .def_readonly("power", &Pattern::power);
     module.def(
         "suitable_encoding",
         [](const Source& field, const PatternOptions& options) {

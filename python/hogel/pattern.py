@@ -48,6 +48,12 @@ class Pattern:
         return [part.aperture for part in self._parts]
 
     @property
+    def power(self) -> list[float]:
+        """For each wavelength, the power of the light on a pixel that makes the pattern as bright as the hologram; their
+        ratio is that of the powers which show the hologram's colours."""
+        return [part.power for part in self._parts]
+
+    @property
     def reference_angle(self) -> list[float]:
         """For each wavelength, the angle of the reference wave, radians; 0 without one."""
         return [part.reference_angle for part in self._parts]
@@ -90,6 +96,7 @@ class Pattern:
                 entries.append((f"iterations at {name}", str(part.iterations)))
             if part.reference_angle != 0:
                 entries.append((f"reference angle at {name}", f"{part.reference_angle / units.deg:.6f}deg"))
+            entries.append((f"power at {name}", f"{part.power:.6g}"))
             if phases:
                 entries.append((f"aperture at {name}", _in_words(part.aperture, field.grid.wavelength / self.modulator.pitch)))
         return _core.with_history(entries, self._fields[0].provenance)

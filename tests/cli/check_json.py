@@ -41,7 +41,7 @@ PROPAGATED = {"wavelengths_m": [REAL], "distance_m": REAL,
                                 "frequencies_x": COUNT, "frequencies_y": COUNT, "tiles": COUNT}]}
 PLANE = FILE | PROPAGATED | {"pitch_x_m": REAL, "pitch_y_m": REAL}
 SLM = FILE | {"width": COUNT, "height": COUNT, "pixel_pitch_m": REAL, "levels": COUNT, "encoding": WORD}
-PATTERN = {"wavelength_m": REAL, "efficiency": REAL}
+PATTERN = {"wavelength_m": REAL, "efficiency": REAL, "power": REAL}
 MADE = {"folder": WORD, "report": WORD, "triangles": COUNT, "wavelengths_m": [REAL], "looks": COUNT, "width": COUNT,
         "height": COUNT, "exposure": REAL, "seconds": REAL,
         "photographs": [{"file": WORD, "expected_file": WORD, "geometric_file": WORD, "psnr": DECIBELS, "ssim": REAL}]}

@@ -300,6 +300,27 @@ TEST(Pattern, a_field_that_fills_the_band_of_the_modulator_correlates_little) {
     EXPECT_LT(pattern.correlation, 0.8);
 }
 
+// With light of the stated power the pattern has the field's amplitudes.
+TEST(Pattern, shows_the_field_as_bright_as_it_is_with_light_of_its_power) {
+    Field field = speckle(0.1);
+    for (Complex& value : field.samples.elements()) value *= 0.37f;
+    for (const Encoding encoding :
+         {Encoding::phase, Encoding::double_phase, Encoding::gradient, Encoding::bipolar, Encoding::lee}) {
+        const Pattern pattern = encode_pattern(field, options_for(encoding));
+        const Array<Complex, 2> shown = transmission(pattern, encoding);
+        const double frequency = std::sin(pattern.reference_angle) * 8_um / 633_nm;
+        std::complex<double> product = 0;
+        double energy = 0;
+        for (std::size_t y = 0; y < side; ++y)
+            for (std::size_t x = 0; x < side; ++x) {
+                const Complex back = Complex(std::polar(1.0, 2 * std::numbers::pi * frequency * double(x)));
+                product += std::complex<double>(shown(y, x) * back * std::conj(field.samples(y, x)));
+                energy += std::norm(field.samples(y, x));
+            }
+        EXPECT_NEAR(std::sqrt(pattern.power) * std::abs(product) / energy, 1, 0.01) << int(encoding);
+    }
+}
+
 TEST(Pattern, encodes_suitably_several_fields_by_one_encoding) {
     const auto wave = std::make_shared<Field>(plane_wave()), other = std::make_shared<Field>(speckle(0.2));
     const PatternOptions options = descent_options();

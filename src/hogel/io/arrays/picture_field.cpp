@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 
 #include "hogel/error.h"
 #include "hogel/image.h"
 #include "hogel/io/arrays/numbers.h"
+#include "hogel/units.h"
 
 namespace hogel::io::arrays {
 namespace {
@@ -45,6 +48,18 @@ std::filesystem::path second_picture(const std::filesystem::path& path, const Ex
     return what.imaginary.empty() ? what.phases : what.imaginary;
 }
 
+// What a pattern is to be multiplied with to have the amplitudes of its hologram, if the file says which power its
+// light needs, as those of `hogel slm` do; otherwise 1.
+float amplitude_scale(const std::filesystem::path& path, double wavelength) {
+    const std::string key = "power at " + format_length(wavelength);
+    for (const auto& [name, text] : read_metadata(path)) {
+        double power = 0;
+        if (name != key || std::from_chars(text.data(), text.data() + text.size(), power).ec != std::errc()) continue;
+        if (power > 1e-12 && power < 1e12) return static_cast<float>(std::sqrt(power));
+    }
+    return 1;
+}
+
 }  // namespace
 
 ExternalFacts picture_facts(const std::filesystem::path& path, const ExternalField& what) {
@@ -76,9 +91,10 @@ std::unique_ptr<FieldSource> open_picture_field(const std::filesystem::path& pat
     const std::size_t colour[2] = {channels[0] == 1 ? 0 : what.colour, channels[1] == 1 ? 0 : what.colour};
     if (content == Content::complex)
         convert.set_zero(zero_of(first, colour[0], what), zero_of(second, colour[1], what));
+    const float scale = two ? 1 : amplitude_scale(path, what.wavelength);
     for (std::size_t i = 0; i < field->samples.size(); ++i)
-        field->samples.data()[i] = convert(double{first.values.data()[i * channels[0] + colour[0]]},
-                                           two ? double{second.values.data()[i * channels[1] + colour[1]]} : 0);
+        field->samples.data()[i] = scale * convert(double{first.values.data()[i * channels[0] + colour[0]]},
+                                                   two ? double{second.values.data()[i * channels[1] + colour[1]]} : 0);
     return field;
 }
 
