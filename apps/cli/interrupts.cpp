@@ -39,8 +39,9 @@ struct Interrupts::Impl {
 Interrupts::Interrupts(std::stop_source stop) : impl_(std::make_unique<Impl>()) {
     impl_->stop = std::move(stop);
     sigemptyset(&impl_->signals);
-    // A pipe that nobody reads any more is an error of writing, not the end of the program.
-    ::signal(SIGPIPE, SIG_IGN);
+    // A pipe that nobody reads any more and a file that reaches the limit of `ulimit -f` are errors of writing, not the
+    // end of the program.
+    for (const int signal : {SIGPIPE, SIGXFSZ}) ::signal(signal, SIG_IGN);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction inherited {};
         if (signal == SIGHUP && sigaction(SIGHUP, nullptr, &inherited) == 0 && inherited.sa_handler == SIG_IGN)

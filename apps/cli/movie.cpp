@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "movie.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
+#include <sys/file.h>
 #include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
 
 #include "hogel/error.h"
 #include "hogel/films.h"
+#include "hogel/pipeline.h"
 
 namespace hogel::cli {
 namespace fs = std::filesystem;
@@ -18,20 +25,66 @@ std::string numbered(const fs::path& path, std::size_t frame) {
     return (path.parent_path() / name).string();
 }
 
+// The number of the process that made a temporary folder of frames, or 0 for any other name.
+pid_t maker_of(const std::string& name, const std::string& beginning) {
+    int pid = 0, parsed = 0;
+    const bool is_one = name.starts_with(beginning) &&
+                        std::sscanf(name.c_str() + beginning.size(), "%d.tmp%n", &pid, &parsed) == 1 &&
+                        beginning.size() + static_cast<std::size_t>(parsed) == name.size();
+    return is_one ? pid : 0;
+}
+
+// Opens a folder and locks it. Returns its descriptor, or -1 if another process holds the lock.
+int open_locked(const fs::path& folder) {
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NOFOLLOW);
+    if (descriptor < 0 || ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
+    ::close(descriptor);
+    return -1;
+}
+
+// Removes the folders of processes that were killed while they made this film.
+void remove_stale_folders(const fs::path& parent, const std::string& beginning) {
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(parent, none)) {
+        const pid_t maker = maker_of(entry.path().filename().string(), beginning);
+        if (maker <= 0 || ::kill(maker, 0) == 0 || errno != ESRCH) continue;
+        // A process of another machine that shares the folder may hold the lock.
+        const int descriptor = open_locked(entry.path());
+        if (descriptor < 0) continue;
+        fs::remove_all(entry.path(), none);
+        ::close(descriptor);
+    }
+}
+
+// Moves a frame out of the folder, behind a symbolic link. Returns its size in bytes.
+std::uintmax_t put_in_place(const FrameFolder& folder, const fs::path& frame) {
+    std::error_code error;
+    const fs::path name = fs::is_symlink(frame, error) ? fs::weakly_canonical(frame, error) : frame;
+    fs::rename(folder.path() / frame.filename(), name, error);
+    if (error)
+        throw Error(ErrorCode::cannot_write, fmt::format("cannot write '{}': {}", frame.string(), error.message()));
+    return fs::file_size(name);
+}
+
 bool is_numbered(const fs::path& path) { return path.filename().string().find('#') != std::string::npos; }
 
 }  // namespace
 
-FrameFolder::FrameFolder(const fs::path& beside)
-    : path_(fs::absolute(beside).parent_path() / fmt::format(".{}.{}.tmp", beside.filename().string(), getpid())) {
+FrameFolder::FrameFolder(const fs::path& beside) {
+    const fs::path parent = fs::absolute(beside).parent_path();
+    const std::string beginning = fmt::format(".{}.", beside.filename().string());
+    remove_stale_folders(parent, beginning);
+    path_ = parent / fmt::format("{}{}.tmp", beginning, getpid());
     std::error_code error;
     if (!fs::create_directory(path_, error))
         throw Error(ErrorCode::cannot_write, fmt::format("{}: cannot create this folder", path_.string()));
+    lock_ = open_locked(path_);
 }
 
 FrameFolder::~FrameFolder() {
     std::error_code ignored;
     fs::remove_all(path_, ignored);
+    if (lock_ >= 0) ::close(lock_);
 }
 
 bool is_film(const fs::path& path) {
@@ -56,15 +109,15 @@ void require_movie(const fs::path& path) {
 
 std::uintmax_t write_movie(const fs::path& path, std::span<const Image> frames, double exposure, double frames_a_second,
                            const Metadata& metadata, const Progress& progress) {
+    const FrameFolder folder(path);
     if (is_numbered(path)) {
+        for (std::size_t i = 0; i < frames.size(); ++i) require_writable(numbered(path, i));
+        for (std::size_t i = 0; i < frames.size(); ++i)
+            write_image(folder.path() / numbered(path.filename(), i), frames[i], exposure, metadata);
         std::uintmax_t bytes = 0;
-        for (std::size_t i = 0; i < frames.size(); ++i) {
-            write_image(numbered(path, i), frames[i], exposure, metadata);
-            bytes += fs::file_size(numbered(path, i));
-        }
+        for (std::size_t i = 0; i < frames.size(); ++i) bytes += put_in_place(folder, numbered(path, i));
         return bytes;
     }
-    const FrameFolder folder(path);
     for (std::size_t i = 0; i < frames.size(); ++i)
         write_image(folder.path() / fmt::format("{:06}.png", i), frames[i], exposure);
     return write_film(path, folder, "%06d.png", frames_a_second, metadata, progress);

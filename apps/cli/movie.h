@@ -11,7 +11,8 @@
 
 namespace hogel::cli {
 
-/// A temporary folder beside a file, for the frames of a film. Removed with the object.
+/// A temporary folder beside a file, for the frames of a film. Removed with the object; that of a process that was
+/// killed is removed by the next one for the same file.
 class FrameFolder {
   public:
     /// Throws Error(cannot_write).
@@ -23,6 +24,7 @@ class FrameFolder {
 
   private:
     std::filesystem::path path_;
+    int lock_ = -1;  // a descriptor of the folder that holds the lock
 };
 
 /// Whether a name is that of a film: .mp4, .gif or .apng, without numbers.

@@ -82,7 +82,7 @@ def export_views(
 
 
 def _make_folder(name: str, force: bool) -> None:
-    if os.path.isdir(name) and os.listdir(name) and not force:
+    if os.path.isdir(name) and any(not file.startswith(".") for file in os.listdir(name)) and not force:
         raise CannotWriteError(f"{name}: holds files already; force=True writes beside and over them")
     try:
         os.makedirs(name, exist_ok=True)

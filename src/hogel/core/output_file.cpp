@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -12,6 +13,8 @@
 #include <limits>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "hogel/error.h"
 
@@ -35,7 +38,20 @@ bool lock(int descriptor) {
     return ::fcntl(descriptor, F_OFD_SETLK, &range) == 0;
 }
 
-// Removes the temporaries of processes that were killed while they wrote the file of this name.
+// Opens a temporary file or folder that exists and locks it. Returns its descriptor, or -1 if another process holds the
+// lock.
+int open_locked(const std::filesystem::path& temporary) {
+    std::error_code none;
+    const bool is_folder = std::filesystem::is_directory(std::filesystem::symlink_status(temporary, none));
+    const int descriptor =
+        ::open(temporary.c_str(), (is_folder ? O_RDONLY | O_DIRECTORY : O_RDWR) | O_CLOEXEC | O_NOFOLLOW);
+    if (descriptor < 0) return -1;
+    if (is_folder ? ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 : lock(descriptor)) return descriptor;
+    ::close(descriptor);
+    return -1;
+}
+
+// Removes the temporaries of processes that were killed while they wrote the file or set of this name.
 void remove_stale_temporaries(const std::filesystem::path& directory, const std::string& name) {
     std::error_code none;
     for (const auto& entry : std::filesystem::directory_iterator(directory, none)) {
@@ -48,12 +64,17 @@ void remove_stale_temporaries(const std::filesystem::path& directory, const std:
             static_cast<std::size_t>(parsed) != file.size() - begin.size() || pid <= 0)
             continue;
         if (::kill(pid, 0) == 0 || errno != ESRCH) continue;
-        const int descriptor = ::open(entry.path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
-        if (descriptor < 0) continue;
         // A process of another machine that shares the folder may hold the lock.
-        if (lock(descriptor)) std::filesystem::remove(entry.path(), none);
+        const int descriptor = open_locked(entry.path());
+        if (descriptor < 0) continue;
+        std::filesystem::remove_all(entry.path(), none);
         ::close(descriptor);
     }
+}
+
+std::string temporary_name(const std::string& name) {
+    static std::atomic<unsigned> count{0};
+    return fmt::format(".{}.{}.{}.tmp", name, ::getpid(), count++);
 }
 
 std::filesystem::path directory_of(const std::filesystem::path& file) {
@@ -82,9 +103,10 @@ void require_target(const std::filesystem::path& target) {
     if (::access(directory_of(final_name_of(target)).c_str(), W_OK) != 0) fail(target, "its directory is not writable");
 }
 
+std::filesystem::path folder_of(const std::filesystem::path& target) { return directory_of(final_name_of(target)); }
+
 OutputFile::OutputFile(const std::filesystem::path& target, Unfinished unfinished)
     : target_(target), final_name_(final_name_of(target)), unfinished_(unfinished) {
-    static std::atomic<unsigned> count{0};
     const std::filesystem::path directory = directory_of(final_name_);
     const std::string name = final_name_.filename().string();
     if (unfinished == Unfinished::kept) {
@@ -92,7 +114,7 @@ OutputFile::OutputFile(const std::filesystem::path& target, Unfinished unfinishe
         return;
     }
     remove_stale_temporaries(directory, name);
-    temporary_ = directory / fmt::format(".{}.{}.{}.tmp", name, ::getpid(), count++);
+    temporary_ = directory / temporary_name(name);
     lock_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (lock_ < 0) fail(target, message(errno));
     lock(lock_);  // where a file system has no locks, the process number alone tells
@@ -126,6 +148,79 @@ void write_file(const std::filesystem::path& path, std::span<const unsigned char
     if (::close(out) != 0 && error == 0) error = errno;
     if (error != 0) fail(path, message(error));
     file.commit();
+}
+
+namespace {
+
+// The temporary folder of a set.
+class SetFolder {
+  public:
+    explicit SetFolder(const std::filesystem::path& folder) : folder_(folder) {
+        constexpr const char* name = "hogel-set";
+        remove_stale_temporaries(folder, name);
+        path_ = folder / temporary_name(name);
+        std::error_code error;
+        std::filesystem::create_directory(path_, error);
+        if (error) fail(folder, error.message());
+        lock_ = open_locked(path_);
+    }
+    ~SetFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+        if (lock_ >= 0) ::close(lock_);
+    }
+    SetFolder(const SetFolder&) = delete;
+    SetFolder& operator=(const SetFolder&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+
+    // Moves all files into the folder. What is in the way of one of them is found before the first is moved.
+    void commit() {
+        std::vector<std::pair<std::filesystem::path, std::filesystem::path>> moves;
+        std::error_code error;
+        for (const auto& entry : std::filesystem::directory_iterator(path_, error))
+            moves.emplace_back(entry.path(), final_name_of(folder_ / entry.path().filename()));
+        if (error) fail(folder_, error.message());
+        for (const auto& [from, to] : moves) move(from, to);
+    }
+
+    // An error message in which the files are where they would have been.
+    std::string message_of(const Error& error) const {
+        std::string text = error.what();
+        const std::string here = path_.string(), there = folder_.string();
+        for (std::size_t at = 0; (at = text.find(here, at)) != std::string::npos; at += there.size())
+            text.replace(at, here.size(), there);
+        return text;
+    }
+
+  private:
+    void move(const std::filesystem::path& from, const std::filesystem::path& to) {
+        std::error_code error;
+        std::filesystem::rename(from, to, error);
+        if (error != std::errc::cross_device_link) {
+            if (error) fail(to, error.message());
+            return;
+        }
+        OutputFile copy(to);  // behind a link
+        std::filesystem::copy_file(from, copy.temporary(), std::filesystem::copy_options::overwrite_existing, error);
+        if (error) fail(to, error.message());
+        copy.commit();
+    }
+
+    std::filesystem::path folder_, path_;
+    int lock_ = -1;  // a descriptor of the folder that holds the lock
+};
+
+}  // namespace
+
+void write_set(const std::filesystem::path& folder, const std::function<void(const std::filesystem::path&)>& write) {
+    SetFolder set(folder);
+    try {
+        write(set.path());
+        set.commit();
+    } catch (const Error& error) {
+        throw Error(error.code(), set.message_of(error));
+    }
 }
 
 }  // namespace hogel::core

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 
 namespace hogel::core {
@@ -38,7 +39,15 @@ class OutputFile {
 /// creating one: it has no name, its directory is missing or not writable, or it exists and is not a regular file.
 void require_target(const std::filesystem::path& target);
 
+/// The folder in which the file of a target is, behind a link. Throws as require_target() does.
+std::filesystem::path folder_of(const std::filesystem::path& target);
+
 /// Writes a file, which appears under its name when it is complete. Throws Error(cannot_write).
 void write_file(const std::filesystem::path& path, std::span<const unsigned char> bytes);
+
+/// Writes several files, which appear in a folder when all are complete. `write` fills a temporary folder inside it,
+/// which holds no folders. If `write` throws, the folder is as it was. The temporary folder of a process that was
+/// killed is removed by the next one that writes a set into the same folder. Throws Error(cannot_write).
+void write_set(const std::filesystem::path& folder, const std::function<void(const std::filesystem::path&)>& write);
 
 }  // namespace hogel::core

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "hogel/core/raw_file.h"
 #include "hogel/error.h"
 
 namespace hogel::core {
@@ -129,6 +130,73 @@ TEST_F(OutputFileTest, a_full_disk_leaves_the_old_file) {
     EXPECT_EQ(status, 0);
     EXPECT_EQ(text_of(directory_ / "a.txt"), "old");
     EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(OutputFileTest, an_unnamed_file_holds_what_is_written_and_never_shows) {
+    RawFile file(directory_, RawFile::Mode::unnamed, "scratch");
+    file.write(3, "abc", 3);
+    char text[3];
+    file.read(3, text, 3);
+    EXPECT_EQ(std::string(text, 3), "abc");
+    EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(OutputFileTest, a_set_appears_when_all_of_it_is_complete) {
+    write_text(directory_ / "a.txt", "old");
+    write_text(directory_ / "other.txt", "other");
+    fs::create_symlink("other.txt", directory_ / "link.txt");
+    write_set(directory_, [&](const fs::path& temporary) {
+        for (const char* name : {"a.txt", "b.txt", "link.txt"}) write_text(temporary / name, "new");
+        EXPECT_EQ(text_of(directory_ / "a.txt"), "old");
+        EXPECT_FALSE(fs::exists(directory_ / "b.txt"));
+    });
+    for (const char* name : {"a.txt", "b.txt", "other.txt"}) EXPECT_EQ(text_of(directory_ / name), "new") << name;
+    EXPECT_TRUE(fs::is_symlink(directory_ / "link.txt"));
+    EXPECT_EQ(files(), 4u);
+}
+
+TEST_F(OutputFileTest, a_set_that_fails_leaves_the_old_files_and_names_the_folder) {
+    write_text(directory_ / "a.txt", "old");
+    std::string message;
+    try {
+        write_set(directory_, [&](const fs::path& temporary) {
+            write_text(temporary / "a.txt", "new");
+            write_text(temporary / "none" / "b.txt", "new");
+        });
+    } catch (const Error& error) {
+        message = error.what();
+    }
+    EXPECT_NE(message.find((directory_ / "none" / "b.txt").string()), std::string::npos) << message;
+    EXPECT_EQ(text_of(directory_ / "a.txt"), "old");
+    EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(OutputFileTest, a_set_moves_nothing_when_one_of_its_files_is_in_the_way) {
+    fs::create_directory(directory_ / "b.txt");
+    EXPECT_THROW(write_set(directory_,
+                           [&](const fs::path& temporary) {
+                               for (const char* name : {"a.txt", "b.txt"}) write_text(temporary / name, "new");
+                           }),
+                 Error);
+    EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(OutputFileTest, a_killed_process_leaves_no_part_of_a_set_and_the_next_removes_the_rest) {
+    const pid_t child = fork();
+    if (child == 0)
+        write_set(directory_, [](const fs::path& temporary) {
+            write_text(temporary / "a.txt", "new");
+            kill(getpid(), SIGKILL);
+        });
+    waitpid(child, nullptr, 0);
+    EXPECT_FALSE(fs::exists(directory_ / "a.txt"));
+    EXPECT_EQ(files(), 1u);
+    write_set(directory_, [&](const fs::path& temporary) {
+        EXPECT_EQ(files(), 1u);
+        // One that is written at the same time is not stale.
+        write_set(directory_, [&](const fs::path&) { EXPECT_TRUE(fs::exists(temporary)); });
+    });
+    EXPECT_EQ(files(), 0u);
 }
 
 }  // namespace

@@ -10,7 +10,9 @@
 #include <cerrno>
 #include <cstring>
 #include <limits>
+#include <string>
 
+#include "hogel/core/raw_file.h"
 #include "hogel/error.h"
 #include "hogel/units.h"
 
@@ -26,10 +28,8 @@ Complex* map_file(std::size_t bytes, const std::filesystem::path& folder) {
                     fmt::format("{} of {} in '{}': {}", what, format_bytes(static_cast<double>(bytes)), folder.string(),
                                 std::strerror(reason)));
     };
-    std::string name = (folder / ".hogel-XXXXXX.tmp").string();
-    const int file = mkstemps(name.data(), 4);
+    const int file = open_unnamed(folder);
     if (file < 0) fail("cannot create a scratch file", errno);
-    unlink(name.c_str());
     // Disk space is reserved at once, because a full disk under a mapping would kill the program.
     const int taken = posix_fallocate(file, 0, static_cast<off_t>(bytes));
     void* data = taken == 0 ? mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0) : MAP_FAILED;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <limits>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -26,6 +28,7 @@ int flags(RawFile::Mode mode) {
         case RawFile::Mode::write:
             return O_RDWR | O_CLOEXEC;
         case RawFile::Mode::create:
+        case RawFile::Mode::unnamed:
             break;
     }
     return O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC;
@@ -39,7 +42,7 @@ RawFile::RawFile(const std::filesystem::path& path, Mode mode, const std::filesy
     // Opening a pipe would block until its other end is opened.
     if (mode == Mode::read && std::filesystem::exists(path, status) && !std::filesystem::is_regular_file(path, status))
         throw Error(ErrorCode::bad_input, fmt::format("cannot read '{}': it is not a plain file", name_.string()));
-    file_ = ::open(path.c_str(), flags(mode), 0666);
+    file_ = mode == Mode::unnamed ? open_unnamed(path) : ::open(path.c_str(), flags(mode), 0666);
     if (file_ < 0) fail(errno);
 }
 
@@ -107,6 +110,17 @@ void RawFile::flush() {
 
 void RawFile::close() {
     if (::close(std::exchange(file_, -1)) != 0) fail(errno);
+}
+
+int open_unnamed(const std::filesystem::path& folder) {
+#ifdef O_TMPFILE
+    if (const int file = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600); file >= 0) return file;
+#endif
+    // File systems exist that cannot create such files.
+    std::string name = (folder / ".hogel-XXXXXX.tmp").string();
+    const int file = ::mkostemps(name.data(), 4, O_CLOEXEC);
+    if (file >= 0) ::unlink(name.c_str());
+    return file;
 }
 
 }  // namespace hogel::core

@@ -10,9 +10,10 @@ namespace hogel::core {
 /// A file that is read and written at offsets. Thread-safe.
 class RawFile {
   public:
-    enum class Mode { read, write, create };
-    /// @param name  the file's name in error messages Throws Error(bad_input) when reading, Error(cannot_write)
-    ///              otherwise.
+    /// An unnamed file is a new one in the folder that `path` names. It is gone when it is closed or the process ends.
+    enum class Mode { read, write, create, unnamed };
+    /// Throws Error(bad_input) when reading, Error(cannot_write) otherwise.
+    /// @param name  the file's name in error messages
     RawFile(const std::filesystem::path& path, Mode mode, const std::filesystem::path& name);
     ~RawFile();
     RawFile(const RawFile&) = delete;
@@ -41,5 +42,8 @@ class RawFile {
     Mode mode_;
     int file_ = -1;
 };
+
+/// Opens a new file without a name in a folder, for reading and writing. Returns its descriptor, or -1 with errno.
+int open_unnamed(const std::filesystem::path& folder);
 
 }  // namespace hogel::core

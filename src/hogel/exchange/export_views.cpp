@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hogel/core/output_file.h"
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/exchange/transfer.h"
@@ -152,6 +153,35 @@ void read_group(const LightFieldSource& source, Group& group, const Progress& pr
     }
 }
 
+ExportedViews write_views(const LightField& light_field, const ViewTarget& target, const ViewExportOptions& options,
+                          const Progress& progress) {
+    const auto writer = view_layouts().find(options.layout).create(target);
+    ExportedViews exported{target.columns, target.rows, {}, {}};
+    const std::size_t views = target.columns * target.rows;
+    exported.files.resize(views);
+    const double view_bytes = static_cast<double>(target.width * target.height * target.channels) * sizeof(float);
+    const auto at_once =
+        static_cast<std::size_t>(std::clamp(options.memory / view_bytes, 1.0, static_cast<double>(views)));
+    for (std::size_t first = 0; first < views; first += at_once) {
+        const std::size_t count = std::min(at_once, views - first);
+        const Progress part = progress.part(static_cast<double>(first) / static_cast<double>(views),
+                                            static_cast<double>(first + count) / static_cast<double>(views));
+        Group group(light_field.grid(), first, count);
+        read_group(light_field.front(), group, part.part(0, 0.5));
+        core::parallel_for(count, [&](std::size_t i) {
+            const std::size_t row = (first + i) / target.columns, column = (first + i) % target.columns;
+            exported.files[first + i] =
+                writer->write(row, column, stored_view(group.view(i), target, options.exposure));
+        });
+        part.report(1);
+    }
+    const std::vector<std::filesystem::path> more = writer->finish();
+    std::erase_if(exported.files, [](const auto& file) { return file.empty(); });
+    exported.files.insert(exported.files.end(), more.begin(), more.end());
+    exported.notes = writer->notes();
+    return exported;
+}
+
 }  // namespace
 
 ViewTarget target_of(const LightFieldGrid& grid, const std::filesystem::path& path) {
@@ -194,31 +224,13 @@ ExportedViews export_views(const LightField& light_field, const std::filesystem:
             ErrorCode::usage,
             fmt::format("PNG files hold 8 or 16 bits a sample, not {}; ppm holds any from 8 to 16", target.bits));
     target.transfer = transfer_for(light_field, options, target.bits);
-    const auto writer = layout.create(target);
-
-    ExportedViews exported{target.columns, target.rows, {}, {}};
-    const std::size_t views = target.columns * target.rows;
-    exported.files.resize(views);
-    const double view_bytes = static_cast<double>(target.width * target.height * target.channels) * sizeof(float);
-    const auto at_once =
-        static_cast<std::size_t>(std::clamp(options.memory / view_bytes, 1.0, static_cast<double>(views)));
-    for (std::size_t first = 0; first < views; first += at_once) {
-        const std::size_t count = std::min(at_once, views - first);
-        const Progress part = progress.part(static_cast<double>(first) / static_cast<double>(views),
-                                            static_cast<double>(first + count) / static_cast<double>(views));
-        Group group(grid, first, count);
-        read_group(light_field.front(), group, part.part(0, 0.5));
-        core::parallel_for(count, [&](std::size_t i) {
-            const std::size_t row = (first + i) / target.columns, column = (first + i) % target.columns;
-            exported.files[first + i] =
-                writer->write(row, column, stored_view(group.view(i), target, options.exposure));
-        });
-        part.report(1);
-    }
-    const std::vector<std::filesystem::path> more = writer->finish();
-    std::erase_if(exported.files, [](const auto& file) { return file.empty(); });
-    exported.files.insert(exported.files.end(), more.begin(), more.end());
-    exported.notes = writer->notes();
+    if (!layout.is_folder) return write_views(light_field, target, options, progress);
+    ExportedViews exported;
+    core::write_set(path, [&](const std::filesystem::path& temporary) {
+        target.path = temporary;
+        exported = write_views(light_field, target, options, progress);
+    });
+    for (std::filesystem::path& file : exported.files) file = path / file.filename();
     return exported;
 }
 

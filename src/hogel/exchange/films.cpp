@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <system_error>
 #include <vector>
 
+#include "hogel/core/output_file.h"
 #include "hogel/core/parallel.h"
 #include "hogel/core/program.h"
 #include "hogel/error.h"
@@ -22,25 +22,24 @@ void make_film(const fs::path& path, const fs::path& folder, const std::string& 
     if (program.empty())
         throw Error(ErrorCode::not_built_in,
                     fmt::format("{}: films are made by ffmpeg, which is not installed", path.string()));
-    const std::string kind = path.extension().string(), film = (folder / ("film" + kind)).string();
+    core::OutputFile film(path);
+    const std::string kind = path.extension().string();
     std::vector<std::string> words{
         program, "-y", "-framerate", fmt::format("{}", frames_a_second), "-i", (folder / frames).string()};
     const auto add = [&](std::initializer_list<const char*> more) {
         words.insert(words.end(), more.begin(), more.end());
     };
     if (kind == ".mp4")
-        add({"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-movflags", "+faststart"});
+        add({"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4"});
     else if (kind == ".gif")
-        add({"-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse", "-loop", "0"});
+        add({"-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse", "-loop", "0", "-f", "gif"});
     else
         add({"-plays", "0", "-f", "apng"});
     if (!comment.empty()) words.insert(words.end(), {"-metadata", "comment=" + comment});
-    words.push_back(film);
+    words.push_back("file:" + film.temporary().string());
     if (!core::run_program(words))
         throw Error(ErrorCode::cannot_write, fmt::format("{}: ffmpeg failed to make it", path.string()));
-    std::error_code error;
-    fs::rename(film, path, error);
-    if (error) throw Error(ErrorCode::cannot_write, fmt::format("{}: {}", path.string(), error.message()));
+    film.commit();
 }
 
 }  // namespace hogel

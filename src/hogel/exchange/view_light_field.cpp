@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hogel/core/output_file.h"
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/exchange/transfer.h"
@@ -146,18 +145,14 @@ image::Samples ViewLightField::decoded(std::size_t view, std::size_t first, std:
 }
 
 void ViewLightField::fill_spool() const {
-    const std::filesystem::path name = spool_folder_ / "hogel-views";
     std::error_code error;
     const std::filesystem::space_info space = std::filesystem::space(spool_folder_, error);
     if (!error && static_cast<double>(space.available) < spool_bytes())
         throw Error(ErrorCode::cannot_write,
                     fmt::format("{}: {} are free, but the views take {} beside what is written", spool_folder_.string(),
                                 format_bytes(static_cast<double>(space.available)), format_bytes(spool_bytes())));
-    std::unique_ptr<core::RawFile> spool;
-    {
-        const core::OutputFile temporary(name);  // takes the name away again at the end of this block
-        spool = std::make_unique<core::RawFile>(temporary.temporary(), core::RawFile::Mode::write, name);
-    }
+    auto spool =
+        std::make_unique<core::RawFile>(spool_folder_, core::RawFile::Mode::unnamed, spool_folder_ / "hogel-views");
     spool->reserve(static_cast<std::uint64_t>(spool_bytes()));
     const std::uint64_t bytes = static_cast<std::uint64_t>(spool_bytes()) / grid_.directions();
     core::parallel_for(grid_.directions(), [&](std::size_t view) {

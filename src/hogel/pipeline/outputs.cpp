@@ -31,30 +31,35 @@ std::vector<std::filesystem::path> write_printer_images(const std::filesystem::p
     const LightFieldGrid& grid = light_field.grid();
     const std::size_t pictures = options.rows ? grid.hogels_t : grid.hogels();
     const std::size_t digits = std::to_string(pictures).size();
-    std::vector<std::filesystem::path> names;
-    for (std::size_t i = 1; i <= pictures; ++i)
-        names.push_back(folder / fmt::format("{}_{:0{}}.png", options.rows ? "row" : "hogel", i, digits));
+    const auto name = [&](std::size_t i) {
+        return fmt::format("{}_{:0{}}.png", options.rows ? "row" : "hogel", i + 1, digits);
+    };
     // The hogel that is printed as the i-th of its row.
     const auto hogel_at = [&](std::size_t i, std::size_t row) {
         return options.serpentine && row % 2 == 1 ? grid.hogels_s - 1 - i : i;
     };
-    for (std::size_t t = 0; t < grid.hogels_t; ++t) {
-        progress.report(static_cast<double>(t) / static_cast<double>(grid.hogels_t));
-        LightFieldTile row(grid, {0, t, grid.hogels_s, 1}, false);
-        light_field.front().read(row);
-        if (options.rows) {
-            Image picture(grid.hogels_s * grid.directions_u, grid.directions_v, grid.channels);
-            for (std::size_t i = 0; i < grid.hogels_s; ++i) paste(row, hogel_at(i, t), picture, i * grid.directions_u);
-            write_image(names[t], picture, options.exposure,
-                        with_history(options.metadata, to_metadata(light_field.provenance())));
-            continue;
+    core::write_set(folder, [&](const std::filesystem::path& temporary) {
+        for (std::size_t t = 0; t < grid.hogels_t; ++t) {
+            progress.report(static_cast<double>(t) / static_cast<double>(grid.hogels_t));
+            LightFieldTile row(grid, {0, t, grid.hogels_s, 1}, false);
+            light_field.front().read(row);
+            if (options.rows) {
+                Image picture(grid.hogels_s * grid.directions_u, grid.directions_v, grid.channels);
+                for (std::size_t i = 0; i < grid.hogels_s; ++i)
+                    paste(row, hogel_at(i, t), picture, i * grid.directions_u);
+                write_image(temporary / name(t), picture, options.exposure,
+                            with_history(options.metadata, to_metadata(light_field.provenance())));
+                continue;
+            }
+            core::parallel_for(grid.hogels_s, [&](std::size_t i) {
+                Image picture(grid.directions_u, grid.directions_v, grid.channels);
+                paste(row, hogel_at(i, t), picture, 0);
+                write_image(temporary / name(t * grid.hogels_s + i), picture, options.exposure);
+            });
         }
-        core::parallel_for(grid.hogels_s, [&](std::size_t i) {
-            Image picture(grid.directions_u, grid.directions_v, grid.channels);
-            paste(row, hogel_at(i, t), picture, 0);
-            write_image(names[t * grid.hogels_s + i], picture, options.exposure);
-        });
-    }
+    });
+    std::vector<std::filesystem::path> names;
+    for (std::size_t i = 0; i < pictures; ++i) names.push_back(folder / name(i));
     return names;
 }
 

@@ -207,15 +207,20 @@ Found code_to_target(const CompressionTarget& target, double rays, const CodingM
     return found;
 }
 
-}  // namespace
+CompressionResult compress_into(core::RawFile* into, const LightField& light_field, const std::filesystem::path& path,
+                                const CompressionOptions& options, const Progress& progress);
 
-double default_overhead(ZerotreeSymbols symbols) {
-    // Medians over transforms and rates of docs/decisions/0043-codec-thesis-transforms.md.
-    return symbols == ZerotreeSymbols::alphabets ? 4.5 : 2.5;
+// Codes the depth into a file without a name, which exists in the first process of a team.
+StreamInfo::Depth code_depth(core::RawFile* into, const LightField& light_field, const std::filesystem::path& path,
+                             const CompressionOptions& options) {
+    return compress_depth(light_field, options, [&](const LightField& depth, const CompressionOptions& exact) {
+        return compress_into(into, depth, path, exact, {}).bytes;
+    });
 }
 
-CompressionResult compress(const LightField& light_field, const std::filesystem::path& path,
-                           const CompressionOptions& options, const Progress& progress) {
+// Writes the stream to `into`, or if that is null to the file of the name.
+CompressionResult compress_into(core::RawFile* into, const LightField& light_field, const std::filesystem::path& path,
+                                const CompressionOptions& options, const Progress& progress) {
     const core::StopScope scope(progress);
     check(options.target);
     const LightFieldGrid& grid = light_field.grid();
@@ -240,10 +245,11 @@ CompressionResult compress(const LightField& light_field, const std::filesystem:
     header.tile.ns = std::min(header.tile.ns, grid.hogels_s);
     header.tile.nt = std::min(header.tile.nt, grid.hogels_t);
     header.layer_ends.resize(parts.front().coder->layers(header.tile));
-    std::optional<core::OutputFile> depth;
-    if (options.with_depth && is_first_process()) depth.emplace(path);
-    if (options.with_depth) header.depth = compress_depth(light_field, depth ? depth->temporary() : path, options);
-    StreamWriter writer(path, header, depth ? depth->temporary() : std::filesystem::path());
+    std::optional<core::RawFile> depth;
+    if (options.with_depth && is_first_process())
+        depth.emplace(core::folder_of(path), core::RawFile::Mode::unnamed, path);
+    if (options.with_depth) header.depth = code_depth(depth ? &*depth : nullptr, light_field, path, options);
+    StreamWriter writer(path, header, into, depth ? &*depth : nullptr);
     TileCompression compression(parts, header, writer, progress);
     const Found found = code_to_target(options.target, rays, options.method, compression, writer);
     CompressionResult result;
@@ -256,6 +262,18 @@ CompressionResult compress(const LightField& light_field, const std::filesystem:
     result.depth_error = header.depth.error;
     writer.finish(found.filler);
     return result;
+}
+
+}  // namespace
+
+double default_overhead(ZerotreeSymbols symbols) {
+    // Medians over transforms and rates of docs/decisions/0043-codec-thesis-transforms.md.
+    return symbols == ZerotreeSymbols::alphabets ? 4.5 : 2.5;
+}
+
+CompressionResult compress(const LightField& light_field, const std::filesystem::path& path,
+                           const CompressionOptions& options, const Progress& progress) {
+    return compress_into(nullptr, light_field, path, options, progress);
 }
 
 }  // namespace hogel

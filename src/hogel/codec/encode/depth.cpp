@@ -104,8 +104,9 @@ LightField depth_as_radiance(const LightField& light_field, const DepthCoding& c
         [&](const LightField::Source& face) { return std::make_shared<DepthAsRadiance>(face, coding); });
 }
 
-StreamInfo::Depth compress_depth(const LightField& light_field, const std::filesystem::path& path,
-                                 const CompressionOptions& options) {
+StreamInfo::Depth compress_depth(
+    const LightField& light_field, const CompressionOptions& options,
+    const std::function<std::uint64_t(const LightField&, const CompressionOptions&)>& code) {
     if (!light_field.has_depth()) throw Error(ErrorCode::usage, "depth was asked for, but the light field has none");
     std::optional<double> bound = options.depth_error;
     if (bound && !(*bound >= 0 && std::isfinite(*bound)))
@@ -117,7 +118,7 @@ StreamInfo::Depth compress_depth(const LightField& light_field, const std::files
     exact.target = MaxError{coding.error};
     if (coding.error == 0) exact.target = Lossless{};
     exact.tile = options.tile;
-    return {compress(depth_as_radiance(light_field, coding), path, exact).bytes, coding.error, coding.beyond};
+    return {code(depth_as_radiance(light_field, coding), exact), coding.error, coding.beyond};
 }
 
 }  // namespace hogel::codec::encode

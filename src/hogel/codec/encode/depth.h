@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -28,9 +28,11 @@ DepthCoding depth_coding(const LightField& light_field, std::optional<double> bo
 // The depths of a light field as radiance of one channel.
 LightField depth_as_radiance(const LightField& light_field, const DepthCoding& coding);
 
-// Writes the depth stream to a separate file. Throws Error(usage) for a light field without depth and for an impossible
+// Codes the depth as a stream of its own. Throws Error(usage) for a light field without depth and for an impossible
 // error.
-StreamInfo::Depth compress_depth(const LightField& light_field, const std::filesystem::path& path,
-                                 const CompressionOptions& options);
+// @param code   writes the stream of a light field and returns its bytes
+StreamInfo::Depth compress_depth(
+    const LightField& light_field, const CompressionOptions& options,
+    const std::function<std::uint64_t(const LightField&, const CompressionOptions&)>& code);
 
 }  // namespace hogel::codec::encode

@@ -68,15 +68,20 @@ HogelRange Tiling::operator[](std::size_t tile) const {
     return {s0, t0, std::min(size_.ns, hogels_s_ - s0), std::min(size_.nt, hogels_t_ - t0)};
 }
 
-StreamWriter::StreamWriter(const std::filesystem::path& path, const StreamHeader& info, std::filesystem::path depth)
-    : info_(info), header_bytes_(header_bytes(info).size()), layers_(info.layer_ends.size()), depth_(std::move(depth)) {
+StreamWriter::StreamWriter(const std::filesystem::path& path, const StreamHeader& info, core::RawFile* into,
+                           const core::RawFile* depth)
+    : info_(info),
+      header_bytes_(header_bytes(info).size()),
+      layers_(info.layer_ends.size()),
+      into_(into),
+      depth_(depth) {
     for (const LightFieldGrid& part : coded_parts(info))
         if (!tile_fits(part, info.tile))
             throw Error(ErrorCode::usage,
                         fmt::format("{}: tiles of {}x{} hogels; expected at least 1x1, no more than the light field "
                                     "has, and at most {} samples in each",
                                     path.string(), info.tile.ns, info.tile.nt, max_tile_samples));
-    if (is_first_process()) files_.emplace(path);
+    if (is_first_process()) files_.emplace(path, into == nullptr);
 }
 
 void StreamWriter::restart() {
@@ -105,11 +110,18 @@ std::uint64_t StreamWriter::overhead(std::size_t tiles) const {
 }
 
 void StreamWriter::finish(std::uint64_t filler) {
-    if (files_) write(filler);
+    if (files_ && into_ != nullptr) write(*into_, filler);
+    if (files_ && into_ == nullptr) {
+        core::OutputFile& output = *files_->output;
+        core::RawFile file(output.temporary(), core::RawFile::Mode::create, output.target());
+        write(file, filler);
+        file.close();
+        output.commit();
+    }
     if (Team* const all = team()) all->meet();  // the file has its name
 }
 
-void StreamWriter::write(std::uint64_t filler) {
+void StreamWriter::write(core::RawFile& file, std::uint64_t filler) {
     info_.filler = filler;
     const Bytes header = header_bytes(info_);
     std::vector<StreamEntry> entries;  // layer by layer
@@ -121,7 +133,6 @@ void StreamWriter::write(std::uint64_t filler) {
         index.put(entry.checksum);
     }
     index.put(core::checksum(index.bytes));
-    core::RawFile file(files_->output.temporary(), core::RawFile::Mode::create, files_->output.target());
     file.write(0, header.data(), header.size());
     file.write(header.size(), index.bytes.data(), index.bytes.size());
     std::uint64_t at = header.size() + index.bytes.size();
@@ -135,12 +146,9 @@ void StreamWriter::write(std::uint64_t filler) {
     for (const StreamEntry& entry : entries) copy(files_->spooled, entry.offset, entry.bytes);
     if (info_.depth.bytes > 0) {
         constexpr std::uint64_t max_chunk = std::uint64_t{1} << 24;
-        const core::RawFile depth(depth_, core::RawFile::Mode::read, depth_);
         for (std::uint64_t done = 0; done < info_.depth.bytes; done += max_chunk)
-            copy(depth, done, std::min(max_chunk, info_.depth.bytes - done));
+            copy(*depth_, done, std::min(max_chunk, info_.depth.bytes - done));
     }
-    file.close();
-    files_->output.commit();
 }
 
 StreamReader::StreamReader(const std::filesystem::path& path, Content content)

@@ -51,8 +51,10 @@ struct StreamEntry {
 class StreamWriter {
   public:
     // In a team the first process alone has files; the others know their sizes.
+    // @param into    the file to write, if not that of the name
     // @param depth   file with the depth stream that info.depth describes
-    StreamWriter(const std::filesystem::path& path, const StreamHeader& info, std::filesystem::path depth = {});
+    StreamWriter(const std::filesystem::path& path, const StreamHeader& info, core::RawFile* into = nullptr,
+                 const core::RawFile* depth = nullptr);
     // Discards all tiles.
     void restart();
     // @param layers   the ends of the tile's layers; small tiles may have fewer layers than the stream
@@ -67,19 +69,22 @@ class StreamWriter {
     void finish(std::uint64_t filler = 0);
 
   private:
-    void write(std::uint64_t filler);
+    void write(core::RawFile& file, std::uint64_t filler);
 
     struct Files {
-        explicit Files(const std::filesystem::path& path)
-            : output(path), spool(path), spooled(spool.temporary(), core::RawFile::Mode::create, path) {}
-        core::OutputFile output, spool;
+        Files(const std::filesystem::path& path, bool has_name)
+            : spooled(core::folder_of(path), core::RawFile::Mode::unnamed, path) {
+            if (has_name) output.emplace(path);
+        }
+        std::optional<core::OutputFile> output;
         core::RawFile spooled;  // tile by tile
     };
     std::optional<Files> files_;
     StreamHeader info_;
     std::size_t header_bytes_;  // without filler
     std::size_t layers_;
-    std::filesystem::path depth_;
+    core::RawFile* into_;
+    const core::RawFile* depth_;
     std::uint64_t next_ = 0;
     std::vector<StreamEntry> entries_;  // tile by tile, the layers of each
 };
