@@ -128,20 +128,22 @@ int compress_file(Options options, const Session& session) {
     compression.metadata = record.metadata();
     Kept kept(session, options.resume, options.output, options.resume ? describe_input(options.input) : "");
     Stage stage(session, "compressing");
-    const CompressionResult result =
-        with_options({{"tiles", "--tile"},
-                      {"transform", "--coder, --transform"},
-                      {"tone mapping and", "--tone, --chrominance"},
-                      {"chrominance", "--chrominance"},
-                      {"unfolded", "--hemicube"},
-                      {"be lossless", "--coder, --lossless, --max-error"},
-                      {"SQNR", "--sqnr"},
-                      {"rate", "--ppb"},
-                      {"step", "--step"}},
-                     [&] {
-                         state_plan(session, plan_compression(light_field, compression), "compressing", options.output);
-                         return compress(light_field, options.output, compression, stage.progress());
-                     });
+    const auto work = [&] {
+        state_plan(session, plan_compression(light_field, compression), "compressing", options.output);
+        return compress(light_field, options.output, compression, stage.progress());
+    };
+    const CompressionResult result = kept.unless_refused([&] {
+        return with_options({{"tiles", "--tile"},
+                             {"transform", "--coder, --transform"},
+                             {"tone mapping and", "--tone, --chrominance"},
+                             {"chrominance", "--chrominance"},
+                             {"unfolded", "--hemicube"},
+                             {"be lossless", "--coder, --lossless, --max-error"},
+                             {"SQNR", "--sqnr"},
+                             {"rate", "--ppb"},
+                             {"step", "--step"}},
+                            work);
+    });
     kept.complete();
     report_compressed(session, options.output, result);
     return 0;

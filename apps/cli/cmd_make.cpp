@@ -263,6 +263,13 @@ Result result_of(const Report& report, const std::string& folder, const Session&
             {"seconds", session.seconds()}};
 }
 
+// The same work was completed before.
+int report_done(const Session& session, const std::string& folder) {
+    session.say(fmt::format("{}: all is done", folder));
+    session.result({{"folder", folder}, {"report", "report.html"}, {"seconds", session.seconds()}});
+    return 0;
+}
+
 int make(const Options& options, const Session& session) {
     if (input_kind(options.scene) != InputKind::scene)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
@@ -295,8 +302,11 @@ int make(const Options& options, const Session& session) {
 
     const std::filesystem::path done_before = std::filesystem::path(options.output) / "make";
     const bool resumes = options.resume && std::filesystem::exists(done_before.string() + ".part");
-    const OutputFolder folder(options.output, options.force || resumes);
     report.scene_input = describe_input(options.scene, scene);
+    report.work = work_of(session, report.scene_input);
+    if (options.resume && !resumes && !options.force && has_report_of(options.output, report.work))
+        return report_done(session, options.output);
+    const OutputFolder folder(options.output, options.force || resumes);
     Kept kept(session, options.resume, done_before.string(), report.scene_input);
     const auto resume = options.resume ? std::optional(report.scene_input) : std::nullopt;
     PassingFile light_field_file(folder.path() / "lightfield.h5", options.keep_light_field || options.resume);

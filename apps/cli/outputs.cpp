@@ -74,13 +74,16 @@ void add_resume_flag(Command& command, bool& resume) {
                  "Keep what is done when interrupted, as FILE.part, and go on from there the next time");
 }
 
-Kept::Kept(const Session& session, bool resume, const std::string& output, const std::string& input) {
-    if (!resume) return;
+std::vector<std::string> work_of(const Session& session, const std::string& input) {
     constexpr std::array<std::string_view, 7> idle{"output", "threads", "quiet", "verbose", "json", "resume", "force"};
     std::vector<std::string> work{"hogel " HOGEL_VERSION, "hogel " + session.command->name(), input};
     for (const auto& [name, value] : session.command->values())
         if (!value.empty() && !std::ranges::count(idle, name)) work.push_back(fmt::format("option {} {}", name, value));
-    scope_.emplace(output + ".part", work);
+    return work;
+}
+
+Kept::Kept(const Session& session, bool resume, const std::string& output, const std::string& input) {
+    if (resume) scope_.emplace(output + ".part", work_of(session, input));
 }
 
 std::string PartOption::file_for(const std::string& output) const {
@@ -148,8 +151,10 @@ void write_compressed(const LightFieldOutput& output, const LightField& made, Ru
     compression.metadata = record.metadata();
     Kept kept(session, kept_of.has_value(), output.file, kept_of.value_or(""));
     Stage stage(session, "compressing");
-    const CompressionResult result = with_options(
-        {{"", "--sqnr"}}, [&] { return compress(light_field, output.file, compression, stage.progress()); });
+    const CompressionResult result = kept.unless_refused([&] {
+        return with_options({{"", "--sqnr"}},
+                            [&] { return compress(light_field, output.file, compression, stage.progress()); });
+    });
     kept.complete();
     report_compressed(session, output.file, result);
 }

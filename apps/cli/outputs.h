@@ -5,8 +5,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "command_line.h"
+#include "hogel/error.h"
 #include "hogel/file_part.h"
 #include "hogel/pipeline.h"
 #include "hogel/resume.h"
@@ -26,11 +28,15 @@ void add_force_flag(Command& command, bool& force);
 /// --resume, for outputs that take long.
 void add_resume_flag(Command& command, bool& resume);
 
+/// What identifies the work of a command: version, command, input and the options that act.
+/// @param input  what describe_input() says of it
+std::vector<std::string> work_of(const Session& session, const std::string& input);
+
 /// Keeps what the work has merged in "FILE.part", from which the same command goes on after it was interrupted; nothing
 /// without --resume. Of outputs that are no HDF5 files, which have a journal.
 class Kept {
   public:
-    /// @param input  what describe_input() says of it
+    /// @param input  as of work_of()
     Kept(const Session& session, bool resume, const std::string& output, const std::string& input);
     /// Does a piece of work whose results are in files of their own, unless it was done before.
     void once(const std::function<void()>& work) {
@@ -38,6 +44,16 @@ class Kept {
             scope_->once(work);
         else
             work();
+    }
+    /// Calls the work and returns its result. Keeps nothing of work that is refused, which would be refused again.
+    template <class Work>
+    auto unless_refused(const Work& work) {
+        try {
+            return work();
+        } catch (const Error& error) {
+            if (error.code() == ErrorCode::usage) complete();
+            throw;
+        }
     }
     /// The output is there.
     void complete() {

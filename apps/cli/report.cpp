@@ -241,6 +241,7 @@ std::string report_json(const Report& report) {
     const LightFieldGrid& grid = report.light_field;
     Json json;
     for (const auto& [name, value] : report.run) json["run"][name] = value;
+    json["work"] = report.work;
     json["scene"] = {{"name", report.scene}, {"input", report.scene_input}, {"triangles", report.triangles}};
     json["light_field"] = {{"algorithm", report.algorithm},
                            {"hogels", {grid.hogels_s, grid.hogels_t}},
@@ -281,6 +282,13 @@ std::string report_json(const Report& report) {
     json["seconds"] = seconds_in_all(report);
     json["threads"] = report.threads;
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+bool has_report_of(const std::filesystem::path& folder, const std::vector<std::string>& work) {
+    if (!std::filesystem::exists(folder / "report.html")) return false;
+    std::ifstream file(folder / "report.json");
+    const auto json = nlohmann::json::parse(file, nullptr, false);
+    return json.is_object() && json.contains("work") && json["work"] == nlohmann::json(work);
 }
 
 }  // namespace hogel::cli

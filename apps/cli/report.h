@@ -34,6 +34,7 @@ struct Report {
     std::uintmax_t light_field_bytes = 0;  ///< of the file; 0: it is not kept
     std::string render_command;            ///< which renders the light field again
     std::string scene_input;               ///< what identifies the scene: see describe_input()
+    std::vector<std::string> work;         ///< what identifies the run: see work_of()
     std::vector<FieldGrid> holograms;
     std::size_t looks = 0;  ///< 0: only the mean of infinitely many
     bool expected = true;   ///< whether there are means of infinitely many looks
@@ -52,5 +53,7 @@ struct Report {
 std::string report_html(const Report& report, const std::filesystem::path& folder);
 /// The same numbers as JSON, in SI units.
 std::string report_json(const Report& report);
+/// Whether a folder holds the report of a complete run of this work.
+bool has_report_of(const std::filesystem::path& folder, const std::vector<std::string>& work);
 
 }  // namespace hogel::cli
