@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <limits>
 #include <string>
 #include <variant>
 
+#include "hogel/core/available_memory.h"
 #include "hogel/error.h"
 #include "hogel/lightfield/exposure.h"
 #include "hogel/pipeline.h"
@@ -44,18 +43,6 @@ constexpr double bytes_a_slab_triangle = 128, bytes_a_block_triangle = 28;
 // Seconds per ray that gathers reflected light (440e-9 for the pumpkin, 490e-9 for the church), and bytes per triangle
 // of the result, while it is computed and in a file.
 constexpr double seconds_a_gathered_ray = 450e-9, bytes_a_baked_triangle = 310, file_bytes_a_baked_triangle = 31;
-
-// Bytes that the system can give to programs without swapping; infinity if it does not say.
-double memory_available() {
-    std::ifstream file("/proc/meminfo");
-    for (std::string word; file >> word;)
-        if (word == "MemAvailable:") {
-            double kilobytes = 0;
-            file >> kilobytes;
-            return 1024 * kilobytes;
-        }
-    return std::numeric_limits<double>::infinity();
-}
 
 // Bytes for one region of a renderer: its values, its depth buffer and, with several samples per ray, a block of the
 // finer light field.
@@ -228,7 +215,7 @@ Plan plan_bake(const Scene& scene, const BakeOptions& options) {
 }
 
 void require_resources(const Plan& plan, const std::string& what, const std::filesystem::path& file) {
-    if (const double available = memory_available(); plan.memory > available)
+    if (const double available = core::available_memory(); plan.memory > available)
         throw Error(ErrorCode::usage, fmt::format("{} takes {} of memory; expected at most the {} that are free", what,
                                                   format_bytes(plan.memory), format_bytes(available)));
     if (file.empty()) return;
