@@ -68,35 +68,54 @@ void write_error_stream(const std::string& text) {
     if (std::fwrite(text.data(), 1, text.size(), stderr) != text.size()) std::clearerr(stderr);
 }
 
-Stage::Stage(const Session& session, std::string name)
+Stage::Stage(const Session& session, std::string name, std::chrono::milliseconds between_lines)
     : session_(session), name_(std::move(name)), on_terminal_(!session.quiet && isatty(STDERR_FILENO) != 0) {
     if (session.stop.stop_requested()) throw Error(ErrorCode::cancelled, "stopped on request");
+    if (!on_terminal_ && !session.quiet)
+        reporter_ = std::jthread([=, this](const std::stop_token& end) { say_lines(end, between_lines); });
 }
 
 Stage::~Stage() {
+    if (reporter_.joinable()) {
+        reporter_.request_stop();
+        reporter_.join();
+    }
     erase();
     session_.detail(fmt::format("{}: {:.2f} s", name_, seconds()));
 }
 
 Progress Stage::progress(std::size_t i, std::size_t n) {
-    if (!on_terminal_) return Progress(session_.stop.get_token());
+    if (session_.quiet) return Progress(session_.stop.get_token());
     return Progress(session_.stop.get_token(), [this, i, n](double fraction) {
-        draw((static_cast<double>(i) + fraction) / static_cast<double>(n));
+        const double whole = std::clamp((static_cast<double>(i) + fraction) / static_cast<double>(n), 0.0, 1.0);
+        fraction_ = whole;
+        if (on_terminal_) draw(whole);
         return true;
     });
 }
 
 double Stage::seconds() const { return std::chrono::duration<double>(Clock::now() - began_).count(); }
 
+void Stage::say_lines(const std::stop_token& end, std::chrono::milliseconds between_lines) {
+    for (;;) {
+        std::unique_lock lock(mutex_);
+        if (ended_.wait_for(lock, end, between_lines, [&] { return end.stop_requested(); })) return;
+        session_.say(fmt::format("{}: {:.0f}%, {}", name_, std::floor(100 * fraction_), time_left(fraction_)));
+    }
+}
+
+std::string Stage::time_left(double fraction) const {
+    return fraction > 0.01 ? clock_text(seconds() * (1 - fraction) / fraction) + " left"
+                           : clock_text(seconds()) + " so far";
+}
+
 void Stage::draw(double fraction) {
     const Clock::time_point now = Clock::now();
     if (now - began_ < std::chrono::seconds(1) || now - drawn_ < std::chrono::milliseconds(100)) return;
     drawn_ = now;
     visible_ = true;
-    fraction = std::clamp(fraction, 0.0, 1.0);
-    const std::string left =
-        fraction > 0.01 ? clock_text(seconds() * (1 - fraction) / fraction) + " left" : clock_text(seconds());
-    const std::string words = fmt::format("{:<22.22} {:3.0f}%  {:>12}", name_, std::floor(100 * fraction), left);
+    const std::string words =
+        fmt::format("{:<22.22} {:3.0f}%  {:>12}", name_, std::floor(100 * fraction), time_left(fraction));
     const std::size_t width = terminal_width();
     std::string bar;
     if (width > words.size() + 12) {

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
+#include <mutex>
 #include <stop_token>
 #include <string>
+#include <thread>
 
 #include "hogel/progress.h"
 #include "result.h"
@@ -45,11 +49,12 @@ void add_json_flag(Command& command, Session& session);
 /// Writes to the standard error and ignores failures.
 void write_error_stream(const std::string& text);
 
-/// One stage of the work, with a progress bar if stderr is a terminal and the stage takes longer than a second.
+/// One stage of the work. If it takes longer than a second, it has a progress bar on a terminal; elsewhere a line every
+/// minute says how far it is.
 class Stage {
   public:
     /// Throws Error(cancelled) if the work is to stop.
-    Stage(const Session& session, std::string name);
+    Stage(const Session& session, std::string name, std::chrono::milliseconds between_lines = std::chrono::minutes(1));
     ~Stage();
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
@@ -62,6 +67,8 @@ class Stage {
   private:
     void draw(double fraction);
     void erase();
+    void say_lines(const std::stop_token& end, std::chrono::milliseconds between_lines);
+    std::string time_left(double fraction) const;
 
     using Clock = std::chrono::steady_clock;
     const Session& session_;
@@ -70,6 +77,11 @@ class Stage {
     Clock::time_point began_ = Clock::now();
     Clock::time_point drawn_{};
     bool visible_ = false;
+    // Where there is no terminal.
+    std::atomic<double> fraction_ = 0;
+    std::mutex mutex_;
+    std::condition_variable_any ended_;
+    std::jthread reporter_;
 };
 
 }  // namespace hogel::cli
