@@ -5,10 +5,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "hogel/core/json.h"
+#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/image/picture_bytes.h"
 
@@ -19,29 +21,14 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::uintmax_t max_bytes = 64 << 20;
-constexpr int max_depth = 16;
 constexpr std::size_t max_frames = 1 << 20;
 
 Json parse(const fs::path& file) {
-    std::error_code error;
-    const std::uintmax_t size = fs::file_size(file, error);
-    if (error) fail_source(file, "cannot be read");
-    if (size > max_bytes) fail_source(file, fmt::format("is larger than the {} bytes that are read", max_bytes));
-    std::ifstream stream(file, std::ios::binary);
-    const std::string text(std::istreambuf_iterator<char>(stream), {});
-    const auto not_too_deep = [&](int depth, Json::parse_event_t, Json&) {
-        if (depth > max_depth) fail_source(file, fmt::format("nests deeper than {}", max_depth));
-        return true;
-    };
-    try {
-        Json json = Json::parse(text, not_too_deep);
-        if (json.is_object() && json.contains("frames") && json["frames"].is_array()) return json;
-    } catch (const Json::parse_error& wrong) {
-        fail_source(file, fmt::format("is no JSON, from byte {} on", wrong.byte));
-    } catch (const Json::exception&) {
-        fail_source(file, "has a number out of range");
-    }
-    fail_source(file, "has no list of frames");
+    Json json =
+        core::parse_json(read_text(file, max_bytes), [&](const std::string& fault) { fail_source(file, fault); });
+    if (!json.is_object() || !json.contains("frames") || !json["frames"].is_array())
+        fail_source(file, "has no list of frames");
+    return json;
 }
 
 // The numbers of a frame, or of the whole file where the frame does not say them.
@@ -149,7 +136,9 @@ std::vector<CameraFrame> read_camera_frames(const fs::path& file) {
     if (list.size() < 2 || list.size() > max_frames)
         fail_source(file, fmt::format("has {} frames, but a set has two or more", list.size()));
     std::vector<CameraFrame> cameras;
+    std::map<fs::path, ViewSet> sizes;  // of pictures whose frames do not say them
     for (std::size_t i = 0; i < list.size(); ++i) {
+        core::throw_if_stopped();
         const Json& frame = list[i];
         const std::string where = fmt::format("frames[{}]", i);
         if (!frame.is_object()) fail_source(file, fmt::format("{} is no object", where));
@@ -161,10 +150,10 @@ std::vector<CameraFrame> read_camera_frames(const fs::path& file) {
         double width = numbers.positive("w"), height = numbers.positive("h");
         if (std::isnan(width) || std::isnan(height)) {
             // The first data sets of NeRF leave it to the pictures.
-            ViewSet set;
-            take_size(image::read_picture(camera.picture, max_pixels), set);
-            width = static_cast<double>(set.width);
-            height = static_cast<double>(set.height);
+            const auto [known, is_new] = sizes.try_emplace(camera.picture);
+            if (is_new) take_size(image::read_picture(camera.picture, max_pixels), known->second);
+            width = static_cast<double>(known->second.width);
+            height = static_cast<double>(known->second.height);
         }
         camera.focal_x = numbers.focal("fl_x", "camera_angle_x", width);
         camera.focal_y = numbers.focal("fl_y", "camera_angle_y", height);

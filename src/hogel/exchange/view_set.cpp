@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <fstream>
 
 #include "hogel/error.h"
 #include "hogel/exchange/file_names.h"
@@ -87,6 +88,18 @@ ViewLayout layout_of(const std::filesystem::path& source, const ViewOptions& opt
 
 void fail_source(const std::filesystem::path& source, const std::string& why) {
     throw Error(ErrorCode::bad_input, fmt::format("{}: {}", source.string(), why));
+}
+
+std::string read_text(const std::filesystem::path& file, std::uintmax_t max_bytes) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) fail_source(file, "is not a regular file");  // a pipe may wait
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    if (error) fail_source(file, "cannot be read");
+    if (size > max_bytes) fail_source(file, fmt::format("is larger than the {} bytes that are read", max_bytes));
+    std::string text(size, '\0');
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream.read(text.data(), static_cast<std::streamsize>(size))) fail_source(file, "cannot be read");
+    return text;
 }
 
 std::uint32_t max_code_of(const image::Picture& picture) {

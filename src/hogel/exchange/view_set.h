@@ -96,6 +96,10 @@ ViewSet middle_of(ViewSet set, std::size_t columns, std::size_t rows);
 /// Throws Error(bad_input): "SOURCE: why".
 [[noreturn]] void fail_source(const std::filesystem::path& source, const std::string& why);
 
+/// The bytes of a regular file that describes a set. Throws Error(bad_input) for another kind of file, and for more
+/// than `max_bytes`.
+std::string read_text(const std::filesystem::path& file, std::uintmax_t max_bytes);
+
 /// A picture of a view on the way out: its samples as they are to be stored.
 using StoredView = image::Samples;
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cstring>
-#include <set>
 
+#include "hogel/core/json.h"
 #include "hogel/scene/mesh_files/checks.h"
 #include "hogel/scene/mesh_files/draco.h"
 #include "hogel/scene/mesh_files/gltf_looks.h"
@@ -15,8 +15,6 @@
 
 namespace hogel::scene::mesh_files {
 namespace {
-
-constexpr int max_json_depth = 100;
 
 // Extensions that a file may require: those that hogel shows, and those of looks that a note names. Packed
 // pictures are not among them.
@@ -86,27 +84,6 @@ std::string_view split_chunks(std::string_view bytes, Gltf& gltf) {
         at += 8 + std::size_t{size};
     }
     return json;
-}
-
-Json parse_json(const std::string& file, std::string_view text) {
-    std::vector<std::set<std::string>> keys;  // of the objects around the place that is parsed
-    const auto check = [&](int depth, Json::parse_event_t event, Json& parsed) {
-        if (depth > max_json_depth)
-            reject_file(file, fmt::format("its JSON nests deeper than {}", max_json_depth), "a glTF document");
-        if (event == Json::parse_event_t::object_start) keys.emplace_back();
-        if (event == Json::parse_event_t::object_end) keys.pop_back();
-        if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)
-            reject_file(file, fmt::format("the key {} occurs twice in one object of its JSON", shown(parsed)),
-                        "keys that differ");
-        return true;
-    };
-    try {
-        return Json::parse(text, check);
-    } catch (const Json::parse_error& error) {
-        reject_file(file, fmt::format("its JSON has an error at byte {}", error.byte), "a glTF document in UTF-8");
-    } catch (const Json::exception&) {
-        reject_file(file, "its JSON has a number out of range", "a glTF document");
-    }
 }
 
 void check_version(Gltf& gltf) {
@@ -245,7 +222,8 @@ Gltf parse_gltf(const std::string& file, const std::filesystem::path& folder, st
     gltf.file = file;
     gltf.folder = folder;
     gltf.file_size = bytes.size();
-    gltf.json = parse_json(file, split_chunks(bytes, gltf));
+    gltf.json = core::parse_json(split_chunks(bytes, gltf),
+                                 [&](const std::string& fault) { reject_file(file, fault, "a glTF document"); });
     if (!gltf.json.is_object()) reject_file(file, "its JSON is " + shown(gltf.json), "an object: a glTF document");
     check_version(gltf);
     if (gltf.is_version_2) check_extensions(gltf);

@@ -91,6 +91,14 @@ TEST_F(Hostile, off_files_are_read_with_all_that_they_hold) {
     EXPECT_EQ(triangle_count(import_scene(write("bare.off", "3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2"))), 1u);
 }
 
+// The parser searched all objects of an array again after each of them: 24 s for half as many of these.
+TEST_F(Hostile, many_objects_in_one_array_take_linear_time) {
+    std::string extras = R"("extras":[{})";
+    for (int i = 1; i < 640000; ++i) extras += ",{}";
+    std::string text = gltf(R"([{"mesh":0}])", "[0]");
+    EXPECT_EQ(triangle_count(import_scene(write("extras.gltf", text.insert(1, extras + "],")))), 1u);
+}
+
 // A video with content and a texture, connected: assimp 5.2 frees the content twice.
 TEST_F(Hostile, a_crash_of_the_reader_is_one_line) {
     expect_refusal(
