@@ -6,6 +6,7 @@
 
 #include "hogel/error.h"
 #include "hogel/exchange.h"
+#include "hogel/exchange/file_names.h"
 #include "hogel/exchange/test_views.h"
 
 namespace hogel::exchange {
@@ -40,6 +41,24 @@ TEST(DamagedViews, AHoleIsNamed) {
     std::filesystem::remove(folder.path() / "01_02.png");
     EXPECT_NE(error_of(folder.path()).find("01_02.png: a view is missing"), std::string::npos)
         << error_of(folder.path());
+}
+
+// Room was made for every pair of the numbers.
+TEST(DamagedViews, NumbersThatAllDifferMakeNoGridOfTheirSquare) {
+    constexpr std::uint64_t count = 50000;
+    NumberedFiles group;
+    for (std::uint64_t i = 0; i < count; ++i)
+        group.files.push_back({std::filesystem::path("set") / fmt::format("{}_{}.png", i, i), {i, i}});
+    try {
+        in_rows_and_columns(group, 0, 1);
+        ADD_FAILURE() << "accepted";
+    } catch (const Error& error) {
+        EXPECT_EQ(std::string(error.what()), "set/0_1.png: a view is missing; there are 50000 of 50000x50000");
+    }
+    for (std::uint64_t i = 0; i < count; ++i) group.files[i].numbers[0] = 7;
+    const PictureGrid row = in_rows_and_columns(group, 0, 1);
+    EXPECT_EQ(row.rows, 1u);
+    EXPECT_EQ(row.files[count - 1].filename(), "49999_49999.png");
 }
 
 TEST(DamagedViews, AMissingRowIsNoticed) {

@@ -107,6 +107,21 @@ std::string name_with(const std::string& name, std::size_t a, std::int64_t a_val
     return replaced + name.substr(done);
 }
 
+// A number of names, by its index, and a value that it has.
+struct NumberInName {
+    std::size_t index;
+    std::int64_t value;
+};
+
+[[noreturn]] void fail_missing(const NumberedFiles& group, const NumberInName& row, const NumberInName& column,
+                               const PictureGrid& grid) {
+    const fs::path& other = group.files.front().path;
+    const std::string name = name_with(other.stem().string(), row.index, row.value, column.index, column.value);
+    throw Error(ErrorCode::bad_input, fmt::format("{}: a view is missing; there are {} of {}x{}",
+                                                  (other.parent_path() / name).string() + other.extension().string(),
+                                                  group.files.size(), grid.columns, grid.rows));
+}
+
 // Whether pictures are by their names something else than what cameras saw: disparity, depth, labels, small copies.
 bool is_map(const std::string& shape) {
     std::string name = shape;
@@ -144,27 +159,29 @@ std::vector<NumberedFiles> numbered_pictures(const fs::path& folder) {
 
 PictureGrid in_rows_and_columns(const NumberedFiles& group, std::size_t row_number, std::size_t column_number) {
     const std::vector<std::int64_t> rows = steps(group, row_number), columns = steps(group, column_number);
-    PictureGrid grid{rows.size(), columns.size(), std::vector<fs::path>(rows.size() * columns.size())};
-    for (const NumberedFile& file : group.files) {
-        const auto row = static_cast<std::size_t>(std::ranges::find(rows, file.numbers[row_number]) - rows.begin());
-        const auto column =
-            static_cast<std::size_t>(std::ranges::find(columns, file.numbers[column_number]) - columns.begin());
-        fs::path& place = grid.files[row * grid.columns + column];
-        if (!place.empty())
-            throw Error(ErrorCode::bad_input,
-                        fmt::format("{}: is the same view as {}", file.path.string(), place.filename().string()));
-        place = file.path;
+    // In the order of views. Numbers that differ in every name would be a grid of the square of the number of files.
+    std::vector<std::pair<std::size_t, const NumberedFile*>> places;
+    const auto index_of = [](const std::vector<std::int64_t>& values, std::int64_t value) {
+        return static_cast<std::size_t>(std::ranges::lower_bound(values, value) - values.begin());
+    };
+    for (const NumberedFile& file : group.files)
+        places.emplace_back(
+            index_of(rows, file.numbers[row_number]) * columns.size() + index_of(columns, file.numbers[column_number]),
+            &file);
+    std::ranges::stable_sort(places, {}, [](const auto& place) { return place.first; });
+    PictureGrid grid{rows.size(), columns.size(), {}};
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const auto& [place, file] = places[i];
+        if (i > 0 && place == places[i - 1].first)
+            throw Error(ErrorCode::bad_input, fmt::format("{}: is the same view as {}", file->path.string(),
+                                                          places[i - 1].second->path.filename().string()));
+        if (place != i)
+            fail_missing(group, {row_number, rows[i / columns.size()]}, {column_number, columns[i % columns.size()]},
+                         grid);
+        grid.files.push_back(file->path);
     }
-    for (std::size_t i = 0; i < grid.files.size(); ++i)
-        if (grid.files[i].empty()) {
-            const fs::path& other = group.files.front().path;
-            const std::string name = name_with(other.stem().string(), row_number, rows[i / grid.columns], column_number,
-                                               columns[i % grid.columns]);
-            throw Error(ErrorCode::bad_input,
-                        fmt::format("{}: a view is missing; there are {} of {}x{}",
-                                    (other.parent_path() / name).string() + other.extension().string(),
-                                    group.files.size(), grid.columns, grid.rows));
-        }
+    if (const std::size_t i = places.size(); i < rows.size() * columns.size())
+        fail_missing(group, {row_number, rows[i / columns.size()]}, {column_number, columns[i % columns.size()]}, grid);
     return grid;
 }
 

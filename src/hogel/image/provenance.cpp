@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 #include <string_view>
 
@@ -31,11 +32,14 @@ bool is_of_command(std::string_view key) {
 
 Metadata with_history(Metadata now, const Metadata& before) {
     const bool two_commands = find_key(now, "command") != now.end() && find_key(before, "command") != before.end();
+    std::map<std::string, std::string> known(now.begin(), now.end());  // the first text of each key
     for (const auto& [key, text] : before) {
         std::string free = two_commands && is_of_command(key) && key != "software" ? "source " + key : key;
-        auto same = find_key(now, free);
-        while (same != now.end() && same->second != text) same = find_key(now, free.insert(0, "source "));
-        if (same == now.end()) now.emplace_back(free, text);
+        auto same = known.find(free);
+        while (same != known.end() && same->second != text) same = known.find(free.insert(0, "source "));
+        if (same != known.end()) continue;
+        known.emplace(free, text);
+        now.emplace_back(std::move(free), text);
     }
     return now;
 }

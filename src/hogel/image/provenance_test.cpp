@@ -48,6 +48,12 @@ TEST(Provenance, an_unreadable_camera_stays_an_entry) {
     EXPECT_EQ(to_metadata({metadata, a_camera()}).size(), 3u);
 }
 
+TEST(Provenance, history_of_many_entries_takes_linear_time) {
+    Metadata before;
+    for (int i = 0; i < 300000; ++i) before.emplace_back("key" + std::to_string(i), "text");
+    EXPECT_EQ(with_history({{"key7", "other"}, {"key8", "text"}}, before).size(), 300001u);
+}
+
 TEST(Provenance, history_keeps_every_generation) {
     const Metadata render{{"software", "hogel 1"}, {"command", "render"}, {"scene", "ball"}};
     const Metadata hologram = with_history({{"software", "hogel 1"}, {"command", "hologram"}}, render);

@@ -16,24 +16,16 @@ namespace {
 
 using Channels = std::vector<std::pair<std::string, Array<float, 2>>>;
 
-// The numbers of the two channels of a field.
-struct ChannelPair {
-    std::size_t first = 0, second = 0;
-    Content content = Content::complex;
-};
-
 // The pairs in the order of their channels' names; red, green and blue in this order.
-std::vector<ChannelPair> pairs_of(const Channels& channels) {
-    std::vector<ChannelPair> pairs;
-    for (std::size_t i = 0; i < channels.size(); ++i)
-        for (std::size_t j = 0; j < channels.size(); ++j) {
-            const auto &a = channels[i].first, &b = channels[j].first;
-            // A lone "A" is alpha, and "R" red, except in a file of two parts.
-            if (i == j || (channels.size() > 2 && (a.size() < 2 || b.size() < 2))) continue;
-            if (name_real_and_imaginary(a, b)) pairs.push_back({i, j, Content::complex});
-            if (name_amplitude_and_phase(a, b)) pairs.push_back({i, j, Content::amplitude_phase});
-        }
-    const auto order = [&](const ChannelPair& pair) {
+std::vector<PartPair> pairs_of(const Channels& channels) {
+    std::vector<PartName> names;
+    for (const auto& [name, samples] : channels) names.push_back({name, ""});
+    std::vector<PartPair> pairs = pairs_of_parts(names, channels.size());
+    // A lone "A" is alpha, and "R" red, except in a file of two parts.
+    const auto is_lone = [&](std::size_t i) { return channels[i].first.size() < 2; };
+    if (channels.size() > 2)
+        std::erase_if(pairs, [&](const PartPair& pair) { return is_lone(pair.first) || is_lone(pair.second); });
+    const auto order = [&](const PartPair& pair) {
         const std::string& name = channels[pair.first].first;
         constexpr std::string_view colours = "RGB";
         std::size_t colour = std::string::npos;  // "R.amplitude", "amplitude.R"
@@ -41,7 +33,7 @@ std::vector<ChannelPair> pairs_of(const Channels& channels) {
         if (name.size() > 1 && name[name.size() - 2] == '.') colour = std::min(colour, colours.find(name.back()));
         return std::pair(colour, name);
     };
-    std::ranges::sort(pairs, {}, order);
+    std::ranges::stable_sort(pairs, {}, order);
     return pairs;
 }
 
@@ -55,7 +47,7 @@ double length_of(const Metadata& texts, const std::string& name) {
     return 0;
 }
 
-ExternalFacts facts_of(const image::NamedChannels& picture, const std::vector<ChannelPair>& pairs) {
+ExternalFacts facts_of(const image::NamedChannels& picture, const std::vector<PartPair>& pairs) {
     ExternalFacts facts;
     facts.format = "exr";
     facts.numbers = pairs.front().content == Content::complex ? "complex, floats" : "amplitudes and phases, floats";
@@ -86,9 +78,9 @@ ExternalFacts exr_facts(const std::filesystem::path& path) {
 
 std::unique_ptr<FieldSource> open_exr_field(const std::filesystem::path& path, const ExternalField& what) {
     const image::NamedChannels picture = image::read_named_channels(path);
-    const std::vector<ChannelPair> pairs = pairs_of(picture.channels);
+    const std::vector<PartPair> pairs = pairs_of(picture.channels);
     auto field = std::make_unique<Field>(external_grid(path, what, facts_of(picture, pairs)));
-    const ChannelPair& pair = pairs[what.colour];
+    const PartPair& pair = pairs[what.colour];
     const SampleConverter convert(path, what, pair.content, Number::single, Number::single);
     const float* const first = picture.channels[pair.first].second.data();
     const float* const second = picture.channels[pair.second].second.data();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <string_view>
 
 #include "hogel/error.h"
@@ -38,11 +39,6 @@ std::optional<std::string> without(const std::string& name, Words words) {
     return std::nullopt;
 }
 
-bool name_parts(const std::string& first, Words first_words, const std::string& second, Words second_words) {
-    const std::optional<std::string> a = without(first, first_words), b = without(second, second_words);
-    return a && b && *a == *b;
-}
-
 // The arrays that hold a field.
 struct Chosen {
     const NumberArray* first = nullptr;
@@ -60,14 +56,18 @@ std::string names_of(const std::vector<const NumberArray*>& arrays) {
     return names;
 }
 
-// Two real arrays of one shape, as their names say.
-std::optional<Chosen> pair_of(const NumberArray& a, const NumberArray& b) {
-    if (!a.imaginary.empty() || !b.imaginary.empty() || a.shape != b.shape) return std::nullopt;
-    for (const auto& [first, second] : {std::pair(&a, &b), std::pair(&b, &a)}) {
-        if (name_real_and_imaginary(first->name, second->name)) return Chosen{first, second, Content::complex};
-        if (name_amplitude_and_phase(first->name, second->name)) return Chosen{first, second, Content::amplitude_phase};
-    }
-    return std::nullopt;
+// The two real arrays of one shape that are parts of a field by their names, if no others are.
+std::optional<Chosen> only_pair_of(const std::vector<const NumberArray*>& arrays) {
+    std::vector<const NumberArray*> real;
+    std::vector<PartName> names;
+    for (const NumberArray* array : arrays)
+        if (array->imaginary.empty()) {
+            real.push_back(array);
+            names.push_back({array->name, fmt::format("{}", fmt::join(array->shape, "x"))});
+        }
+    const std::vector<PartPair> pairs = pairs_of_parts(names, 2);
+    if (pairs.size() != 1) return std::nullopt;
+    return Chosen{real[pairs[0].first], real[pairs[0].second], pairs[0].content};
 }
 
 Chosen of_names(const std::filesystem::path& path, const std::string& variable,
@@ -83,7 +83,7 @@ Chosen of_names(const std::filesystem::path& path, const std::string& variable,
     const NumberArray &a = named(variable.substr(0, comma)), &b = named(variable.substr(comma + 1));
     if (!a.imaginary.empty() || !b.imaginary.empty() || a.shape != b.shape)
         fail_external(path, fmt::format("its arrays '{}' and '{}' are not two parts of one field", a.name, b.name));
-    if (const std::optional<Chosen> pair = pair_of(a, b); pair && pair->first == &a) return *pair;
+    if (const std::optional<Chosen> pair = only_pair_of({&a, &b}); pair && pair->first == &a) return *pair;
     return {&a, &b, Content::complex};
 }
 
@@ -100,11 +100,7 @@ Chosen chosen(const std::filesystem::path& path, const std::string& variable, co
             if (array.shape.size() >= 2 && array.samples() > 1) fields.push_back(&array);
     if (fields.empty()) fail_external(path, "it holds no array of numbers with two axes");
     if (fields.size() == 1) return of_one(*fields.front());
-    std::vector<Chosen> pairs;
-    for (std::size_t i = 0; i < fields.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j)
-            if (const std::optional<Chosen> pair = pair_of(*fields[j], *fields[i])) pairs.push_back(*pair);
-    if (pairs.size() == 1) return pairs.front();
+    if (const std::optional<Chosen> pair = only_pair_of(fields)) return *pair;
     // One complex array among real ones, such as the picture that a hologram was made of.
     if (std::ranges::count_if(fields, [](const NumberArray* array) { return !array->imaginary.empty(); }) == 1)
         return of_one(**std::ranges::find_if(fields, [](const NumberArray* a) { return !a->imaginary.empty(); }));
@@ -135,12 +131,31 @@ std::string kind_of(const Chosen& chosen, bool pairs) {
 
 }  // namespace
 
-bool name_real_and_imaginary(const std::string& real, const std::string& imaginary) {
-    return name_parts(real, real_words, imaginary, imaginary_words);
-}
-
-bool name_amplitude_and_phase(const std::string& amplitude, const std::string& phase) {
-    return name_parts(amplitude, amplitude_words, phase, phase_words);
+std::vector<PartPair> pairs_of_parts(std::span<const PartName> names, std::size_t most) {
+    struct Kind {
+        Content content;
+        Words first, second;
+    };
+    const Kind kinds[] = {{Content::complex, real_words, imaginary_words},
+                          {Content::amplitude_phase, amplitude_words, phase_words}};
+    std::vector<PartPair> pairs;
+    for (const Kind& kind : kinds) {
+        std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> firsts;  // by rest of name and group
+        for (std::size_t i = 0; i < names.size(); ++i)
+            if (auto rest = without(names[i].name, kind.first)) firsts[{std::move(*rest), names[i].group}].push_back(i);
+        for (std::size_t k = 0; k < names.size(); ++k) {
+            auto rest = without(names[k].name, kind.second);
+            if (!rest) continue;
+            const auto found = firsts.find({std::move(*rest), names[k].group});
+            if (found == firsts.end()) continue;
+            for (const std::size_t i : found->second) {
+                if (i == k) continue;
+                if (pairs.size() == most) return pairs;
+                pairs.push_back({i, k, kind.content});
+            }
+        }
+    }
+    return pairs;
 }
 
 Planes planes_of(const std::filesystem::path& path, std::span<const std::size_t> shape, bool by_columns, bool complex) {

@@ -47,9 +47,17 @@ std::unique_ptr<FieldSource> open_arrays(const std::filesystem::path& path, cons
 ExternalFacts facts_of_arrays(const std::filesystem::path& path, const ExternalField& what,
                               const std::vector<NumberArray>& arrays, const std::string& format);
 
-/// Whether two names differ in the words for real and imaginary parts, or for amplitude and phase.
-bool name_real_and_imaginary(const std::string& real, const std::string& imaginary);
-bool name_amplitude_and_phase(const std::string& amplitude, const std::string& phase);
+/// A name of an array or a channel. Parts of a field are of the same group.
+struct PartName {
+    std::string name, group;
+};
+/// Indices of two names that differ in the words for real and imaginary parts, or for amplitude and phase.
+struct PartPair {
+    std::size_t first = 0, second = 0;
+    Content content = Content::complex;
+};
+/// The pairs among names, by their indices; no more than `most` of them. Takes time in proportion to names and pairs.
+std::vector<PartPair> pairs_of_parts(std::span<const PartName> names, std::size_t most);
 
 /// Takes a wavelength or a pitch from a variable of that name, if it is one: "pitch", "lambda", "wav_um".
 void take_parameter(const std::string& name, std::span<const double> values, ExternalFacts& facts);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fields as strangers have them: axes in any order, pairs of real numbers, parameters of many names, and what looks
 // like a field and cannot be read as one.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,8 +10,10 @@
 #include <string_view>
 
 #include "hogel/core/part.h"
+#include "hogel/core/test_errors.h"
 #include "hogel/image/channels.h"
 #include "hogel/io/arrays/mat_write.h"
+#include "hogel/io/arrays/named_arrays.h"
 #include "hogel/io/arrays/npy.h"
 #include "hogel/io/arrays/test_field_files.h"
 #include "hogel/io/arrays/zip.h"
@@ -71,6 +75,37 @@ void expect_arranged(const fs::path& path, ExternalField what, std::size_t colou
                           Complex(float(number(what.colour, y, x, 0)), float(number(what.colour, y, x, 1))))
                     << axes << " " << path;
     }
+}
+
+// Each name was compared with each other.
+TEST(PartNames, are_paired_in_linear_time) {
+    std::vector<PartName> names;
+    for (std::size_t i = 0; i < 50000; ++i) {
+        names.push_back({fmt::format("a{}_re", i), "3x4"});
+        names.push_back({fmt::format("a{}_im", i), i % 10000 == 0 ? "3x4" : "4x3"});
+    }
+    const std::vector<PartPair> pairs = pairs_of_parts(names, names.size());
+    ASSERT_EQ(pairs.size(), 5u);
+    EXPECT_EQ(pairs[1].first, 20000u);
+    EXPECT_EQ(pairs[1].second, 20001u);
+    std::vector<PartName> same;
+    for (std::size_t i = 0; i < 50000; ++i) same.push_back({i % 2 == 0 ? "amp" : "phase", ""});
+    EXPECT_EQ(pairs_of_parts(same, 2).size(), 2u);
+    EXPECT_EQ(pairs_of_parts(same, 2)[0].content, Content::amplitude_phase);
+}
+
+// Each of them would be unpacked.
+TEST(ZipArchive, files_that_share_their_bytes_are_refused) {
+    ZipWriter zip("x.npz");
+    zip.add("a.npy", Bytes(1000));
+    Bytes archive = zip.finish();
+    const std::size_t end = archive.size() - 22, begin = end - (46 + 5);
+    const Bytes entry(archive.begin() + static_cast<long>(begin), archive.begin() + static_cast<long>(end));
+    for (int i = 0; i < 2; ++i) archive.insert(archive.begin() + static_cast<long>(begin), entry.begin(), entry.end());
+    archive[archive.size() - 22 + 10] = 3;
+    EXPECT_EQ(core::code_of([&] { read_zip("x.npz", archive); }), ErrorCode::bad_input);
+    archive[archive.size() - 22 + 10] = 1;
+    EXPECT_EQ(read_zip("x.npz", archive).size(), 1u);
 }
 
 TEST_F(StrangeFields, have_their_axes_in_many_orders) {

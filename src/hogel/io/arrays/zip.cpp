@@ -100,7 +100,7 @@ std::vector<ZipEntry> read_zip(const std::filesystem::path& path, std::span<cons
     const Directory directory = directory_of(archive);
     if (directory.entries > archive.size() / directory_bytes) archive.fail();
     std::vector<ZipEntry> entries;
-    std::uint64_t at = directory.begin;
+    std::uint64_t at = directory.begin, packed_bytes = 0;
     for (std::uint64_t i = 0; i < directory.entries; ++i) {
         if (archive.number(at, 4) != directory_mark) archive.fail();
         const std::uint64_t flags = archive.number(at + 8, 2), name_length = archive.number(at + 28, 2),
@@ -118,6 +118,8 @@ std::vector<ZipEntry> read_zip(const std::filesystem::path& path, std::span<cons
         // The local header has extra fields of its own.
         const std::uint64_t data = local + local_bytes + archive.number(local + 26, 2) + archive.number(local + 28, 2);
         entry.packed = archive.part(data, packed);
+        packed_bytes += packed;
+        if (packed_bytes > archive.size()) fail_external(path, "files of its ZIP archive overlap");
         if (entry.size / max_expansion > packed || (entry.method == 0 && entry.size != packed)) archive.fail();
         entries.push_back(std::move(entry));
         at += directory_bytes + name_length + extra_length + comment_length;

@@ -169,7 +169,9 @@ class Conversion {
     /// @param mtl       the materials of an OBJ file; lives longer than this
     Conversion(const aiScene& source, const std::string& file, bool linear_colors, bool numbered,
                const std::vector<MtlMaterial>& mtl, int pipe)
-        : source_(source), file_(file), linear_colors_(linear_colors), numbered_(numbered), sender_(pipe), mtl_(mtl) {}
+        : source_(source), file_(file), linear_colors_(linear_colors), numbered_(numbered), sender_(pipe) {
+        for (const MtlMaterial& material : mtl) mtl_.emplace(material.name, &material);  // the first of a name
+    }
 
     void run(std::uint64_t max_bytes) {
         for (const Placed& placed : place_meshes(source_, file_, max_bytes)) {
@@ -203,8 +205,9 @@ class Conversion {
     void add_mtl(const aiMaterial& source, ImportedMesh& imported) {
         aiString name;
         if (source.Get(AI_MATKEY_NAME, name) != AI_SUCCESS) return;
-        const auto found = std::ranges::find(mtl_, std::string(name.C_Str()), &MtlMaterial::name);
-        if (found == mtl_.end()) return;
+        const auto known = mtl_.find(std::string_view(name.C_Str()));
+        if (known == mtl_.end()) return;
+        const MtlMaterial* const found = known->second;
         Material& material = imported.mesh.material;
         material.alpha = static_cast<float>(found->alpha());
         if (found->emission) material.emission = *found->emission;
@@ -235,7 +238,7 @@ class Conversion {
     const std::string& file_;
     bool linear_colors_, numbered_;
     Sender sender_;
-    const std::vector<MtlMaterial>& mtl_;
+    std::map<std::string_view, const MtlMaterial*> mtl_;
     std::map<std::string, std::uint32_t> textures_;
 };
 

@@ -51,11 +51,14 @@ class GltfBuffers {
   public:
     explicit GltfBuffers(const Gltf& gltf);
     std::string_view operator[](std::size_t i) const { return buffers_[i]; }
+    /// The bytes that there are. Buffers may share them.
+    std::uint64_t bytes() const { return bytes_; }
 
   private:
     std::string_view load(const Gltf& gltf, const Json& buffer, const std::string& where, bool is_first);
 
     std::vector<std::string_view> buffers_;
+    std::uint64_t bytes_ = 0;
     std::deque<std::string> storage_;
     std::vector<std::pair<std::filesystem::path, std::string_view>> files_;
 };

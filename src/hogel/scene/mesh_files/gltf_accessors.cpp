@@ -88,13 +88,13 @@ void check_alignment(const Gltf& gltf, const std::string& where, std::size_t off
 
 class Accessors {
   public:
-    Accessors(const Gltf& gltf, const GltfBuffers& buffers) : gltf_(gltf) {
+    Accessors(const Gltf& gltf, const GltfBuffers& buffers) : gltf_(gltf), buffer_bytes_(buffers.bytes()) {
         const Json& list = gltf.list("bufferViews");
         for (std::size_t i = 0; i < list.size(); ++i)
             views_.push_back(read_view(list, i, fmt::format("bufferViews[{}]", i), buffers));
     }
 
-    GltfAccessor read(const Json& object, const std::string& where) const {
+    GltfAccessor read(const Json& object, const std::string& where) {
         GltfAccessor accessor = read_accessor_type(gltf_, object, where);
         const std::uint64_t offset = gltf_.number(object, where, "byteOffset", max_size, 0);
         if (const auto number = gltf_.reference(object, where, "bufferView", "bufferViews")) {
@@ -156,13 +156,18 @@ class Accessors {
         return views_[*view];
     }
 
-    void read_sparse(const Json& object, const std::string& where, GltfAccessor& accessor) const {
+    void read_sparse(const Json& object, const std::string& where, GltfAccessor& accessor) {
         const auto sparse = object.find("sparse");
         if (sparse == object.end()) return;
         const std::string place = where + ".sparse";
         if (!sparse->is_object()) gltf_.reject(place, "is not an object", "one");
         const std::uint64_t count = gltf_.number(*sparse, place, "count", accessor.count);
         if (count == 0) gltf_.reject(place + ".count", "is 0", "at least 1");
+        // Thousands of accessors of the same indices would be thousands of copies.
+        sparse_count_ += count;
+        if (sparse_count_ > max_shared * buffer_bytes_)
+            gltf_.reject(place, fmt::format("and those before it replace {} elements", sparse_count_),
+                         fmt::format("at most {} times the {} bytes of all buffers", max_shared, buffer_bytes_));
         const View& indices = sparse_view(*sparse, place, "indices");
         const View& values = sparse_view(*sparse, place, "values");
         const Json &index = (*sparse)["indices"], &value = (*sparse)["values"];
@@ -187,7 +192,9 @@ class Accessors {
         }
     }
 
+    static constexpr std::uint64_t max_shared = 16;
     const Gltf& gltf_;
+    std::uint64_t buffer_bytes_, sparse_count_ = 0;
     std::vector<View> views_;
 };
 
@@ -244,7 +251,7 @@ std::vector<float> GltfAccessor::floats(bool normalized) const {
 }
 
 std::vector<GltfAccessor> check_accessors(const Gltf& gltf, const GltfBuffers& buffers) {
-    const Accessors reader(gltf, buffers);
+    Accessors reader(gltf, buffers);
     const Json& list = gltf.list("accessors");
     std::vector<GltfAccessor> accessors;
     for (std::size_t i = 0; i < list.size(); ++i) {

@@ -80,6 +80,8 @@ GltfBuffers::GltfBuffers(const Gltf& gltf) {
                         fmt::format("1 to {}, the bytes that there are", data.size()));
         buffers_.push_back(data.substr(0, size));
     }
+    bytes_ = gltf.binary.size();
+    for (const std::string& bytes : storage_) bytes_ += bytes.size();
 }
 
 }  // namespace hogel::scene::mesh_files

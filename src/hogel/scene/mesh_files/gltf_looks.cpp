@@ -34,12 +34,17 @@ class Looks {
     }
 
   private:
-    TextureSource read_image(const Json& image, const std::string& where) const {
+    TextureSource read_image(const Json& image, const std::string& where) {
         TextureSource source;
         source.name = where;
         if (const auto view = gltf_.reference(image, where, "bufferView", "bufferViews")) {
             source.kind = TextureSource::Kind::encoded;
             const std::string_view bytes = buffer_view(*view);
+            // Thousands of pictures of the same bytes would be thousands of copies.
+            picture_bytes_ += bytes.size();
+            if (picture_bytes_ > max_shared * buffers_.bytes())
+                gltf_.reject(where, fmt::format("and those before it have {} bytes", picture_bytes_),
+                             fmt::format("at most {} times the {} of all buffers", max_shared, buffers_.bytes()));
             source.bytes.assign(bytes.begin(), bytes.end());
             return source;
         }
@@ -221,9 +226,11 @@ class Looks {
         return {wrap("wrapS"), wrap("wrapT"), gltf_.number(sampler, where, "magFilter", any, linear) == nearest};
     }
 
+    static constexpr std::uint64_t max_shared = 16;
     const Gltf& gltf_;
     const GltfBuffers& buffers_;
     GltfLooks& looks_;
+    std::uint64_t picture_bytes_ = 0;  // of pictures in views
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/scene/mesh_files/import_fixture.h"
 #include "hogel/scene/mesh_files/limits.h"
+#include "hogel/scene/mesh_files/obj.h"
 
 namespace hogel::scene::mesh_files {
 namespace {
@@ -97,6 +98,41 @@ TEST_F(Hostile, many_objects_in_one_array_take_linear_time) {
     for (int i = 1; i < 640000; ++i) extras += ",{}";
     std::string text = gltf(R"([{"mesh":0}])", "[0]");
     EXPECT_EQ(triangle_count(import_scene(write("extras.gltf", text.insert(1, extras + "],")))), 1u);
+}
+
+// The start of the line was searched from each number on.
+TEST(HostileObj, bare_points_in_one_line_take_linear_time) {
+    constexpr std::size_t count = 4 << 20;
+    std::string text = "v";
+    for (std::size_t i = 0; i < count; ++i) text += " .5";
+    EXPECT_EQ(with_leading_zeros(text).size(), text.size() + count);
+}
+
+TEST(HostileObj, bare_points_get_zeros_in_vertices_alone) {
+    EXPECT_EQ(with_leading_zeros(" v .5 -.5 1.5 +.25\nvt .1 .\n# .5\nmtllib .5\nvn 0 .5"),
+              " v 0.5 -0.5 1.5 +0.25\nvt 0.1 .\n# .5\nmtllib .5\nvn 0 0.5");
+    EXPECT_EQ(with_leading_zeros("v .5"), "v 0.5");
+    EXPECT_EQ(with_leading_zeros(""), "");
+    EXPECT_EQ(with_leading_zeros("v 1 2 3\n"), "v 1 2 3\n");
+}
+
+// Each of them was a copy.
+TEST_F(Hostile, parts_that_share_bytes_are_counted) {
+    std::string images = R"("images":[)";
+    for (int i = 0; i < 40; ++i) images += fmt::format(R"({}{{"bufferView":0}})", i > 0 ? "," : "");
+    std::string text = gltf(R"([{"mesh":0}])", "[0]");
+    expect_refusal("pictures.gltf", text.insert(1, images + "],"), "images[32] and those before it have 1188 bytes");
+    std::string accessors;
+    for (int i = 0; i < 400; ++i)
+        accessors += R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","sparse":{"count":3,)"
+                     R"("indices":{"bufferView":1,"componentType":5121},"values":{"bufferView":0}}},)";
+    text = gltf(R"([{"mesh":0}])", "[0]");
+    const std::string numbers = base64(std::string("\0\1\2\0", 4) + std::string(68, '\0'));
+    const std::size_t data = text.find("base64,") + 7;
+    text.replace(data, text.find('"', data) - data, numbers);
+    text.replace(text.find(R"("byteOffset":36,)"), 16, R"("byteOffset":0,)");
+    const std::size_t list = text.find(R"("accessors":[)") + 13;
+    expect_refusal("sparse.gltf", text.insert(list, accessors), "accessors[384].sparse and those before it replace");
 }
 
 // A video with content and a texture, connected: assimp 5.2 frees the content twice.

@@ -16,31 +16,34 @@ namespace {
 bool is_space(char c) { return c == ' ' || c == '\t'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Where the next number begins with its point, from a place on; npos: nowhere.
-std::size_t find_bare_point(std::string_view text, std::size_t from) {
-    for (std::size_t at = from; (at = text.find('.', at)) != text.npos; ++at) {
+/// Where the next number of a line begins with its point, from a place on; npos: nowhere.
+std::size_t find_bare_point(std::string_view line, std::size_t from) {
+    for (std::size_t at = from; (at = line.find('.', at)) != line.npos; ++at) {
         std::size_t before = at;
-        if (before > 0 && (text[before - 1] == '-' || text[before - 1] == '+')) --before;
-        if (before == 0 || !is_space(text[before - 1]) || at + 1 == text.size() || !is_digit(text[at + 1])) continue;
-        const std::size_t line = text.rfind('\n', at) + 1;  // 0 if there is no line before
-        const std::size_t word = text.find_first_not_of(" \t", line);
-        if (text[word] == 'v') return at;
+        if (before > 0 && (line[before - 1] == '-' || line[before - 1] == '+')) --before;
+        if (before > 0 && is_space(line[before - 1]) && at + 1 < line.size() && is_digit(line[at + 1])) return at;
     }
-    return text.npos;
+    return line.npos;
 }
 
 }  // namespace
 
 std::string with_leading_zeros(std::string text) {
-    std::size_t at = find_bare_point(text, 0), done = 0;
-    if (at == text.npos) return text;
     std::string whole;
-    whole.reserve(text.size() + text.size() / 8);
-    for (; at != text.npos; at = find_bare_point(text, at + 1)) {
-        whole.append(text, done, at - done).push_back('0');
-        done = at;
+    std::size_t done = 0, end = 0;
+    for (std::size_t begin = 0; begin < text.size(); begin = end + 1) {
+        end = std::min(text.find('\n', begin), text.size());
+        std::string_view line(text.data() + begin, end - begin);
+        line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+        if (!line.starts_with('v')) continue;
+        const auto first = static_cast<std::size_t>(line.data() - text.data());
+        for (std::size_t at = find_bare_point(line, 0); at != line.npos; at = find_bare_point(line, at + 1)) {
+            if (whole.empty()) whole.reserve(text.size() + text.size() / 8);
+            whole.append(text, done, first + at - done).push_back('0');
+            done = first + at;
+        }
     }
-    return whole.append(text, done);
+    return done == 0 ? text : whole.append(text, done);
 }
 
 namespace {
