@@ -155,6 +155,8 @@ std::vector<CameraFrame> read_camera_frames(const fs::path& file) {
             width = static_cast<double>(known->second.width);
             height = static_cast<double>(known->second.height);
         }
+        camera.width = width;
+        camera.height = height;
         camera.focal_x = numbers.focal("fl_x", "camera_angle_x", width);
         camera.focal_y = numbers.focal("fl_y", "camera_angle_y", height);
         if (std::isnan(camera.focal_x)) camera.focal_x = camera.focal_y;

@@ -19,6 +19,7 @@ struct CameraFrame {
     /// Its axes in the file's frame: to the right, up, and backwards (OpenGL), of length 1 and perpendicular.
     std::array<Vec3, 3> axes{};
     Vec3 place;
+    double width = 0, height = 0;     ///< of the picture as the file or the picture says it, pixels
     double focal_x = 0, focal_y = 0;  ///< focal length in pixels
     double center_x = 0,
            center_y = 0;  ///< the point of the picture on the optical axis, pixels from its top left corner

@@ -185,6 +185,10 @@ TEST(CameraFrames, DamagedFilesAreRefusedAtEveryLength) {
         folder.write("transforms.json", std::string(wrong));
         EXPECT_NE(error_of(folder.path()).find("transforms.json"), std::string::npos) << wrong;
     }
+    std::string scaled = text;
+    scaled.replace(scaled.find("\"w\": "), 5, "\"w\": 1");
+    folder.write("transforms.json", scaled);
+    EXPECT_NE(error_of(folder.path()).find("transforms.json: says that"), std::string::npos) << error_of(folder.path());
     folder.write("transforms.json", "{\"frames\": " + std::string(100000, '['));
     EXPECT_NE(error_of(folder.path()).find("nests deeper"), std::string::npos);
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include "hogel/error.h"
 #include "hogel/exchange.h"
@@ -123,7 +124,9 @@ TEST(DamagedViews, NamesOfNoSetAreRefused) {
 TEST(DamagedViews, CountsThatDoNotFitAreRefused) {
     const TestFolder folder;
     for (std::size_t i = 0; i < 7; ++i) folder.write(fmt::format("input_Cam{:03}.png", i), scene.png(0, i % 3));
-    EXPECT_NE(error_of(folder.path(), {}, ErrorCode::usage).find("7 views"), std::string::npos);
+    const std::string error = error_of(folder.path(), {}, ErrorCode::usage);
+    EXPECT_NE(error.find("7 pictures such as input_Cam000.png are not as many rows as columns"), std::string::npos);
+    EXPECT_EQ(error.find(folder.path().string() + ": "), 0u) << error;
     ViewOptions options;
     options.columns = 4;
     options.rows = 2;
@@ -137,6 +140,43 @@ TEST(DamagedViews, ParametersWithoutANumberAreNamed) {
     for (std::size_t i = 0; i < 4; ++i) folder.write(fmt::format("input_Cam{:03}.png", i), scene.png(0, i % 3));
     folder.write("parameters.cfg", std::string("[intrinsics]\nfocal_length_mm = -1\n"));
     EXPECT_NE(error_of(folder.path()).find("parameters.cfg: has no"), std::string::npos);
+}
+
+TEST(DamagedViews, ParametersThatContradictPicturesAreRefused) {
+    const TestFolder folder;
+    for (std::size_t i = 0; i < 4; ++i) folder.write(fmt::format("input_Cam{:03}.png", i), scene.png(0, i % 3));
+    folder.write("parameters.cfg", std::string("image_resolution_x_px = 40\nimage_resolution_y_px = 18\n"));
+    EXPECT_NE(error_of(folder.path()).find("parameters.cfg: says pictures of 40x18 pixels, but they have 20x18"),
+              std::string::npos);
+    // Directions that no grid has.
+    folder.write("parameters.cfg", std::string("image_resolution_x_px = 20\nimage_resolution_y_px = 18\n"
+                                               "baseline_mm = 1e308\nfocus_distance_m = 1e-12\nsensor_size_mm = 35\n"
+                                               "focal_length_mm = 50\n"));
+    EXPECT_NE(error_of(folder.path()).find("input_Cam000.png: "), std::string::npos) << error_of(folder.path());
+    folder.write("parameters.cfg", std::string("num_cams_x = 9\nnum_cams_y = 9\n"));
+    EXPECT_NE(error_of(folder.path()).find("parameters.cfg: says 9x9 cameras, but there are 4 pictures"),
+              std::string::npos);
+}
+
+// It was read for ever.
+TEST(DamagedViews, ParametersThatArePipesAreRefused) {
+    const TestFolder folder;
+    for (std::size_t i = 0; i < 4; ++i) folder.write(fmt::format("input_Cam{:03}.png", i), scene.png(0, i % 3));
+    ASSERT_EQ(mkfifo((folder.path() / "parameters.cfg").c_str(), 0600), 0);
+    EXPECT_NE(error_of(folder.path()).find("parameters.cfg: is not a regular file"), std::string::npos);
+    std::filesystem::remove(folder.path() / "parameters.cfg");
+    folder.write("parameters.cfg", std::string((1 << 20) + 1, ' '));
+    EXPECT_NE(error_of(folder.path()).find("is larger than the 1048576 bytes that are read"), std::string::npos);
+}
+
+// Six pixels became 3,200,000 rows of hogels.
+TEST(DamagedViews, QuiltsOfImpossiblePixelsAreRefused) {
+    const TestFolder folder;
+    for (const char* name : {"q_qs1x1a1e-5.png", "q_qs1x1a1e300.png", "q_qs1x1a0.1.png"}) {
+        folder.write(name, scene.png(0, 0));
+        EXPECT_NE(error_of(folder.path() / name).find(std::string(name) + ": says that its pixels are"),
+                  std::string::npos);
+    }
 }
 
 TEST(DamagedViews, OptionsThatContradictAreRefused) {

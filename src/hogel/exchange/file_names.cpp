@@ -204,16 +204,18 @@ PictureGrid counted(const NumberedFiles& group, std::size_t number, std::size_t 
                             files[i].path.filename().string()));
     }
     const std::size_t count = files.size();
+    const std::string folder = files.front().path.parent_path().string(),
+                      pictures = fmt::format("{} pictures such as {}", count, files.front().path.filename().string());
     if (columns == 0) {
         columns = rows = static_cast<std::size_t>(std::llround(std::sqrt(static_cast<double>(count))));
         if (columns * rows != count)
-            throw Error(ErrorCode::usage, fmt::format("{} views are not as many rows as columns; the number of columns "
+            throw Error(ErrorCode::usage, fmt::format("{}: {} are not as many rows as columns; the number of columns "
                                                       "and rows of views is needed",
-                                                      count));
+                                                      folder, pictures));
     }
     if (columns * rows != count)
         throw Error(ErrorCode::usage,
-                    fmt::format("{}x{} views were asked for, but there are {}", columns, rows, count));
+                    fmt::format("{}: {}x{} views were asked for, but there are {}", folder, columns, rows, pictures));
     PictureGrid grid{rows, columns, {}};
     for (NumberedFile& file : files) grid.files.push_back(std::move(file.path));
     return grid;

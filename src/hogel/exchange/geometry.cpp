@@ -146,7 +146,11 @@ Placement place(const ViewSet& set, const ViewOptions& options) {
         place_orthographic(set, options, placement);
     else
         place_cameras(set, options, placement);
-    validate(grid, ErrorCode::usage, set.layout);
+    // A geometry that no option gives is the set's own.
+    if (options.size > 0 || options.distance || options.spacing || options.field_of_view || options.disparity != 0)
+        validate(grid, ErrorCode::usage, set.layout);
+    else
+        validate(grid, ErrorCode::bad_input, set.pictures->name(0, 0));
     return placement;
 }
 

@@ -25,7 +25,7 @@ struct Placement {
 /// Where a set goes. For cameras, the plane that becomes the hologram is the one of options.disparity: with the spacing
 /// b, the distance D of the plane on which views agree and the tangent a between pixels, it is at D' with 1/D' = 1/D +
 /// disparity a/b, and its pixels are a D' apart. Throws Error(usage) for options that do not go together or a plane
-/// that is nowhere.
+/// that is nowhere, and Error(bad_input) for a geometry of the set's own that no light field has.
 Placement place(const ViewSet& set, const ViewOptions& options);
 
 /// The geometry as understood, one line.

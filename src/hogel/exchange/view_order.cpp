@@ -41,6 +41,8 @@ bool is_one_row(const ViewSet& set) {
 ViewSet unwound_by_parallax(ViewSet set, const ViewOptions& options) {
     if (options.mirror_columns || options.mirror_rows || set.rows < 2 || set.columns < 2) return set;
     const std::size_t n = set.columns, m = set.rows;
+    if (!parallax_of(set).certain)
+        set.notes.emplace_back("their parallax does not decide the order of views: they were taken row by row");
     const bool by_columns = runs_down(set);
     if (by_columns) {
         set = reordered(std::move(set), m, n, [=](std::size_t row, std::size_t column) {
@@ -68,7 +70,9 @@ ViewSet ordered_by_parallax(ViewSet set, const ViewOptions& options, const std::
         set.notes.push_back(fmt::format("by their parallax, {} is the column of views", first));
     } else if (!options.column_first) {
         set.notes.push_back(evidence.certain ? fmt::format("by their parallax, {} is the column of views", second)
-                                             : fmt::format("{} was taken for the column of views", second));
+                                             : fmt::format("their parallax does not decide the order of views: {} was "
+                                                           "taken for the column of views, with rows from the top",
+                                                           second));
     }
     if (evidence.certain && evidence.opposed && !options.mirror_columns && !options.mirror_rows) {
         set = mirrored(std::move(set), false, true);

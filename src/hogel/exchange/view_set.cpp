@@ -167,6 +167,17 @@ void take_size(const image::Picture& picture, ViewSet& set) {
         picture.samples);
 }
 
+// Throws unless what a set says of itself can be true of its pictures.
+void require_plausible(const std::filesystem::path& source, const ViewSet& set) {
+    constexpr double longest = 8;  // side of a pixel, by the other
+    const double height = set.geometry.pixel_height;
+    if (!(height >= 1 / longest && height <= longest))
+        fail_source(source,
+                    fmt::format("says that its pixels are {:.3g} times as high as wide, but {:.3g} to {:.3g} is "
+                                "read",
+                                height, 1 / longest, longest));
+}
+
 ViewSet open_views(const std::filesystem::path& source, const ViewOptions& options) {
     const ViewLayout layout = layout_of(source, options);
     if (!std::filesystem::exists(source)) fail_source(source, "no such file or folder");
@@ -180,6 +191,7 @@ ViewSet open_views(const std::filesystem::path& source, const ViewOptions& optio
     set.bits = bits_of(*first);
     set.max_code = max_code_of(*first);
     take_size(*first, set);
+    require_plausible(source, set);
     return set;
 }
 

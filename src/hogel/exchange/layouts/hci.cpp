@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <fstream>
 #include <map>
+#include <sstream>
 
 #include "hogel/core/output_file.h"
 #include "hogel/error.h"
@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* beginning = "input_cam#";  // in any case
+constexpr std::uintmax_t max_bytes = 1 << 20;    // of parameters.cfg
 
 std::string lower(std::string text) {
     std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -42,10 +43,8 @@ std::string trimmed(const std::string& text) {
 // The numbers of parameters.cfg by name. Sections do not matter: no name is in two of them.
 std::map<std::string, double> read_parameters(const fs::path& file) {
     std::map<std::string, double> parameters;
-    std::ifstream stream(file);
-    constexpr std::size_t max_lines = 10000;
-    std::string line;
-    for (std::size_t i = 0; i < max_lines && std::getline(stream, line); ++i) {
+    std::istringstream stream(read_text(file, max_bytes));
+    for (std::string line; std::getline(stream, line);) {
         // As Python's configparser: a name, = or :, a value; and what people write behind it.
         const std::size_t equals = line.find_first_of("=:");
         if (equals == std::string::npos) continue;
@@ -75,6 +74,16 @@ std::string missing_of(const fs::path& file, const std::map<std::string, double>
     return missing;
 }
 
+// Throws unless pictures have the size that the parameters say.
+void require_size(const fs::path& file, const std::map<std::string, double>& parameters, const ViewSet& set) {
+    const auto x = parameters.find("image_resolution_x_px"), y = parameters.find("image_resolution_y_px");
+    if (x == parameters.end() || y == parameters.end()) return;
+    if (x->second != static_cast<double>(set.width) || y->second != static_cast<double>(set.height))
+        fail_source(file, fmt::format("says pictures of {}x{} pixels, but they have {}x{}: correct "
+                                      "image_resolution_x_px and image_resolution_y_px",
+                                      x->second, y->second, set.width, set.height));
+}
+
 ViewGeometry geometry_of(const std::map<std::string, double>& parameters) {
     const auto length = [&](const char* name) { return parameters.at(name); };
     ViewGeometry geometry;
@@ -89,17 +98,24 @@ ViewSet open(const fs::path& source, const ViewOptions& options) {
     const std::vector<NumberedFiles> groups = numbered_pictures(source);
     const NumberedFiles* group = pictures_in(groups);
     if (group == nullptr) fail_source(source, "has no pictures input_Cam000.png and so on");
+    counted(*group, 0, group->files.size(), 1);  // throws for one that is missing, by its name
     std::size_t columns = options.columns, rows = options.rows;
     ViewSet set;
     if (const fs::path file = source / "parameters.cfg"; fs::exists(file)) {
         const std::map<std::string, double> parameters = read_parameters(file);
+        take_size(*FilePictures({group->files.front().path}, 1).look(0, 0), set);
+        require_size(file, parameters, set);
         if (const std::string missing = missing_of(file, parameters); missing.empty())
             set.geometry = geometry_of(parameters);
         else
             set.notes.push_back(fmt::format("parameters.cfg has no {}, so it says nothing of the geometry", missing));
         const auto x = parameters.find("num_cams_x"), y = parameters.find("num_cams_y");
-        if (columns == 0 && x != parameters.end() && y != parameters.end() && x->second >= 1 && y->second >= 1 &&
-            x->second * y->second <= 1e9) {
+        if (columns == 0 && x != parameters.end() && y != parameters.end()) {
+            const auto count = static_cast<double>(group->files.size());
+            if (!(x->second >= 1 && y->second >= 1) || x->second * y->second != count)
+                fail_source(
+                    file, fmt::format("says {}x{} cameras, but there are {} pictures such as {}", x->second, y->second,
+                                      group->files.size(), group->files.front().path.filename().string()));
             columns = static_cast<std::size_t>(x->second);
             rows = static_cast<std::size_t>(y->second);
         }

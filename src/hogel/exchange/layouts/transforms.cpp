@@ -38,6 +38,13 @@ ViewSet open(const fs::path& source, const ViewOptions&) {
     const std::vector<CameraFrame> frames = read_camera_frames(file);
     ViewSet set;
     take_size(image::read_picture(frames.front().picture, max_pixels), set);
+    for (const CameraFrame& frame : frames)
+        if (frame.width != static_cast<double>(set.width) || frame.height != static_cast<double>(set.height))
+            fail_source(file,
+                        fmt::format("says that {} has {}x{} pixels, but {} has {}x{}: correct w, h, fl_x, fl_y, cx "
+                                    "and cy",
+                                    frame.picture.filename().string(), frame.width, frame.height,
+                                    frames.front().picture.filename().string(), set.width, set.height));
     CameraGrid grid = arrange(file, frames, set.width, set.height);
     set.columns = grid.columns;
     set.rows = grid.rows;
