@@ -20,20 +20,27 @@ bool is_version_73(const std::filesystem::path& path) {
 }
 
 // The arrays that a field named like this may be in.
-std::vector<NumberArray> arrays_of(const std::filesystem::path& path, const std::string& variable) {
+std::vector<NumberArray> arrays_of(const std::filesystem::path& path, const std::string& variable, Reads reads) {
     std::vector<std::string> only;
     if (!variable.empty()) {
         const std::size_t comma = variable.find(',');
         only.push_back(variable.substr(0, comma));
         if (comma != std::string::npos) only.push_back(variable.substr(comma + 1));
     }
-    return is_version_73(path) ? read_mat73(path, only) : read_mat5(path, all_bytes(path), only);
+    return is_version_73(path) ? read_mat73(path, only, field_axes, reads)
+                               : read_mat5(path, all_bytes(path), only, field_axes, reads);
 }
+
+constexpr std::uint64_t max_parameter = 3;  // samples
 
 }  // namespace
 
 bool is_wanted(const std::string& name, std::uint64_t samples, std::span<const std::string> only) {
-    return only.empty() || samples <= 3 || std::ranges::find(only, name) != only.end();
+    return only.empty() || samples <= max_parameter || std::ranges::find(only, name) != only.end();
+}
+
+bool has_numbers(const NumberArray& array, Reads reads) {
+    return reads == Reads::all || array.samples() <= max_parameter;
 }
 
 bool is_mat(std::span<const unsigned char> start) {
@@ -55,11 +62,11 @@ NumberArray read_mat_array(const std::filesystem::path& path, const std::string&
 }
 
 std::unique_ptr<FieldSource> open_mat(const std::filesystem::path& path, const ExternalField& what) {
-    return open_arrays(path, what, arrays_of(path, what.variable));
+    return open_arrays(path, what, arrays_of(path, what.variable, Reads::all));
 }
 
 ExternalFacts mat_facts(const std::filesystem::path& path, const ExternalField& what) {
-    return facts_of_arrays(path, what, arrays_of(path, what.variable), "mat");
+    return facts_of_arrays(path, what, arrays_of(path, what.variable, Reads::parameters), "mat");
 }
 
 }  // namespace hogel::io::arrays

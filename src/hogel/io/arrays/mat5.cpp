@@ -94,20 +94,16 @@ constexpr Number classes[] = {Number::real,   Number::single, Number::int8,   Nu
                               Number::uint16, Number::int32,  Number::uint32, Number::int64, Number::uint64};
 constexpr unsigned char first_number = 6, last_number = 15, complex_flag = 0x08;
 
-struct Head {
-    NumberArray array;
-    std::uint64_t count = 0;  // of numbers
-    bool is_complex = false;
-};
+constexpr std::size_t max_head = 1024;  // bytes that hold the head of an array
 
 // Reads what stands before the numbers of an array; nothing for one that is not numeric, or that is empty.
-std::optional<Head> read_head(const std::filesystem::path& path, Elements& parts) {
+std::optional<NumberArray> read_head(const std::filesystem::path& path, Elements& parts) {
     const Element flags = parts.next(), extents = parts.next(), label = parts.next();
     if (flags.type != type_uint32 || flags.bytes.size() != 8 || extents.type != type_int32 || label.type != type_int8)
         fail_external(path, "an array's head is damaged");
-    Head head;
-    head.array.name.assign(label.bytes.begin(), label.bytes.end());
-    head.array.by_columns = true;
+    NumberArray head;
+    head.name.assign(label.bytes.begin(), label.bytes.end());
+    head.by_columns = true;
     const unsigned char kind = flags.bytes[0];
     const std::size_t axes = extents.bytes.size() / 4;
     if (kind < first_number || kind > last_number || extents.bytes.size() % 4 != 0 || axes < 2) return {};
@@ -116,33 +112,83 @@ std::optional<Head> read_head(const std::filesystem::path& path, Elements& parts
         std::int32_t extent = 0;
         std::memcpy(&extent, &extents.bytes[4 * axis], sizeof extent);
         if (extent <= 0) return {};
-        head.array.shape.push_back(static_cast<std::size_t>(extent));
+        head.shape.push_back(static_cast<std::size_t>(extent));
         // No element has more than 2³² bytes, and no product with another extent exceeds 64 bits.
         head.count = std::min(head.count * static_cast<std::uint64_t>(extent), std::uint64_t{1} << 32);
     }
-    head.is_complex = (flags.bytes[1] & complex_flag) != 0;
-    head.array.number_class = classes[kind - first_number];
+    head.complex = (flags.bytes[1] & complex_flag) != 0;
+    head.number_class = classes[kind - first_number];
     // Doubles may be stored as small whole numbers, but phases are then still in radians.
-    head.array.floating = kind == first_number || kind == first_number + 1;
+    head.floating = kind == first_number || kind == first_number + 1;
     return head;
 }
 
-// Appends the array if it is numeric, has two axes to `max_axes`, and is wanted.
-void take_array(const std::filesystem::path& path, std::span<const unsigned char> bytes,
-                std::span<const std::string> only, std::size_t max_axes, std::vector<NumberArray>& arrays) {
+// What to take of the arrays of a file.
+struct Wanted {
+    std::span<const std::string> only;
+    std::size_t max_axes = field_axes;
+    Reads reads = Reads::all;
+};
+
+// The head of an array, without its numbers, if it is numeric, has two axes to `max_axes`, and is wanted. Where numbers
+// are not read, their type is that of the head: it may be stored as a smaller one.
+std::optional<NumberArray> wanted_head(const std::filesystem::path& path, Elements& parts, const Wanted& wanted) {
+    std::optional<NumberArray> head = read_head(path, parts);
+    if (!head || head->shape.size() > wanted.max_axes || !is_wanted(head->name, head->samples(), wanted.only))
+        return {};
+    head->real_number = head->imaginary_number = head->number_class;
+    return head;
+}
+
+// The numbers that follow in `parts`.
+std::span<const unsigned char> take_numbers(const std::filesystem::path& path, Elements& parts,
+                                            const NumberArray& array, Number& number) {
+    const Element numbers = parts.next();
+    if (!number_of(numbers.type, number) || numbers.bytes.size() != array.samples() * bytes_of(number))
+        fail_external(path, fmt::format("its array '{}' is damaged", array.name));
+    return numbers.bytes;
+}
+
+// Appends an array that is wanted.
+void take_array(const std::filesystem::path& path, std::span<const unsigned char> bytes, const Wanted& wanted,
+                std::vector<NumberArray>& arrays) {
     Elements parts(path, bytes);
-    std::optional<Head> head = read_head(path, parts);
-    if (!head || head->array.shape.size() > max_axes || !is_wanted(head->array.name, head->count, only)) return;
-    NumberArray& array = head->array;
-    const auto take = [&](Number& number, std::vector<unsigned char>& to) {
-        const Element numbers = parts.next();
-        if (!number_of(numbers.type, number) || numbers.bytes.size() != head->count * bytes_of(number))
-            fail_external(path, fmt::format("its array '{}' is damaged", array.name));
-        to.assign(numbers.bytes.begin(), numbers.bytes.end());
-    };
-    take(array.real_number, array.real);
-    if (head->is_complex) take(array.imaginary_number, array.imaginary);
-    arrays.push_back(std::move(array));
+    std::optional<NumberArray> array = wanted_head(path, parts, wanted);
+    if (!array) return;
+    if (has_numbers(*array, wanted.reads)) {
+        const auto take = [&](Number& number, std::vector<unsigned char>& to) {
+            const std::span<const unsigned char> numbers = take_numbers(path, parts, *array, number);
+            to.assign(numbers.begin(), numbers.end());
+        };
+        take(array->real_number, array->real);
+        if (array->complex) take(array->imaginary_number, array->imaginary);
+    }
+    arrays.push_back(std::move(*array));
+}
+
+// The same of an array that is compressed. It is inflated once, and only if its numbers are read; those of a real array
+// stay where they were inflated.
+void take_compressed(const std::filesystem::path& path, std::span<const unsigned char> compressed, const Wanted& wanted,
+                     std::vector<NumberArray>& arrays) {
+    constexpr std::size_t tag = 8;
+    const std::vector<unsigned char> start = inflated(path, compressed, max_head);
+    std::uint32_t type = 0;
+    std::memcpy(&type, start.data(), sizeof type);
+    if (type != type_array) return;
+    Elements beginning(path, std::span(start).subspan(tag));
+    std::optional<NumberArray> array = wanted_head(path, beginning, wanted);
+    if (!array) return;
+    if (!has_numbers(*array, wanted.reads)) return arrays.push_back(std::move(*array));
+    std::vector<unsigned char> held = inflated(path, compressed);
+    if (array->complex) return take_array(path, std::span(held).subspan(tag), wanted, arrays);
+    Elements parts(path, std::span(held).subspan(tag));
+    wanted_head(path, parts, wanted);
+    const std::span<const unsigned char> numbers = take_numbers(path, parts, *array, array->real_number);
+    const auto first = held.begin() + (numbers.data() - held.data());
+    held.erase(first + static_cast<std::ptrdiff_t>(numbers.size()), held.end());
+    held.erase(held.begin(), first);
+    array->real = std::move(held);
+    arrays.push_back(std::move(*array));
 }
 
 void require_version_5(const std::filesystem::path& path, std::span<const unsigned char> header) {
@@ -154,18 +200,15 @@ void require_version_5(const std::filesystem::path& path, std::span<const unsign
 }  // namespace
 
 std::vector<NumberArray> read_mat5(const std::filesystem::path& path, std::span<const unsigned char> bytes,
-                                   std::span<const std::string> only, std::size_t max_axes) {
+                                   std::span<const std::string> only, std::size_t max_axes, Reads reads) {
+    const Wanted wanted{only, max_axes, reads};
     require_version_5(path, bytes);
     std::vector<NumberArray> arrays;
     Elements elements(path, bytes.subspan(header_bytes));
     while (!elements.empty()) {
         const Element element = elements.next();
-        if (element.type == type_array) take_array(path, element.bytes, only, max_axes, arrays);
-        if (element.type != type_compressed) continue;
-        const std::vector<unsigned char> held = inflated(path, element.bytes);
-        Elements inside(path, held);
-        const Element array = inside.next();
-        if (array.type == type_array) take_array(path, array.bytes, only, max_axes, arrays);
+        if (element.type == type_array) take_array(path, element.bytes, wanted, arrays);
+        if (element.type == type_compressed) take_compressed(path, element.bytes, wanted, arrays);
     }
     return arrays;
 }
@@ -179,23 +222,23 @@ std::vector<NumberArray> mat5_heads(const std::filesystem::path& path) {
         return bytes;
     };
     require_version_5(path, bytes_at(0, header_bytes));
-    constexpr std::size_t head_bytes = 1024, packed_bytes = 8192;  // enough for the head of an array
+    constexpr std::size_t packed_bytes = 8192;  // enough for the head of an array
     std::vector<NumberArray> arrays;
     for (std::uint64_t at = header_bytes; at + 8 <= end;) {
         std::uint32_t tag[2];
         file.read(at, tag, sizeof tag);
         const std::uint64_t size = tag[1];
         std::vector<unsigned char> start;
-        if (tag[0] == type_array) start = bytes_at(at + 8, std::min<std::uint64_t>(size, head_bytes));
+        if (tag[0] == type_array) start = bytes_at(at + 8, std::min<std::uint64_t>(size, max_head));
         if (tag[0] == type_compressed) {
-            start = inflated(path, bytes_at(at + 8, std::min<std::uint64_t>(size, packed_bytes)), head_bytes);
+            start = inflated(path, bytes_at(at + 8, std::min<std::uint64_t>(size, packed_bytes)), max_head);
             std::uint32_t type = 0;
             std::memcpy(&type, start.data(), sizeof type);
             start.erase(start.begin(), start.begin() + (type == type_array ? 8 : static_cast<long>(start.size())));
         }
         if (!start.empty()) {
             Elements parts(path, start);
-            if (std::optional<Head> head = read_head(path, parts)) arrays.push_back(std::move(head->array));
+            if (std::optional<NumberArray> head = read_head(path, parts)) arrays.push_back(std::move(*head));
         }
         at += tag[0] >> 16 != 0 ? 8 : 8 + (tag[0] == type_compressed ? size : (size + 7) / 8 * 8);
     }

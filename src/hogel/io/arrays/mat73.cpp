@@ -48,23 +48,29 @@ NumberArray head_of(const Hdf5V0Dataset& dataset) {
     array.by_columns = true;
     array.real_number = array.number_class = dataset.members[0].number;
     array.floating = !is_whole(array.real_number);
+    array.count = dataset.samples();
+    array.complex = is_complex(dataset);
+    if (array.complex) array.imaginary_number = dataset.members[1].number;
     return array;
 }
 
 }  // namespace
 
 std::vector<NumberArray> read_mat73(const std::filesystem::path& path, std::span<const std::string> only,
-                                    std::size_t max_axes) {
+                                    std::size_t max_axes, Reads reads) {
     const Hdf5V0 file(path);
     std::vector<NumberArray> arrays;
     for (const Hdf5V0Dataset& dataset : file.datasets()) {
         if (!is_read(dataset) || dataset.shape.size() > max_axes || !is_wanted(dataset.name, dataset.samples(), only))
             continue;
         NumberArray array = head_of(dataset);
+        if (!has_numbers(array, reads)) {
+            arrays.push_back(std::move(array));
+            continue;
+        }
         std::vector<unsigned char> elements = file.read(dataset);
-        if (is_complex(dataset)) {
+        if (array.complex) {
             array.real = numbers_of(elements, dataset.element_bytes, dataset.members[0]);
-            array.imaginary_number = dataset.members[1].number;
             array.imaginary = numbers_of(elements, dataset.element_bytes, dataset.members[1]);
         } else {
             array.real = std::move(elements);

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "hogel/core/part.h"
+#include "hogel/io/arrays/mat_write.h"
 #include "hogel/io/arrays/test_field_files.h"
 
 namespace hogel::io::arrays {
@@ -132,6 +133,57 @@ TEST_F(MatlabFields, are_read_plain_and_compressed) {
     which.variable = "missing";
     EXPECT_THROW(open_external_field(directory_ / "e.mat", which), Error);
     EXPECT_THROW(open_external_field(directory_ / "c.mat", which), Error);
+}
+
+// An element of a MAT file that zlib's format holds, in blocks that are not deflated, without its checksum.
+Bytes stored(std::span<const unsigned char> array) {
+    Bytes packed{0x78, 0x01};
+    for (std::size_t at = 0; at < array.size();) {
+        const std::size_t size = std::min<std::size_t>(array.size() - at, 0xffff);
+        for (const std::size_t part :
+             {std::size_t{at + size == array.size()}, size & 0xff, size >> 8, ~size & 0xff, ~size >> 8 & 0xff})
+            packed.push_back(static_cast<unsigned char>(part));
+        packed.insert(packed.end(), &array[at], &array[at] + size);
+        at += size;
+    }
+    return packed;
+}
+
+void put_compressed(Bytes& file, const Bytes& packed) {
+    for (const std::size_t number : {std::size_t{15}, packed.size()})
+        for (std::size_t i = 0; i < 4; ++i) file.push_back(static_cast<unsigned char>(number >> (8 * i)));
+    file.insert(file.end(), packed.begin(), packed.end());
+}
+
+// What the file says of itself is asked for before the numbers are: they were inflated each time.
+TEST_F(MatlabFields, are_inflated_only_where_their_numbers_are_read) {
+    if (!core::part("zlib").built_in) GTEST_SKIP() << "no zlib";
+    const std::vector<float> numbers(20 * 30, 0.5f);
+    const auto array_of = [&](const std::string& name) {
+        MatWriter writer("x.mat");
+        const Bytes empty = writer.bytes();
+        writer.array(name, std::vector<std::size_t>{20, 30}, numbers, numbers);
+        return std::pair(empty, Bytes(writer.bytes().begin() + static_cast<long>(empty.size()), writer.bytes().end()));
+    };
+    const auto [header, field] = array_of("field");
+    Bytes damaged = stored(array_of("other").second);
+    damaged.resize(damaged.size() - 1000);  // behind the head of the array
+    Bytes file = header;
+    put_compressed(file, damaged);
+    const fs::path one = write("one.mat", file);
+    EXPECT_EQ(external_facts(one).width, 30u);
+    EXPECT_EQ(external_facts(one).numbers, "complex, single floats");
+    EXPECT_THROW(open_external_field(one, known()), Error);
+    put_compressed(file, stored(field));
+    ExternalField which = known();
+    which.variable = "field";
+    EXPECT_EQ(all_of(*open_external_field(write("two.mat", file), which))(19, 29), Complex(0.5f, 0.5f));
+    // Real numbers stay where they were inflated.
+    MatWriter real("x.mat");
+    real.array("field", std::vector<std::size_t>{20, 30}, numbers);
+    file = header;
+    put_compressed(file, stored(std::span(real.bytes()).subspan(header.size())));
+    EXPECT_EQ(all_of(*open_external_field(write("three.mat", file), known(Values::amplitude)))(19, 29), Complex(0.5f));
 }
 
 // HDF5 reserves space for later content, zeros far from other data, which are never read.

@@ -46,9 +46,7 @@ struct Chosen {
     Content content = Content::real;
 };
 
-Chosen of_one(const NumberArray& array) {
-    return {&array, nullptr, array.imaginary.empty() ? Content::real : Content::complex};
-}
+Chosen of_one(const NumberArray& array) { return {&array, nullptr, array.complex ? Content::complex : Content::real}; }
 
 std::string names_of(const std::vector<const NumberArray*>& arrays) {
     std::string names;
@@ -61,7 +59,7 @@ std::optional<Chosen> only_pair_of(const std::vector<const NumberArray*>& arrays
     std::vector<const NumberArray*> real;
     std::vector<PartName> names;
     for (const NumberArray* array : arrays)
-        if (array->imaginary.empty()) {
+        if (!array->complex) {
             real.push_back(array);
             names.push_back({array->name, fmt::format("{}", fmt::join(array->shape, "x"))});
         }
@@ -81,7 +79,7 @@ Chosen of_names(const std::filesystem::path& path, const std::string& variable,
     const std::size_t comma = variable.find(',');
     if (comma == std::string::npos) return of_one(named(variable));
     const NumberArray &a = named(variable.substr(0, comma)), &b = named(variable.substr(comma + 1));
-    if (!a.imaginary.empty() || !b.imaginary.empty() || a.shape != b.shape)
+    if (a.complex || b.complex || a.shape != b.shape)
         fail_external(path, fmt::format("its arrays '{}' and '{}' are not two parts of one field", a.name, b.name));
     if (const std::optional<Chosen> pair = only_pair_of({&a, &b}); pair && pair->first == &a) return *pair;
     return {&a, &b, Content::complex};
@@ -102,8 +100,8 @@ Chosen chosen(const std::filesystem::path& path, const std::string& variable, co
     if (fields.size() == 1) return of_one(*fields.front());
     if (const std::optional<Chosen> pair = only_pair_of(fields)) return *pair;
     // One complex array among real ones, such as the picture that a hologram was made of.
-    if (std::ranges::count_if(fields, [](const NumberArray* array) { return !array->imaginary.empty(); }) == 1)
-        return of_one(**std::ranges::find_if(fields, [](const NumberArray* a) { return !a->imaginary.empty(); }));
+    if (std::ranges::count_if(fields, [](const NumberArray* array) { return array->complex; }) == 1)
+        return of_one(**std::ranges::find_if(fields, [](const NumberArray* a) { return a->complex; }));
     throw Error(ErrorCode::usage,
                 fmt::format("'{}' holds several arrays; which one is meant of {}?", path.string(), names_of(fields)));
 }
@@ -288,8 +286,7 @@ ExternalFacts facts_of_arrays(const std::filesystem::path& path, const ExternalF
     facts.height = planes.height;
     facts.colours = planes.colours;
     for (const NumberArray& array : arrays) {
-        if (&array == field.first || &array == field.second || !is_parameter(array) || !array.imaginary.empty())
-            continue;
+        if (&array == field.first || &array == field.second || !is_parameter(array) || array.complex) continue;
         std::vector<double> values;
         for (std::size_t i = 0; i < array.samples(); ++i) values.push_back(array.real_at(i));
         take_parameter(array.name, values, facts);

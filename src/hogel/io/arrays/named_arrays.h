@@ -29,9 +29,11 @@ struct NumberArray {
     Number real_number = Number::real, imaginary_number = Number::real;
     bool floating = false;  ///< whether its program takes it for floating-point numbers however they are stored
     Number number_class = Number::real;          ///< what its program takes the numbers for; filled for MAT files
-    std::vector<unsigned char> real, imaginary;  ///< `imaginary` is empty if the array is real
+    std::size_t count = 0;                       ///< of samples, whether they were read or not
+    bool complex = false;                        ///< whether samples have imaginary parts
+    std::vector<unsigned char> real, imaginary;  ///< empty where numbers were not read
 
-    std::size_t samples() const { return real.size() / bytes_of(real_number); }
+    std::size_t samples() const { return count; }
     double real_at(std::size_t i) const { return number_at(real_number, &real[i * bytes_of(real_number)]); }
     double imaginary_at(std::size_t i) const {
         return number_at(imaginary_number, &imaginary[i * bytes_of(imaginary_number)]);

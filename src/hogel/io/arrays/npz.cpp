@@ -22,6 +22,8 @@ NumberArray array_of(const std::string& name, const NpyHeader& header, std::span
     const std::size_t number = bytes_of(header.number), sample = header.bytes_of_sample();
     std::size_t count = 1;
     for (const std::size_t extent : header.shape) count *= extent;
+    array.count = count;
+    array.complex = header.complex;
     array.real.resize(count * number);
     if (header.complex) array.imaginary.resize(count * number);
     const auto copy = [&](const unsigned char* from, unsigned char* to) {
