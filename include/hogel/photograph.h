@@ -47,10 +47,10 @@ struct PhotographOptions {
 /// so that holograms of any size can be streamed, and one pass over the hologram serves all cameras. Intensities are
 /// averaged over the source's looks and over each pixel's area; the images have one channel, in the field's units of
 /// radiance, and the order of `cameras`. Memory: the decimated arrays, (4.4 D A/λR)² samples of 8 bytes for each eye
-/// and look, and about as much again for one eye's film that is 192 resolution cells λR/A wider, with D the hologram's
-/// side, A the pupil, R the eye's distance. If that exceeds the options, cameras are processed fewer at a time and the
-/// hologram in windows; then the thousandth of the light that falls more than 256 resolution cells from its point is
-/// lost at the seams of windows.
+/// and look, and about as much again for one eye's film that is 192 resolution cells λR/A wider, with D the side of the
+/// hologram, A the pupil, R the eye's distance; the film has what pictures show beside the hologram, too. If that
+/// exceeds the options, cameras are processed fewer at a time and the hologram in windows; then the thousandth of the
+/// light that falls more than 256 resolution cells from its point is lost at the seams of windows.
 ///
 /// Behind a vertical diffuser a line of samples is coherent along x, and its light of any two heights within the line
 /// is incoherent, as is that of two lines: the picture is the sum of the intensities of all heights, which are seen
@@ -102,7 +102,7 @@ HOGEL_API std::vector<Image> photograph_by_plane_waves(const FieldSource& hologr
                                                        const Progress& progress = {});
 
 /// The complex waves whose intensities photograph_by_plane_waves() shows, for one look and a perfect lens: one array
-/// [y][x] per camera, at the points of the plane in focus that the pixels' centres show, zero beside the hologram.
+/// [y][x] per camera, at the points of the plane in focus that the pixels' centres show, zero far beside the hologram.
 /// Phases are relative to spherical waves from those points to the centre of the pupil, so light through the centre
 /// alone has a constant phase. Values are not scaled to radiance. Throws as photograph_by_plane_waves() does, and
 /// Error(usage) for a film distance.

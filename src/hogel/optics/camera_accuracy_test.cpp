@@ -71,6 +71,79 @@ INSTANTIATE_TEST_SUITE_P(AnglesAndFocuses, AccurateCameras,
                          ::testing::Values(Look{0, 0}, Look{0, 0.1e-3}, Look{0, -0.1e-3}, Look{15, 0}, Look{15, 0.1e-3},
                                            Look{15, -0.1e-3}, Look{30, 0}, Look{30, 0.1e-3}, Look{30, -0.1e-3}));
 
+// What a picture shows within the outline of the hologram, and beside it.
+struct Parts {
+    Image inside, beside;
+};
+
+Parts parted(const Image& picture, const Camera& camera, const FieldGrid& hologram) {
+    Parts parts{picture, picture};
+    const Rectangle outline(hologram.plane);
+    for (std::size_t row = 0; row < picture.height(); ++row)
+        for (std::size_t column = 0; column < picture.width(); ++column) {
+            const bool inside = outline.holds(camera.picture.x(double(column)), camera.picture.y(double(row)));
+            (inside ? parts.beside : parts.inside).pixels(row, column, 0) = 0;
+        }
+    return parts;
+}
+
+double sum(const Image& image) {
+    double all = 0;
+    for (const float value : image.pixels.elements()) all += value;
+    return all;
+}
+
+class CamerasAtTheOutline : public ::testing::TestWithParam<Look> {};
+
+// A picture twice as wide as the hologram shows its diffraction beside it, and its blur where it is out of focus.
+TEST_P(CamerasAtTheOutline, show_the_surroundings_as_the_direct_sum_does) {
+    const FieldGrid grid{{60, 56, 0.75_um, 0.75_um, 0, 0}, 532_nm};
+    const Field field = random_field(grid, 4);
+    Camera camera;
+    camera.eye = {10e-3 * std::tan(GetParam().degrees * std::numbers::pi / 180), 0, 10_mm};
+    camera.pupil = 1.6_mm;
+    camera.focus_depth = GetParam().focus;
+    camera.picture = {22, 20, 4_um, 4_um, 3_um, -2_um};
+    const Parts direct = parted(photograph_directly(field, camera, 48, 3), camera, grid);
+    for (const bool narrow : {true, false}) {
+        const Image picture = narrow ? photograph(field, std::span(&camera, 1))[0]
+                                     : photograph_by_plane_waves(field, std::span(&camera, 1))[0];
+        const Parts parts = parted(picture, camera, grid);
+        EXPECT_NEAR(sum(parts.beside) / sum(direct.beside), 1, 0.01) << narrow;
+        EXPECT_NEAR(sum(parts.inside) / sum(direct.inside), 1, 2e-3) << narrow;
+        EXPECT_GT(alike_to(parts.beside, direct.beside).psnr, 50) << narrow;
+        EXPECT_GT(alike_to(parts.inside, direct.inside).psnr, 55) << narrow;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(AnglesAndFocuses, CamerasAtTheOutline,
+                         ::testing::Values(Look{0, 0}, Look{0, 0.15e-3}, Look{15, -0.15e-3}));
+
+// Most of the light of a point that floats before the edge of a hologram is beside the outline.
+TEST(CamerasAtTheOutline, show_a_point_before_the_edge) {
+    const FieldGrid grid{{60, 56, 0.75_um, 0.75_um, 0, 0}, 532_nm};
+    Field field(grid);
+    const Vec3 point{24_um, 2_um, 0.2_mm};
+    for (std::size_t row = 0; row < grid.plane.height; ++row)
+        for (std::size_t column = 0; column < grid.plane.width; ++column) {
+            const double r = length(Vec3{grid.plane.x(double(column)), grid.plane.y(double(row)), 0} - point);
+            field.samples(row, column) =
+                std::complex<float>(std::polar(1e-4 / r, -2 * std::numbers::pi * r / grid.wavelength));
+        }
+    Camera camera;
+    camera.eye = {0, 0, 10_mm};
+    camera.pupil = 1.6_mm;
+    camera.focus_depth = -point.z;
+    camera.picture = {22, 20, 4_um, 4_um, 3_um, -2_um};
+    const auto share_beside = [&](const Image& picture) {
+        return sum(parted(picture, camera, grid).beside) / sum(picture);
+    };
+    const double direct = share_beside(photograph_directly(field, camera, 48, 3));
+    EXPECT_GT(direct, 0.5);
+    EXPECT_NEAR(share_beside(photograph(field, std::span(&camera, 1))[0]), direct, 2e-3);
+    EXPECT_NEAR(share_beside(photograph_by_plane_waves(field, std::span(&camera, 1))[0]), direct, 2e-3);
+}
+
 // Two ways that share no step but the interpolation of intensities.
 TEST(NarrowAndFullCamera, show_the_same_speckle) {
     const FieldGrid grid{{400, 360, 0.8_um, 0.8_um, 20_um, 0}, 532_nm};

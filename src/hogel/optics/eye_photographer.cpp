@@ -22,8 +22,16 @@ namespace {
 // The light of one colour in the pupil of an eye, look by look, as far as it is known.
 struct SeenColour {
     std::unique_ptr<EyeDrawing> drawing;
+    Grid hologram;
+    Rectangle lit, shown;  // where its light arrives, and of that what the film shows
     std::optional<film::Film> film;
     std::vector<film::PupilWave> waves;  // [look]
+
+    bool shows(const Camera& camera) const {
+        const Rectangle area = film_area(hologram, Rectangle(camera.picture), lit);
+        return area.left >= shown.left && area.right <= shown.right && area.bottom >= shown.bottom &&
+               area.top <= shown.top;
+    }
 
     // The wave of the next look, in each process of a team.
     film::PupilWave draw(std::size_t look) const {
@@ -42,7 +50,8 @@ struct SeenEye {
     // A much narrower pupil spreads light farther than films for the wider one have room.
     bool serves(const Camera& camera) const {
         return !colours.empty() && camera.eye == eye && camera.pupil <= pupil && camera.pupil > 0.8 * pupil &&
-               defocus_blur(camera) <= blur;
+               defocus_blur(camera) <= blur &&
+               std::ranges::all_of(colours, [&](const SeenColour& colour) { return colour.shows(camera); });
     }
 };
 
@@ -62,10 +71,12 @@ struct EyePhotographer::State {
         for (const auto& hologram : holograms) {
             const Grid& plane = hologram->grid().plane;
             const Eye eye{camera.eye, camera.pupil, options.preview};
-            SeenColour colour;
+            const Rectangle lit = lit_area(hologram->grid(), camera.eye, seen.pupil, seen.blur),
+                            shown = film_area(plane, Rectangle(camera.picture), lit);
+            SeenColour colour{{}, plane, lit, shown, {}, {}};
             colour.drawing =
                 draw_eyes(*hologram, {0, 0, plane.width, plane.height}, *hologram, {&eye, 1}, options.from);
-            colour.film.emplace(colour.drawing->band(0), hologram->grid(), seen.pupil, seen.blur,
+            colour.film.emplace(colour.drawing->band(0), hologram->grid(), shown, seen.pupil, seen.blur,
                                 film::film_samples(options.preview));
             colours.push_back(std::move(colour));
         }
@@ -107,8 +118,8 @@ struct EyePhotographer::State {
         Image picture = blank(camera);
         for (std::size_t c = 0; c < holograms.size(); ++c) {
             Image one(camera.picture.width, camera.picture.height, 1);
-            seen.colours[c].film->develop(intensities[c], camera, Rectangle(holograms[c]->grid().plane),
-                                          1 / static_cast<double>(looks), one);
+            seen.colours[c].film->develop(intensities[c], camera, seen.colours[c].lit, 1 / static_cast<double>(looks),
+                                          one);
             put(one, c, picture);
         }
         return picture;

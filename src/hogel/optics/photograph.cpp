@@ -91,7 +91,8 @@ void photograph_window(const FieldSource& whole, const PhotographPlan::Window& p
     std::vector<film::Film> films;
     std::vector<std::vector<Array<float, 2>>> intensities(eyes.size());  // [eye][camera of the eye], summed over looks
     for (std::size_t e = 0; e < eyes.size(); ++e) {
-        films.emplace_back(drawing->band(e), window.grid(), eyes[e].pupil, eyes[e].blur,
+        films.emplace_back(drawing->band(e), window.grid(),
+                           film_area(window.grid().plane, eyes[e].pictures, part.shown), eyes[e].pupil, eyes[e].blur,
                            film::film_samples(options.preview));
         for (std::size_t c = 0; c < eyes[e].members.size(); ++c) intensities[e].push_back(films.back().unexposed());
     }

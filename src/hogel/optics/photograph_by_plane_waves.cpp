@@ -50,8 +50,7 @@ struct Chain {
 
 bool is_tilted(const Camera& camera) { return camera.focus_slope_x != 0 || camera.focus_slope_y != 0; }
 
-std::array<Vec3, 4> corners(const Grid& plane) {
-    const Rectangle all(plane);
+std::array<Vec3, 4> corners(const Rectangle& all) {
     return {{{all.left, all.bottom, 0}, {all.right, all.bottom, 0}, {all.left, all.top, 0}, {all.right, all.top, 0}}};
 }
 
@@ -70,6 +69,26 @@ std::size_t film_samples(std::size_t columns, double size, double pupil, double 
                                16);
 }
 
+// What a camera sees: the hologram and what the picture shows of its surroundings that are lit. Work grows with the
+// square of its width, so diffraction is followed no farther beside the hologram than the hologram is wide.
+Rectangle seen_by(const Camera& camera, const FieldGrid& hologram) {
+    const Grid& plane = hologram.plane;
+    return film_area(
+        plane, Rectangle(camera.picture),
+        lit_area(hologram, camera.eye, camera.pupil, defocus_blur(camera), std::max(plane.size_x(), plane.size_y())));
+}
+
+// A plane with the middle of the hologram that holds all of this.
+Grid plane_around(const Rectangle& seen, const Grid& hologram) {
+    const Rectangle own(hologram);
+    return {1,
+            1,
+            hologram.size_x() + 2 * std::max(own.left - seen.left, seen.right - own.right),
+            hologram.size_y() + 2 * std::max(own.bottom - seen.bottom, seen.top - own.top),
+            hologram.center_x,
+            hologram.center_y};
+}
+
 // The wave at the lens of one eye, just before its opening, restricted to the directions between the hologram and the
 // pupil.
 Spectrum wave_at_lens(const Chain& chain, std::span<const Camera> cameras, const SharedEye& eye,
@@ -81,10 +100,15 @@ Spectrum wave_at_lens(const Chain& chain, std::span<const Camera> cameras, const
     // The window is padded for a focus behind the hologram and for a picture larger than it, which would otherwise wrap
     // around to the other side, and padded again for a plane that is tilted later.
     double spread = std::max(1.0, chain.options.film_distance / lens.z);
-    for (std::size_t i : eye.members)
-        for (const Vec3& corner : corners(plane))
+    double width = plane.size_x(), height = plane.size_y();
+    for (std::size_t i : eye.members) {
+        const Rectangle seen = seen_by(cameras[i], chain.hologram.grid());
+        width = std::max(width, plane_around(seen, plane).size_x());
+        height = std::max(height, plane_around(seen, plane).size_y());
+        for (const Vec3& corner : corners(seen))
             spread = std::max(spread, (is_tilted(cameras[i]) ? 2 : 1) * focus_ratio(cameras[i], corner.x, corner.y));
-    const Grid window = padded(plane, spread * (plane.size_x() + pupil), spread * (plane.size_y() + pupil));
+    }
+    const Grid window = padded(plane, spread * (width + pupil), spread * (height + pupil));
     const Band band = band_between(Rectangle(plane), around(lens, pupil), lens.z, wavelength);
     Spectrum waves = spectrum_of(chain.hologram, chain.look, window, band, chain.options.scratch, progress, chain.team);
     propagate(waves, {lens.z, lens.x - plane.center_x, lens.y - plane.center_y, 0.5 * (plane.size_x() + inner),
@@ -125,18 +149,19 @@ Orientation stand(const Camera& camera) {
 }
 
 // The wave on the tilted plane in focus, from that on a parallel plane which it crosses in the middle.
-Wave on_tilted_plane(const Spectrum& waves, const Camera& camera, const Grid& hologram, Vec3 origin,
+// @param seen  seen_by()
+Wave on_tilted_plane(const Spectrum& waves, const Camera& camera, const Rectangle& seen, Vec3 origin,
                      const Orientation& axes, const ScratchOptions& scratch) {
     // The size of the picture on the plane, and the directions from there to the pupil.
     double half_x = 0, half_y = 0, nearest = camera.eye.z - origin.z;
     Band band{1e30, -1e30, 1e30, -1e30};
     const double pupil = edge_margin * camera.pupil;
-    for (const Vec3& corner : corners(hologram)) {
+    for (const Vec3& corner : corners(seen)) {
         const Vec3 p = in_focus(camera, corner.x, corner.y);
         nearest = std::min(nearest, camera.eye.z - p.z);
         half_x = std::max(half_x, std::abs(dot(p - origin, axes.x)));
         half_y = std::max(half_y, std::abs(dot(p - origin, axes.y)));
-        for (const Vec3& edge : corners({1, 1, pupil, pupil, camera.eye.x, camera.eye.y})) {
+        for (const Vec3& edge : corners(around(camera.eye, pupil))) {
             const Vec3 direction = normalize(Vec3{edge.x, edge.y, camera.eye.z} - p) / waves.wavelength;
             const double fx = dot(direction, axes.x), fy = dot(direction, axes.y);
             band = {std::min(band.low_x, fx), std::max(band.high_x, fx), std::min(band.low_y, fy),
@@ -173,11 +198,20 @@ core::LineRange film_rows(const Grid& plane, double scale, Vec3 origin, const Ca
     return {first, within(std::ceil(high + around)) - first};
 }
 
+// All frequencies that the samples of a wave tell apart.
+Band band_of(const Wave& wave) {
+    const Grid& plane = wave.grid().plane;
+    return {wave.carrier_x - 0.5 / plane.pitch_x, wave.carrier_x + 0.5 / plane.pitch_x,
+            wave.carrier_y - 0.5 / plane.pitch_y, wave.carrier_y + 0.5 / plane.pitch_y};
+}
+
 // The wave on the film. A perfect lens images the plane in focus: the wave in the opening is propagated back to that
 // plane through empty space. A thin lens bends the light towards a film behind it, with aberrations. In a team
 // each process has the rows that own_rows() of the picture show.
 std::optional<Focused> wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid& hologram,
                                      const PlaneWaveCameraOptions& options, Team* team) {
+    const Rectangle seen = seen_by(camera, {hologram, at_lens.wavelength});
+    const Grid whole = plane_around(seen, hologram);
     const double wavelength = at_lens.wavelength, R = camera.eye.z;
     const double m = focus_ratio(camera, hologram.center_x, hologram.center_y), b = options.film_distance;
     const double focal_length = b > 0 ? 1 / (1 / (m * R) + 1 / b) : 0;
@@ -189,18 +223,19 @@ std::optional<Focused> wave_in_focus(const Spectrum& at_lens, const Camera& came
         return film_samples(columns + bent, size, camera.pupil, b, wavelength);
     };
     // The wave repeats in the directions with a period of the wavelength by the pitch.
-    const SineRanges sines = sines_of(ViewGeometry(camera.eye, wavelength), hologram);
+    const ViewGeometry geometry(camera.eye, wavelength);
+    const SineRanges own = sines_of(geometry, hologram), shown = sines_of(geometry, whole);
     const double blur = defocus_blur(camera), cell = wavelength / camera.pupil;
-    const SpreadWindow followed(sines.x.span(), sines.y.span(), blur, cell);
-    const auto enough = [&](std::size_t columns, double size, double span) {
-        const double period = span + followed.stop + 0.5 * blur;
+    const SpreadWindow followed(own.x.span(), own.y.span(), blur, cell);
+    const auto enough = [&](std::size_t columns, double size, double farthest) {
+        const double period = farthest + followed.stop + 0.5 * blur;
         const auto count = static_cast<std::size_t>(std::ceil(size * period / wavelength));
         return std::max(samples(columns, size), math::good_fft_size(count));
     };
-    const std::size_t width = enough(at_lens.width(), window.size_x(), sines.x.span());
-    const std::size_t height = enough(at_lens.height(), window.size_y(), sines.y.span());
+    const std::size_t width = enough(at_lens.width(), window.size_x(), SineGrid::farthest(own.x, shown.x));
+    const std::size_t height = enough(at_lens.height(), window.size_y(), SineGrid::farthest(own.y, shown.y));
     const double area = 0.25 * std::numbers::pi * camera.pupil * camera.pupil *
-                        (1 - light_left_out(followed, sines.x.span(), sines.y.span(), cell));
+                        (1 - light_left_out(followed, own.x.span(), own.y.span(), cell));
     Spectrum behind = [&] {
         Wave lens = wave_of(at_lens, width, height, options.scratch, team);
         circular_aperture(lens, camera.eye.x, camera.eye.y, camera.pupil, PupilEdge(followed, wavelength));
@@ -209,24 +244,21 @@ std::optional<Focused> wave_in_focus(const Spectrum& at_lens, const Camera& came
         else
             weigh_alike(lens, camera.eye.x, camera.eye.y,
                         in_focus(camera, hologram.center_x, hologram.center_y) - camera.eye);
-        const Grid& plane = lens.grid().plane;
-        const Band whole{lens.carrier_x - 0.5 / plane.pitch_x, lens.carrier_x + 0.5 / plane.pitch_x,
-                         lens.carrier_y - 0.5 / plane.pitch_y, lens.carrier_y + 0.5 / plane.pitch_y};
-        return spectrum_of(lens, plane, whole, options.scratch, {}, team);
+        return spectrum_of(lens, lens.grid().plane, band_of(lens), options.scratch, {}, team);
     }();
     // The distance to propagate, and the magnification of the picture there.
     const double distance = b > 0 ? b : -m * R, larger = std::abs(distance) / R;
     const double pupil = edge_margin * camera.pupil * (b > 0 ? 1 / larger : 1);
     const double fade = larger * fade_width(wavelength, R);
     propagate(behind, {distance, distance / R * (camera.eye.x - hologram.center_x),
-                       distance / R * (camera.eye.y - hologram.center_y), 0.5 * larger * (hologram.size_x() + pupil),
-                       0.5 * larger * (hologram.size_y() + pupil), fade, fade});
+                       distance / R * (camera.eye.y - hologram.center_y), 0.5 * larger * (whole.size_x() + pupil),
+                       0.5 * larger * (whole.size_y() + pupil), fade, fade});
     const Vec3 origin = in_focus(camera, hologram.center_x, hologram.center_y);
     if (is_tilted(camera)) {
         const Orientation axes = stand(camera);
         if (team != nullptr) behind = gathered(std::move(behind), *team, options.scratch);
         if (!is_first_process()) return std::nullopt;
-        return Focused{on_tilted_plane(behind, camera, hologram, origin, axes, options.scratch), area, origin, axes};
+        return Focused{on_tilted_plane(behind, camera, seen, origin, axes, options.scratch), area, origin, axes};
     }
     const double scale = b > 0 ? -b / (m * R) : 1;
     if (team == nullptr) return Focused{wave_of(behind, width, height, options.scratch), area, origin, {}, scale};
@@ -369,7 +401,7 @@ std::vector<Image> photograph_by_plane_waves(const FieldSource& hologram, std::s
             return !progress || progress((static_cast<double>(look) + fraction) / looks);
         };
         focus_all({hologram, look, options, team}, cameras, report, [&](std::size_t i, const Focused& focused) {
-            expose(focused, cameras[i], own_rows(cameras[i], team), Rectangle(hologram.grid().plane), 1 / looks,
+            expose(focused, cameras[i], own_rows(cameras[i], team), seen_by(cameras[i], hologram.grid()), 1 / looks,
                    images[i]);
         });
     }
@@ -389,7 +421,8 @@ std::vector<Array<std::complex<float>, 2>> waves_in_focus(const FieldSource& hol
     std::vector<Array<std::complex<float>, 2>> waves(cameras.size());
     Team* const team = core::team_of_several();
     focus_all({hologram, look, options, team}, cameras, progress, [&](std::size_t i, const Focused& focused) {
-        waves[i] = wave_at_pixels(focused, cameras[i], own_rows(cameras[i], team), Rectangle(hologram.grid().plane));
+        waves[i] =
+            wave_at_pixels(focused, cameras[i], own_rows(cameras[i], team), seen_by(cameras[i], hologram.grid()));
     });
     for (std::size_t i = 0; team != nullptr && i < waves.size(); ++i) {
         const Grid& picture = cameras[i].picture;

@@ -25,17 +25,22 @@ constexpr double margin_cells = 256;
 // The numbers of windows along the longer side of the hologram that are tried.
 constexpr std::size_t window_counts[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48};
 
-// The margin, metres, that a film needs around the part that a window shows.
-double margin(const FieldGrid& hologram, const Camera& camera) {
+// The metres on the hologram that a sine has at most.
+double metres_a_sine(const FieldGrid& hologram, const Vec3& eye) {
     const Grid& plane = hologram.plane;
-    const ViewGeometry geometry(camera.eye, hologram.wavelength);
+    const ViewGeometry geometry(eye, hologram.wavelength);
     double max_distance = 0;
     for (double x : {plane.center_x - plane.size_x() / 2, plane.center_x + plane.size_x() / 2})
         for (double y : {plane.center_y - plane.size_y() / 2, plane.center_y + plane.size_y() / 2})
             max_distance = std::max(max_distance, geometry.distance(x, y));
     // A step of the sines is r/cos² θ wide on the plane.
-    const double cosine = camera.eye.z / max_distance, metres = max_distance / (cosine * cosine);
-    return metres * (margin_cells * hologram.wavelength / camera.pupil + 0.5 * defocus_blur(camera));
+    const double cosine = eye.z / max_distance;
+    return max_distance / (cosine * cosine);
+}
+
+// The margin, metres, that a film needs around the part that a window shows: how far light travels from its point.
+double margin(const FieldGrid& hologram, const Vec3& eye, double pupil, double blur) {
+    return metres_a_sine(hologram, eye) * (margin_cells * hologram.wavelength / pupil + 0.5 * blur);
 }
 
 std::vector<PhotographPlan::Window> windows(const Grid& plane, std::size_t count, double margin) {
@@ -50,7 +55,12 @@ std::vector<PhotographPlan::Window> windows(const Grid& plane, std::size_t count
             region.y0 = y - std::min(y, around);
             region.width = std::min(right + around, plane.width) - region.x0;
             region.height = std::min(bottom + around, plane.height) - region.y0;
-            list.push_back({region, Rectangle(part(plane, {x, y, right - x, bottom - y}))});
+            Rectangle shown(part(plane, {x, y, right - x, bottom - y}));
+            if (x == 0) shown.left -= margin;
+            if (right == plane.width) shown.right += margin;
+            if (y == 0) shown.top += margin;
+            if (bottom == plane.height) shown.bottom -= margin;
+            list.push_back({region, shown});
         }
     return list;
 }
@@ -60,12 +70,13 @@ struct Need {
 };
 
 // The memory of one pass over a window.
-Need need(const FieldGrid& hologram, std::span<const Camera> cameras, const std::vector<SharedEye>& eyes) {
+Need need(const FieldGrid& hologram, const Rectangle& shown, std::span<const Camera> cameras,
+          const std::vector<SharedEye>& eyes) {
     Need bytes;
     double largest = 0;
     for (const SharedEye& eye : eyes) {
         const narrow_band::NarrowBand band(hologram, cameras[eye.members.front()].eye, eye.pupil);
-        const film::FilmSize film(band, hologram, eye.pupil, eye.blur);
+        const film::FilmSize film(band, hologram, film_area(hologram.plane, eye.pictures, shown), eye.pupil, eye.blur);
         bytes.a_look += 8.0 * static_cast<double>(band.plane.samples());
         // Tiles that are being processed.
         const double tile = narrow_band::NarrowBand::tile_width / static_cast<double>(band.factor) +
@@ -88,7 +99,8 @@ PhotographPlan find_plan(const FieldGrid& hologram, std::span<const Camera> came
         return std::tie(p.z, p.y, p.x) < std::tie(q.z, q.y, q.x);
     });
     double around = 0;
-    for (const Camera& camera : cameras) around = std::max(around, margin(hologram, camera));
+    for (const Camera& camera : cameras)
+        around = std::max(around, margin(hologram, camera.eye, camera.pupil, defocus_blur(camera)));
 
     PhotographPlan best;
     double min_work = std::numeric_limits<double>::infinity();
@@ -113,7 +125,7 @@ PhotographPlan find_plan(const FieldGrid& hologram, std::span<const Camera> came
             for (const auto& pass : passes)
                 for (std::size_t probe : probes) {
                     const FieldGrid window{part(hologram.plane, list[probe].region), hologram.wavelength};
-                    const Need bytes = need(window, cameras, group_by_eye(cameras, pass));
+                    const Need bytes = need(window, list[probe].shown, cameras, group_by_eye(cameras, pass));
                     fixed = std::max(fixed, bytes.fixed);
                     a_look = std::max(a_look, bytes.a_look);
                 }
@@ -128,6 +140,17 @@ PhotographPlan find_plan(const FieldGrid& hologram, std::span<const Camera> came
 
 }  // namespace
 
+Rectangle lit_area(const FieldGrid& hologram, const Vec3& eye, double pupil, double blur, double diffraction) {
+    const double around =
+        std::min(margin(hologram, eye, pupil, blur), diffraction + 0.5 * blur * metres_a_sine(hologram, eye));
+    Rectangle area(hologram.plane);
+    area.left -= around;
+    area.right += around;
+    area.bottom -= around;
+    area.top += around;
+    return area;
+}
+
 double narrow_band_bytes(const FieldGrid& hologram, const Vec3& eye, double pupil) {
     return static_cast<double>(sizeof(std::complex<float>) *
                                narrow_band::NarrowBand(hologram, eye, pupil).plane.samples());
@@ -138,7 +161,13 @@ std::vector<SharedEye> group_by_eye(std::span<const Camera> cameras, std::span<c
     for (std::size_t i : members) {
         auto eye = std::find_if(eyes.begin(), eyes.end(),
                                 [&](const SharedEye& e) { return cameras[e.members.front()].eye == cameras[i].eye; });
-        if (eye == eyes.end()) eye = eyes.insert(eyes.end(), SharedEye{});
+        const Rectangle picture(cameras[i].picture);
+        if (eye == eyes.end()) eye = eyes.insert(eyes.end(), SharedEye{.members = {}, .pictures = picture});
+        Rectangle& all = eye->pictures;
+        all.left = std::min(all.left, picture.left);
+        all.right = std::max(all.right, picture.right);
+        all.bottom = std::min(all.bottom, picture.bottom);
+        all.top = std::max(all.top, picture.top);
         eye->members.push_back(i);
         eye->pupil = std::max(eye->pupil, cameras[i].pupil);
         eye->blur = std::max(eye->blur, defocus_blur(cameras[i]));

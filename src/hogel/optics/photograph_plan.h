@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "hogel/camera.h"
@@ -15,8 +16,9 @@ namespace hogel::optics {
 struct PhotographPlan {
     std::vector<std::vector<std::size_t>> passes;  ///< indices of cameras
     struct Window {
-        Region region;    ///< what is read
-        Rectangle shown;  ///< the part of it that the film shows
+        Region region;  ///< what is read
+        /// What the film shows: a part of the hologram, and beside its outer edges the surroundings that light reaches.
+        Rectangle shown;
     };
     std::vector<Window> windows;
 
@@ -29,6 +31,11 @@ struct PhotographPlan {
 
     enum class Windows { one, many };
 };
+
+/// The hologram and the surroundings that its light reaches in pictures of an eye with this pupil and blur.
+/// @param diffraction  metres beyond half the blur where light is followed no farther
+Rectangle lit_area(const FieldGrid& hologram, const Vec3& eye, double pupil, double blur,
+                   double diffraction = std::numeric_limits<double>::infinity());
 
 /// The memory of an eye's narrow band, of one look.
 double narrow_band_bytes(const FieldGrid& hologram, const Vec3& eye, double pupil);
@@ -55,6 +62,7 @@ inline bool colours_together(double band_bytes, const Grid& hologram) {
 struct SharedEye {
     std::vector<std::size_t> members;  ///< indices of cameras
     double pupil = 0, blur = 0;        ///< the widest
+    Rectangle pictures;                ///< around all
 };
 std::vector<SharedEye> group_by_eye(std::span<const Camera> cameras, std::span<const std::size_t> members);
 

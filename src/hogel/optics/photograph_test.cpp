@@ -249,13 +249,14 @@ TEST(PhotographByPlaneWaves, a_thin_lens_is_perfect_for_a_narrow_pupil) {
 TEST(Photograph, window_by_window_is_the_same_picture) {
     const FieldGrid grid{{8000, 150, 1_um, 1_um, 0.5_mm, 0}, 633_nm};
     const Field field = random_field(grid, 6);
-    std::vector<Camera> cameras(2);
+    std::vector<Camera> cameras(3);
     for (Camera& camera : cameras) {
         camera.eye = {1_mm, 0, 30_mm};
         camera.pupil = 5_mm;
         camera.picture = {400, 8, 20_um, 20_um, 0.5_mm, 0};
     }
-    cameras[1].focus_depth = 0.2_mm;
+    cameras[1].focus_depth = cameras[2].focus_depth = 0.2_mm;
+    cameras[2].picture = {420, 20, 20_um, 20_um, 0.5_mm, 0};
     const auto whole = photograph(field, cameras);
     const PhotographOptions little{.memory = std::size_t{40} << 20};
     const PhotographPlan plan = plan_photographs(grid, cameras, double(little.memory));
@@ -266,43 +267,39 @@ TEST(Photograph, window_by_window_is_the_same_picture) {
         EXPECT_GT(correlation(parts[c], whole[c]), 0.9998) << c;
         EXPECT_NEAR(sum(parts[c]) / sum(whole[c]), 1, 2e-3) << c;
     }
+    // The last one shows what is beside the hologram, too.
+    const auto beside = [](const Image& picture) {
+        double light = 0;
+        for (std::size_t row : {4, 5, 14, 15})
+            for (std::size_t column = 0; column < picture.width(); ++column) light += picture.pixels(row, column, 0);
+        return light;
+    };
+    EXPECT_GT(beside(whole[2]), 0.005 * sum(whole[2]));
+    EXPECT_NEAR(beside(parts[2]) / beside(whole[2]), 1, 0.01);
 }
 
-// A field of hogels, which must be read whole.
-class Hogels final : public FieldSource {
-  public:
-    Hogels(const Field& field, std::size_t side) : field_(field), side_(side) {}
-    const FieldGrid& grid() const override { return field_.grid(); }
-    std::size_t alignment() const override { return side_; }
-    void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override {
-        EXPECT_EQ(region.x0 % side_, 0u);
-        EXPECT_EQ(region.y0 % side_, 0u);
-        ++reads_;
-        field_.read(region, look, out);
-    }
-    std::size_t reads() const { return reads_; }
-
-  private:
-    const Field& field_;
-    std::size_t side_;
-    mutable std::atomic<std::size_t> reads_ = 0;
-};
-
-TEST(Photograph, windows_begin_where_hogels_do) {
-    const FieldGrid grid{{8192, 128, 1_um, 1_um, 0.5_mm, 0}, 633_nm};
-    const Field field = random_field(grid, 6);
-    Camera camera;
-    camera.eye = {1_mm, 0, 30_mm};
-    camera.picture = {40, 8, 200_um, 20_um, 0.5_mm, 0};
-    const PhotographOptions little{.memory = std::size_t{40} << 20};
-    ASSERT_GT(plan_photographs(grid, {&camera, 1}, double(little.memory)).windows.size(), 1u);
-    const Hogels hogels(field, 128);
-    photograph(hogels, {&camera, 1}, little);
-    EXPECT_GT(hogels.reads(), 8192u / 512);
-}
-
-TEST(Photograph, no_camera_takes_no_photograph) {
-    EXPECT_TRUE(photograph(Field({{100, 100, 2_um, 2_um, 0, 0}, 633_nm}), {}).empty());
+// The surroundings of a hologram take memory where pictures show them, as far as light reaches and no farther.
+TEST(PhotographPlan, has_surroundings_only_where_pictures_show_them) {
+    const FieldGrid grid{{1000, 800, 2_um, 2_um, 0.1_mm, 0}, 633_nm};
+    const auto bytes = [&](double width, double middle, bool surroundings) {
+        Camera camera;
+        camera.eye = {1_mm, 0, 30_mm};
+        camera.pupil = 2_mm;
+        camera.focus_depth = 1_mm;
+        camera.picture = {100, 80, width / 100, width / 100, middle, 0};
+        const Rectangle lit = lit_area(grid, camera.eye, camera.pupil, defocus_blur(camera)), own(grid.plane),
+                        shown = film_area(grid.plane, Rectangle(camera.picture), lit);
+        const bool alone =
+            shown.left == own.left && shown.right == own.right && shown.bottom == own.bottom && shown.top == own.top;
+        EXPECT_EQ(alone, !surroundings) << width << " " << middle;
+        return plan_photographs(grid, {&camera, 1}, 1e12).bytes;
+    };
+    const double alone = bytes(2_mm, 0.1_mm, false);
+    EXPECT_EQ(bytes(1_mm, 0.1_mm, false), alone);
+    EXPECT_EQ(bytes(1_mm, 90_mm, false), alone);
+    EXPECT_GT(bytes(2_mm, 1.1_mm, true), alone);
+    EXPECT_GT(bytes(3_mm, 0.1_mm, true), alone);
+    EXPECT_EQ(bytes(60_mm, 0.1_mm, true), bytes(90_mm, 0.1_mm, true));
 }
 
 // For a wide lens and a large hologram, every plan stays within its memory.

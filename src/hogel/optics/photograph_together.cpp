@@ -72,7 +72,9 @@ std::optional<std::vector<std::vector<Image>>> photograph_together(
     for (std::size_t c = 0; c < colours.size(); ++c)
         image::load_film(cameras, 1, colours[c]->provenance(), pictures[c]);
     const auto film_of = [&](std::size_t c, std::size_t e) {
-        return film::Film(light->drawing->band(c * eyes.size() + e), colours[c]->grid(), eyes[e].pupil, eyes[e].blur,
+        const FieldGrid& hologram = colours[c]->grid();
+        return film::Film(light->drawing->band(c * eyes.size() + e), hologram,
+                          film_area(hologram.plane, eyes[e].pictures, light->shown), eyes[e].pupil, eyes[e].blur,
                           film::film_samples(options.preview));
     };
     std::vector<std::vector<Array<float, 2>>> intensities(colours.size(), std::vector<Array<float, 2>>(cameras.size()));

@@ -52,23 +52,55 @@ SineRanges sines_of(const ViewGeometry& geometry, const Grid& plane) {
     return sines;
 }
 
-SineGrid sine_grid(const narrow_band::BandGrid& band, const Grid& plane, double pupil, double blur) {
+Rectangle film_area(const Grid& hologram, const Rectangle& pictures, const Rectangle& lit) {
+    Rectangle area(hologram);
+    if (!pictures.meets(lit)) return area;
+    // Pictures of the hologram alone have its edges but for rounding.
+    const double beside = 1e-9 * std::max(hologram.size_x(), hologram.size_y());
+    const auto extend = [&](double& low, double& high, double first, double last) {
+        if (first < low - beside) low = first;
+        if (last > high + beside) high = last;
+    };
+    extend(area.left, area.right, std::max(pictures.left, lit.left), std::min(pictures.right, lit.right));
+    extend(area.bottom, area.top, std::max(pictures.bottom, lit.bottom), std::min(pictures.top, lit.top));
+    return area;
+}
+
+Grid as_grid(const Rectangle& rectangle) {
+    return {1,
+            1,
+            rectangle.right - rectangle.left,
+            rectangle.top - rectangle.bottom,
+            0.5 * (rectangle.left + rectangle.right),
+            0.5 * (rectangle.bottom + rectangle.top)};
+}
+
+SineGrid sine_grid(const narrow_band::BandGrid& band, const Grid& plane, const Rectangle& shown, double pupil,
+                   double blur) {
     SineGrid grid;
     const SineRanges sines = sines_of(band.geometry, plane);
-    grid.x = sines.x;
-    grid.y = sines.y;
+    grid.x = grid.shown_x = sines.x;
+    grid.y = grid.shown_y = sines.y;
+    if (const Rectangle hologram(plane); shown.left < hologram.left || shown.right > hologram.right ||
+                                         shown.bottom < hologram.bottom || shown.top > hologram.top) {
+        const SineRanges seen = sines_of(band.geometry, as_grid(shown));
+        grid.shown_x = {std::min(seen.x.low, grid.x.low), std::max(seen.x.high, grid.x.high)};
+        grid.shown_y = {std::min(seen.y.low, grid.y.low), std::max(seen.y.high, grid.y.high)};
+    }
     // Nowhere coarser than the band, so that nothing aliases.
     grid.step = std::min(band.plane.pitch_x, band.plane.pitch_y) * min_slope(band.geometry, plane);
-    const SpreadWindow window(grid.x.span(), grid.y.span(), blur, band.geometry.wavelength() / pupil);
-    const auto choose = [&](const SineGrid::Range& range, std::size_t& size, double& first) {
-        const double wanted = (range.span() + window.stop + 0.5 * blur) / grid.step;
+    const SpreadWindow window(grid.shown_x.span(), grid.shown_y.span(), blur, band.geometry.wavelength() / pupil);
+    const auto choose = [&](const SineGrid::Range& hologram, const SineGrid::Range& range, std::size_t& size,
+                            double& first) {
+        const double wanted =
+            std::max(range.span(), SineGrid::farthest(hologram, range) + window.stop + 0.5 * blur) / grid.step;
         size = math::good_fft_size(static_cast<std::size_t>(std::ceil(wanted)) + 1);
         // Rows at distances of large powers of two map to the same cache sets, which is ten times slower.
         while (size % 128 == 0) size = math::good_fft_size(size + 1);
         first = 0.5 * (range.low + range.high) - 0.5 * static_cast<double>(size - 1) * grid.step;
     };
-    choose(grid.x, grid.size_x, grid.first_x);
-    choose(grid.y, grid.size_y, grid.first_y);
+    choose(grid.x, grid.shown_x, grid.size_x, grid.first_x);
+    choose(grid.y, grid.shown_y, grid.size_y, grid.first_y);
     return grid;
 }
 

@@ -77,7 +77,9 @@ double seconds_from_hogels(std::size_t hogels, const hologram::eye::HogelLayout&
     seconds += count * band_samples(hogels, layout, cameras) * seconds_a_band_sample;
     for (const Camera& camera : cameras) {
         const double cell = resolution_cell(camera, hologram.wavelength) / optics::film::samples_a_cell;
-        seconds += count * hologram.plane.size_x() * hologram.plane.size_y() / (cell * cell) * seconds_a_film_sample;
+        const Rectangle lit = optics::lit_area(hologram, camera.eye, camera.pupil, optics::defocus_blur(camera));
+        const Grid film = optics::as_grid(optics::film_area(hologram.plane, Rectangle(camera.picture), lit));
+        seconds += count * film.size_x() * film.size_y() / (cell * cell) * seconds_a_film_sample;
     }
     return seconds;
 }
@@ -97,7 +99,9 @@ double seconds_of_films(const FieldGrid& hologram, std::span<const Camera> camer
     double seconds = 0;
     for (const optics::SharedEye& eye : eyes_of(cameras)) {
         const optics::narrow_band::NarrowBand band(hologram, cameras[eye.members.front()].eye, eye.pupil);
-        const optics::film::FilmSize film(band, hologram, eye.pupil, eye.blur);
+        const Rectangle lit = optics::lit_area(hologram, cameras[eye.members.front()].eye, eye.pupil, eye.blur);
+        const optics::film::FilmSize film(band, hologram, optics::film_area(hologram.plane, eye.pictures, lit),
+                                          eye.pupil, eye.blur);
         seconds +=
             static_cast<double>(film.sines.size_x) * static_cast<double>(film.sines.size_y) * seconds_a_sine_of_lines +
             static_cast<double>(eye.members.size() * film.x.size * film.y.size) * seconds_a_film_sample_of_lines;

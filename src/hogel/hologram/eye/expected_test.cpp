@@ -10,6 +10,7 @@
 #include "hogel/hologram.h"
 #include "hogel/hologram/test_light_fields.h"
 #include "hogel/photograph.h"
+#include "hogel/ray_photograph.h"
 #include "hogel/units.h"
 
 namespace hogel::hologram {
@@ -88,6 +89,58 @@ TEST(ExpectedPhotograph, is_what_means_of_looks_converge_to) {
         EXPECT_NEAR(4 * sixty_four / four, 1, 0.05);
     }
 }
+
+// The share of a picture's light that is beside the outline of a hologram.
+double share_beside(const Image& image, const Grid& picture, const Grid& hologram) {
+    const Rectangle outline(hologram);
+    double beside = 0;
+    for (std::size_t row = 0; row < picture.height; ++row)
+        for (std::size_t column = 0; column < picture.width; ++column)
+            if (!outline.holds(picture.x(double(column)), picture.y(double(row))))
+                beside += image.pixels(row, column, 0);
+    return beside / (mean(image) * double(image.pixels.size()));
+}
+
+struct Outline {
+    std::string name;
+    double focus;
+    Radiance radiance;
+    double allowed;
+};
+
+class Surroundings : public ::testing::TestWithParam<Outline> {};
+
+// Beside the outline all cameras show the blur of a hologram out of focus, and what floats before its edge, as rays do.
+TEST_P(Surroundings, are_lit_alike_by_rays_and_by_waves) {
+    const LightFieldGrid grid{24, 22, 48_um, 24, 24, Perspective{0.15, 0.15}, 1};
+    const LightField light_field = light_field_of_faces({&grid, 1}, GetParam().radiance);
+    const auto hologram = make_hologram(light_field, {{532_nm, 0}, 1.5_um, Fourier{}, 8, 7});
+    Camera camera = camera_at({0.1_mm, 0, 30_mm}, 1.5_mm, GetParam().focus, 50, 1.6_mm, 0.05_mm);
+    const Image rays = photograph(light_field, {&camera, 1}).front();
+    const double beside = share_beside(rays, camera.picture, hologram->grid().plane);
+    EXPECT_GT(beside, 0.04);
+    const auto check = [&](const Image& picture, const char* name) {
+        EXPECT_NEAR(share_beside(picture, camera.picture, hologram->grid().plane), beside, GetParam().allowed) << name;
+        EXPECT_NEAR(mean(picture) / mean(rays), 1, 0.05) << name;
+    };
+    check(photograph(*hologram, {&camera, 1}, {.from = LightFrom::hogels}).front(), "eye");
+    check(photograph(*hologram, {&camera, 1}, {.from = LightFrom::hogels, .preview = true}).front(), "preview");
+    check(photograph(*hologram, {&camera, 1}, {.from = LightFrom::samples}).front(), "narrow");
+    check(photograph_by_plane_waves(*hologram, {&camera, 1}).front(), "full");
+    check(photograph(*hologram, {&camera, 1}, {.expected = true}).front(), "infinitely many looks");
+}
+
+double card_before_the_edge(Vec3 hogel, Vec3 direction) {
+    const double depth = -4e-3;
+    const double x = hogel.x + depth * direction.x / direction.z, y = hogel.y + depth * direction.y / direction.z;
+    return std::abs(x - 0.5_mm) < 0.06_mm && std::abs(y) < 0.3_mm ? 1 : 0;
+}
+
+INSTANTIATE_TEST_SUITE_P(FieldsAndFocuses, Surroundings,
+                         ::testing::Values(Outline{"uniform_behind", 4_mm, [](Vec3, Vec3) { return 0.3; }, 0.006},
+                                           Outline{"uniform_before", -4_mm, [](Vec3, Vec3) { return 0.3; }, 0.006},
+                                           Outline{"card", -4_mm, card_before_the_edge, 0.05}),
+                         [](const auto& outline) { return outline.param.name; });
 
 // Bands of rows of hogels and one eye at a time give the same pictures.
 TEST(ExpectedPhotograph, fits_into_little_memory) {

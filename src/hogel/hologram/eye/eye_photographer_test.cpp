@@ -80,6 +80,19 @@ TEST(EyePhotographer, takes_the_photographs_of_all_eyes_from_one_reading) {
     EXPECT_EQ(s.light_field->readings, readings);
 }
 
+// Pictures of the same eye that show more or less of the surroundings of the hologram.
+TEST(EyePhotographer, shows_the_surroundings_as_other_photographs_do) {
+    const Setting s;
+    EyePhotographer photographer({s.hologram});
+    for (const double pixel : {36_um, 60_um, 48_um}) {
+        Camera camera = s.camera();
+        camera.focus_depth = 2_mm;
+        camera.picture.pitch_x = camera.picture.pitch_y = pixel;
+        EXPECT_LT(distance(photographer.photograph(camera), photograph(*s.hologram, {&camera, 1}).front()), 4e-3)
+            << pixel;
+    }
+}
+
 TEST(EyePhotographer, shows_the_mean_of_the_looks_so_far) {
     const Setting s;
     EyePhotographer photographer({s.hologram, s.hologram, s.hologram});
@@ -141,6 +154,7 @@ TEST(PhotographTogether, makes_rays_once_for_all_colours) {
     std::vector<Camera> cameras(3, Setting().camera());
     for (Camera& camera : cameras) camera.pupil = 0.5_mm;
     cameras[1].focus_depth = -1_mm;
+    cameras[1].picture.pitch_x = cameras[1].picture.pitch_y = 50_um;
     cameras[2].eye.x = -2_mm;
     std::vector<std::vector<Image>> alone;
     source->readings = 0;

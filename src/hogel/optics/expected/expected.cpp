@@ -50,7 +50,10 @@ struct Exposure {
     std::size_t parts_x = 1, parts_y = 1;
     PixelPlaces columns, rows;
     std::vector<Spots> spots;  // [part down · parts_x + part across]
-    Array<float, 2> tails;     // [hogel]: light that falls far away
+    Array<float, 2> tails;     // [hogel], those of the surroundings included: light that falls far away
+
+    // Of a row of hogels.
+    float* tails_of_row(std::size_t row) { return &tails(rows.beside + row, columns.beside); }
 };
 
 // An eye: the numbers of its hogels, [row][column · pair], and its cameras.
@@ -88,9 +91,16 @@ std::pair<PixelPlaces, PixelPlaces> places_of(const HogelGrid& hogels, const Cam
                                               double band) {
     const Grid &plane = hogels.plane, &picture = camera.picture;
     const std::size_t places = max_places(pairs, Spots::reach(hogels, camera, band));
-    return {
-        pixel_places(picture.width, plane.column(picture.x(0)), picture.pitch_x / plane.pitch_x, plane.width, places),
-        pixel_places(picture.height, plane.row(picture.y(0)), picture.pitch_y / plane.pitch_y, plane.height, places)};
+    const Rectangle own(plane),
+        seen = film_area(plane, Rectangle(picture),
+                         lit_area({plane, hogels.wavelength}, camera.eye, camera.pupil, defocus_blur(camera)));
+    const auto hogels_in = [](double one_side, double other_side, double pitch) {
+        return static_cast<std::size_t>(std::ceil(std::max(one_side, other_side) / pitch));
+    };
+    return {pixel_places(picture.width, plane.column(picture.x(0)), picture.pitch_x / plane.pitch_x, plane.width,
+                         hogels_in(own.left - seen.left, seen.right - own.right, plane.pitch_x), places),
+            pixel_places(picture.height, plane.row(picture.y(0)), picture.pitch_y / plane.pitch_y, plane.height,
+                         hogels_in(own.bottom - seen.bottom, seen.top - own.top, plane.pitch_y), places)};
 }
 
 Exposure make_exposure(const HogelGrid& hogels, const ExpectedEye& eye, const Camera& camera, std::size_t index) {
@@ -110,7 +120,8 @@ Exposure make_exposure(const HogelGrid& hogels, const ExpectedEye& eye, const Ca
                                         plane.center_x + x * plane.size_x(), plane.center_y + y * plane.size_y(),
                                         exposure.columns, exposure.rows, means);
         }
-    exposure.tails = Array<float, 2>({plane.height, plane.width});
+    exposure.tails =
+        Array<float, 2>({plane.height + 2 * exposure.rows.beside, plane.width + 2 * exposure.columns.beside});
     return exposure;
 }
 
@@ -171,8 +182,7 @@ class Photographer {
         for (ExpectedEye& eye : eyes_)
             for (const Exposure& exposure : eye.exposures)
                 expose_blocks(exposure, steps, [&](std::size_t row, std::size_t left, std::size_t right) {
-                    const auto base = static_cast<std::size_t>(exposure.rows.base[row]);
-                    if (base >= first && base < end)
+                    if (const std::size_t hogel = nearest_row(exposure, row); hogel >= first && hogel < end)
                         expose_row(eye, exposure, row, left, right, pictures[exposure.camera]);
                 });
     }
@@ -186,12 +196,11 @@ class Photographer {
             for (ExpectedEye& eye : eyes_)
                 for (Exposure& exposure : eye.exposures) {
                     for (std::size_t t = own.first; t < own.end(); ++t)
-                        each(std::span(&exposure.tails(t, 0), hogels_.plane.width));
+                        each(std::span(exposure.tails_of_row(t), hogels_.plane.width));
                     Image& picture = pictures[exposure.camera];
                     for (std::size_t row = 0; row < picture.height(); ++row) {
-                        const std::ptrdiff_t base = exposure.rows.base[row];
-                        if (exposure.rows.seen[row] > 0 && base >= static_cast<std::ptrdiff_t>(own.first) &&
-                            base < static_cast<std::ptrdiff_t>(own.end()))
+                        const std::size_t hogel = nearest_row(exposure, row);
+                        if (exposure.rows.seen[row] > 0 && hogel >= own.first && hogel < own.end())
                             each(std::span(&picture.pixels(row, 0, 0), picture.width()));
                     }
                 }
@@ -221,16 +230,25 @@ class Photographer {
                                  128 * resolution_cell(camera, hogels_.wavelength) / hogels_.plane.pitch_x);
                 const Grid &plane = hogels_.plane, &picture = camera.picture;
                 Image& image = pictures[exposure.camera];
+                const auto above = static_cast<double>(exposure.rows.beside),
+                           left = static_cast<double>(exposure.columns.beside);
                 core::parallel_for(picture.height, [&](std::size_t row) {
+                    const double down = above + plane.row(picture.y(static_cast<double>(row)));
                     for (std::size_t column = 0; column < picture.width; ++column)
-                        image.pixels(row, column, 0) += exposure.rows.seen[row] * exposure.columns.seen[column] *
-                                                        between(spread, plane.row(picture.y(static_cast<double>(row))),
-                                                                plane.column(picture.x(static_cast<double>(column))));
+                        image.pixels(row, column, 0) +=
+                            exposure.rows.seen[row] * exposure.columns.seen[column] *
+                            between(spread, down, left + plane.column(picture.x(static_cast<double>(column))));
                 });
             }
     }
 
   private:
+    // The row of hogels with which a row of pixels is exposed.
+    std::size_t nearest_row(const Exposure& exposure, std::size_t row) const {
+        const auto last = static_cast<std::ptrdiff_t>(hogels_.plane.height) - 1;
+        return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(exposure.rows.base[row], 0, last));
+    }
+
     // The part of an exposure's time in which hogels are read.
     double reading_share() const {
         const double reading = products_of_reading(hogels_, eyes_.size());
@@ -288,7 +306,7 @@ class Photographer {
         if (t < first || t >= end) return;
         for (Exposure& exposure : eye.exposures) {
             const std::span<const float> tails = exposure.spots[exposure.spots.size() / 2].tails();
-            exposure.tails(t, s) = sum_products(numbers, tails.data(), tails.size());
+            exposure.tails_of_row(t)[s] = sum_products(numbers, tails.data(), tails.size());
         }
     }
 
@@ -312,36 +330,42 @@ class Photographer {
         return blocks_across(exposure) * ((exposure.rows.base.size() + pixels_down - 1) / pixels_down);
     }
 
-    void expose_row(const ExpectedEye& eye, const Exposure& exposure, std::size_t row, std::size_t first,
-                    std::size_t end, Image& picture) const {
+    // Pixels around the same hogel read the same numbers, and those at the same place of several hogels the same
+    // weights.
+    struct LitHogel {
+        std::ptrdiff_t base, left, right;
+        std::size_t column, count;  // of its pixels
+    };
+    void find_lit(const Exposure& exposure, std::size_t first, std::size_t end, std::vector<LitHogel>& lit) const {
         const auto width = static_cast<std::ptrdiff_t>(hogels_.plane.width),
-                   rows = static_cast<std::ptrdiff_t>(eye.numbers.extent(0));
-        const std::size_t pairs = eye.pairs->padded_count();
-        const auto reach = static_cast<std::ptrdiff_t>(exposure.spots.front().reach());
-        const std::ptrdiff_t base_y = exposure.rows.base[row] - static_cast<std::ptrdiff_t>(first_row_);
-        const std::ptrdiff_t top = std::max<std::ptrdiff_t>(0, base_y - reach),
-                             bottom = std::min(rows, base_y + reach + 1);
-        const auto position = [](std::ptrdiff_t base, double extent) {
-            return (static_cast<double>(base) + 0.5) / extent;
-        };
-        const double down = position(exposure.rows.base[row], static_cast<double>(hogels_.plane.height));
-        // Pixels around the same hogel read the same numbers, and those at the same place of several hogels the same
-        // weights.
-        struct Hogel {
-            std::ptrdiff_t base, left, right;
-            std::size_t column, count;  // of its pixels
-        };
-        thread_local std::vector<Hogel> lit;
+                   reach = static_cast<std::ptrdiff_t>(exposure.spots.front().reach());
         lit.clear();
         for (std::size_t column = first; column < end; ++column) {
             const std::ptrdiff_t base = exposure.columns.base[column];
-            if (exposure.columns.seen[column] == 0) continue;
+            if (exposure.columns.seen[column] == 0 || base + reach < 0 || base - reach >= width) continue;
             if (lit.empty() || lit.back().base != base || lit.back().count == max_b_together)
                 lit.push_back(
                     {base, std::max<std::ptrdiff_t>(0, base - reach), std::min(width, base + reach + 1), column, 0});
             ++lit.back().count;
         }
-        const auto is_alike = [&](const Hogel& one, const Hogel& other) {
+    }
+
+    void expose_row(const ExpectedEye& eye, const Exposure& exposure, std::size_t row, std::size_t first,
+                    std::size_t end, Image& picture) const {
+        const auto rows = static_cast<std::ptrdiff_t>(eye.numbers.extent(0));
+        const std::size_t pairs = eye.pairs->padded_count();
+        const auto reach = static_cast<std::ptrdiff_t>(exposure.spots.front().reach());
+        const std::ptrdiff_t base_y = exposure.rows.base[row] - static_cast<std::ptrdiff_t>(first_row_);
+        const std::ptrdiff_t top = std::max<std::ptrdiff_t>(0, base_y - reach),
+                             bottom = std::min(rows, base_y + reach + 1);
+        if (top >= bottom) return;
+        const auto position = [](std::ptrdiff_t base, double extent) {
+            return (static_cast<double>(base) + 0.5) / extent;
+        };
+        const double down = position(exposure.rows.base[row], static_cast<double>(hogels_.plane.height));
+        thread_local std::vector<LitHogel> lit;
+        find_lit(exposure, first, end, lit);
+        const auto is_alike = [&](const LitHogel& one, const LitHogel& other) {
             const auto places = exposure.columns.place.begin();
             return other.count == one.count && other.left - other.base == one.left - one.base &&
                    other.right - other.base == one.right - one.base &&
@@ -350,9 +374,9 @@ class Photographer {
                               places + static_cast<std::ptrdiff_t>(other.column));
         };
         for (auto begin = lit.begin(); begin != lit.end();) {
-            const Hogel one = *begin;
+            const LitHogel one = *begin;
             const auto same =
-                std::partition(begin, lit.end(), [&](const Hogel& other) { return is_alike(one, other); });
+                std::partition(begin, lit.end(), [&](const LitHogel& other) { return is_alike(one, other); });
             while (begin != same) {
                 const std::span some(begin,
                                      std::min(static_cast<std::size_t>(same - begin), max_a_together(one.count)));
@@ -363,7 +387,7 @@ class Photographer {
                     const float share_down = share(down, i / exposure.parts_x, exposure.parts_y);
                     float shares[max_sums_together], light[max_sums_together], any = 0;
                     for (std::size_t k = 0; k < some.size(); ++k) {
-                        const double across = position(some[k].base, static_cast<double>(width));
+                        const double across = position(some[k].base, static_cast<double>(hogels_.plane.width));
                         shares[k] = share(across, i % exposure.parts_x, exposure.parts_x) * share_down;
                         any = std::max(any, shares[k]);
                     }
@@ -381,7 +405,7 @@ class Photographer {
                                   static_cast<std::size_t>(one.right - one.left) * pairs},
                                  light);
                     for (std::size_t k = 0; k < some.size() * one.count; ++k) {
-                        const Hogel& hogel = some[k / one.count];
+                        const LitHogel& hogel = some[k / one.count];
                         const std::size_t column = hogel.column + k % one.count;
                         picture.pixels(row, column, 0) +=
                             exposure.rows.seen[row] * exposure.columns.seen[column] * shares[k / one.count] * light[k];

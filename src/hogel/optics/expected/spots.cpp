@@ -193,14 +193,15 @@ std::size_t max_places(const Pairs& pairs, std::size_t reach) {
     return static_cast<std::size_t>(std::clamp(std::sqrt(max_bytes / bytes), 4.0, 32.0));
 }
 
-PixelPlaces pixel_places(std::size_t pixels, double first, double step, std::size_t hogels, std::size_t max_places) {
+PixelPlaces pixel_places(std::size_t pixels, double first, double step, std::size_t hogels, std::size_t beside,
+                         std::size_t max_places) {
     PixelPlaces all;
-    all.width = step;
+    const double begin = -0.5 - static_cast<double>(beside), end = static_cast<double>(hogels + beside) - 0.5;
     for (const bool rounded : {false, true}) {
-        all = {{}, {}, {}, {}, step};
+        all = {{}, {}, {}, {}, step, beside};
         for (std::size_t i = 0; i < pixels; ++i) {
-            const double u = first + static_cast<double>(i) * step, end = static_cast<double>(hogels) - 0.5;
-            const double low = std::clamp(u - 0.5 * step, -0.5, end), high = std::clamp(u + 0.5 * step, -0.5, end);
+            const double u = first + static_cast<double>(i) * step;
+            const double low = std::clamp(u - 0.5 * step, begin, end), high = std::clamp(u + 0.5 * step, begin, end);
             const double middle = 0.5 * (low + high), base = std::floor(middle + 0.5);
             PixelPlaces::Place place{middle - base, high - low};
             const auto parts = static_cast<double>(max_places);

@@ -35,23 +35,25 @@ struct Pairs {
     Pairs(const SpotNodes& basis, double half_band);
 };
 
-/// Where the pixels of a picture lie among hogels along one axis, as far as they are on the hologram. A pixel around
-/// position u, in hogels, receives the light of hogels base − reach … base + reach, and its place among them is one of
-/// a few.
+/// Where the pixels of a picture lie among hogels along one axis, as far as they are on the hologram or on the
+/// surroundings that are seen. A pixel around position u, in hogels, receives the light of hogels base − reach …
+/// base + reach, and its place among them is one of a few.
 struct PixelPlaces {
     struct Place {
         double offset = 0;  ///< u − base
-        double width = 0;   ///< of what is on the hologram
+        double width = 0;   ///< of what is on the hologram or its surroundings
     };
     std::vector<Place> places;
     std::vector<std::ptrdiff_t> base;  ///< [pixel]
     std::vector<std::size_t> place;    ///< [pixel], an index of places
-    std::vector<float> seen;           ///< [pixel], the share of it that is on the hologram
+    std::vector<float> seen;           ///< [pixel], the share of it that is on the hologram or its surroundings
     double width = 0;                  ///< of a whole pixel, in hogels
+    std::size_t beside = 0;            ///< of the surroundings at either end, in hogels
 };
-/// Positions u = first + i · step of `pixels` pixels beside `hogels` hogels. If more than `max_places` different places
-/// occur, they are rounded to this part of a hogel.
-PixelPlaces pixel_places(std::size_t pixels, double first, double step, std::size_t hogels, std::size_t max_places);
+/// Positions u = first + i · step of `pixels` pixels among `hogels` hogels and `beside` more at either end that are
+/// dark. If more than `max_places` different places occur, they are rounded to this part of a hogel.
+PixelPlaces pixel_places(std::size_t pixels, double first, double step, std::size_t hogels, std::size_t beside,
+                         std::size_t max_places);
 
 /// Places along an axis for which a table of spots takes 64 MB at most, from 4 to 32: wide spots, which need many
 /// hogels, are smooth.

@@ -66,9 +66,9 @@ std::vector<LitRows> lit_rows_of(const std::vector<char>& is_lit) {
 
 }  // namespace
 
-FilmSize::FilmSize(const narrow_band::BandGrid& band, const FieldGrid& hologram, double pupil, double blur,
-                   double samples)
-    : sines(sine_grid(band, hologram.plane, pupil, blur)), band_rows(band.plane.height) {
+FilmSize::FilmSize(const narrow_band::BandGrid& band, const FieldGrid& hologram, const Rectangle& shown, double pupil,
+                   double blur, double samples)
+    : sines(sine_grid(band, hologram.plane, shown, pupil, blur)), band_rows(band.plane.height) {
     const double wavelength = hologram.wavelength;
     const PupilEdge edge(spread_window(sines, wavelength, pupil, blur), wavelength);
     const double radius = frequency_radius(pupil, band.geometry.eye().z) + edge.reach();
@@ -78,8 +78,8 @@ FilmSize::FilmSize(const narrow_band::BandGrid& band, const FieldGrid& hologram,
     };
     reach_x = reach(sines.period_x(), sines.size_x);
     reach_y = reach(sines.period_y(), sines.size_y);
-    x = film_axis(sines.first_x, sines.period_x(), sines.x, across(reach_x), samples * pupil / wavelength);
-    y = film_axis(sines.first_y, sines.period_y(), sines.y, across(reach_y), samples * pupil / wavelength);
+    x = film_axis(sines.first_x, sines.period_x(), sines.shown_x, across(reach_x), samples * pupil / wavelength);
+    y = film_axis(sines.first_y, sines.period_y(), sines.shown_y, across(reach_y), samples * pupil / wavelength);
     // The kernel of the resampling reaches a few samples beyond the band.
     Grid around = band.plane;
     around.width += 2 * InterpolationTable::taps;
@@ -108,10 +108,11 @@ double FilmSize::work_bytes() const {
 
 double FilmSize::intensity_bytes() const { return static_cast<double>(sizeof(float) * padded(x.count) * y.count); }
 
-Film::Film(const narrow_band::BandGrid& band, const FieldGrid& hologram, double pupil, double blur, double samples)
+Film::Film(const narrow_band::BandGrid& band, const FieldGrid& hologram, const Rectangle& shown, double pupil,
+           double blur, double samples)
     : band_(band),
       hologram_(hologram),
-      size_(band, hologram, pupil, blur, samples),
+      size_(band, hologram, shown, pupil, blur, samples),
       along_(size_.sines.size_x),
       down_(size_.sines.size_y),
       film_along_(size_.x.size),
@@ -277,9 +278,9 @@ void Film::expose_each(std::span<const PupilWave> pupil_waves, const Camera& cam
                 lens.rows(lens.node_x(a), lens.node_y(b), first - size_.reach_y, node.reach_x, &node.lens(block, 0));
             });
             for (std::size_t i = 0; i < size_.x.count; ++i)
-                node.share_x(i) = share(size_.x, size_.sines.x, i, a, lens.nodes_x);
+                node.share_x(i) = share(size_.x, size_.sines.shown_x, i, a, lens.nodes_x);
             for (std::size_t j = 0; j < size_.y.count; ++j)
-                node.share_y[j] = share(size_.y, size_.sines.y, j, b, lens.nodes_y);
+                node.share_y[j] = share(size_.y, size_.sines.shown_y, j, b, lens.nodes_y);
             for (std::size_t look = 0; look < pupil_waves.size(); ++look)
                 expose_node(pupil_waves[look], node, intensity(look));
         }

@@ -28,7 +28,7 @@ inline constexpr double samples_a_cell = 2.4;
 constexpr double film_samples(bool preview) { return preview ? 1.6 : samples_a_cell; }
 
 /// One axis of the film that is exposed: samples of a transform of `size` over the period of the sines, of which those
-/// that see the hologram are kept.
+/// that are shown are kept.
 struct FilmAxis {
     std::size_t size = 0;  ///< of the transform
     std::size_t first = 0, count = 0;
@@ -44,8 +44,9 @@ struct FilmSize {
     std::size_t lit_left = 0, lit_right = 0, lit_low = 0, lit_high = 0;
     std::size_t band_rows = 0;
 
-    FilmSize(const narrow_band::BandGrid& band, const FieldGrid& hologram, double pupil, double blur,
-             double samples = samples_a_cell);
+    /// @param shown  film_area()
+    FilmSize(const narrow_band::BandGrid& band, const FieldGrid& hologram, const Rectangle& shown, double pupil,
+             double blur, double samples = samples_a_cell);
     /// Bytes of a pupil's wave, and the maximum that Film::pupil_wave() and expose() need in addition to their results.
     double pupil_bytes() const;
     double work_bytes() const;
@@ -60,15 +61,16 @@ using PupilWave = Array<math::PackedComplex, 2>;
 /// each focus and size of the pupil a mask with a defocus phase, and a transform back to the film (docs/notation.md
 /// section 4). The pupil covers a quarter of the band in x and in y, so its wave is small, and both transforms are
 /// limited to it. The period of the sines is so wide that no light that a camera follows wraps around (SpreadWindow);
-/// of the sines only those that the band lights are computed, and of the film only what sees the hologram. Each step
+/// of the sines only those that the band lights are computed, and of the film only what is shown. Each step
 /// works on all threads.
 class Film {
   public:
+    /// @param shown  film_area() of these cameras: the hologram and what their pictures show beside it
     /// @param pupil  the widest of the cameras that will be used, at most that of the band
     /// @param blur   the widest defocus_blur() of these cameras
     /// @param samples  of the film per resolution cell
-    Film(const narrow_band::BandGrid& band, const FieldGrid& hologram, double pupil, double blur,
-         double samples = samples_a_cell);
+    Film(const narrow_band::BandGrid& band, const FieldGrid& hologram, const Rectangle& shown, double pupil,
+         double blur, double samples = samples_a_cell);
 
     /// A film that is not exposed yet: blocks of sixteen columns, [column / 16][row · 16 + column mod 16].
     Array<float, 2> unexposed() const {
@@ -90,7 +92,7 @@ class Film {
     /// other.
     bool has_one_lens(const Camera& camera) const;
 
-    /// Adds a camera's picture, in radiance, of the part `shown` of the hologram plane.
+    /// Adds a camera's picture, in radiance, of the part `shown` of the hologram plane, as far as the film shows it.
     /// @param weight  factor of the intensities: the reciprocal of the number of looks that they sum
     void develop(View<const float, 2> blocks, const Camera& camera, const Rectangle& shown, double weight,
                  Image& picture) const;

@@ -13,10 +13,15 @@
 
 namespace hogel::optics::film {
 
+/// The cosine of a direction. In the corner of a film that no direction reaches, next to nothing.
+inline double cosine_of(double sine_x, double sine_y) {
+    return std::sqrt(std::max(1 - sine_x * sine_x - sine_y * sine_y, 1e-12));
+}
+
 /// The path of light to the point q = c + δ of the pupil from the point x in direction sine (n_x, n_y), `distance_z` in
 /// front of the lens, minus the path to the pupil's centre c and the term linear in δ: exactly |x − q| − |x − c| + n·δ.
 inline double path(double sine_x, double sine_y, double distance_z, double delta_x, double delta_y) {
-    const double cosine = std::sqrt(1 - sine_x * sine_x - sine_y * sine_y), r = distance_z / cosine;
+    const double r = distance_z / cosine_of(sine_x, sine_y);
     const double along = sine_x * delta_x + sine_y * delta_y, square = delta_x * delta_x + delta_y * delta_y;
     // |rn − δ| − r without cancellation.
     const double change = square - 2 * r * along;
@@ -32,7 +37,7 @@ inline double pupil_step(double wavelength, double period) { return wavelength /
 
 /// The window of the point spread of a camera on a film.
 inline SpreadWindow spread_window(const SineGrid& sines, double wavelength, double pupil, double blur) {
-    SpreadWindow window(sines.x.span(), sines.y.span(), blur, wavelength / pupil);
+    SpreadWindow window(sines.shown_x.span(), sines.shown_y.span(), blur, wavelength / pupil);
     window.fit(sines.room() - 0.5 * blur);
     return window;
 }
@@ -53,18 +58,20 @@ class FilmLens {
           step_y_(pupil_step(wavelength, sines.period_y())),
           window_(spread_window(sines, wavelength, camera.pupil, defocus_blur(camera))),
           edge_(window_, wavelength) {
-        nodes_x = nodes_for(sines.x.span(), 0);
-        nodes_y = nodes_for(0, sines.y.span());
+        nodes_x = nodes_for(sines.shown_x.span(), 0);
+        nodes_y = nodes_for(0, sines.shown_y.span());
     }
 
     std::size_t nodes_x = 1, nodes_y = 1;
 
     // The sine in the middle of a node's part of the film.
     double node_x(std::size_t i) const {
-        return sines_.x.low + sines_.x.span() * (static_cast<double>(i) + 0.5) / static_cast<double>(nodes_x);
+        const SineGrid::Range& shown = sines_.shown_x;
+        return shown.low + shown.span() * (static_cast<double>(i) + 0.5) / static_cast<double>(nodes_x);
     }
     double node_y(std::size_t j) const {
-        return sines_.y.low + sines_.y.span() * (static_cast<double>(j) + 0.5) / static_cast<double>(nodes_y);
+        const SineGrid::Range& shown = sines_.shown_y;
+        return shown.low + shown.span() * (static_cast<double>(j) + 0.5) / static_cast<double>(nodes_y);
     }
 
     // The largest offset from the middle of the pupil that passes light, in steps.
@@ -122,7 +129,7 @@ class FilmLens {
     static constexpr double max_nodes = 33;
 
     struct Direction {
-        Direction(double nx, double ny) : x(nx), y(ny), cosine(std::sqrt(1 - nx * nx - ny * ny)) {}
+        Direction(double nx, double ny) : x(nx), y(ny), cosine(cosine_of(nx, ny)) {}
         double x, y, cosine;
     };
 
@@ -136,7 +143,7 @@ class FilmLens {
     Place place(const Direction& n, double fx, double fy) const {
         const double R = camera_.eye.z, along = n.x * fx + n.y * fy, step = n.cosine / R;
         const double mx = n.x - step * (fx - n.x * along), my = n.y - step * (fy - n.y * along);
-        const double cosine = std::sqrt(std::max(1 - mx * mx - my * my, 1e-12));
+        const double cosine = cosine_of(mx, my);
         return {R * (n.x / n.cosine - mx / cosine), R * (n.y / n.cosine - my / cosine), cosine};
     }
 
@@ -154,7 +161,7 @@ class FilmLens {
 
     // focus_ratio() in a direction of the picture; outside the picture that of its edge.
     double ratio(double nx, double ny) const {
-        const double reach = camera_.eye.z / std::sqrt(1 - nx * nx - ny * ny);
+        const double reach = camera_.eye.z / cosine_of(nx, ny);
         const Grid& picture = camera_.picture;
         const double half_x = 0.5 * picture.size_x(), half_y = 0.5 * picture.size_y();
         return focus_ratio(
@@ -163,7 +170,8 @@ class FilmLens {
     }
 
     std::size_t nodes_for(double ux, double uy) const {
-        const double mid_x = 0.5 * (sines_.x.low + sines_.x.high), mid_y = 0.5 * (sines_.y.low + sines_.y.high);
+        const double mid_x = 0.5 * (sines_.shown_x.low + sines_.shown_x.high),
+                     mid_y = 0.5 * (sines_.shown_y.low + sines_.shown_y.high);
         double change = 0;
         for (double a : {0.0, 0.25, 0.5, 0.75}) {
             const double dx = radius_ * std::cos(std::numbers::pi * a), dy = radius_ * std::sin(std::numbers::pi * a);
