@@ -93,6 +93,11 @@ ImageComparison compare(const Image& a, const Image& b, double exposure) {
                                 a.width(), a.height(), a.channels(), b.width(), b.height(), b.channels()));
     if (!(std::isfinite(exposure) && exposure > 0))
         throw Error(ErrorCode::usage, fmt::format("the exposure is {}, but must be positive and finite", exposure));
+    const auto has_nan = [](const Image& image) {
+        return std::ranges::any_of(image.pixels.elements(), [](float value) { return std::isnan(value); });
+    };
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    if (has_nan(a) || has_nan(b)) return {nan, nan, nan, nan};
     ImageComparison result;
     double display_squares = 0, linear_squares = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {

@@ -124,6 +124,15 @@ TEST(Compare, linear_psnr_does_not_depend_on_the_units_of_light) {
               std::numeric_limits<double>::infinity());
 }
 
+TEST(Compare, a_pixel_that_is_no_number_is_not_taken_for_black) {
+    Image picture(16, 16, 3);
+    const Image black = picture;
+    picture.pixels(7, 8, 1) = std::numeric_limits<float>::quiet_NaN();
+    for (const ImageComparison& result : {compare(picture, black), compare(black, picture), compare(picture, picture)})
+        for (const double measure : {result.psnr, result.ssim, result.max_error, result.linear_psnr})
+            EXPECT_TRUE(std::isnan(measure)) << measure;
+}
+
 TEST(Compare, refuses_pictures_of_different_size) {
     EXPECT_THROW(compare(noise(4, 5, 3, 1), noise(5, 4, 3, 1)), Error);
     EXPECT_THROW(compare(noise(4, 5, 3, 1), noise(4, 5, 1, 1)), Error);

@@ -56,6 +56,46 @@ TEST_F(Files, a_light_field_of_any_size_comes_back_from_any_tiling) {
     EXPECT_EQ(std::distance(fs::directory_iterator(directory_), fs::directory_iterator()), 1);
 }
 
+TEST_F(Files, a_sample_that_is_not_finite_is_refused_by_place) {
+    constexpr float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+    const FieldGrid grid{{70, 9, 1e-6, 1e-6, 0, 0}, 532e-9};
+    struct Case {
+        std::complex<float> value;
+        SampleType type;
+        const char* shown;
+    };
+    for (const Case& wrong : {Case{{infinity, 1}, SampleType::single, "inf+1i"},
+                              {{2, -infinity}, SampleType::single, "2-infi"},
+                              {{nan, 1}, SampleType::single, "nan+1i"},
+                              {{1, nan}, SampleType::half, "1+nani"}}) {
+        const std::vector<FieldGrid> grids{grid, grid};
+        const auto sinks = create_hologram(path_, grids, {wrong.type});
+        for (const auto& sink : sinks) {
+            Field field(grid);
+            if (sink == sinks.back()) field.samples(7, 64) = wrong.value;
+            sink->write({0, 0, 70, 9}, field.samples);
+            sink->finish();
+        }
+        const Fields fields = open_hologram(path_);
+        const auto read = [&](std::size_t field, const Region& region) {
+            Array<std::complex<float>, 2> samples({region.height, region.width});
+            fields[field]->read(region, 0, samples);
+        };
+        EXPECT_NO_THROW(read(0, {0, 0, 70, 9}));
+        EXPECT_NO_THROW(read(1, {0, 0, 64, 9}));
+        for (const Region& region : {Region{0, 0, 70, 9}, {60, 5, 7, 3}, {64, 7, 1, 1}}) {
+            try {
+                read(1, region);
+                ADD_FAILURE() << "took " << wrong.shown;
+            } catch (const Error& error) {
+                EXPECT_EQ(error.code(), ErrorCode::bad_input);
+                EXPECT_SAYS(std::string(error.what()), "row 7 and column 64 of its field 1, from 0, is ");
+                EXPECT_SAYS(std::string(error.what()), wrong.shown);
+            }
+        }
+    }
+}
+
 TEST_F(Files, every_range_of_a_light_field_file_is_read_alone) {
     const LightFieldGrid g = grid_of(5, 4, 3, 2, 3);
     const LightFieldBuffer field = random_light_field(g, true);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light fields from files, which may hold what no light is: a single radiance that is not finite would be spread over
-// whole holograms and pictures.
+// Light fields and fields from files, which may hold what no light is: a single number that is not finite would be
+// spread over whole holograms and pictures.
 #include "hogel/io/finite.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -56,6 +57,27 @@ void throw_not_finite(const LightFieldTile& tile, const std::filesystem::path& p
                                 index[0], value));
     }
     throw Error(ErrorCode::internal, "a radiance that is not finite was lost");
+}
+
+void require_finite(View<const std::complex<float>, 2> samples, const Region& region, std::size_t field,
+                    const std::filesystem::path& path) {
+    // The standard allows it to take complex numbers for pairs of floats.
+    if (all_finite({reinterpret_cast<const float*>(samples.data()), 2 * samples.size()})) return;
+    const auto is_wrong = [](const std::complex<float>& sample) {
+        return !std::isfinite(sample.real()) || !std::isfinite(sample.imag());
+    };
+    const auto found = std::ranges::find_if(samples.elements(), is_wrong);
+    const auto at = static_cast<std::size_t>(found - samples.elements().begin());
+    throw Error(ErrorCode::bad_input,
+                fmt::format("cannot use '{}': the sample in row {} and column {} of its field {}, from 0, is {}{:+}i; "
+                            "finite numbers were expected",
+                            path.string(), region.y0 + at / region.width, region.x0 + at % region.width, field,
+                            found->real(), found->imag()));
+}
+
+void require_finite(const Field& samples, std::size_t field, const std::filesystem::path& path) {
+    const Grid& plane = samples.grid().plane;
+    require_finite(samples.samples, {0, 0, plane.width, plane.height}, field, path);
 }
 
 LightField require_finite(const LightField& light_field, const std::filesystem::path& path) {

@@ -95,7 +95,10 @@ Difference compare_fields(const FieldSource& a, const FieldSource& b, const Prog
     });
 }
 
-SampleComparison result_of(const Difference& sum) { return {sum.sqnr(), sum.psnr(), sum.max_error}; }
+// A maximum passes over what is no number; a sum does not.
+SampleComparison result_of(const Difference& sum) {
+    return {sum.sqnr(), sum.psnr(), std::isnan(sum.error) ? sum.error : sum.max_error};
+}
 
 [[noreturn]] void sampled_differently(const char* what) {
     throw Error(ErrorCode::bad_input, std::string("the two ") + what + " are sampled differently");

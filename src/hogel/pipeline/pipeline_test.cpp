@@ -268,6 +268,23 @@ TEST_F(Pipeline, radiance_that_is_not_finite_is_refused_by_place) {
     }
 }
 
+TEST_F(Pipeline, samples_that_are_no_numbers_are_not_taken_for_equal) {
+    const FieldGrid grid{{700, 5, 1_um, 1_um, 0, 0}, 532_nm};
+    const auto right = std::make_shared<Field>(grid), wrong = std::make_shared<Field>(grid);
+    right->samples(1, 1) = 1;
+    wrong->samples(1, 1) = 1;
+    wrong->samples(2, 3) = {0, std::numeric_limits<float>::quiet_NaN()};
+    for (const auto& [a, b] : {std::pair(right, wrong), {wrong, right}, {wrong, wrong}}) {
+        const SampleComparison result = compare(Fields{a}, Fields{b});
+        for (const double measure : {result.sqnr, result.psnr, result.max_error})
+            EXPECT_TRUE(std::isnan(measure)) << measure;
+    }
+    const LightFieldGrid rays{3, 2, 1_mm, 4, 4, Perspective{0.1, 0.1}, 1};
+    LightFieldBuffer dark(rays), broken(rays);
+    broken.radiance(0, 1, 2, 3, 3) = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_TRUE(std::isnan(compare(borrow(dark), borrow(broken)).max_error));
+}
+
 // Apart from its samples a file has a few kilobytes.
 TEST_F(Pipeline, plans_know_the_size_of_files) {
     const LightField light_field = rendered();

@@ -86,6 +86,7 @@ std::unique_ptr<FieldSource> open_exr_field(const std::filesystem::path& path, c
     const float* const second = picture.channels[pair.second].second.data();
     for (std::size_t i = 0; i < field->samples.size(); ++i)
         field->samples.data()[i] = convert(double{first[i]}, double{second[i]});
+    require_finite(*field, what.colour, path);
     return field;
 }
 

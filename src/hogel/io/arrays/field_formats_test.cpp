@@ -69,6 +69,29 @@ TEST_F(FieldFormats, of_numpy_arrays_hold_fields_without_their_sampling) {
     }
 }
 
+TEST_F(FieldFormats, refuse_a_sample_that_is_not_finite_by_place) {
+    for (const char* ending : {".npy", ".npz", ".mat", ".exr"}) {
+        if (std::string(ending) == ".exr" && !core::part("pictures").built_in) continue;
+        std::vector<Field> fields = example(3);
+        fields[1].samples(2, 4) = Complex(1, std::numeric_limits<float>::infinity());
+        const fs::path path = directory_ / ("f" + std::string(ending));
+        write_fields(path, fields);
+        ExternalField what;
+        what.pitch_x = what.pitch_y = std::string(ending) == ".npy" ? 2e-6 : 0;
+        what.wavelength = std::string(ending) == ".npy" ? 532e-9 : 0;
+        for (what.colour = 0; what.colour < 3; ++what.colour) try {
+                all_of(*open_external_field(path, what));
+                EXPECT_NE(what.colour, 1u) << ending;
+            } catch (const Error& error) {
+                EXPECT_EQ(error.code(), ErrorCode::bad_input);
+                EXPECT_NE(std::string(error.what()).find("f" + std::string(ending)), std::string::npos) << error.what();
+                EXPECT_NE(std::string(error.what()).find("row 2 and column 4 of its field 1, from 0, is 1+infi"),
+                          std::string::npos)
+                    << error.what();
+            }
+    }
+}
+
 TEST_F(FieldFormats, are_told_by_the_ending_alone) {
     const std::vector<Field> fields = example(1);
     for (const char* name : {"f.h5", "f.png", "f", "f.npyx"}) {

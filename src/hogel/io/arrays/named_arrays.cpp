@@ -319,6 +319,7 @@ std::unique_ptr<FieldSource> open_arrays(const std::filesystem::path& path, cons
         for (std::size_t x = 0; x < a.width; ++x)
             field->samples(y, x) = convert(first.real_at(y * a.step_y + x * a.step_x + what.colour * a.step_colour),
                                            other_at(y * b.step_y + x * b.step_x + what.colour * b.step_colour));
+    require_finite(*field, what.colour, path);
     return field;
 }
 

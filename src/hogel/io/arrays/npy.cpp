@@ -222,6 +222,7 @@ class NpyField final : public FieldSource {
                 (columns ? out(k, i) : out(i, k)) = convert_(number_at(header_.number, &line[at]), other);
             }
         }
+        require_finite(out, region, colour_, file_.name());
     }
 
   private:

@@ -145,10 +145,7 @@ std::complex<float> SampleConverter::operator()(double first, double second) con
     if (phases_)
         value =
             content_ == Content::real ? std::polar(1.0, phase_of(first)) : first * std::polar(1.0, phase_of(second));
-    const std::complex<float> sample(std::complex<double>(value.real(), sign_ * value.imag()));
-    if (!std::isfinite(sample.real()) || !std::isfinite(sample.imag()))
-        fail_external(path_, fmt::format("it holds the value {} + {}i, which no field has", first, second));
-    return sample;
+    return std::complex<float>(std::complex<double>(value.real(), sign_ * value.imag()));
 }
 
 Content take_pairs(const std::filesystem::path& path, ExternalField& what) {

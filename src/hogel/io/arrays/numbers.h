@@ -7,6 +7,7 @@
 
 #include "hogel/array.h"
 #include "hogel/files.h"
+#include "hogel/io/finite.h"
 
 namespace hogel::io::arrays {
 
@@ -34,7 +35,7 @@ class SampleConverter {
     /// The largest whole number of a phase, where that is less than its type holds; 0 for other numbers.
     void set_largest_phase(std::size_t largest) { largest_ = static_cast<double>(largest); }
 
-    /// The sample for a real number, or for the two numbers of a sample. Throws Error(bad_input) if it is not finite.
+    /// The sample for a real number, or for the two numbers of a sample, which may not be finite: see require_finite().
     std::complex<float> operator()(double first, double second) const;
 
   private:

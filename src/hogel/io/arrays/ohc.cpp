@@ -122,6 +122,7 @@ std::unique_ptr<FieldSource> open_ohc(const std::filesystem::path& path, const E
         };
         field->samples.data()[i] = convert(number(at), file.two() ? number(at + samples * colours) : 0);
     }
+    require_finite(*field, what.colour, path);
     return field;
 }
 

@@ -95,6 +95,7 @@ std::unique_ptr<FieldSource> open_picture_field(const std::filesystem::path& pat
     for (std::size_t i = 0; i < field->samples.size(); ++i)
         field->samples.data()[i] = scale * convert(double{first.values.data()[i * channels[0] + colour[0]]},
                                                    two ? double{second.values.data()[i * channels[1] + colour[1]]} : 0);
+    require_finite(*field, what.colour, path);
     return field;
 }
 

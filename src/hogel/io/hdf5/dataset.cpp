@@ -17,7 +17,8 @@ namespace {
 using hdf5::Element;
 using hdf5::Handle;
 
-constexpr std::size_t halves_at_once = 32768;  // half floats that are converted together, few enough for the caches
+constexpr std::size_t halves_at_once = 32768;   // half floats that are converted together, few enough for the caches
+constexpr std::size_t samples_at_once = 32768;  // complex numbers that are read and looked at together, likewise
 constexpr std::size_t max_chunk = std::size_t{256} << 20;
 
 Handle open_dataset(hid_t file, const char* name, const std::filesystem::path& path) {
@@ -132,11 +133,22 @@ bool DatasetReader::read(const Box& box, float* to) const {
     return finite;
 }
 
-void DatasetReader::read(const Box& box, std::complex<float>* to) const {
-    if (by_hdf5_) return by_hdf5_->read(box, to);
+bool DatasetReader::read(const Box& box, std::complex<float>* to) const {
+    float* const numbers = reinterpret_cast<float*>(to);  // two each
+    if (by_hdf5_) {
+        by_hdf5_->read(box, to);
+        return all_finite({numbers, 2 * samples_of(box.extent)});
+    }
+    bool finite = true;
     for_each_run(shape_, box, [&](std::size_t there, std::size_t here, std::size_t n) {
-        raw_->read(offset_ + sizeof(*to) * there, to + here, sizeof(*to) * n);
+        // Few enough for the caches.
+        for (std::size_t done = 0, some = 0; done < n; done += some) {
+            some = std::min(samples_at_once, n - done);
+            raw_->read(offset_ + sizeof(*to) * (there + done), to + here + done, sizeof(*to) * some);
+            finite = all_finite({numbers + 2 * (here + done), 2 * some}) && finite;
+        }
     });
+    return finite;
 }
 
 }  // namespace hogel::io::hdf5

@@ -28,9 +28,9 @@ class DatasetReader {
     /// or shape, or was not completely written. Needs a Session.
     DatasetReader(hid_t file, const char* name, std::vector<std::size_t> shape, bool complex,
                   std::shared_ptr<const core::RawFile> raw);
-    /// Returns whether all numbers are finite.
+    /// Both return whether all numbers are finite.
     bool read(const Box& box, float* to) const;
-    void read(const Box& box, std::complex<float>* to) const;
+    bool read(const Box& box, std::complex<float>* to) const;
     hdf5::Element element() const { return element_; }
     std::size_t axes() const { return shape_.size(); }
 

@@ -8,6 +8,7 @@
 
 #include "hogel/error.h"
 #include "hogel/files.h"
+#include "hogel/io/finite.h"
 #include "hogel/io/hdf5/grids.h"
 #include "hogel/io/hdf5/rehearsal.h"
 #include "hogel/io/part_sinks.h"
@@ -38,8 +39,11 @@ std::vector<std::size_t> shape_of(const FieldGrid& grid, Parts parts) {
 
 class FieldReader final : public FieldSource {
   public:
-    FieldReader(const FieldGrid& grid, const Provenance& provenance, DatasetReader samples)
-        : grid_(grid),
+    FieldReader(const std::filesystem::path& path, std::size_t index, const FieldGrid& grid,
+                const Provenance& provenance, DatasetReader samples)
+        : path_(path),
+          index_(index),
+          grid_(grid),
           provenance_(provenance),
           parts_(samples.axes() == 3 ? Parts::axis : Parts::members),
           samples_(std::move(samples)) {}
@@ -49,13 +53,15 @@ class FieldReader final : public FieldSource {
         validate(region, grid_, out.shape());
         if (look >= looks())
             throw Error(ErrorCode::usage, fmt::format("look {} was asked of a hologram file, which has one", look));
-        if (parts_ == Parts::axis)
-            samples_.read(box_of(region, parts_), reinterpret_cast<float*>(out.data()));
-        else
-            samples_.read(box_of(region, parts_), out.data());
+        const Box box = box_of(region, parts_);
+        const bool finite = parts_ == Parts::axis ? samples_.read(box, reinterpret_cast<float*>(out.data()))
+                                                  : samples_.read(box, out.data());
+        if (!finite) require_finite(out, region, index_, path_);  // says which
     }
 
   private:
+    std::filesystem::path path_;
+    std::size_t index_;
     FieldGrid grid_;
     Provenance provenance_;
     Parts parts_;
@@ -193,9 +199,11 @@ Fields open_hologram(const std::filesystem::path& path) {
         const hdf5::Handle file = hdf5::open_file(path);
         const Provenance provenance = to_provenance(hdf5::read_metadata(file.id(), path));
         Fields fields;
-        for (const FieldGrid& grid : read_hologram_grids(file.id(), path))
-            fields.push_back(
-                std::make_shared<FieldReader>(grid, provenance, samples_of_field(file.id(), fields.size(), grid, raw)));
+        for (const FieldGrid& grid : read_hologram_grids(file.id(), path)) {
+            const std::size_t index = fields.size();
+            fields.push_back(std::make_shared<FieldReader>(path, index, grid, provenance,
+                                                           samples_of_field(file.id(), index, grid, raw)));
+        }
         return fields;
     });
 }
