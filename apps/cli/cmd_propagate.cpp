@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstring>
+#include <mutex>
+#include <optional>
 
 #include "commands.h"
 #include "concerns.h"
@@ -68,6 +71,96 @@ void require_one_wavelength(const Fields& fields, const std::string& what) {
                     fmt::format("{}: is made of one wavelength, but the hologram has {}", what, fields.size()));
 }
 
+// The mean of |F|² over samples that pass by, from any thread.
+class MeanLight {
+  public:
+    void add(View<const std::complex<float>, 2> samples) {
+        double sum = 0;
+        for (const std::complex<float>& sample : samples.elements()) sum += std::norm(std::complex<double>(sample));
+        const std::lock_guard lock(mutex_);
+        sum_ += sum;
+        count_ += samples.size();
+    }
+    double sum() const { return sum_; }
+    std::size_t count() const { return count_; }
+    // Takes in what the other processes of a team have added; complete in the first one.
+    void gather() {
+        Team* const all = team();
+        if (all == nullptr) return;
+        const double own[] = {sum_, static_cast<double>(count_)};
+        if (!all->is_first()) return all->send_to(0, {reinterpret_cast<const char*>(own), sizeof own});
+        for (std::size_t process = 1; process < all->size(); ++process) {
+            double other[2] = {};
+            const std::string bytes = all->receive_from(process);
+            std::memcpy(other, bytes.data(), std::min(bytes.size(), sizeof other));
+            sum_ += other[0];
+            count_ += static_cast<std::size_t>(other[1]);
+        }
+    }
+
+  private:
+    std::mutex mutex_;
+    double sum_ = 0;
+    std::size_t count_ = 0;
+};
+
+// A field whose light is measured where it is read.
+class MeasuredSource final : public FieldSource {
+  public:
+    MeasuredSource(const FieldSource& source, MeanLight& light) : source_(source), light_(light) {}
+    const FieldGrid& grid() const override { return source_.grid(); }
+    std::size_t looks() const override { return source_.looks(); }
+    const Provenance& provenance() const override { return source_.provenance(); }
+    std::size_t alignment() const override { return source_.alignment(); }
+    std::size_t overlap() const override { return source_.overlap(); }
+    void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override {
+        source_.read(region, look, out);
+        light_.add(out);
+    }
+
+  private:
+    const FieldSource& source_;
+    MeanLight& light_;
+};
+
+// A sink whose light is measured where it is written.
+class MeasuredSink final : public FieldSink {
+  public:
+    MeasuredSink(FieldSink& sink, MeanLight& light) : sink_(sink), light_(light) {}
+    void write(const Region& region, View<const std::complex<float>, 2> values) override {
+        sink_.write(region, values);
+        light_.add(values);
+    }
+    View<std::complex<float>, 2> in_memory() override { return sink_.in_memory(); }
+    bool has_already(const Region& region) override { return sink_.has_already(region); }
+    void finish() override { sink_.finish(); }
+
+  private:
+    FieldSink& sink_;
+    MeanLight& light_;
+};
+
+// Propagates, and returns the share of the field's light that the output holds: none where an interrupted run has
+// written some of it, of a field without light, and of a copy, which processes share in another way.
+std::optional<double> propagate_measured(const FieldSource& field, double distance, FieldSink& sink,
+                                         const PropagateOptions& options, const Progress& progress) {
+    const Grid &plane = field.grid().plane, &output = *options.output;
+    if (distance == 0 && output == plane) {
+        hogel::propagate(field, distance, sink, options, progress);
+        return {};
+    }
+    MeanLight before, after;
+    MeasuredSink measured(sink, after);
+    hogel::propagate(MeasuredSource(field, before), distance, measured, options, progress);
+    before.gather();
+    after.gather();
+    if (!(before.sum() > 0) || after.count() != output.samples()) return {};
+    // A field is read once for each tile, and each time all of it.
+    const double light = before.sum() / static_cast<double>(before.count()) * plane.size_x() * plane.size_y();
+    // To digits that do not depend on the order in which threads add.
+    return std::round(after.sum() * output.pitch_x * output.pitch_y / light * 1e9) / 1e9;
+}
+
 // The picture of one colour.
 Image shown(const Field& field, const std::string& display) {
     if (display == "phase") return phases(field.samples);
@@ -93,10 +186,28 @@ void report(const Options& options, OutputKind kind, std::span<const FieldGrid> 
     report_file(session, options.output, result);
 }
 
+// Says which share of the light the outputs hold, where one misses 1 %.
+void state_shares(std::span<const FieldGrid> inputs, std::span<const std::optional<double>> shares,
+                  const Session& session) {
+    constexpr double enough = 0.99;
+    std::string missed;
+    for (std::size_t c = 0; c < shares.size(); ++c)
+        if (shares[c] && *shares[c] < enough)
+            missed += fmt::format("{}{:.3g} % of the light of {}", missed.empty() ? "" : ", ", 100 * *shares[c],
+                                  format_length(inputs[c].wavelength));
+    if (missed.empty()) return;
+    const Grid& plane = inputs.front().plane;
+    const char* const spreads = plane.height == 1  ? "; that of a single row spreads up and down"
+                                : plane.width == 1 ? "; that of a single column spreads sideways"
+                                                   : "";
+    session.say(fmt::format("the output holds {}, and the rest falls beside it (--output-samples, --output-pitch){}",
+                            missed, spreads));
+}
+
 // How each wavelength is propagated, for --json; in words with -v.
-ResultList methods_of(const Fields& fields, const Options& options, const std::vector<PropagateOptions>& propagations,
-                      const Session& session) {
-    ResultList methods;
+std::vector<Result> methods_of(const Fields& fields, const Options& options,
+                               const std::vector<PropagateOptions>& propagations, const Session& session) {
+    std::vector<Result> methods;
     for (std::size_t c = 0; c < fields.size(); ++c) {
         const FieldGrid& grid = fields[c]->grid();
         const PropagationMethod method = propagation_method(grid, options.distance, propagations[c]);
@@ -141,13 +252,16 @@ int propagate_fields(const Options& options, const Session& session) {
         propagations.push_back({.scratch = scratch, .output = output_grid(options, field->grid().plane)});
         grids.push_back({*propagations.back().output, field->grid().wavelength});
     }
-    const ResultList methods = with_options({{"output", "--output-pitch, --output-samples, --offset-x, --offset-y"}},
-                                            [&] { return methods_of(fields, options, propagations, session); });
+    std::vector<Result> methods = with_options({{"output", "--output-pitch, --output-samples, --offset-x, --offset-y"}},
+                                               [&] { return methods_of(fields, options, propagations, session); });
     state_plan(session, plan_propagation(inputs, options.distance, propagations.front()), "propagation",
                options.output);
     Stage stage(session, "propagation");
+    std::vector<std::optional<double>> shares(grids.size());
     const auto colour = [&](std::size_t c, FieldSink& sink) {
-        hogel::propagate(*fields[c], options.distance, sink, propagations[c], stage.progress(c, grids.size()));
+        shares[c] =
+            propagate_measured(*fields[c], options.distance, sink, propagations[c], stage.progress(c, grids.size()));
+        if (shares[c]) methods[c].emplace_back("light_share", *shares[c]);
     };
     const Grid& plane = grids.front().plane;
     // No value of the option says that the samples of the input are farther apart in one direction.
@@ -182,7 +296,8 @@ int propagate_fields(const Options& options, const Session& session) {
     if (!is_first_process()) return 0;
     session.say(fmt::format("{}: {}x{} samples at {}, {} on", options.output, plane.width, plane.height,
                             format_length(plane.pitch_x), format_length(options.distance)));
-    report(options, kind, grids, methods, exposed, session);
+    state_shares(inputs, shares, session);
+    report(options, kind, grids, {methods.begin(), methods.end()}, exposed, session);
     return 0;
 }
 

@@ -50,7 +50,8 @@ HOGEL_API PropagationMethod propagation_method(const FieldGrid& field, double di
 /// exact; steps and range of the frequencies follow from the field, the output and √(λ distance), so that near and far
 /// planes are equally accurate. Evanescent waves decay forwards and are dropped backwards.
 /// Throws Error(usage) as propagation_method() does, for work arrays that do not fit, and for a field with so much
-/// light at grazing directions that the error would exceed options.max_error.
+/// light at grazing directions that the error would exceed options.max_error. Samples beside the cone of light that the
+/// field's samples can send are 0; an output that lies wholly beside it is refused.
 HOGEL_API Field propagate(const FieldSource& field, double distance, const PropagateOptions& options = {},
                           const Progress& progress = {});
 

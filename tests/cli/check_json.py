@@ -38,7 +38,7 @@ VIEWS = {"layout": WORD, "views_across": COUNT, "views_down": COUNT, "bits": COU
 PHOTO = FILE | {"pictures": COUNT, "width": COUNT, "height": COUNT, "channels": COUNT, "exposure": NUMBER, "geometric": TRUTH}
 PROPAGATED = {"wavelengths_m": [REAL], "distance_m": REAL,
               "propagations": [{"wavelength_m": REAL, "method": WORD, "fresnel_number": NUMBER, "predicted_error": REAL,
-                                "frequencies_x": COUNT, "frequencies_y": COUNT, "tiles": COUNT}]}
+                                "frequencies_x": COUNT, "frequencies_y": COUNT, "tiles": COUNT, "light_share": REAL}]}
 PLANE = FILE | PROPAGATED | {"pitch_x_m": REAL, "pitch_y_m": REAL}
 SLM = FILE | {"width": COUNT, "height": COUNT, "pixel_pitch_m": REAL, "levels": COUNT, "encoding": WORD}
 PATTERN = {"wavelength_m": REAL, "efficiency": REAL, "power": REAL}

@@ -207,6 +207,29 @@ class TileWork {
     std::mutex reporting_;
 };
 
+// Writes zeros to all of the output but its lit part. Processes take blocks in turn, except into their own memories.
+void write_dark(FieldSink& sink, const Grid& output, const Region& lit) {
+    const std::size_t right = lit.x0 + lit.width, below = lit.y0 + lit.height;
+    const Region parts[] = {{0, 0, output.width, lit.y0},
+                            {0, lit.y0, lit.x0, lit.height},
+                            {right, lit.y0, output.width - right, lit.height},
+                            {0, below, output.width, output.height - below}};
+    Team* const all = core::team_of_several();
+    const bool alone = all == nullptr || sink.in_memory().size() > 0;
+    constexpr std::size_t samples_at_once = 1 << 18;
+    std::size_t block = 0;
+    for (const Region& part : parts) {
+        if (part.samples() == 0) continue;
+        const std::size_t rows = std::max<std::size_t>(samples_at_once / part.width, 1);
+        for (std::size_t y = 0; y < part.height; y += rows, ++block) {
+            core::throw_if_stopped();
+            const Region some{part.x0, part.y0 + y, part.width, std::min(rows, part.height - y)};
+            if ((alone || block % all->size() == all->rank()) && !sink.has_already(some))
+                sink.write(some, Array<Complex, 2>({some.height, some.width}));
+        }
+    }
+}
+
 // A division of the output into equal tiles; the last ones of a row and a column may be smaller.
 struct Tiling {
     Grid output;
@@ -220,9 +243,10 @@ struct Tiling {
         const auto [y0, y1] = range(row, down, output.height);
         return {x0, y0, x1 - x0, y1 - y0};
     }
-    // The plans of the tiles at the four corners, which are the most oblique.
-    std::vector<TilePlan> corners(const FieldGrid& field, double distance) const {
-        std::vector<TilePlan> plans;
+    // The plans of the tiles at the four corners, which are the most oblique, and of one in the middle: corners may be
+    // dark.
+    std::vector<TilePlan> samples(const FieldGrid& field, double distance) const {
+        std::vector<TilePlan> plans{plan_tile(field, distance, part(output, tile(across / 2, down / 2)))};
         for (const std::size_t row : {std::size_t{0}, down - 1})
             for (const std::size_t column : {std::size_t{0}, across - 1})
                 plans.push_back(plan_tile(field, distance, part(output, tile(column, row))));
@@ -234,7 +258,7 @@ struct Tiling {
 Tiling tiling_of(const FieldGrid& field, double distance, const Grid& output) {
     const auto operations = [&](const Tiling& tiling) {
         double worst = 0;
-        for (const TilePlan& plan : tiling.corners(field, distance)) worst = std::max(worst, plan.operations());
+        for (const TilePlan& plan : tiling.samples(field, distance)) worst = std::max(worst, plan.operations());
         return worst * static_cast<double>(tiling.across) * static_cast<double>(tiling.down);
     };
     Tiling best{output};
@@ -289,11 +313,11 @@ PropagationMethod propagation_method(const FieldGrid& field, double distance, co
         distance == 0 ? std::numeric_limits<double>::infinity() : half * half / (field.wavelength * std::abs(distance));
     method.name = "identity";
     if (is_identity(field, distance, output)) return method;
-    const Tiling tiling = tiling_of(field, distance, output);
+    const Tiling tiling = tiling_of(field, distance, part(output, lit_part(field, distance, output)));
     method.name = "fft";
     method.tiles_x = tiling.across;
     method.tiles_y = tiling.down;
-    for (const TilePlan& plan : tiling.corners(field, distance)) {
+    for (const TilePlan& plan : tiling.samples(field, distance)) {
         method.frequencies_x = std::max(method.frequencies_x, plan.x.frequencies.count);
         method.frequencies_y = std::max(method.frequencies_y, plan.y.frequencies.count);
         method.bytes = std::max(method.bytes, plan.bytes());
@@ -313,12 +337,16 @@ void propagate(const FieldSource& source, double distance, FieldSink& sink, cons
     const FieldGrid& field = source.grid();
     const Grid output = output_of(field, distance, options);
     if (is_identity(field, distance, output)) return copy(source, sink, options.look, progress);
-    const Tiling tiling = tiling_of(field, distance, output);
+    const Region lit = lit_part(field, distance, output);
+    write_dark(sink, output, lit);
+    const Tiling tiling = tiling_of(field, distance, part(output, lit));
     const std::size_t tiles = tiling.across * tiling.down;
     for (std::size_t i = 0; i < tiles; ++i) {
-        const Region region = tiling.tile(i % tiling.across, i / tiling.across);
-        const TilePlan plan = plan_tile(field, distance, part(output, region));
+        Region region = tiling.tile(i % tiling.across, i / tiling.across);
+        const TilePlan plan = plan_tile(field, distance, part(tiling.output, region));
         require_accuracy(Transfer(plan).error(), options.max_error);
+        region.x0 += lit.x0;
+        region.y0 += lit.y0;
         TileWork(source, plan, options, progress.part(i, tiles)).run(sink, region);
     }
     sink.finish();

@@ -357,6 +357,29 @@ TEST(Propagate, tiles_equal_single_points) {
     EXPECT_LT(error_against(sum_of_spherical_waves, field, 1_m, at(field, 1_m, output)), 1e-3);
 }
 
+// The cone of light from 64 samples of 1 um is 0.6 mm wide there; the output, of 4 mm, is dark beside it.
+TEST(Propagate, a_window_wider_than_the_cone_of_light_is_dark_beside_it) {
+    const Field field = packets({64, 60, 1_um, 1_um, 0, 0}, 532_nm);
+    const Grid output{500, 400, 8_um, 8_um, 10_um, 0};
+    PropagateOptions options;
+    options.output = output;
+    Field there({output, 532_nm});
+    for (auto& sample : there.samples.elements()) sample = 7;
+    hogel::propagate(field, 1_mm, there, options);
+    EXPECT_EQ(there.samples(0, 0), 0.0f);
+    EXPECT_EQ(there.samples(200, 499), 0.0f);
+    EXPECT_EQ(there.samples(399, 250), 0.0f);
+    EXPECT_LT(difference(at(field, 1_mm, part(output, {200, 150, 100, 100})), there), 1e-3);
+    // Samples of 8 um are finer than the interference of light of a field of 64 um.
+    EXPECT_NEAR(energy(there) / energy(field), 1, 1e-2);
+    // Outside of it on one side alone, and so far that tiles are dark.
+    Grid aside = output;
+    aside.center_x = 2_mm;
+    EXPECT_LT(difference(at(field, 1_mm, part(aside, {0, 150, 40, 100})), at(field, 1_mm, aside)), 1e-3);
+    options.output = Grid{4001, 2, 1_mm, 8_um, 0, 0};
+    EXPECT_LT(propagation_method(field.grid(), 1_mm, options).bytes, 1e6);
+}
+
 TEST(Propagate, by_nothing_is_the_same_field_or_its_interpolation) {
     const Grid plane{64, 50, 1_um, 1_um, 0, 0};
     const Field field = noise(plane, 532_nm);
@@ -437,6 +460,27 @@ TEST(Propagate, goes_on_where_a_sink_was_interrupted) {
     run(Unreadable(field.grid()), 0);
 }
 
+TEST(Propagate, goes_on_beside_the_cone_of_light) {
+    const Field field = packets({32, 30, 1_um, 1_um, 0, 0}, 532_nm);
+    PropagateOptions options;
+    options.output = Grid{500, 400, 8_um, 8_um, 0.3_mm, 0};
+    const Field whole = hogel::propagate(field, 1_mm, options);
+    Field result(whole.grid());
+    std::vector<Region> had;
+    for (const std::size_t writes : {std::size_t{2}, SIZE_MAX}) {
+        Interrupted sink(result, had, writes);
+        try {
+            hogel::propagate(field, 1_mm, sink, options);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::cancelled);
+        }
+    }
+    EXPECT_TRUE(std::ranges::equal(result.samples.elements(), whole.samples.elements()));
+    std::size_t samples = 0;
+    for (const Region& region : had) samples += region.samples();
+    EXPECT_EQ(samples, whole.samples.size());
+}
+
 TEST(Propagate, says_how_it_will) {
     const FieldGrid field{{512, 512, 1_um, 1_um, 0, 0}, 532_nm};
     EXPECT_EQ(propagation_method(field, 0).name, "identity");
@@ -461,6 +505,8 @@ TEST(Propagate, refuses_what_it_cannot_do) {
         return "";
     };
     EXPECT_NE(message(1_mm, {64, 64, 1_um, 1_um, 1_mm, 0}).find("no light reaches the output"), std::string::npos);
+    // No sample of the output is in the cone, although its rectangle covers it.
+    EXPECT_NE(message(1_mm, {2, 1, 1_m, 1_um, 0, 0}).find("no light reaches the output"), std::string::npos);
     EXPECT_NE(message(std::nan(""), field.grid().plane).find("finite"), std::string::npos);
     EXPECT_NE(message(1_m, {0, 64, 1_um, 1_um, 0, 0}), "");
     EXPECT_NE(message(1_m, {64, 64, 1_um, 1_um, std::nan(""), 0}), "");

@@ -132,18 +132,6 @@ void set_frequencies(AxisPlan& axis, double low, double high) {
     if (axis.output.step != axis.field.step || !cheaper(n, axis.output.count, axis.outward)) axis.outward = 0;
 }
 
-// Refuses an output that no direction of the samples leads to.
-void require_light(const TilePlan& plan, const AxisPlan& axis, double other_frequency, const char* across) {
-    if (plan.distance == 0 && std::abs(axis.middle) <= axis.reach) return;
-    const double widest = edge_paths(plan, axis, other_frequency).second;
-    if (plan.evanescent || std::abs(axis.middle) <= widest + axis.reach) return;
-    throw Error(ErrorCode::usage,
-                fmt::format("no light reaches the output: samples {} apart diffract by at most {} {} over {}, and the "
-                            "output begins {} from the field",
-                            format_length(axis.field.step), format_length(widest), across,
-                            format_length(std::abs(plan.distance)), format_length(std::abs(axis.middle) - axis.reach)));
-}
-
 AxisPlan axis_of(std::size_t field, double field_pitch, std::size_t output, double output_pitch, double middle) {
     const auto centred = [](double at, std::size_t n, double pitch) {
         return Steps{at + (0.5 - 0.5 * static_cast<double>(n)) * pitch, pitch, n};
@@ -157,26 +145,63 @@ AxisPlan axis_of(std::size_t field, double field_pitch, std::size_t output, doub
     return axis;
 }
 
-}  // namespace
-
-double AxisPlan::end_of_fade() const { return 0.5 * guard + fade_lengths * fresnel; }
-
-double AxisPlan::outermost() const { return reach + end_of_fade(); }
-
-TilePlan plan_tile(const FieldGrid& field, double distance, const Grid& output) {
+// What does not depend on the frequencies.
+TilePlan geometry_of(const FieldGrid& field, double distance, const Grid& output) {
     const Grid& plane = field.plane;
     TilePlan plan;
     plan.distance = distance;
     plan.wavelength = field.wavelength;
     plan.x = axis_of(plane.width, plane.pitch_x, output.width, output.pitch_x, output.center_x - plane.center_x);
     plan.y = axis_of(plane.height, plane.pitch_y, output.height, output.pitch_y, plane.center_y - output.center_y);
-    const double fx = plan.x.edge_frequency(), fy = plan.y.edge_frequency();
     // Evanescent waves of noise carry 1e-4 of its amplitude at a distance of 500 pitches.
     constexpr double pitches = 500;
-    plan.evanescent = std::hypot(fx, fy) * field.wavelength > 1 && distance >= 0 &&
-                      distance < pitches * std::min(plane.pitch_x, plane.pitch_y);
-    require_light(plan, plan.x, fy, "sideways");
-    require_light(plan, plan.y, fx, "up and down");
+    plan.evanescent = std::hypot(plan.x.edge_frequency(), plan.y.edge_frequency()) * field.wavelength > 1 &&
+                      distance >= 0 && distance < pitches * std::min(plane.pitch_x, plane.pitch_y);
+    return plan;
+}
+
+// The first of the positions that is not below `at`, or their number.
+std::size_t first_from(const Steps& positions, double at) {
+    const double index = std::ceil((at - positions.first) / positions.step);
+    return static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(positions.count)));
+}
+
+// The first and the end of the output's samples on this axis that light may reach.
+std::pair<std::size_t, std::size_t> lit_samples(const TilePlan& plan, const AxisPlan& axis, double other_frequency,
+                                                const char* across) {
+    const Steps& output = axis.output;
+    const double widest = edge_paths(plan, axis, other_frequency).second;
+    const double cone = 0.5 * static_cast<double>(axis.field.count) * axis.field.step + widest;
+    const auto position = [&](std::size_t i) { return std::abs(output.first + static_cast<double>(i) * output.step); };
+    // One of the two samples beside the field's middle is nearest to it.
+    const std::size_t next = std::min(first_from(output, 0), output.count - 1);
+    const double nearest = std::min(position(next), position(next == 0 ? 0 : next - 1));
+    if (!plan.evanescent && nearest > cone)
+        throw Error(ErrorCode::usage,
+                    fmt::format("no light reaches the output: samples {} apart diffract by at most {} {} over {}, and "
+                                "the output begins {} from the field",
+                                format_length(axis.field.step), format_length(widest), across,
+                                format_length(std::abs(plan.distance)), format_length(nearest - (cone - widest))));
+    if (plan.evanescent || plan.distance == 0) return {0, output.count};
+    return {first_from(output, -3 * cone), first_from(output, 3 * cone)};
+}
+
+}  // namespace
+
+double AxisPlan::end_of_fade() const { return 0.5 * guard + fade_lengths * fresnel; }
+
+double AxisPlan::outermost() const { return reach + end_of_fade(); }
+
+Region lit_part(const FieldGrid& field, double distance, const Grid& output) {
+    const TilePlan plan = geometry_of(field, distance, output);
+    const auto [x0, x1] = lit_samples(plan, plan.x, plan.y.edge_frequency(), "sideways");
+    const auto [y0, y1] = lit_samples(plan, plan.y, plan.x.edge_frequency(), "up and down");
+    return {x0, y0, x1 - x0, y1 - y0};
+}
+
+TilePlan plan_tile(const FieldGrid& field, double distance, const Grid& output) {
+    TilePlan plan = geometry_of(field, distance, output);
+    const double fx = plan.x.edge_frequency(), fy = plan.y.edge_frequency();
     set_guards(plan);
     set_period(plan, plan.x, fy);
     set_period(plan, plan.y, fx);

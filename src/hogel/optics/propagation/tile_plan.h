@@ -45,7 +45,11 @@ struct TilePlan {
     double operations() const;
 };
 
-/// Throws Error(usage) if no direction leads from the field to the output.
+/// The samples of an output that light of the field may reach: those in the cone of the directions of its samples, and
+/// beside it, where the ends of the field's band diffract, as many as are in it on either side. All others are dark.
+/// Throws Error(usage) if no sample is in the cone.
+Region lit_part(const FieldGrid& field, double distance, const Grid& output);
+
 TilePlan plan_tile(const FieldGrid& field, double distance, const Grid& output);
 
 }  // namespace hogel::optics::propagation
