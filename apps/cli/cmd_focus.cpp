@@ -51,6 +51,17 @@ std::string words_of(const FocusSearch& search) {
     return words;
 }
 
+// Says where nothing stands out as planes in focus do, which may be noise.
+void state_doubt(const FocusSearch& search, const Session& session) {
+    constexpr double doubtful = 0.3;
+    if (!search.planes.empty() && search.planes.front().prominence >= doubtful) return;
+    session.say(
+        fmt::format("nothing stands out clearly from {} to {} behind the hologram{}; another range, --region or "
+                    "--colour may show more (--from, --to)",
+                    format_length(search.depths.front()), format_length(search.depths.back()),
+                    search.planes.empty() ? "" : ": what is found may be noise"));
+}
+
 // What is looked at, where that is not one whole field.
 void state_parts(const Fields& all, const Fields& fields, const FocusOptions& request, const Session& session) {
     const Grid& plane = fields.front()->grid().plane;
@@ -122,6 +133,7 @@ int focus(const Options& options, const Session& session) {
     if (!options.plot.empty())
         write_focus_plot(options.plot, search, std::filesystem::path(options.input).filename().string(),
                          record.metadata());
+    state_doubt(search, session);
     session.result(result_of(search, chosen, session.seconds()), words_of(search));
     return 0;
 }

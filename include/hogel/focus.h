@@ -14,7 +14,7 @@ namespace hogel {
 /// Options of find_focus().
 struct FocusOptions {
     /// The depths that are searched, metres behind the hologram (negative: in front). Equal: as far as its samples and
-    /// its size resolve alike, N Δ²/λ on both sides.
+    /// its size resolve alike, N Δ²/λ on both sides, and up to eight times as far where nothing stands out.
     double from = 0, to = 0;
     std::size_t planes = 0;  ///< number of depths; 0: one every depth of focus
     /// Samples of the middle of each field that are looked at, or all where there are fewer; 0: max_side at most.

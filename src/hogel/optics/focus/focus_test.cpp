@@ -133,6 +133,27 @@ TEST(Planes, of_unknown_depth_are_found) {
         }
 }
 
+// Beyond that the depth of focus grows; nothing in the first range stands out as the object does.
+TEST(Planes, beyond_the_first_range_are_found) {
+    const Grid window{128, 128, 4_um, 4_um, 0, 0};
+    const double first = 128 * 4e-6 * 4e-6 / 532e-9;
+    for (const Surface surface : {Surface::smooth, Surface::rough})
+        for (const double depth : {1.6 * first, -3.1 * first}) {
+            // The light of a wide plane, of which the hologram has the middle.
+            Case of{grid_of(256, 256, 4_um, 532_nm), 0, surface, 0.4, 6};
+            of.depths = depth / of.depth_of_focus();
+            const Field wide = hologram_of(of);
+            Field field({window, 532_nm});
+            wide.read({64, 64, 128, 128}, 0, field.samples);
+            const FocusSearch search = find_focus(field);
+            ASSERT_FALSE(search.planes.empty()) << depth;
+            EXPECT_GT(search.planes.front().prominence, 1) << depth;
+            // What the hologram has of the object's light is in focus over a tenth of the depth.
+            EXPECT_NEAR(search.planes.front().depth, depth, 0.15 * std::abs(depth));
+            EXPECT_GT(search.depths.back(), std::abs(depth));
+        }
+}
+
 // The order of an off-axis recording is cut out; its light has few frequencies.
 TEST(Planes, of_off_axis_recordings_are_found) {
     const double frequency = 0.31;
