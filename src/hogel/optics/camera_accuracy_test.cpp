@@ -144,6 +144,39 @@ TEST(CamerasAtTheOutline, show_a_point_before_the_edge) {
     EXPECT_NEAR(share_beside(photograph_by_plane_waves(field, std::span(&camera, 1))[0]), direct, 2e-3);
 }
 
+// A blur of 344 resolution cells, 43 cycles of defocus at the rim of the pupil: light is followed beyond the spot.
+TEST(NarrowCamera, equals_the_direct_sum_far_out_of_focus) {
+    const FieldGrid grid{{16, 14, 1.5_um, 1.5_um, 0, 0}, 633_nm};
+    const Field field = random_field(grid, 6);
+    Camera camera;
+    camera.eye = {0, 0, 9_mm};
+    camera.pupil = 1.4_mm;
+    camera.focus_depth = -4.5_mm;
+    camera.picture = {5, 4, 4.8_um, 4.8_um, 0, 0};
+    const Alike alike =
+        alike_to(photograph(field, std::span(&camera, 1))[0], photograph_directly(field, camera, 400, 3));
+    EXPECT_NEAR(alike.brightness, 1, 3e-3);
+    EXPECT_GT(alike.psnr, 35);
+}
+
+// Pictures with neighbouring focuses are blended there.
+TEST(NarrowCamera, equals_the_direct_sum_on_tilted_planes) {
+    const FieldGrid grid{{60, 56, 0.9_um, 0.9_um, 0, 0}, 532_nm};
+    const Field field = random_field(grid, 5);
+    for (const double degrees : {15.0, 60.0}) {
+        Camera camera;
+        camera.eye = {1_mm, 0, 10_mm};
+        camera.pupil = 1.6_mm;
+        camera.focus_slope_x = std::tan(degrees * std::numbers::pi / 180);
+        camera.focus_slope_y = -0.5 * camera.focus_slope_x;
+        camera.picture = {16, 15, 3.4_um, 3.4_um, 0, 0};
+        const Alike alike =
+            alike_to(photograph(field, std::span(&camera, 1))[0], photograph_directly(field, camera, 56, 4));
+        EXPECT_GT(alike.psnr, 58) << degrees;
+        EXPECT_NEAR(alike.brightness, 1, 2e-3) << degrees;
+    }
+}
+
 // Two ways that share no step but the interpolation of intensities.
 TEST(NarrowAndFullCamera, show_the_same_speckle) {
     const FieldGrid grid{{400, 360, 0.8_um, 0.8_um, 20_um, 0}, 532_nm};
@@ -170,6 +203,10 @@ TEST(SpreadWindow, leaves_out_what_airys_disc_has_beyond_it) {
     const double beyond = std::pow(std::cyl_bessel_j(0.0, x), 2) + std::pow(std::cyl_bessel_j(1.0, x), 2);
     const double hologram = 2 / (9.869604401089358 * 0.25 / cell);
     EXPECT_NEAR(light_left_out(window, 0.5, 0.5, cell), beyond - hologram, 2e-5);
+    // A point out of focus falls off from the rim of its spot on, which may be wider than that.
+    const SpreadWindow blurred(0.5, 0.5, 600 * cell, cell);
+    EXPECT_EQ(blurred.flat, (300 + 128) * cell);
+    EXPECT_NEAR(light_left_out(blurred, 0.5, 0.5, cell), light_left_out(window, 0.5, 0.5, cell), 1e-9);
     EXPECT_EQ(light_left_out(SpreadWindow(5 * cell, 5 * cell, 0, cell), 5 * cell, 5 * cell, cell), 0);
 }
 

@@ -17,8 +17,9 @@ constexpr double beta = 5;
 
 SpreadWindow::SpreadWindow(double span_x, double span_y, double blur, double cell) {
     constexpr double max_cells = 128, min_fade = 40;
-    flat = std::min(std::hypot(span_x, span_y) + 0.5 * blur, max_cells * cell);
-    stop = flat + std::max(0.5 * flat, min_fade * cell);
+    spot = 0.5 * blur;
+    flat = spot + std::min(std::hypot(span_x, span_y), max_cells * cell);
+    stop = flat + std::max(0.5 * std::min(flat, max_cells * cell), min_fade * cell);
 }
 
 void SpreadWindow::fit(double room) {
@@ -31,7 +32,7 @@ double light_left_out(const SpreadWindow& window, double span_x, double span_y, 
     const auto beyond = [&](double sines) {
         return 2 / (std::numbers::pi * std::numbers::pi * std::max(sines / cell, 1.0));
     };
-    return std::max(0.0, beyond(0.5 * (window.flat + window.stop)) - beyond(0.25 * (span_x + span_y)));
+    return std::max(0.0, beyond(0.5 * (window.flat + window.stop) - window.spot) - beyond(0.25 * (span_x + span_y)));
 }
 
 PupilEdge::PupilEdge(const SpreadWindow& window, double wavelength) {

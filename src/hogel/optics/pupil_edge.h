@@ -11,9 +11,10 @@ namespace hogel::optics {
 struct SpreadWindow {
     double flat = 0;  ///< all light is kept up to this distance
     double stop = 0;  ///< and none from this distance on
+    double spot = 0;  ///< the radius of the image of a point out of focus
 
-    /// Light is followed across the whole hologram, but no farther than 128 resolution cells, beyond which is 0.16 % of
-    /// it.
+    /// Light is followed across the whole hologram, but no farther than 128 resolution cells from the spot of a point,
+    /// beyond which is 0.16 % of it.
     /// @param span_x, span_y  sines that the hologram covers
     /// @param blur            the width of a point out of focus, in sines
     /// @param cell            λ/A

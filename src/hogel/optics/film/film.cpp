@@ -256,12 +256,11 @@ void Film::expose_each(std::span<const PupilWave> pupil_waves, const Camera& cam
     if (pupil_waves.empty()) return;
     const FilmLens lens(size_.sines, hologram_.wavelength, camera);
     // Between nodes the intensities are blended linearly.
-    const auto share = [](const FilmAxis& axis, const SineGrid::Range& sines, std::size_t k, std::size_t at,
-                          std::size_t nodes) {
+    const auto share = [&](const FilmAxis& axis, const SineGrid::Range& sines, std::size_t k, std::size_t at,
+                           std::size_t nodes) {
         const double sine = axis.low + static_cast<double>(k) * axis.step;
-        const double place = (sine - sines.low) / sines.span() * static_cast<double>(nodes);
-        const double held = std::clamp(place - 0.5, 0.0, static_cast<double>(nodes) - 1);
-        return static_cast<float>(std::max(0.0, 1 - std::abs(held - static_cast<double>(at))));
+        const double place = lens.among_nodes((sine - sines.low) / sines.span(), nodes);
+        return static_cast<float>(std::max(0.0, 1 - std::abs(place - static_cast<double>(at))));
     };
     const std::ptrdiff_t reach_y = std::min(lens.reach_y(), size_.reach_y);
     Node node;

@@ -46,13 +46,15 @@ inline SpreadWindow spread_window(const SineGrid& sines, double wavelength, doub
 /// the frequency (δ − ∇_n Q)/λ in the sines, with Q the path without the term linear in δ; so the disc is slightly
 /// distorted in the plane of frequencies, more so for oblique light. The defocus phase depends slowly on the direction;
 /// the film is divided among nodes, each with its own phase, enough of them for the phase to vary by at most half a
-/// radian within one.
+/// radian within one. Where the plane in focus is tilted, the phase varies from one side to the other: by a fifth of a
+/// radian from node to node, and the outermost nodes are at the sides.
 class FilmLens {
   public:
     FilmLens(const SineGrid& sines, double wavelength, const Camera& camera)
         : sines_(sines),
           wavelength_(wavelength),
           camera_(camera),
+          tilted_(camera.focus_slope_x != 0 || camera.focus_slope_y != 0),
           radius_(0.5 * camera.pupil),
           step_x_(pupil_step(wavelength, sines.period_x())),
           step_y_(pupil_step(wavelength, sines.period_y())),
@@ -64,14 +66,14 @@ class FilmLens {
 
     std::size_t nodes_x = 1, nodes_y = 1;
 
-    // The sine in the middle of a node's part of the film.
-    double node_x(std::size_t i) const {
-        const SineGrid::Range& shown = sines_.shown_x;
-        return shown.low + shown.span() * (static_cast<double>(i) + 0.5) / static_cast<double>(nodes_x);
-    }
-    double node_y(std::size_t j) const {
-        const SineGrid::Range& shown = sines_.shown_y;
-        return shown.low + shown.span() * (static_cast<double>(j) + 0.5) / static_cast<double>(nodes_y);
+    // The sine at a node.
+    double node_x(std::size_t i) const { return sines_.shown_x.low + sines_.shown_x.span() * part_of_node(i, nodes_x); }
+    double node_y(std::size_t j) const { return sines_.shown_y.low + sines_.shown_y.span() * part_of_node(j, nodes_y); }
+
+    // Where a part of the range of sines, 0 to 1, is among the nodes, counted from the first.
+    double among_nodes(double part, std::size_t nodes) const {
+        const auto n = static_cast<double>(nodes);
+        return std::clamp(tilted_ ? part * (n - 1) : part * n - 0.5, 0.0, n - 1);
     }
 
     // The largest offset from the middle of the pupil that passes light, in steps.
@@ -126,7 +128,7 @@ class FilmLens {
     }
 
   private:
-    static constexpr double max_nodes = 33;
+    static constexpr double max_nodes = 33, max_tilted_nodes = 83;
 
     struct Direction {
         Direction(double nx, double ny) : x(nx), y(ny), cosine(cosine_of(nx, ny)) {}
@@ -145,6 +147,11 @@ class FilmLens {
         const double mx = n.x - step * (fx - n.x * along), my = n.y - step * (fy - n.y * along);
         const double cosine = cosine_of(mx, my);
         return {R * (n.x / n.cosine - mx / cosine), R * (n.y / n.cosine - my / cosine), cosine};
+    }
+
+    double part_of_node(std::size_t i, std::size_t nodes) const {
+        const auto at = static_cast<double>(i), n = static_cast<double>(nodes);
+        return tilted_ && nodes > 1 ? at / (n - 1) : (at + 0.5) / n;
     }
 
     std::ptrdiff_t reach(double step, std::size_t size) const {
@@ -181,13 +188,17 @@ class FilmLens {
             };
             change = std::max(change, std::abs(at(0.5) - at(-0.5)));
         }
-        const double nodes = std::ceil(2 * std::numbers::pi * change / 0.5);
-        return static_cast<std::size_t>(std::clamp(nodes, 1.0, max_nodes));
+        const double radians = 2 * std::numbers::pi * change;
+        constexpr double alike = 0.02;
+        if (tilted_ && radians > alike)
+            return static_cast<std::size_t>(std::min(std::ceil(radians / 0.2) + 1, max_tilted_nodes));
+        return static_cast<std::size_t>(std::clamp(std::ceil(radians / 0.5), 1.0, max_nodes));
     }
 
     const SineGrid& sines_;
     double wavelength_;
     const Camera& camera_;
+    bool tilted_;
     double radius_, step_x_, step_y_;
     SpreadWindow window_;
     PupilEdge edge_;
