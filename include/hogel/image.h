@@ -90,7 +90,7 @@ HOGEL_API double automatic_exposure(const Image& image);
 /// The difference of two pictures. PSNR, SSIM and the largest error are those of display values, sRGB of linear values
 /// times the exposure, clamped to 0..1, because that is what an eye compares.
 struct ImageComparison {
-    double psnr = 0;         ///< dB, peak 1; +infinity for equal pictures
+    double psnr = 0;         ///< dB, peak 1; +infinity for equal pictures; NaN, as all, where a pixel is NaN
     double ssim = 0;         ///< of luma; mean over all whole Gaussian windows of 11 pixels, σ 1.5 (Wang et al. 2004)
     double max_error = 0;    ///< largest absolute difference of display values
     double linear_psnr = 0;  ///< dB in linear light, peak 1/exposure, not clamped

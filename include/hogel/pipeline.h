@@ -203,7 +203,7 @@ HOGEL_API Camera camera_for(double width, double height, std::size_t resolution 
 /// fewer, because its speckle is finer and each pixel averages more of it.
 HOGEL_API std::size_t enough_looks(const Camera& camera);
 
-/// Measures of the difference of two sets of samples.
+/// Measures of the difference of two sets of samples. All are NaN where a difference is no number.
 struct SampleComparison {
     double sqnr = 0;       ///< 10 log10(Σ|f|² / Σ|f − f'|²), decibels; +infinity for equal samples
     double psnr = 0;       ///< the same with N max |f|² in place of Σ|f|², for N samples
