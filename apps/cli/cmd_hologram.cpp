@@ -53,7 +53,8 @@ int straight_from_scene(const Options& options, const SceneHologramMethod& metho
                           static_cast<std::size_t>(std::lround(height / pitch)), pitch, pitch, 0, 0},
                          wavelength});
     for (const FieldGrid& grid : grids)
-        with_options({{"", "--size, --pitch"}}, [&] { validate(grid, ErrorCode::usage, "hologram"); });
+        with_options({{"the wavelength", "--wavelength"}, {"", "--size, --pitch"}},
+                     [&] { validate(grid, ErrorCode::usage, "hologram"); });
     RenderOptions render = options.render;
     render.cache_spacing = 0;  // it is in widths of a ray, and there are no rays
     RunRecord record(session);

@@ -212,6 +212,7 @@ void check_holograms(std::span<const LightFieldGrid> faces, const HologramReques
                      std::span<const Camera> cameras) {
     with_options({{"a hemicube of", "--method"},
                   {"a wavelength of", "--wavelength"},
+                  {"the wavelength", "--wavelength"},
                   {"resolves no more", "--pupil"},
                   {"pupil", "--pupil, --pitch"},
                   {"the eye", "--eye, --pitch"},

@@ -25,7 +25,7 @@ struct FieldGrid {
 };
 
 /// Throws Error(code), naming `what` and the member that is wrong: zero samples, a pitch or a wavelength that is not
-/// positive and finite, or more samples than can be addressed.
+/// positive and finite, a wavelength above 0.1 mm, or more samples than can be addressed.
 HOGEL_API void validate(const FieldGrid& grid, ErrorCode code, const std::string& what);
 
 /// Throws Error(usage) if the region is empty or leaves the grid, or if `array` is not (height, width) of the region.

@@ -51,6 +51,9 @@ class Errors(InFolder):
             (lambda: hogel.Scene.load("pumpkin", colour="orange"), "^colour: "),
             (lambda: hogel.LightField.from_array(np.ones((2, 2))), "^radiance: "),
             (lambda: hogel.Field.from_array(np.ones((2, 2)), wavelength=1), "^pitch: "),
+            (lambda: scene.render(size=20), r"20 m wide; .* 20\*mm"),
+            (lambda: lf.hologram(wavelength=633), r"633 m; .* 633\*nm"),
+            (lambda: hogel.Field.from_array(np.ones((2, 2)), wavelength=633, pitch="1um"), r"633 m; .* 633\*nm"),
         ]
         for number, (work, pattern) in enumerate(cases):
             with self.subTest(f"{number} {pattern}"), self.assertRaisesRegex(hogel.UsageError, pattern):

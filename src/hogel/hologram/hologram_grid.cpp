@@ -101,6 +101,7 @@ FieldGrid hologram_grid(std::span<const LightFieldGrid> faces, const HologramOpt
     const auto& [wavelength, channel] = options.channel;
     if (!(options.pitch > 0) || !(wavelength > 0))
         throw Error(ErrorCode::usage, "a hologram needs a positive pitch and wavelength");
+    validate(FieldGrid{{1, 1, options.pitch, options.pitch, 0, 0}, wavelength}, ErrorCode::usage, "hologram");
     if (channel >= front.channels)
         throw Error(ErrorCode::usage,
                     fmt::format("the light field has {} channels, so there is no channel {}", front.channels, channel));

@@ -203,7 +203,8 @@ TEST(HologramGrid, refuses_waves_longer_than_two_hogels_and_hogels_without_sampl
     };
     EXPECT_EQ(refusal(20_um, 5_um), "");
     EXPECT_NE(refusal(20.1_um, 5_um).find("expected at most twice the hogel, 20 um"), std::string::npos);
-    EXPECT_NE(refusal(1_m, 5_um).find("a wavelength of 1 m"), std::string::npos);
+    EXPECT_NE(refusal(633, 5_um).find("the wavelength is 633 m; expected at most 0.1 mm"), std::string::npos);
+    EXPECT_NE(refusal(633, 5_um).find("633*nm"), std::string::npos);
     EXPECT_EQ(refusal(1_um, 20_um), "");
     EXPECT_NE(refusal(1_um, 20.1_um).find("without samples"), std::string::npos);
 }

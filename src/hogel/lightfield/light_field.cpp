@@ -85,6 +85,20 @@ std::size_t directions_aside(std::size_t front, double angle) {
     return std::max<std::size_t>(aside, 1);
 }
 
+// A larger hologram is one whose size was given in other units.
+constexpr double max_hologram_size = 10;
+
+void require_metres(const LightFieldGrid& grid, ErrorCode code, const std::string& what) {
+    const double width = static_cast<double>(grid.hogels_s) * grid.pitch,
+                 height = static_cast<double>(grid.hogels_t) * grid.pitch;
+    if (std::max(width, height) <= max_hologram_size) return;
+    const char* side = width > max_hologram_size ? "wide" : "high";
+    const double size = width > max_hologram_size ? width : height;
+    throw Error(code, fmt::format("{}: the hologram is {:g} m {}; expected at most {}: lengths are in metres, and {:g} "
+                                  "millimetres are {:g}*mm",
+                                  what, size, side, format_length(max_hologram_size), size, size));
+}
+
 }  // namespace
 
 void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& what) {
@@ -114,6 +128,7 @@ void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& wha
             code, fmt::format("{}: {}x{} hogels of {}x{} directions in {} channels are more samples than can "
                               "be addressed",
                               what, grid.hogels_s, grid.hogels_t, grid.directions_u, grid.directions_v, grid.channels));
+    require_metres(grid, code, what);
 }
 
 void require_common_directions(const LightFieldGrid& grid, ErrorCode code, const std::string& what) {

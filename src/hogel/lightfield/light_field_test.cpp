@@ -202,6 +202,9 @@ TEST(LightFieldGrid, validate_names_what_is_wrong) {
         EXPECT_NE(message([=](G& g) { g.range().half_v = bad; }).find("tan_half_v"), std::string::npos);
     }
     EXPECT_NE(message([](G& g) { g.pitch = 1e308; }).find("width"), std::string::npos);
+    EXPECT_EQ(message([](G& g) { g.pitch = 1.42; }), "");
+    EXPECT_NE(message([](G& g) { g.pitch = 20.0 / g.hogels_s; }).find("20*mm"), std::string::npos);
+    EXPECT_NE(message([](G& g) { g.hogels_t = 40000; }).find("20*mm"), std::string::npos);
     const std::size_t big = std::size_t{1} << 31;
     EXPECT_NE(message([=](G& g) { g.hogels_s = g.hogels_t = big; }).find("addressed"), std::string::npos);
     // 2^64 hogels: the product is zero in 64 bits.

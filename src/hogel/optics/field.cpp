@@ -10,6 +10,7 @@
 #include "hogel/core/object_pool.h"
 #include "hogel/core/parallel.h"
 #include "hogel/core/shared_tiles.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {
@@ -22,6 +23,18 @@ constexpr std::size_t max_samples = (std::numeric_limits<std::size_t>::max() >> 
 void require_positive(double value, ErrorCode code, const std::string& what, const char* member) {
     if (!(std::isfinite(value) && value > 0))
         throw Error(code, fmt::format("{}: {} is {}, but must be positive and finite", what, member, value));
+}
+
+// A longer wavelength was given in other units.
+constexpr double max_wavelength = 0.1e-3;
+
+void require_wavelength(double wavelength, ErrorCode code, const std::string& what) {
+    require_positive(wavelength, code, what, "the wavelength");
+    if (wavelength > max_wavelength)
+        throw Error(code,
+                    fmt::format("{}: the wavelength is {:g} m; expected at most {}: lengths are in metres, and {:g} "
+                                "nanometres are {:g}*nm",
+                                what, wavelength, format_length(max_wavelength), wavelength, wavelength));
 }
 
 // The largest multiple of `alignment` up to a number, at least one.
@@ -47,7 +60,7 @@ void validate(const FieldGrid& grid, ErrorCode code, const std::string& what) {
     if (plane.width == 0 || plane.height == 0)
         throw Error(code,
                     fmt::format("{}: {}x{} samples, but at least 1x1 are needed", what, plane.width, plane.height));
-    require_positive(grid.wavelength, code, what, "the wavelength");
+    require_wavelength(grid.wavelength, code, what);
     require_positive(plane.pitch_x, code, what, "the pitch in x");
     require_positive(plane.pitch_y, code, what, "the pitch in y");
     require_positive(plane.size_x(), code, what, "the width");

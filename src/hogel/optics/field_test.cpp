@@ -187,6 +187,8 @@ TEST(FieldGrid, validate_names_the_wrong_member) {
         EXPECT_NE(message([=](G& g) { g.plane.pitch_x = bad; }).find("pitch in x"), std::string::npos);
         EXPECT_NE(message([=](G& g) { g.plane.pitch_y = bad; }).find("pitch in y"), std::string::npos);
     }
+    EXPECT_EQ(message([](G& g) { g.wavelength = 0.1e-3; }), "");
+    EXPECT_NE(message([](G& g) { g.wavelength = 633; }).find("633*nm"), std::string::npos);
     EXPECT_NE(message([](G& g) { g.plane.center_y = nan; }).find("centre"), std::string::npos);
     const std::size_t big = std::size_t{1} << 32;
     EXPECT_NE(message([=](G& g) { g.plane.width = g.plane.height = big; }).find("addressed"), std::string::npos);
