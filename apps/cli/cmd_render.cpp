@@ -49,8 +49,8 @@ class InRegions final : public LightFieldSource {
 };
 
 // Prints the memory that regions need. Throws if it is not available.
-void state_plan(const Options& options, const LightField& rendered, std::size_t triangles, const Session& session) {
-    const Plan plan = plan_light_field(rendered, options.render.request(), triangles, options.file());
+void state_plan(const Options& options, const LightField& rendered, const Scene& scene, const Session& session) {
+    const Plan plan = plan_light_field(rendered, options.render.request(scene), triangle_count(scene), options.file());
     const HogelRange region = rendered.front().preferred_tile();
     const LightFieldGrid& grid = rendered.grid();
     const std::size_t regions =
@@ -110,7 +110,7 @@ int render(const Options& options, const Session& session) {
     if (options.region.columns > 0)
         rendered = rendered.wrapped(
             [&](const LightField::Source& face) { return std::make_shared<const InRegions>(face, options.region); });
-    state_plan(options, rendered, triangle_count(scene), session);
+    state_plan(options, rendered, scene, session);
     if (!options.output.compressed()) return write_hdf5(options, rendered, input, record, session);
     write_compressed(options.output, rendered, record, session, options.resume ? std::optional(input) : std::nullopt);
     return 0;

@@ -134,6 +134,12 @@ LightFieldGrid RenderOptions::grid() const {
     return grid;
 }
 
+LightFieldRequest RenderOptions::request(const Scene& scene) const {
+    LightFieldRequest wanted = request();
+    wanted.shading.model = shading_model(scene, wanted.shading);
+    return wanted;
+}
+
 LightFieldRequest RenderOptions::request() const {
     with_options({{"", "--algorithm"}}, [&] { renderers().find(algorithm); });
     with_options({{"", "--shading"}}, [&] { shading_models().find(shading); });
@@ -387,7 +393,7 @@ LightField render_light_field(const Session& session, const Scene& scene, const 
 
 void require_memory(const Session& session, const LightField& rendered, const RenderOptions& options,
                     const Scene& scene) {
-    const Plan plan = plan_light_field(rendered, options.request(), triangle_count(scene));
+    const Plan plan = plan_light_field(rendered, options.request(scene), triangle_count(scene));
     with_options({{"", "--hogels, --directions"}},
                  [&] { state_plan(session, plan, "rendering by " + options.algorithm); });
 }

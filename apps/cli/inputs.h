@@ -44,6 +44,8 @@ struct RenderOptions {
     /// The grid of the front. Throws Error(usage).
     LightFieldGrid grid() const;
     LightFieldRequest request() const;
+    /// With the shading model that `auto` stands for.
+    LightFieldRequest request(const Scene& scene) const;
 };
 void add_render_options(Command& command, RenderOptions& options);
 /// --hemicube, for commands that use all faces.

@@ -55,8 +55,8 @@ ResultValue value_of(double number) {
 
 void state_plan(const Session& session, const Plan& plan, const std::string& what, const fs::path& file, bool always) {
     require_resources(plan, what, file);
-    const std::string needs = fmt::format("{} takes about {} and {} of memory", what, format_duration(plan.seconds),
-                                          format_bytes(plan.memory));
+    const std::string time = plan.seconds > 0 ? fmt::format("about {} and ", format_duration(plan.seconds)) : "";
+    const std::string needs = fmt::format("{} takes {}{} of memory", what, time, format_bytes(plan.memory));
     if (constexpr double long_work = 3600; plan.seconds > long_work)
         session.say(needs + "; Ctrl-C ends it");
     else if (always)

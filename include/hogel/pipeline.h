@@ -248,10 +248,11 @@ HOGEL_API std::string describe_input(const std::string& name, const Scene& scene
 struct Plan {
     double memory = 0;   ///< maximum of bytes held at any time
     double disk = 0;     ///< bytes of the output files
-    double seconds = 0;  ///< wall time on thread_count() threads
+    double seconds = 0;  ///< wall time on thread_count() threads; 0 where there is no estimate
 };
 
-/// Resources to render a light field and write it to an uncompressed file.
+/// Resources to render a light field and write it to an uncompressed file. There is no estimate of the time of the
+/// shading models shadowed and direct; shading_model() says what `auto` stands for.
 /// @param rendered   from render_light_field(), not yet read
 /// @param triangles  of its scene
 HOGEL_API Plan plan_light_field(const LightField& rendered, const LightFieldRequest& request, std::size_t triangles,

@@ -26,7 +26,7 @@ class Rays(Samples):
     def __init__(self, light_field: _core.LightField, where: str, made: Optional[_record.Record] = None) -> None:
         # `made`: the options of the command line that made or opened it, where there are any.
         self._light_field, self.where, self._made = light_field, where, made
-        self._rendering: Any = None  # request and triangles of one that is rendered when it is read
+        self._rendering: Any = None  # request, triangles and shading model of one that is rendered when it is read
         self._views: Any = None  # what is known of a set of views
         self._identity: Optional[str] = None  # of its input, for work that can be resumed
 

@@ -217,7 +217,7 @@ class LightField(Rays):
         save_light_field(self, path, float, half, depth, sqnr, resume, part, metadata, progress)
 
     def plan(self, *, depth: bool = False, float: bool = False) -> _core.Plan:
-        """The memory (bytes), disk space and time (seconds) that save() takes of a light field that is rendered.
+        """The memory (bytes), disk space and time (seconds; 0: no estimate) that save() takes of a light field that is rendered.
 
         >>> import hogel, os, tempfile
         >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
@@ -226,7 +226,10 @@ class LightField(Rays):
         """
         if self._rendering is None:
             raise UsageError("plan: of light fields that are rendered; it is what rendering takes")
-        wanted, triangles = self._rendering
+        wanted, triangles, model = self._rendering
+        shading = wanted.shading
+        shading.model = model
+        wanted.shading = shading
         return _core.plan_light_field(self._light_field, wanted, triangles, float, depth)
 
     def hologram(

@@ -347,6 +347,16 @@ TEST(Plan, of_oblique_projections_does_not_shrink_with_the_hogels) {
               plan_light_field(rendered, request, 10'000).memory + 156.0 * 9'990'000);
 }
 
+TEST(Plan, has_no_time_for_shading_at_samples) {
+    LightFieldRequest request;
+    request.grid.hogels_s = request.grid.hogels_t = 1;
+    const LightField rendered = render_light_field(load_scene("sphere", request), request);
+    for (const auto& [model, is_known] : {std::pair("vertex", true), {"shadowed", false}, {"direct", false}}) {
+        request.shading.model = model;
+        EXPECT_EQ(plan_light_field(rendered, request, 1000).seconds > 0, is_known) << model;
+    }
+}
+
 TEST(Plan, of_lines_behind_a_diffuser_grows_with_the_lines_that_overlap) {
     const Camera camera = camera_for(1e-3, 1e-3, 32);
     const auto plan = [&](std::size_t lines, bool diffuser) {
