@@ -210,11 +210,13 @@ Progress Loader::progress(const char* what) {
     });
 }
 
-// The holograms that `hogel photo --wave` makes, of the light field in memory where it is rendered.
+// The holograms that `hogel photo --wave` makes, of the light field in memory where it is rendered. They serve all
+// pages, so that making them stops only where none is left.
 std::unique_ptr<Waves> Loader::waves_of(const LightField& light_field, bool rendered) {
     const auto making = Progress(now_->settings.session().stop.get_token(), [viewer = &viewer_](double fraction) {
-        viewer->say(fraction < 1 ? "preparing waves" : "", fraction);
-        return true;
+        const bool watched = viewer->is_watched();
+        viewer->say(watched && fraction < 1 ? "preparing waves" : "", watched ? fraction : 1);
+        return watched;
     });
     const auto make = [settings = now_->settings, light_field, rendered, making] {
         const cli::ViewOptions& options = settings.options();

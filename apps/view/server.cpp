@@ -159,8 +159,8 @@ class Connection;
 struct Shared {
     ServerLimits limits;
     Site* site = nullptr;
-    std::size_t open = 0;                       // connections and sockets
-    std::list<std::weak_ptr<Connection>> idle;  // those that have asked for nothing yet, longest first
+    std::size_t open = 0;                             // connections and sockets
+    std::list<std::weak_ptr<Connection>> expendable;  // without a whole request that the site trusts; oldest first
 };
 
 // Counts one connection for as long as it or its socket lives.
@@ -173,29 +173,34 @@ class Connection final : public std::enable_shared_from_this<Connection> {
   public:
     Connection(tcp::socket socket, std::shared_ptr<Shared> shared)
         : stream_(std::move(socket)), shared_(std::move(shared)), counted_(count(shared_)) {}
+    ~Connection() { keep(); }
+    Connection(const Connection&) = delete;
+    Connection& operator=(const Connection&) = delete;
 
     void read(int seconds) {
         parser_.emplace();
         parser_->header_limit(static_cast<std::uint32_t>(shared_->limits.header));
         parser_->body_limit(shared_->limits.body);
-        place_ = shared_->idle.insert(shared_->idle.end(), weak_from_this());
+        keep();
+        place_ = shared_->expendable.insert(shared_->expendable.end(), weak_from_this());
         stream_.expires_after(std::chrono::seconds(seconds));
         http::async_read_header(stream_, buffer_, *parser_, [self = shared_from_this()](Code error, std::size_t) {
-            self->leave_idle();
-            if (!error && self->parser_->get().method() == http::verb::post) return self->read_file();
             if (error) return self->received(error);
+            if (self->parser_->get().method() == http::verb::post) return self->read_file();
             self->read_nothing();
         });
     }
 
     void close() {
-        leave_idle();
+        keep();
         stream_.close();
+        counted_.reset();  // an answer that is still made may hold this object
     }
 
   private:
-    void leave_idle() {
-        if (place_) shared_->idle.erase(*place_);
+    // No longer gives way to a new connection.
+    void keep() {
+        if (place_) shared_->expendable.erase(*place_);
         place_.reset();
     }
 
@@ -210,6 +215,7 @@ class Connection final : public std::enable_shared_from_this<Connection> {
         const Request request = request_of(parser_->get());
         auto place = shared_->site->place_for(request);
         if (std::holds_alternative<Response>(place)) return respond(std::get<Response>(place), false);
+        keep();
         const auto file = std::get<std::filesystem::path>(place);
         auto body = std::make_shared<http::request_parser<http::file_body>>(std::move(*parser_));
         body->body_limit(shared_->limits.body);
@@ -240,6 +246,7 @@ class Connection final : public std::enable_shared_from_this<Connection> {
         }
         HttpRequest from = parser_->release();
         const Request request = request_of(from);
+        if (shared_->site->trusts(request)) keep();
         if (websocket::is_upgrade(from)) {
             const Response verdict = shared_->site->admit(request);
             if (verdict.status != 101) return respond(verdict, false);
@@ -248,25 +255,40 @@ class Connection final : public std::enable_shared_from_this<Connection> {
             return;
         }
         stream_.expires_never();  // while the answer is made
-        const bool keep = from.keep_alive();
-        shared_->site->answer(request, [self = shared_from_this(), keep](Response response) {
-            asio::post(self->stream_.get_executor(), [self, keep, response = std::move(response)]() mutable {
-                self->respond(std::move(response), keep);
+        const bool again = from.keep_alive();
+        give_up_ = shared_->site->answer(request, [self = shared_from_this(), again](Response response) {
+            asio::post(self->stream_.get_executor(), [self, again, response = std::move(response)]() mutable {
+                self->give_up_ = nullptr;
+                self->respond(std::move(response), again);
             });
+        });
+        if (give_up_) watch();
+    }
+
+    // Stops the work on an answer whose asker closes the connection. One that sends more before it has the answer is
+    // not watched further.
+    void watch() {
+        stream_.socket().async_wait(tcp::socket::wait_read, [watched = weak_from_this()](Code) {
+            const auto self = watched.lock();
+            if (!self || !self->give_up_) return;
+            Code error;
+            if (self->stream_.socket().available(error) > 0) return;
+            std::exchange(self->give_up_, nullptr)();
+            self->close();
         });
     }
 
-    void respond(Response response, bool keep) {
+    void respond(Response response, bool again) {
         auto message = std::make_shared<http::response<http::string_body>>();
         message->version(11);
         message->result(response.status);
         add_headers(*message, response.type);
-        message->keep_alive(keep);
+        message->keep_alive(again);
         message->body() = std::move(response.body);
         message->prepare_payload();
         stream_.expires_after(std::chrono::seconds(shared_->limits.idle_seconds));
-        http::async_write(stream_, *message, [self = shared_from_this(), message, keep](Code error, std::size_t) {
-            if (!error && keep) return self->read(self->shared_->limits.idle_seconds);
+        http::async_write(stream_, *message, [self = shared_from_this(), message, again](Code error, std::size_t) {
+            if (!error && again) return self->read(self->shared_->limits.idle_seconds);
             Code none;
             self->stream_.socket().shutdown(tcp::socket::shutdown_send, none);
         });
@@ -277,7 +299,8 @@ class Connection final : public std::enable_shared_from_this<Connection> {
     std::shared_ptr<void> counted_;
     beast::flat_buffer buffer_{65536};
     std::optional<http::request_parser<http::empty_body>> parser_;
-    std::optional<std::list<std::weak_ptr<Connection>>::iterator> place_;
+    std::optional<std::list<std::weak_ptr<Connection>>::iterator> place_;  // among those that give way
+    std::function<void()> give_up_;                                        // stops the work on the answer
 };
 
 }  // namespace
@@ -307,9 +330,9 @@ struct Server::Impl {
 
     void greet(tcp::socket socket) {
         if (shared->open >= shared->limits.connections) {
-            const auto longest = shared->idle.empty() ? nullptr : shared->idle.front().lock();
-            if (!longest) return;  // all are at work; this one is closed
-            longest->close();
+            const auto oldest = shared->expendable.empty() ? nullptr : shared->expendable.front().lock();
+            if (!oldest) return;  // all are at work for those who are trusted; this one is closed
+            oldest->close();
         }
         Code none;
         socket.set_option(tcp::no_delay(true), none);

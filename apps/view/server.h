@@ -49,8 +49,11 @@ class Conversation {
 class Site {
   public:
     virtual ~Site() = default;
-    /// Calls `reply` once, on any thread.
-    virtual void answer(const Request& request, std::function<void(Response)> reply) = 0;
+    /// Whether who asks may see more than the page's own files. Connections of all others give way to new ones.
+    virtual bool trusts(const Request& request) const = 0;
+    /// Calls `reply` at most once, on any thread. Returns what stops the work on the answer, after which `reply` need
+    /// not be called; the server calls it when the connection closes. Empty: the answer is made.
+    virtual std::function<void()> answer(const Request& request, std::function<void(Response)> reply) = 0;
     /// Whether a WebSocket may be opened; `status` 101 if so.
     virtual Response admit(const Request& request) = 0;
     /// Where the file is to be written that a POST brings as its body, or why it is refused.
@@ -62,7 +65,7 @@ class Site {
 
 /// What strangers may cost.
 struct ServerLimits {
-    std::size_t connections = 128;  ///< at once; of more, the one that has been idle longest is closed
+    std::size_t connections = 128;  ///< at once; a new one closes the oldest that is not trusted or has no request
     std::size_t header = 16384;     ///< bytes of a request
     std::size_t message = 4096;     ///< bytes of a message of a WebSocket
     std::uint64_t body = 0;         ///< bytes of a file that a POST brings

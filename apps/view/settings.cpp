@@ -76,24 +76,46 @@ struct Settings::Line : cli::Session {
     }
 };
 
+std::shared_ptr<Settings::Line> Settings::parsed(const Arguments& words, const std::stop_source& stop) {
+    static const cli::CommandInfo rows[] = {{"view", cli::view_summary, Line::declare}};
+    auto line = std::make_shared<Line>();
+    line->stop = stop;
+    line->parser = std::make_unique<cli::CommandLine>(rows, *line);
+    std::vector<const char*> arguments{"hogel", "view"};
+    for (const std::string& word : words) arguments.push_back(word.c_str());
+    line->command = line->parser->parse(static_cast<int>(arguments.size()), arguments.data());
+    return line;
+}
+
+// The input may have the name of an option's value. It is the word in whose place the parser finds another input.
 Settings::Settings(const cli::Session& session, const cli::ViewOptions& options)
     : input_(cli::require_viewable(options)), name_(options.input) {
+    constexpr const char* another = "another input";
     for (char* const* at = session.arguments + 2; *at != nullptr; ++at) first_.emplace_back(*at);
+    for (std::size_t i = 0; i < first_.size(); ++i) {
+        if (first_[i] != name_) continue;
+        Arguments words = first_;
+        words[i] = another;
+        try {
+            if (parsed(words, session.stop)->view.input != another) continue;
+        } catch (const Error&) {
+            continue;  // the value of an option that expects something else
+        }
+        first_.erase(first_.begin() + static_cast<std::ptrdiff_t>(i));
+        break;
+    }
     words_ = first_;
     line_ = std::make_shared<Line>();
     line_->stop = session.stop;
     read();
 }
 
+// The parser is told another name, because that of a file may be one of a command.
 void Settings::read() {
-    static const cli::CommandInfo rows[] = {{"view", cli::view_summary, Line::declare}};
-    auto line = std::make_shared<Line>();
-    line->stop = line_->stop;
-    line->parser = std::make_unique<cli::CommandLine>(rows, *line);
-    std::vector<const char*> arguments{"hogel", "view"};
-    for (const std::string& word : words_) arguments.push_back(word.c_str());
-    line->command = line->parser->parse(static_cast<int>(arguments.size()), arguments.data());
-    line_ = std::move(line);
+    Arguments words = words_;
+    words.insert(words.begin(), "input");
+    line_ = parsed(words, line_->stop);
+    line_->view.input = name_;
 }
 
 const cli::Session& Settings::session() const { return *line_; }
@@ -117,13 +139,11 @@ Settings Settings::of(const std::string& file, const std::string& name) const {
     Settings other = *this;
     other.words_ = other.first_;
     remove(other.words_, "--original");
-    std::ranges::replace(other.words_, name_, name);
-    std::ranges::replace(other.first_, name_, name);
+    other.name_ = name;
     other.read();
     cli::ViewOptions options = other.options();
     options.input = file;
     other.input_ = cli::require_viewable(options);
-    other.name_ = name;
     other.is_dropped_ = true;
     return other;
 }
@@ -137,7 +157,7 @@ bool Settings::same_light_field(const Settings& other) const {
 }
 
 std::string Settings::command(const std::string& begin, const std::string& input) const {
-    std::string text = begin;
+    std::string text = begin + " " + quoted(input);
     for (std::size_t i = 0; i < words_.size(); ++i) {
         const std::string& word = words_[i];
         const std::string name{name_of(word)};
@@ -150,7 +170,7 @@ std::string Settings::command(const std::string& begin, const std::string& input
         if (word.starts_with("--") && name != word)
             text += name + " " + quoted(word.substr(name.size() + 1));
         else
-            text += quoted(word == name_ ? input : word);
+            text += quoted(word);
     }
     return text;
 }

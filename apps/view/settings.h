@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,10 +48,11 @@ class Settings {
     struct Line;
 
     Settings() = default;
+    static std::shared_ptr<Line> parsed(const std::vector<std::string>& words, const std::stop_source& stop);
     void read();
     std::string command(const std::string& begin, const std::string& input) const;
 
-    std::vector<std::string> first_, words_;  // after "view", the input among them
+    std::vector<std::string> first_, words_;  // options after "view" and the input
     std::string input_, name_;
     bool is_dropped_ = false;  // its file has another name for people than here
     std::shared_ptr<Line> line_;

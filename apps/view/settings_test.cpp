@@ -46,6 +46,24 @@ TEST(Settings, changes_are_those_of_a_command_line) {
               "hogel photo pumpkin --hogels 60 --size 9mm --light 1,1,1:red");
 }
 
+// A file may be called like the value of an option, like a command, or like the input before it.
+TEST(Settings, names_of_files_are_nothing_else) {
+    const Settings first = settings_of({"pumpkin", "--hogels", "40", "--directions", "16"}, "pumpkin");
+    for (const std::string name : {"40", "16", "view", "render", "help", "pumpkin", "hogels"}) {
+        const Settings dropped = first.of("sphere", name);
+        EXPECT_EQ(dropped.options().render.hogels.columns, 40u) << name;
+        EXPECT_EQ(dropped.input(), "sphere");
+        EXPECT_EQ(dropped.options().input, name);
+        EXPECT_EQ(dropped.photo_command(), "hogel photo " + name + " --hogels 40 --directions 16");
+        EXPECT_EQ(dropped.with({{"hogels", "50"}}).photo_command(),
+                  "hogel photo " + name + " --directions 16 --hogels 50");
+        EXPECT_EQ(dropped.of("sphere", "one mesh.ply").photo_command(),
+                  "hogel photo 'one mesh.ply' --hogels 40 --directions 16");
+    }
+    EXPECT_EQ(settings_of({"--original", "pumpkin", "pumpkin", "--hogels", "40"}, "pumpkin").photo_command(),
+              "hogel photo pumpkin --hogels 40");
+}
+
 TEST(Settings, refuse_what_a_command_line_would) {
     const Settings first = settings_of({"pumpkin"}, "pumpkin");
     for (const auto& [name, value] : std::vector<std::pair<std::string, std::string>>{{"hogels", "0"},

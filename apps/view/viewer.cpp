@@ -2,6 +2,7 @@
 #include "view/viewer.h"
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "view/answers.h"
@@ -116,27 +117,48 @@ std::string Viewer::refusal(const Request& request) const {
     return access_.refusal({request.host, request.origin, request.fetch_site, token});
 }
 
-void Viewer::answer(const Request& request, std::function<void(Response)> reply) {
-    if (request.method == "HEAD") return reply({405, json_type, ""});  // whose answer has no body
-    if (request.method != "GET") return reply(failure(405, "only GET is answered"));
+bool Viewer::is_watched() const {
+    const std::lock_guard lock(mutex_);
+    return !sockets_.empty() || !asking_.empty();
+}
+
+bool Viewer::trusts(const Request& request) const { return refusal(request).empty(); }
+
+// The page's own files, and what is refused.
+std::optional<Response> Viewer::answer_without_subject(const Request& request) const {
+    if (request.method == "HEAD") return Response{405, json_type, ""};  // whose answer has no body
+    if (request.method != "GET") return failure(405, "only GET is answered");
     for (const PageFile& file : page_files())
         if (file.path == request.path) {
             const std::string why = access_.refusal_of_page({request.host, request.origin, request.fetch_site, ""});
-            if (!why.empty()) return reply(failure(403, why));
-            return reply({200, std::string(file.type), std::string(file.bytes)});
+            if (!why.empty()) return failure(403, why);
+            return Response{200, std::string(file.type), std::string(file.bytes)};
         }
-    if (const std::string why = refusal(request); !why.empty()) return reply(failure(403, why));
-    attempt([&] { answer_about(request, reply); }, reply);
+    if (const std::string why = refusal(request); !why.empty()) return failure(403, why);
+    return {};
 }
 
-void Viewer::answer_about(const Request& request, const Reply& reply) {
-    if (request.path == "/state") return reply({200, json_type, state()});
+std::function<void()> Viewer::answer(const Request& request, std::function<void(Response)> reply) {
+    std::function<void()> give_up;
+    if (std::optional<Response> response = answer_without_subject(request))
+        reply(std::move(*response));
+    else
+        attempt([&] { give_up = answer_about(request, reply); }, reply);
+    return give_up;
+}
+
+std::function<void()> Viewer::answer_about(const Request& request, const Reply& reply) {
+    const auto at_once = [&](Response response) {
+        reply(std::move(response));
+        return std::function<void()>();
+    };
+    if (request.path == "/state") return at_once({200, json_type, state()});
     const auto subject = this->subject();
     bool known = false;
     for (const char* path : {"/picture", "/reading", "/inside", "/sharpness", "/levels"})
         known = known || request.path == path;
-    if (!known) return reply(failure(404, "there is no such page"));
-    if (!subject) return reply(failure(503, "the light field is not there yet"));
+    if (!known) return at_once(failure(404, "there is no such page"));
+    if (!subject) return at_once(failure(503, "the light field is not there yet"));
     const Words words = parse_query(request.query);
     const View view = parse_view(words);
     const bool picture = request.path == "/picture";
@@ -144,15 +166,36 @@ void Viewer::answer_about(const Request& request, const Reply& reply) {
         subject->require(view);
     else
         subject->camera(view);
-    if (request.path == "/reading") return reply(answer_with(told(subject->read(view, parse_spot(words)), view.id)));
+    if (request.path == "/reading") return at_once(answer_with(told(subject->read(view, parse_spot(words)), view.id)));
     if (request.path == "/inside") parse_spot(words);
     const bool waves = picture ? needs_waves(view.by) : request.path == "/sharpness" || request.path == "/levels";
-    // Waits in turn with the pictures of others; nothing takes its place.
-    (waves ? waves_ : rays_)
-        .put(++clients_, {[subject, words, path = request.path, reply](std::stop_token stop) {
-                              attempt([&] { reply(made(path, *subject, words, Progress(stop))); }, reply);
-                          },
-                          true});
+    return put(waves ? waves_ : rays_, [subject, words, path = request.path, reply](std::stop_token stop) {
+        attempt([&] { reply(made(path, *subject, words, Progress(stop))); }, reply);
+    });
+}
+
+// Work for one answer, which waits in turn with the pictures of others and which nothing replaces. Returns what stops
+// it.
+std::function<void()> Viewer::put(Worker& worker, std::function<void(std::stop_token)> work) {
+    const std::uint64_t client = ++clients_;
+    {
+        const std::lock_guard lock(mutex_);
+        asking_.insert(client);
+    }
+    const auto work_and_forget = [this, client, work = std::move(work)](std::stop_token stop) {
+        work(stop);
+        forget(client);
+    };
+    worker.put(client, {work_and_forget, true});
+    return [this, &worker, client] {
+        forget(client);
+        worker.drop(client);
+    };
+}
+
+void Viewer::forget(std::uint64_t client) {
+    const std::lock_guard lock(mutex_);
+    asking_.erase(client);
 }
 
 std::variant<std::filesystem::path, Response> Viewer::place_for(const Request& request) {

@@ -9,6 +9,9 @@
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <stop_token>
 #include <string>
 #include <variant>
 #include <vector>
@@ -57,7 +60,11 @@ class Viewer final : public Site, public std::enable_shared_from_this<Viewer> {
     /// Says how far the work on the next one is: "rendering", 0 to 1. An empty text: it is done.
     void say(const std::string& what, double fraction);
 
-    void answer(const Request& request, std::function<void(Response)> reply) override;
+    /// Whether a page is open or an answer is being made: work for all of them stops where nobody waits any more.
+    bool is_watched() const;
+
+    bool trusts(const Request& request) const override;
+    std::function<void()> answer(const Request& request, std::function<void(Response)> reply) override;
     Response admit(const Request& request) override;
     std::variant<std::filesystem::path, Response> place_for(const Request& request) override;
     Response take(const Request& request, const std::filesystem::path& file) override;
@@ -70,7 +77,10 @@ class Viewer final : public Site, public std::enable_shared_from_this<Viewer> {
     std::string state() const;
     void tell(const std::string& text);
     std::string refusal(const Request& request) const;
-    void answer_about(const Request& request, const std::function<void(Response)>& reply);
+    std::optional<Response> answer_without_subject(const Request& request) const;
+    std::function<void()> answer_about(const Request& request, const std::function<void(Response)>& reply);
+    std::function<void()> put(Worker& worker, std::function<void(std::stop_token)> work);
+    void forget(std::uint64_t client);
 
     Access access_;
     mutable std::mutex mutex_;
@@ -81,6 +91,7 @@ class Viewer final : public Site, public std::enable_shared_from_this<Viewer> {
     std::string what_ = "opening";
     double fraction_ = 0;
     std::map<std::uint64_t, std::weak_ptr<Socket>> sockets_;
+    std::set<std::uint64_t> asking_;  // clients whose answer is being made
     std::atomic<std::uint64_t> clients_ = 0;
     // Last, so that their threads end before what they use. Waves are slow, and rays and readings do not wait for them.
     Worker rays_, waves_;

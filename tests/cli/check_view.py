@@ -16,7 +16,7 @@ import subprocess
 import sys
 
 from view_client import VIEW, Server, WebSocket, expect, next_state
-from view_strangers import check_drops, check_refusals, check_token
+from view_strangers import check_drops, check_gone, check_refusals, check_token
 
 INPUT, HOLOGRAM, STREAM = sys.argv[1:]
 
@@ -268,6 +268,7 @@ def main():
     check_hologram()
     check_readings(server)
     check_refusals(server)
+    check_gone(server)
     check_web_socket(server)
     check_newest_wins(server)
     check_focus(server)
@@ -276,7 +277,7 @@ def main():
     check_stream()
     check_token(INPUT)
     check_stop(server)
-    print("address, page, state, pictures, waves, insides, hologram, readings, refusals, web socket, newest wins, depth in focus, dropped files, scene, layers, stop")
+    print("address, page, state, pictures, waves, insides, hologram, readings, refusals, askers that are gone, web socket, newest wins, depth in focus, dropped files, scene, layers, stop")
 
 
 if __name__ == "__main__":

@@ -62,6 +62,10 @@ def check_drops(light_field):
     expect("bad.ply" in page.until("problem")["message"], "a broken file is not told")
     state = server.wait()  # also where the file came before the first input was shown, whose work goes on then
     expect(state["name"] == before["name"] and server.get(f"/picture?{VIEW}")[0] == 200, f"after a broken file: {state}")
+    # Named like the value of an option, it is a file all the same, and so are those that follow.
+    expect(server.get("/drop?name=40", "POST", pathlib.Path(light_field).read_bytes(), **own)[0] == 200, "a file named like a number of hogels")
+    state = next_state(page, lambda each: each["name"] == "40" and each["hogels_s"] == 24 and not each["work"])
+    expect(state["photo"] == "hogel photo 40 --hogels 40 --directions 16", f"{state['photo']}")
     expect(server.get("/drop?name=one%20mesh.ply", "POST", mesh, **own)[0] == 200, "a mesh")
     state = next_state(page, lambda each: each["name"] == "one mesh.ply" and each["ready"] and each.get("scene") and not each["work"])
     expect(state["scene"]["is_file"] and state["photo"] == "hogel photo 'one mesh.ply' --hogels 40 --directions 16", f"{state['photo']}")
@@ -83,4 +87,24 @@ def check_token(light_field):
         expect(server.get(path)[0] == status, path)
     expect(server.get(f"/state?token={token}", Origin="http://evil.example")[0] == 403, "another page with the token")
     expect(WebSocket(server).status == 403 and WebSocket(server, f"/live?token={token}").status == 101, "web socket and token")
+    # More strangers than there may be connections, who announce what they never send.
+    for text in (b"GET / HTTP/1.1\r\nHost: a\r\nContent-Length: 10\r\n\r\n", b"POST /drop?name=a.ply HTTP/1.1\r\nHost: a\r\nContent-Length: 10\r\n\r\n"):
+        strangers = [socket.create_connection(("127.0.0.1", server.port), timeout=PATIENCE) for _ in range(150)]
+        for stranger in strangers:
+            try:
+                stranger.sendall(text)
+            except OSError:
+                pass
+        expect(server.get(f"/state?token={token}")[0] == 200, f"the owner beside strangers who say {text[:30]}")
+        for stranger in strangers:
+            stranger.close()
     server.stop(signal.SIGTERM)
+
+
+def check_gone(server):
+    """Pictures whose askers are gone are not made: these would take minutes."""
+    for path in ["/picture?eye=0,0,100mm&resolution=3800x2100&pupil-samples=1024"] * 60 + ["/picture?eye=0,0,100mm&by=waves&looks=1000&resolution=800"] * 60:
+        with socket.create_connection(("127.0.0.1", server.port), timeout=PATIENCE) as connection:
+            connection.sendall(f"GET {path} HTTP/1.1\r\nHost: {server.host}\r\n\r\n".encode())
+    for by in ("rays", "waves"):
+        expect(server.get(f"/picture?{VIEW}&looks=1&by={by}")[0] == 200, f"a picture by {by} after others that nobody waits for")
