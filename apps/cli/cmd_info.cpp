@@ -10,6 +10,7 @@
 #include "hogel/image.h"
 #include "hogel/scenes.h"
 #include "outputs.h"
+#include "printable.h"
 
 namespace hogel::cli {
 namespace {
@@ -124,8 +125,9 @@ int info(const std::string& path, const FieldOptions& options, const Session& se
     const FileSummary summary = is_external(path, options) ? summarize_field(path, options, *session.command)
                                                            : summarize_any(path, Progress(session.stop.get_token()));
     std::string words;
-    for (const auto& [name, value] : summary.text) words += fmt::format("{:<24} {}\n", name, value);
-    for (const auto& [name, value] : summary.numbers) words += fmt::format("{:<24} {:.9g}\n", name, value);
+    for (const auto& [name, value] : summary.text)
+        words += fmt::format("{:<24} {}\n", printable(name), printable(value));
+    for (const auto& [name, value] : summary.numbers) words += fmt::format("{:<24} {:.9g}\n", printable(name), value);
     session.result(result_of(summary), words);
     return 0;
 }

@@ -364,7 +364,8 @@ int make(const Options& options, const Session& session) {
     write_text(folder.path() / "report.html", report_html(report, folder.path()));
     kept.complete();
     light_field_file.keep(options.keep_light_field);
-    session.say(fmt::format("\n{}", (folder.path() / "report.html").string()));
+    session.say("");
+    session.say((folder.path() / "report.html").string());
     session.result(result_of(report, options.output, session));
     return 0;
 }

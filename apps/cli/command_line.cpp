@@ -6,12 +6,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <sstream>
 
 #include "help.h"
 #include "hogel/error.h"
 #include "hogel/parts.h"
 #include "hogel/version.h"
 #include "session.h"
+#include "standard_output.h"
 
 namespace hogel::cli {
 namespace {
@@ -219,7 +221,9 @@ const Command* CommandLine::parse(int argc, const char* const* argv) {
         impl_->app.parse(std::move(words));
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) throw Error(ErrorCode::usage, explain(impl_->app, error));
-        impl_->app.exit(error);
+        std::ostringstream help;
+        impl_->app.exit(error, help);
+        write_standard_output(help.str());
         return nullptr;
     }
     return impl_->find(impl_->app.get_subcommands().front()->get_name());

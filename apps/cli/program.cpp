@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
-#include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -14,6 +14,8 @@
 #include "hogel/error.h"
 #include "hogel/resources.h"
 #include "interrupts.h"
+#include "printable.h"
+#include "standard_output.h"
 
 namespace hogel::cli {
 namespace {
@@ -43,7 +45,9 @@ Outcome outcome_of(std::span<const CommandInfo> commands, int argc, char** argv,
     Outcome outcome;
     try {
         outcome.status = run(commands, argc, argv, session, processes);
-        if (std::fflush(stdout) != 0) outcome = failure(ErrorCode::cannot_write, "cannot write to the standard output");
+        require_written(std::fflush(stdout) == 0);
+    } catch (const ClosedPipe&) {
+        outcome.status = 128 + SIGPIPE;
     } catch (const Error& error) {
         outcome = failure(error.code(), error.what());
         if (interrupts.signal() != 0) outcome = {128 + interrupts.signal(), ErrorCode::cancelled, "stopped"};
@@ -57,10 +61,7 @@ Outcome outcome_of(std::span<const CommandInfo> commands, int argc, char** argv,
 
 }  // namespace
 
-void print_failure(std::string message) {
-    std::replace(message.begin(), message.end(), '\n', ' ');
-    write_error_stream(fmt::format("hogel: {}\n", message));
-}
+void print_failure(const std::string& message) { write_error_stream(fmt::format("hogel: {}\n", printable(message))); }
 
 int run_program(std::span<const CommandInfo> commands, int argc, char** argv, Processes* processes) {
     // Large blocks go back to the system when they are freed. By default malloc keeps those of up to 32 MiB as soon as

@@ -10,7 +10,7 @@
 
 namespace hogel::cli {
 
-/// How a run ended: the exit status and, unless it is 0, the kind of failure and the line that is printed.
+/// How a run ended: the exit status, the kind of failure where it is one, and the line that is printed, if any.
 struct Outcome {
     int status = 0;
     ErrorCode code = ErrorCode::internal;
@@ -34,6 +34,6 @@ class Processes {
 int run_program(std::span<const CommandInfo> commands, int argc, char** argv, Processes* processes = nullptr);
 
 /// Every failure is one line on stderr.
-void print_failure(std::string message);
+void print_failure(const std::string& message);
 
 }  // namespace hogel::cli

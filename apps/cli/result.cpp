@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "result.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 namespace hogel::cli {
@@ -35,8 +37,22 @@ Json json_of(const ResultValue& value) {
 
 }  // namespace
 
+// The library writes escapes of the control characters below 32 alone, but terminals obey those from 127 to 159, too,
+// which stand in strings only.
 std::string to_json(const Result& result) {
-    return json_of(result).dump(2, ' ', false, Json::error_handler_t::replace);
+    const std::string plain = json_of(result).dump(2, ' ', false, Json::error_handler_t::replace);
+    std::string text;
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+        const unsigned code = static_cast<unsigned char>(plain[i]);
+        const unsigned next = i + 1 < plain.size() ? static_cast<unsigned char>(plain[i + 1]) : 0;
+        if (code == 0x7F)
+            text += "\\u007f";
+        else if (code == 0xC2 && next < 0xA0)
+            text += fmt::format("\\u{:04x}", static_cast<unsigned char>(plain[++i]));
+        else
+            text += plain[i];
+    }
+    return text;
 }
 
 }  // namespace hogel::cli

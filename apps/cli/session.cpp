@@ -12,6 +12,8 @@
 
 #include "command_line.h"
 #include "hogel/error.h"
+#include "printable.h"
+#include "standard_output.h"
 
 namespace hogel::cli {
 namespace {
@@ -33,7 +35,7 @@ std::size_t terminal_width() {
 }  // namespace
 
 void Session::say(const std::string& line) const {
-    if (!quiet) write_error_stream(line + "\n");
+    if (!quiet) write_error_stream(printable(line) + "\n");
 }
 
 void Session::detail(const std::string& line) const {
@@ -41,9 +43,7 @@ void Session::detail(const std::string& line) const {
 }
 
 void Session::result(const Result& result, const std::string& words) const {
-    const std::string text = json ? to_json(result) + "\n" : words;
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size())
-        throw Error(ErrorCode::cannot_write, "cannot write to the standard output");
+    write_standard_output(json ? to_json(result) + "\n" : words);
 }
 
 double Session::seconds() const {
