@@ -9,6 +9,7 @@
 #include "hogel/pipeline.h"
 #include "hogel/scene_hologram.h"
 #include "hogel/units.h"
+#include "hologram_pitch.h"
 #include "inputs.h"
 #include "outputs.h"
 
@@ -102,6 +103,8 @@ int hologram(Options options, const Session& session) {
     record.acted({"input", "half"});
     HologramRequest request = options.hologram.request(session, 1);
     const auto check = [&](std::span<const LightFieldGrid> faces) {
+        request = request_for(faces, options.hologram, session, 1);
+        say_pitch(request, options.hologram, session);
         check_holograms(faces, request, kind == InputKind::scene);
         state_plan(session, plan_holograms(faces, request, file), "synthesising the hologram", options.output);
     };

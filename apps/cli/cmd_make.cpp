@@ -16,6 +16,7 @@
 #include "hogel/resources.h"
 #include "hogel/team.h"
 #include "hogel/units.h"
+#include "hologram_pitch.h"
 #include "inputs.h"
 #include "outputs.h"
 #include "report.h"
@@ -293,8 +294,10 @@ int make(const Options& options, const Session& session) {
     report.looks = looks.expected ? 0 : looks.count;
     std::vector<Camera> cameras;
     for (const PhotographPair& pair : report.pairs) cameras.push_back(pair.camera);
-    const HologramRequest request = options.hologram.request(session, looks.count);
-    with_options({{"pupil", "--pupil, --pitch"}, {"the eye", "--eye-distance, --pitch"}, {"", "--pitch, --fov"}},
+    const HologramRequest request =
+        request_for(std::span(&report.light_field, 1), options.hologram, session, looks.count);
+    say_pitch(request, options.hologram, session);
+    with_options({{"pupil", "--pupil, --pitch"}, {"the eye", "--eye-distance, --pitch"}, {"", "--fov, --pitch"}},
                  [&] { require_holograms(std::span(&report.light_field, 1), request, cameras); });
     const PhotographOptions with = photograph_options(options.camera, looks.expected);
     const std::string camera = state_plan(report.light_field, request, cameras, with, session);
@@ -388,7 +391,9 @@ void add_make(Command& command, Session& session) {
     command.flag("--resume", options->resume,
                  "Keep what is done when interrupted, in DIR, and go on from there the next time");
     command.group("Hologram");
-    command.positive_length("--pitch", options->hologram.pitch, "Distance of samples, rounded to divide a hogel");
+    command.positive_length("--pitch", options->hologram.pitch,
+                            "Distance of samples, rounded to divide a hogel; less by default where the field of view "
+                            "needs it");
     command.group("Camera");
     command.positive_length("--eye-distance", options->eye_distance, "Of the lens from the hologram's plane");
     command.positive_length("--pupil", options->pupil, "Diameter of the lens");

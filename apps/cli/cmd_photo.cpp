@@ -11,6 +11,7 @@
 #include "fields.h"
 #include "hogel/pipeline.h"
 #include "hogel/team.h"
+#include "hologram_pitch.h"
 #include "inputs.h"
 #include "movie.h"
 #include "outputs.h"
@@ -129,7 +130,9 @@ std::vector<Image> photographs_of_light_field(const Options& options, RunRecord&
         });
     }
     light_field = with_common_directions(light_field);
-    const HologramRequest request = options.hologram.request(session, parse_looks(options.looks).count);
+    const HologramRequest request =
+        request_for(light_field.grids(), options.hologram, session, parse_looks(options.looks).count);
+    say_pitch(request, options.hologram, session);
     check_holograms(light_field.grids(), request, kind == InputKind::scene, cameras);
     const WaveCamera with = options.wave_camera();
     const auto* const narrow = std::get_if<PhotographOptions>(&with);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <strings.h>
 
 #include <algorithm>
 #include <cmath>
@@ -34,12 +35,20 @@ struct Options {
     bool resume = false;
 };
 
+// A device as the table writes it, typed in small letters or capitals.
+std::string device_name(const std::string& typed) {
+    for (const std::string& name : modulators().names())
+        if (strcasecmp(name.c_str(), typed.c_str()) == 0) return name;
+    return typed;
+}
+
 Modulator modulator_of(const Options& options) {
     const bool described = options.pixels.columns > 0 || options.pixel_pitch > 0;
     if (options.device.empty() == !described)
         throw Error(ErrorCode::usage,
                     "name a modulator with --device, or describe one with --pixels and --pixel-pitch");
-    if (!described) return with_options({{"", "--device"}}, [&] { return modulators().find(options.device); });
+    if (!described)
+        return with_options({{"", "--device"}}, [&] { return modulators().find(device_name(options.device)); });
     if (options.pixels.columns == 0 || options.pixel_pitch == 0)
         throw Error(ErrorCode::usage, "--pixels and --pixel-pitch: a modulator is described by both");
     if (std::max(options.pixels.columns, options.pixels.rows) > 65536)
@@ -155,7 +164,7 @@ void record_pattern(RunRecord& record, const Options& options, const std::string
     if (options.device.empty())
         record.acted({"pixels", "pixel-pitch"});
     else
-        record.acted({"device"});
+        record.acted("device", device_name(options.device));
     // The two values of binary patterns are levels of every modulator.
     if (options.device.empty() && encoding != Encoding::binary) record.acted({"levels"});
     const bool iterated = encoding == Encoding::gerchberg_saxton || encoding == Encoding::gradient;

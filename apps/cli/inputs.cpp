@@ -27,7 +27,9 @@ void add_hologram_options(Command& command, HologramChoices& options, const std:
                           const std::string& help) {
     command.group("Hologram");
     command.wavelengths(options.wavelengths);
-    command.positive_length("--pitch", options.pitch, "Distance of samples, rounded to divide a hogel");
+    command.positive_length("--pitch", options.pitch,
+                            "Distance of samples, rounded to divide a hogel; less by default where the field of view "
+                            "needs it");
     command.positive_length(
         "--line-pitch", options.lines,
         "Distance of the lines of --method lines or basis-lines (default: as far apart as samples)");
@@ -189,7 +191,7 @@ HologramRequest HologramChoices::request(const Session& session, std::size_t loo
 
 bool HologramChoices::record(RunRecord& record, const HologramRequest& request, const LightFieldGrid& front) const {
     // The samples divide a hogel evenly, so they may be a little farther apart or closer than was asked.
-    const double columns = std::max(1.0, std::round(front.pitch / pitch)), effective = front.pitch / columns;
+    const double columns = std::max(1.0, std::round(front.pitch / request.pitch)), effective = front.pitch / columns;
     record.acted({"wavelength", "pitch", "method"});
     if (std::abs(effective - pitch) > 1e-9 * pitch) record.acted("pitch", compact_length(effective));
     const auto shared = [&](const char* otherwise) { record.acted("phase", phase.empty() ? otherwise : phase); };
@@ -224,7 +226,7 @@ void check_holograms(std::span<const LightFieldGrid> faces, const HologramReques
                   {"the eye", "--eye, --pitch"},
                   {"horizontal parallax", "--method"},
                   {"added phases", "--method"},
-                  {"light field reaches", rendered ? "--pitch, --fov" : "--pitch"},
+                  {"light field reaches", rendered ? "--fov, --pitch" : "--pitch"},
                   {"", "--pitch"}},
                  [&] { hogel::require_holograms(faces, request, cameras); });
 }

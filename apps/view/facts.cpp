@@ -4,10 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "cli/hologram_pitch.h"
+
 namespace hogel::view {
 
 nlohmann::ordered_json facts_of_scene(const Settings& settings, const std::vector<Advice>& advice, bool is_file) {
     const cli::RenderOptions& render = settings.options().render;
+    const HologramRequest hologram =
+        cli::request_for(render.request().grids(), settings.options().hologram, settings.session(), 1);
     // As they were typed, without what the conversion to radians and back adds.
     const auto degrees = [](double radians) { return std::round(radians * 180 / std::numbers::pi * 1e9) / 1e9; };
     const Vec3 turn = render.scene.pose.rotation, move = render.scene.pose.shift;
@@ -23,7 +27,7 @@ nlohmann::ordered_json facts_of_scene(const Settings& settings, const std::vecto
             {"move_m", {move.x, move.y, move.z}},
             {"rotate_deg", {degrees(turn.x), degrees(turn.y), degrees(turn.z)}},
             {"lights", render.scene.lights},
-            {"pitch_m", settings.options().hologram.pitch},
+            {"pitch_m", hologram.pitch},
             {"is_file", is_file},
             {"make", settings.make_command()},
             {"advice", told}};

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cli/fields.h"
+#include "cli/hologram_pitch.h"
 #include "cli/inputs.h"
 #include "hogel/error.h"
 #include "view/facts.h"
@@ -189,7 +190,8 @@ void Loader::describe() {
 std::vector<Advice> Loader::advice() const {
     const cli::ViewOptions& options = now_->settings.options();
     const LightFieldRequest request = options.render.request();
-    std::vector<Advice> all = advise(*now_->box, request, options.hologram.request(now_->settings.session(), 1));
+    std::vector<Advice> all =
+        advise(*now_->box, request, cli::request_for(request.grids(), options.hologram, now_->settings.session(), 1));
     const double most = 0.5 * static_cast<double>(memory()), samples = request.grid.samples();
     if (samples > most)
         all.push_back({"hogels",
@@ -220,8 +222,10 @@ std::unique_ptr<Waves> Loader::waves_of(const LightField& light_field, bool rend
     });
     const auto make = [settings = now_->settings, light_field, rendered, making] {
         const cli::ViewOptions& options = settings.options();
-        const HologramRequest request = options.hologram.request(settings.session(), options.looks);
         LightField common = with_common_directions(light_field);
+        const HologramRequest request =
+            cli::request_for(common.grids(), options.hologram, settings.session(), options.looks);
+        cli::say_pitch(request, options.hologram, settings.session());
         cli::check_holograms(common.grids(), request, rendered);
         if (rendered)
             common = hogel::prepare_for_reading(common, request.channels.size(), needs_depth(request.method), making);

@@ -123,7 +123,7 @@ def modulator_of(
     if (device is None) != described:
         raise UsageError("device, pixels, pixel_pitch: name a modulator, or describe one by its pixels and their pitch")
     if device is not None:
-        return _core.modulator(device)
+        return _core.modulator(device.lower())
     if pixels is None or pixel_pitch is None:
         raise UsageError("pixels, pixel_pitch: a modulator is described by both")
     columns, rows = units.counts(pixels, "pixels")

@@ -46,13 +46,13 @@ void require_enough_directions(const LightFieldGrid& light_field, double wavelen
 void require_diffraction(const LightFieldGrid& light_field, double wavelength, double pitch) {
     const double needed = hologram::steepest_sine(light_field), possible = wavelength / (2 * pitch);
     if (needed <= possible) return;
+    const auto degrees = [](double sine) { return std::asin(std::min(sine, 1.0)) * 180 / std::numbers::pi; };
     throw Error(
         ErrorCode::usage,
         fmt::format("a pitch of {} diffracts {} no farther than {:.2f} degrees, but the light field reaches {:.2f}; "
-                    "a pitch of {} or less would do",
-                    format_length(pitch), format_length(wavelength),
-                    std::asin(std::min(possible, 1.0)) * 180 / std::numbers::pi,
-                    std::asin(needed) * 180 / std::numbers::pi,
+                    "a field of view within {:.2f} degrees of the axis or a pitch of {} or less would do",
+                    format_length(pitch), format_length(wavelength), degrees(possible), degrees(needed),
+                    std::floor(100 * degrees(possible)) / 100,
                     format_length(hologram::max_pitch(light_field, wavelength))));
 }
 

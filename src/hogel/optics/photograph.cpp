@@ -156,7 +156,8 @@ void require_light_towards(const FieldGrid& hologram, const Camera& camera, bool
         throw Error(
             ErrorCode::usage,
             fmt::format("the eye sees the hologram from up to {:.2f} degrees in {}, but a pitch of {} sends light "
-                        "of {} no farther than {:.2f}; a pitch of {} or less would do",
+                        "of {} no farther than {:.2f}; an eye farther away or nearer to the middle, or a pitch of {} "
+                        "or less would do",
                         degrees * std::asin(frequency * hologram.wavelength), axis, format_length(pitch),
                         format_length(hologram.wavelength),
                         degrees * std::asin(std::min(1.0, 0.5 * hologram.wavelength / pitch)),
