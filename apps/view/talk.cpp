@@ -17,12 +17,15 @@ void send(const std::weak_ptr<Socket>& to, std::string text) {
     if (const auto socket = to.lock()) socket->send_text(std::move(text));
 }
 
-// Work whose failure is told, unless it was stopped for a newer view.
+// Work whose failure is told, unless it was stopped for a newer view. That of a picture has the picture's id.
 template <class Work>
-void attempt_for(const std::weak_ptr<Socket>& to, const Work& work) {
+void attempt_for(const std::weak_ptr<Socket>& to, const Work& work, const std::string& picture = "") {
     constexpr unsigned stopped = 503;
     attempt(work, [&](Response refused) {
-        if (refused.status != stopped) send(to, std::move(refused.body));
+        if (refused.status == stopped) return;
+        Json json = Json::parse(refused.body);
+        if (!picture.empty()) json["id"] = picture;
+        send(to, dump(json));
     });
 }
 
@@ -49,9 +52,11 @@ void Viewer::Talk::receive(std::string_view text) {
         const std::size_t end = std::min(text.find('?'), text.size());
         const std::string_view verb = text.substr(0, end);
         const Words words = parse_query(end < text.size() ? text.substr(end + 1) : "");
-        if (verb == "picture")
-            ask(*viewer, parse_view(words));
-        else if (verb == "reading" || verb == "focus")
+        if (verb == "picture") {
+            const View view = parse_view(words);
+            attempt_for(
+                socket_, [&] { ask(*viewer, view); }, view.id);
+        } else if (verb == "reading" || verb == "focus")
             ask_there(*viewer, parse_view(words), parse_spot(words), verb == "focus");
         else if (verb == "change")
             change(*viewer, words);
@@ -64,7 +69,8 @@ void Viewer::Talk::resume() {
     const auto viewer = viewer_.lock();
     if (!viewer || !held_) return;
     const View newest = *held_;
-    attempt_for(socket_, [&] { ask(*viewer, newest); });
+    attempt_for(
+        socket_, [&] { ask(*viewer, newest); }, newest.id);
 }
 
 // What the page cannot take yet is held back, the newest alone.
@@ -88,7 +94,8 @@ void Viewer::Talk::ask(Viewer& viewer, const View& view) {
             const bool last = !about.contains("looks") || about["looks"] == about["of_looks"];
             if (there && (last || !there->is_busy())) there->send_picture(dump(about) + encode(photograph, view));
         };
-        attempt_for(to, [&] { subject->photograph(view, shown, Progress(stop)); });
+        attempt_for(
+            to, [&] { subject->photograph(view, shown, Progress(stop)); }, view.id);
     };
     const bool rays = !needs_waves(view.by);
     (rays ? viewer.waves_ : viewer.rays_).drop(pictures_);

@@ -129,6 +129,8 @@ def check_web_socket(server):
         page.send(message)
         if message != "picture":
             expect(page.until("error")["message"], f"{message!r}")
+    page.send(f"picture?{VIEW}&by=original&id=refused")
+    expect(page.until("error")["id"] == "refused", "a picture that is refused is not named")
     page.send(os.urandom(50), opcode=2)  # no text: nothing is said
     page.send(f"picture?{VIEW}&id=8")
     while page.until("picture")["id"] != "8":

@@ -18,7 +18,8 @@ const view = new View();
 const nothing = {center_u: 0, center_v: 0, tan_half_u: 0.1, tan_half_v: 0.1, ready: false};
 let field = nothing;  // the server's last state
 let lost = false, number = 0, wanted = 0, drawn = null, resting = 0, hovering = 0;
-const asked = new Map();  // number of a request → when it was made necessary
+const asked = new Map();  // number of a request → when it was made necessary, and what its picture is like
+let refused = false;  // whether the problem that is shown is that of a picture
 
 // Requests
 
@@ -31,7 +32,7 @@ function words(moving) {
 function ask(moving, since) {
   if (!field.ready) return;
   const id = ++number;
-  asked.set(id, since);
+  asked.set(id, {since, aspect: stage.aspect, pair: view.pair, by: view.by});
   for (const old of asked.keys()) if (old < id - 64) asked.delete(old);
   const waves = byWaves(view.by), looks = moving && waves ? {looks: 1, preview: "yes"} : {};
   link.send("picture?" + query({...words(moving), ...looks, quality: moving ? inMotion.quality : waves ? speckled : atRest.quality, moving: moving ? "yes" : "no", id}));
@@ -70,14 +71,28 @@ const address = () => location.pathname + location.search + hash({...view.words(
 const remember = () => history.replaceState(null, "", address());
 
 async function picture(about, blob) {
-  const id = Number(about.id), since = asked.get(id);
-  if (!(await stage.draw(blob, id))) return;
-  drawn = about;
+  const id = Number(about.id), {since, aspect = stage.shown, pair = view.pair, by: method = view.by} = asked.get(id) ?? {};
+  if (!(await stage.draw(blob, id, aspect))) return;
+  drawn = {...about, pair, by: method};
+  if (refused) problem("");
   if (about.looks === about.of_looks) asked.delete(id);
   const latency = since === undefined ? 0 : performance.now() - since;
   const how = about.looks ? `look ${about.looks} of ${about.of_looks}, ${about.seconds.toFixed(1)} s` : `${about.pupil_samples} points of the pupil, ${Math.round(latency)} ms`;
   by("timing").textContent = `${about.width} × ${about.height}, ${how}${about.psnr ? `, ${about.psnr.toFixed(1)} dB apart` : ""}`;
   stage.canvas.dispatchEvent(new CustomEvent("hogel-picture", {detail: {...about, latency}}));
+}
+
+// A picture that cannot be made: the one that is there stays, and so does its method.
+function refuse(message) {
+  if (asked.get(Number(message.id))?.by !== view.by) return;  // something else has been asked for since
+  const before = drawn?.by ?? (field.rays === false ? "waves" : "rays");
+  problem(message.message);
+  refused = true;
+  if (view.by === before) return;
+  view.by = before;
+  show();
+  remember();
+  if (!drawn) ask(false, performance.now());
 }
 
 // What the page says
@@ -86,7 +101,11 @@ const millimetres = value => `${+value.toFixed(Math.abs(value) < 10 ? 2 : 1)} mm
 
 function show() {
   const aspect = field.ready ? field.height_m / field.width_m / (view.pair ? 2 : 1) : 1;
-  if (aspect !== stage.aspect) { stage.aspect = aspect; stage.fit(); }
+  if (aspect !== stage.aspect) {
+    stage.aspect = aspect;
+    if (!drawn) stage.shown = aspect;
+    stage.fit();
+  }
   const stops = view.exposure === null || !field.exposure ? 0 : Math.log2(view.exposure / field.exposure);
   const reach = focusReach();
   by("distance").value = Math.log10(view.eye[2] / 300);
@@ -124,6 +143,7 @@ function say(text) {
 }
 
 function problem(text) {
+  refused = false;
   if (text) say("");
   by("problem").hidden = !text;
   by("problem-text").textContent = text;
@@ -287,7 +307,7 @@ const to = {
   },
   open() { by("file").click(); },
   tone() { view.display = view.display === "log" ? "intensity" : "log"; changed(); },
-  focusAt(x, y) { link.send("focus?" + query({...words(false), x: x.toFixed(5), y: y.toFixed(5)})); },
+  focusAt(x, y) { link.send("focus?" + query({...words(false), x: inAsked(x).toFixed(5), y: y.toFixed(5)})); },
   focusMiddle() { to.focusAt(0.5, 0.5); },
   reset() { view.reset(field); changed(); },
   async save(format = "png") {
@@ -316,6 +336,9 @@ async function copy(text) {
   } catch { window.prompt("Copy:", text); }
 }
 
+// A place across the picture that is drawn, as one across the picture that is asked for.
+const inAsked = x => !drawn || drawn.pair === view.pair ? x : view.pair ? x / 2 : 2 * x % 1;
+
 const stage = new Stage(by("picture"), {
   drag: (dx, dy) => scene.dragging === "eye" ? to.move(-dx, dy) : scene.drag(dx, -dy),
   zoom: to.zoom,
@@ -324,7 +347,7 @@ const stage = new Stage(by("picture"), {
     inside.point(x, y);
     if (hovering || !field.ready) return;
     hovering = setTimeout(() => { hovering = 0; }, 100);
-    link.send("reading?" + query({...words(false), x: Math.min(Math.max(x, 0), 1).toFixed(5), y: Math.min(Math.max(y, 0), 1).toFixed(5)}));
+    link.send("reading?" + query({...words(false), x: inAsked(Math.min(Math.max(x, 0), 1)).toFixed(5), y: Math.min(Math.max(y, 0), 1).toFixed(5)}));
   },
 });
 stage.fit();
@@ -354,7 +377,7 @@ const link = new Link({
     if (message.type === "reading") reading(message);
     if (message.type === "focus") { view.focus = 1e3 * message.depth_m; changed(); say(`In focus: ${millimetres(view.focus)}`); }
     if (message.type === "problem") problem(message.message);
-    if (message.type === "error") say(message.message);
+    if (message.type === "error") message.id ? refuse(message) : say(message.message);
   },
 });
 

@@ -6,27 +6,34 @@ export class Stage {
   constructor(canvas, on) {
     this.canvas = canvas;
     this.context = canvas.getContext("bitmaprenderer", {alpha: false});  // which takes pictures as they are and copies nothing
-    this.aspect = 1;
+    this.aspect = 1;  // height over width of the picture that is asked for
+    this.shown = 1;   // and of the one that is drawn, which keeps its shape until the other is there
     this.latest = 0;
     this.pointers = new Map();
     this.listen(on);
   }
 
-  // The largest picture of the light field's shape that fits. Returns its pixels across.
-  fit() {
+  // The largest width of a picture of that shape that fits.
+  width(aspect) {
     const room = this.canvas.parentElement.getBoundingClientRect(), across = room.width - 12, down = room.height - 12;
-    const width = Math.max(16, Math.floor(Math.min(across, down / this.aspect)));
+    return Math.max(16, Math.floor(Math.min(across, down / aspect)));
+  }
+
+  // Fits the picture that is drawn into the room. Returns the pixels across of the one that is asked for.
+  fit() {
+    const width = this.width(this.shown);
     this.canvas.style.width = `${width}px`;
-    this.canvas.style.height = `${Math.max(1, Math.round(width * this.aspect))}px`;
-    this.pixels = Math.min(2048, Math.round(width * (window.devicePixelRatio || 1)));
+    this.canvas.style.height = `${Math.max(1, Math.round(width * this.shown))}px`;
+    this.pixels = Math.min(2048, Math.round(this.width(this.aspect) * (window.devicePixelRatio || 1)));
     return this.pixels;
   }
 
   // Pictures are decoded beside each other; one that is ready after a later one is left out. Returns whether it was drawn.
-  async draw(blob, number) {
+  async draw(blob, number, aspect) {
     const bitmap = await createImageBitmap(blob);
     if (number < this.latest) return false;
     this.latest = number;
+    if (this.shown !== aspect) { this.shown = aspect; this.fit(); }
     // The style's size does not change, so that the screen scales what is coarse.
     if (this.canvas.width !== bitmap.width || this.canvas.height !== bitmap.height)
       Object.assign(this.canvas, {width: bitmap.width, height: bitmap.height});
