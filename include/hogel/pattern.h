@@ -94,9 +94,9 @@ struct Pattern {
     /// For phases, the aperture for the field: it lets 99.9 % of its light through, or less where that would take a
     /// radius above 0.4. Beside frequency zero only where that makes it smaller by a fifth.
     Aperture aperture;
-    /// For phases, |Σ P F*| / √(Σ|P|² Σ|F|²), after rounding to levels: the pattern's spectrum P within the aperture and
-    /// a tenth of its radius farther, up to 0.4, the field's spectrum F everywhere. 1 if the aperture lets the field
-    /// through, and nothing else.
+    /// For phases, |Σ P F*| / √(Σ|P|² Σ|F|²), after rounding to levels: the pattern's spectrum P within the aperture
+    /// and a tenth of its radius farther, up to 0.4, the field's spectrum F everywhere. 1 if the aperture lets the
+    /// field through, and nothing else.
     double correlation = 0;
     /// Power of the light on a pixel for which the useful order is F, in units of |F|². Between the patterns of several
     /// wavelengths its ratio is that of the powers which show the field's colours.

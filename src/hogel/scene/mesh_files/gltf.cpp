@@ -18,27 +18,14 @@ namespace {
 
 // Extensions that a file may require: those that hogel shows, and those of looks that a note names. Packed
 // pictures are not among them.
-constexpr std::array supported_extensions{"EXT_mesh_gpu_instancing",
-                                          "EXT_meshopt_compression",
-                                          "EXT_texture_webp",
-                                          "KHR_draco_mesh_compression",
-                                          "KHR_lights_punctual",
-                                          "KHR_materials_anisotropy",
-                                          "KHR_materials_clearcoat",
-                                          "KHR_materials_dispersion",
-                                          "KHR_materials_emissive_strength",
-                                          "KHR_materials_ior",
-                                          "KHR_materials_iridescence",
-                                          "KHR_materials_pbrSpecularGlossiness",
-                                          "KHR_materials_sheen",
-                                          "KHR_materials_specular",
-                                          "KHR_materials_transmission",
-                                          "KHR_materials_unlit",
-                                          "KHR_materials_variants",
-                                          "KHR_materials_volume",
-                                          "KHR_mesh_quantization",
-                                          "KHR_texture_transform",
-                                          "KHR_xmp_json_ld"};
+constexpr std::array supported_extensions{
+    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression",   "EXT_texture_webp",
+    "KHR_draco_mesh_compression", "KHR_lights_punctual",       "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",    "KHR_materials_dispersion",  "KHR_materials_emissive_strength",
+    "KHR_materials_ior",          "KHR_materials_iridescence", "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",        "KHR_materials_specular",    "KHR_materials_transmission",
+    "KHR_materials_unlit",        "KHR_materials_variants",    "KHR_materials_volume",
+    "KHR_mesh_quantization",      "KHR_texture_transform",     "KHR_xmp_json_ld"};
 
 std::uint32_t read_u32(std::string_view bytes, std::size_t at) {
     std::uint32_t value = 0;  // little-endian, like this machine
