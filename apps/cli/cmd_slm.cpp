@@ -146,7 +146,8 @@ void report(const Pattern& pattern, double wavelength, double per_cycle, Encodin
 std::string powers_of(const std::vector<Pattern>& patterns) {
     std::vector<std::string> ratio;
     for (const Pattern& pattern : patterns) ratio.push_back(fmt::format("{:.3g}", pattern.power / patterns[1].power));
-    return fmt::format("white where the powers of the light on the modulator are {}", fmt::join(ratio, " : "));
+    return fmt::format("the colours of the hologram by light on the modulator of the powers {}",
+                       fmt::join(ratio, " : "));
 }
 
 std::string name_of(Encoding encoding) {
