@@ -13,6 +13,7 @@
 #include "hogel/error.h"
 #include "hogel/films.h"
 #include "hogel/pipeline.h"
+#include "hogel/stop.h"
 
 namespace hogel::cli {
 namespace fs = std::filesystem;
@@ -109,6 +110,7 @@ void require_movie(const fs::path& path) {
 
 std::uintmax_t write_movie(const fs::path& path, std::span<const Image> frames, double exposure, double frames_a_second,
                            const Metadata& metadata, const Progress& progress) {
+    const Stoppable stoppable(progress);
     const FrameFolder folder(path);
     if (is_numbered(path)) {
         for (std::size_t i = 0; i < frames.size(); ++i) require_writable(numbered(path, i));

@@ -37,6 +37,7 @@
 #include "hogel/scenes.h"
 #include "hogel/screen.h"
 #include "hogel/shading.h"
+#include "hogel/stop.h"
 #include "hogel/stream_rates.h"
 #include "hogel/table.h"
 #include "hogel/team.h"

@@ -6,7 +6,10 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <memory>
 #include <utility>
+
+#include "hogel/stop.h"
 
 #ifdef __SANITIZE_THREAD__
 #include <algorithm>
@@ -101,6 +104,15 @@ void isolate(const std::function<void()>& body) { tbb::this_task_arena::isolate(
 }  // namespace hogel::core
 
 namespace hogel {
+
+struct Stoppable::Scope {
+    explicit Scope(const Progress& progress) : scope(progress) {}
+    core::StopScope scope;
+};
+
+Stoppable::Stoppable(const Progress& progress) : scope_(std::make_unique<Scope>(progress)) {}
+
+Stoppable::~Stoppable() = default;
 
 struct ThreadLimit::Limit {
     explicit Limit(std::size_t threads) : control(tbb::global_control::max_allowed_parallelism, threads) {}

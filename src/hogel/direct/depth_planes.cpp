@@ -2,6 +2,7 @@
 #include "hogel/direct/depth_planes.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -38,7 +39,9 @@ SliceDrawing::Drawn SliceDrawing::draw(const Slice& slice, const Grid& plane, do
                 Array<float, 2>({plane.height, plane.width})};
     const double scale = wavelength / std::sqrt(plane.pitch_x * plane.pitch_y);
     const auto number = static_cast<std::uint32_t>(std::lround(1e9 * std::abs(slice.depth())));
+    std::atomic<bool> empty = true;
     core::parallel_for(plane.height, [&](std::size_t row) {
+        bool row_is_empty = true;
         for (std::size_t column = 0; column < plane.width; ++column) {
             const Vec3 start{plane.x(static_cast<double>(column)), plane.y(static_cast<double>(row)), -slice.near};
             const trace::RayHit hit = visibility_.caster().closest(start, {0, 0, -1}, slice.far - slice.near);
@@ -48,12 +51,14 @@ SliceDrawing::Drawn SliceDrawing::draw(const Slice& slice, const Grid& plane, do
             const float radiance = options.channel == 0 ? colour.r : options.channel == 1 ? colour.g : colour.b;
             const double cycles =
                 random_cycles(options, static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row), number);
+            row_is_empty = false;
             drawn.solid(row, column) = 1;
             drawn.light(row, column) = std::complex<float>(
                 std::polar(scale * std::sqrt(std::max(radiance, 0.0f)), 2 * std::numbers::pi * cycles));
         }
+        if (!row_is_empty) empty = false;
     });
-    drawn.empty = std::ranges::all_of(drawn.solid.elements(), [](float value) { return value == 0; });
+    drawn.empty = empty;
     return drawn;
 }
 

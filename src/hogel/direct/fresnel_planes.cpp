@@ -45,16 +45,17 @@ class PlaneTransform {
             return (c * index - 0.5 * c * c) / n;
         };
         const auto curved = [&](double x, double y) { return 0.5 * k * (x * x + y * y) / depth_; };
-        for (std::size_t row = 0; row < light.extent(0); ++row)
+        core::parallel_for(light.extent(0), [&](std::size_t row) {
             for (std::size_t column = 0; column < light.extent(1); ++column) {
                 const double i = static_cast<double>(column), j = static_cast<double>(row);
                 double cycles = sign * (shift(i, plane.width) + shift(j, plane.height));
                 if (!far_) cycles += curved(object_.x(i) - object_.center_x, object_.y(j) - object_.center_y);
                 light(row, column) *= unit(cycles);
             }
+        });
         depth_ > 0 ? fft_.forward(light) : fft_.backward(light);
         const double scale = object_.pitch_x * object_.pitch_y / (hologram_.wavelength * std::abs(depth_));
-        for (std::size_t row = 0; row < field.extent(0); ++row)
+        core::parallel_for(field.extent(0), [&](std::size_t row) {
             for (std::size_t column = 0; column < field.extent(1); ++column) {
                 const double i = static_cast<double>(column), j = static_cast<double>(row);
                 // e^{ikR}/(iλR)
@@ -63,6 +64,7 @@ class PlaneTransform {
                                       curved(plane.x(i) - plane.center_x, plane.y(j) - plane.center_y);
                 field(row, column) += static_cast<float>(scale) * light(row, column) * unit(cycles);
             }
+        });
     }
 
   private:

@@ -29,8 +29,10 @@ Field occluding_planes(const ShadedScene& scene, const FieldGrid& grid, const Sc
         if (!dark) field = onward(field, depth - slices[i].depth());
         depth = slices[i].depth();
         dark = false;
-        for (std::size_t j = 0; j < field.samples.size(); ++j)
-            field.samples.data()[j] = drawn.solid.data()[j] > 0 ? drawn.light.data()[j] : field.samples.data()[j];
+        core::parallel_for(field.samples.extent(0), [&](std::size_t row) {
+            for (std::size_t column = 0; column < field.samples.extent(1); ++column)
+                if (drawn.solid(row, column) > 0) field.samples(row, column) = drawn.light(row, column);
+        });
     }
     if (!dark) field = onward(field, depth);
     progress.report(1);

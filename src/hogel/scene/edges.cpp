@@ -6,6 +6,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "hogel/core/parallel.h"
 #include "hogel/scene/position_hash.h"
 
 namespace hogel::scene {
@@ -19,6 +20,7 @@ std::vector<Index> weld(const std::vector<Vec3>& positions) {
     const std::size_t size = std::bit_ceil(2 * positions.size() + 1);
     std::vector<Index> table(size, none), welded(positions.size());
     for (Index i = 0; i < positions.size(); ++i) {
+        if (i % between_checks == 0) core::throw_if_stopped();
         std::size_t at = position_hash(positions[i]) & (size - 1);
         while (table[at] != none && !(positions[table[at]] == positions[i])) at = (at + 1) & (size - 1);
         if (table[at] == none) table[at] = i;
@@ -29,13 +31,15 @@ std::vector<Index> weld(const std::vector<Vec3>& positions) {
 
 template <class Visit>
 void for_edges(const Mesh& mesh, const std::vector<Index>& welded, const Visit& visit) {
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (t % between_checks == 0) core::throw_if_stopped();
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t next = (k + 1) % 3;
             const Index a = welded[mesh.triangles[t][k]], b = welded[mesh.triangles[t][next]],
                         at_a = static_cast<Index>(3 * t + k), at_b = static_cast<Index>(3 * t + next);
             visit(a > b ? TriangleEdge{b, a, at_b, at_a} : TriangleEdge{a, b, at_a, at_b});
         }
+    }
 }
 
 }  // namespace
@@ -50,12 +54,14 @@ std::vector<TriangleEdge> sorted_edges(const Mesh& mesh) {
     std::vector<std::size_t> at(ends.begin(), ends.end() - 1);
     std::vector<TriangleEdge> edges(3 * mesh.triangles.size());
     for_edges(mesh, welded, [&](const TriangleEdge& edge) { edges[at[edge.low]++] = edge; });
-    for (std::size_t vertex = 0; vertex + 1 < ends.size(); ++vertex)
+    for (std::size_t vertex = 0; vertex + 1 < ends.size(); ++vertex) {
+        if (vertex % between_checks == 0) core::throw_if_stopped();
         std::sort(edges.begin() + static_cast<std::ptrdiff_t>(ends[vertex]),
                   edges.begin() + static_cast<std::ptrdiff_t>(ends[vertex + 1]),
                   [](const TriangleEdge& a, const TriangleEdge& b) {
                       return std::tie(a.high, a.at_low) < std::tie(b.high, b.at_low);
                   });
+    }
     return edges;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct TriangleEdge {
     bool is_upward() const { return (at_low % 3 + 1) % 3 == at_high % 3; }
     bool joins_the_same(const TriangleEdge& other) const { return low == other.low && high == other.high; }
 };
+
+/// Steps of loops over triangles between two checks for a stop.
+constexpr std::size_t between_checks = 1 << 16;
 
 /// The edges of all triangles in the order of low, high and at_low, so that those between the same positions are next
 /// to each other.

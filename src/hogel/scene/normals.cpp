@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "hogel/core/parallel.h"
 #include "hogel/scene.h"
 #include "hogel/scene/edges.h"
 #include "hogel/scene/vertices.h"
@@ -48,8 +49,10 @@ std::vector<Vec3> area_normals(const Mesh& mesh) {
 /// Calls `visit` with every two edges between the same positions that follow each other.
 template <class Visit>
 void for_neighbors(const std::vector<scene::TriangleEdge>& edges, const Visit& visit) {
-    for (std::size_t i = 1; i < edges.size(); ++i)
+    for (std::size_t i = 1; i < edges.size(); ++i) {
+        if (i % scene::between_checks == 0) core::throw_if_stopped();
         if (edges[i - 1].joins_the_same(edges[i])) visit(edges[i - 1], edges[i]);
+    }
 }
 
 /// Which triangles are folded: decimated scans have some that lie with their back upwards on a surface, between
@@ -125,6 +128,7 @@ void scene::add_normals(Mesh& mesh, const std::vector<TriangleEdge>& edges, doub
     std::vector<Use> uses(mesh.positions.size());
     mesh.normals.assign(mesh.positions.size(), Vec3{0, 0, 1});
     for (Index corner = 0; corner < sums.size(); ++corner) {
+        if (corner % scene::between_checks == 0) core::throw_if_stopped();
         const Index group = groups[corner];
         const double size = length(sums[group]);
         const Vec3 normal = size > 0 ? sums[group] / size : Vec3{0, 0, 1};

@@ -8,8 +8,12 @@
 #include <limits>
 #include <numbers>
 #include <set>
+#include <stop_token>
 
+#include "hogel/core/parallel.h"
+#include "hogel/core/test_errors.h"
 #include "hogel/error.h"
+#include "hogel/scene/edges.h"
 #include "hogel/scenes.h"
 
 namespace hogel::scene {
@@ -247,6 +251,17 @@ TEST(DefaultLights, come_from_the_front_and_are_directional) {
     }
     EXPECT_GT(scene.lights[0].direction.x, 0);  // the key light comes from the upper left
     EXPECT_LT(scene.lights[0].direction.y, 0);
+}
+
+TEST(Normals, of_a_mesh_end_when_a_stop_is_requested) {
+    Mesh mesh = make_scene("sphere", 1).meshes.front();
+    const std::vector<scene::TriangleEdge> edges = scene::sorted_edges(mesh);
+    std::stop_source stop;
+    const core::StopScope scope{Progress(stop.get_token())};
+    EXPECT_FALSE(core::is_cancelled([&] { scene::add_normals(mesh, edges, 1); }));
+    stop.request_stop();
+    EXPECT_TRUE(core::is_cancelled([&] { scene::sorted_edges(mesh); }));
+    EXPECT_TRUE(core::is_cancelled([&] { scene::add_normals(mesh, edges, 1); }));
 }
 
 }  // namespace

@@ -13,7 +13,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <numeric>
+#include <stop_token>
 
+#include "hogel/core/parallel.h"
+#include "hogel/core/test_errors.h"
 #include "hogel/error.h"
 #include "hogel/image.h"
 
@@ -129,6 +132,15 @@ void expect_samples(const Picture& picture, View<const T, 3> expected, int toler
     ASSERT_EQ(samples->shape(), expected.shape());
     for (std::size_t i = 0; i < expected.size(); ++i)
         ASSERT_NEAR(samples->data()[i], expected.data()[i], tolerance) << i;
+}
+
+TEST(PngWriter, ends_between_rows_when_a_stop_is_requested) {
+    const Array<std::uint8_t, 3> grey({4, 3, 1});
+    std::stop_source stop;
+    const core::StopScope scope{Progress(stop.get_token())};
+    EXPECT_FALSE(core::is_cancelled([&] { png_file(grey.view(), {}, Curve::srgb); }));
+    stop.request_stop();
+    EXPECT_TRUE(core::is_cancelled([&] { png_file(grey.view(), {}, Curve::srgb); }));
 }
 
 TEST(PngReader, reads_interlaced_and_palette_and_narrow_pictures) {

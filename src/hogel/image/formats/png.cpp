@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "hogel/core/parallel.h"
 #include "hogel/image/formats/formats.h"
 #include "hogel/image/picture_bytes.h"
 
@@ -184,6 +185,25 @@ std::vector<png_text> png_texts(Metadata& texts) {
     return list;
 }
 
+constexpr std::size_t samples_between_checks = 1 << 20;
+
+// libpng's structures of a file that is written.
+struct PngWriting {
+    explicit PngWriting(Failure& failure)
+        : png(png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, note_failure, ignore_warning)),
+          info(png != nullptr ? png_create_info_struct(png) : nullptr) {
+        if (info != nullptr) return;
+        png_destroy_write_struct(&png, nullptr);
+        throw std::bad_alloc();
+    }
+    ~PngWriting() { png_destroy_write_struct(&png, &info); }
+    PngWriting(const PngWriting&) = delete;
+    PngWriting& operator=(const PngWriting&) = delete;
+
+    png_structp png;
+    png_infop info;
+};
+
 template <class T>
 std::vector<unsigned char> encode(View<const T, 3> pixels, const Metadata& texts, Curve curve) {
     std::vector<unsigned char> bytes;
@@ -191,28 +211,34 @@ std::vector<unsigned char> encode(View<const T, 3> pixels, const Metadata& texts
     const std::vector<png_text> list = png_texts(named);
     Sink sink{&bytes};
     Failure failure;
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, note_failure, ignore_warning);
-    if (png == nullptr) throw std::bad_alloc();
-    png_infop info = png_create_info_struct(png);
+    PngWriting writing(failure);
+    png_structp png = writing.png;
+    png_infop info = writing.info;
     const auto height = static_cast<png_uint_32>(pixels.extent(0)), width = static_cast<png_uint_32>(pixels.extent(1));
     const int type = pixels.extent(2) == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB;
     const std::size_t row = pixels.extent(1) * pixels.extent(2);
-    const bool done = info != nullptr && attempt(png, [&] {
-                          png_set_write_fn(png, &sink, put, nullptr);
-                          png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-                          png_set_compression_level(png, 6);
-                          png_set_compression_strategy(png, Z_DEFAULT_STRATEGY);  // the bytes of earlier versions
-                          png_set_IHDR(png, info, width, height, 8 * sizeof(T), type, PNG_INTERLACE_NONE,
-                                       PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-                          if (curve == Curve::srgb) png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);
-                          if (!list.empty()) png_set_text(png, info, list.data(), static_cast<int>(list.size()));
-                          png_write_info(png, info);
-                          if (sizeof(T) == 2 && std::endian::native == std::endian::little) png_set_swap(png);
-                          for (std::size_t y = 0; y < height; ++y)
-                              png_write_row(png, reinterpret_cast<png_const_bytep>(pixels.data() + y * row));
-                          png_write_end(png, info);
-                      });
-    png_destroy_write_struct(&png, &info);
+    bool done = attempt(png, [&] {
+        png_set_write_fn(png, &sink, put, nullptr);
+        png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+        png_set_compression_level(png, 6);
+        png_set_compression_strategy(png, Z_DEFAULT_STRATEGY);  // the bytes of earlier versions
+        png_set_IHDR(png, info, width, height, 8 * sizeof(T), type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                     PNG_FILTER_TYPE_DEFAULT);
+        if (curve == Curve::srgb) png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);
+        if (!list.empty()) png_set_text(png, info, list.data(), static_cast<int>(list.size()));
+        png_write_info(png, info);
+        if (sizeof(T) == 2 && std::endian::native == std::endian::little) png_set_swap(png);
+    });
+    // Some rows at a time, because the check for a stop may not throw through libpng.
+    const std::size_t rows = std::max(samples_between_checks / row, std::size_t{1});
+    for (std::size_t first = 0; done && first < height; first += rows) {
+        core::throw_if_stopped();
+        done = attempt(png, [&] {
+            for (std::size_t y = first; y < std::min<std::size_t>(first + rows, height); ++y)
+                png_write_row(png, reinterpret_cast<png_const_bytep>(pixels.data() + y * row));
+        });
+    }
+    done = done && attempt(png, [&] { png_write_end(png, info); });
     if (!done) throw std::runtime_error(failure.text.data());
     return bytes;
 }

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "hogel/core/parallel.h"
+
 namespace hogel::scene::mesh_files {
 namespace {
 
@@ -59,7 +61,8 @@ class Surfaces {
 /// Calls `visit` with the triangles on both sides of every edge of just two, and whether they face other sides.
 template <class Visit>
 void for_neighbors(const std::vector<TriangleEdge>& edges, const Visit& visit) {
-    for (std::size_t first = 0, end = 0; first < edges.size(); first = end) {
+    for (std::size_t first = 0, end = 0, n = 0; first < edges.size(); first = end) {
+        if (n++ % between_checks == 0) core::throw_if_stopped();
         while (end < edges.size() && edges[end].joins_the_same(edges[first])) ++end;
         if (end - first == 2 && edges[first].low != edges[first].high)
             visit(edges[first].triangle(), edges[first + 1].triangle(),
