@@ -46,9 +46,9 @@ TEST(DamagedViews, AHoleIsNamed) {
 
 // Room was made for every pair of the numbers.
 TEST(DamagedViews, NumbersThatAllDifferMakeNoGridOfTheirSquare) {
-    constexpr std::uint64_t count = 50000;
+    constexpr std::int64_t count = 50000;
     NumberedFiles group;
-    for (std::uint64_t i = 0; i < count; ++i)
+    for (std::int64_t i = 0; i < count; ++i)
         group.files.push_back({std::filesystem::path("set") / fmt::format("{}_{}.png", i, i), {i, i}});
     try {
         in_rows_and_columns(group, 0, 1);
@@ -56,10 +56,10 @@ TEST(DamagedViews, NumbersThatAllDifferMakeNoGridOfTheirSquare) {
     } catch (const Error& error) {
         EXPECT_EQ(std::string(error.what()), "set/0_1.png: a view is missing; there are 50000 of 50000x50000");
     }
-    for (std::uint64_t i = 0; i < count; ++i) group.files[i].numbers[0] = 7;
+    for (std::size_t i = 0; i < group.files.size(); ++i) group.files[i].numbers[0] = 7;
     const PictureGrid row = in_rows_and_columns(group, 0, 1);
     EXPECT_EQ(row.rows, 1u);
-    EXPECT_EQ(row.files[count - 1].filename(), "49999_49999.png");
+    EXPECT_EQ(row.files[group.files.size() - 1].filename(), "49999_49999.png");
 }
 
 TEST(DamagedViews, AMissingRowIsNoticed) {
