@@ -103,7 +103,8 @@ int hologram(Options options, const Session& session) {
     record.acted({"input", "half"});
     HologramRequest request = options.hologram.request(session, 1);
     const auto check = [&](std::span<const LightFieldGrid> faces) {
-        request = request_for(faces, options.hologram, session, 1);
+        // Other members may be those of the file that is opened.
+        request.pitch = request_for(faces, options.hologram, session, 1).pitch;
         say_pitch(request, options.hologram, session);
         check_holograms(faces, request, kind == InputKind::scene);
         state_plan(session, plan_holograms(faces, request, file), "synthesising the hologram", options.output);

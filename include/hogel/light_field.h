@@ -172,7 +172,7 @@ struct HOGEL_API LightFieldGrid {
 };
 
 /// Throws Error(code), naming `what` and the member that is wrong: zero samples, a value that is not finite or not
-/// positive, a hologram larger than 10 m, or more samples than can be addressed.
+/// positive, a hologram larger than 10 m that is asked for (usage), or more samples than can be addressed.
 HOGEL_API void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& what);
 
 /// Throws Error(code) if the directions are uniform in sines or go through a fixed focal plane. The message says that

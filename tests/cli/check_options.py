@@ -23,9 +23,10 @@ TABLE = [
     ("render sphere -o w.hgl --hogels 4 --directions 4", "--sqnr=0 --sqnr=inf --float"),
     ("bake sphere -o w.glb", "--rays=0 --bounces=x --tessellate=0 --size=-1mm"),
     (f"hologram sphere -o w.h5 {SMALL}",
-     """--wavelength=0nm --wavelength=rbg --pitch=0um --pitch=3um --fov=40deg --line-pitch=-1um --line-pitch=10um
+     """--wavelength=0nm --wavelength=rbg --pitch=0um --pitch=3um --line-pitch=-1um --line-pitch=10um
      --method=magic --phase=none --lobes=none --basis=wavy --tolerance=2 --spacing=0um --planes=0"""),
     ("hologram sphere -o w.h5 --hogels 4", "--directions=16777216"),
+    (f"hologram sphere -o w.h5 {SMALL} --pitch 1.5um", "--fov=40deg"),
     (f"hologram sphere -o w.h5 {SMALL} --hemicube", "--method=olas --method=phase-added"),
     (f"hologram sphere -o w.h5 {SMALL} --method points", "--resume --cull-back-faces"),
     (f"slm s.h5 -o w.png {MODULATOR} --encoding bipolar", "--reference=-10deg --clip=2 --clip=nan --window=0 --iterations=x"),
@@ -50,8 +51,8 @@ TABLE = [
     ("propagate f.h5 -o w.png --distance 1mm",
      "--display=none --output-pitch=0mm --output-pitch=1 --output-samples=0 --offset-x=1 --offset-y=1e300m --offset-x=900mm"),
     ("make sphere -o w",
-     """--eye-distance=0mm --eye-distance=50mm --pupil=0mm --resolution=0 --looks=x --pupil-samples=0 --pitch=3um
-     --fov=60deg"""),
+     """--eye-distance=0mm --eye-distance=50mm --pupil=0mm --resolution=0 --looks=x --pupil-samples=0 --pitch=3um"""),
+    ("make sphere -o w --pitch 1.5um", "--fov=60deg"),
     ("compress x.h5 -o w.hgl",
      """--sqnr=0 --sqnr=130 --ppb=0 --ppb=0.001 --step=-1 --max-error=0 --coder=zip --transform=wavy
      --transform=haar --table=jpeg --symbols=words --symbols=alphabets --rule=histogram --overhead=2 --hemicube=none --depth-error=0m --depth-error=1e-300m

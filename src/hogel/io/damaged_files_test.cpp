@@ -64,7 +64,9 @@ TEST_F(DamagedFiles, errors_of_creating_say_what_is_in_the_way) {
     EXPECT_SAYS(creating(path_, nothing, ErrorCode::usage), "0x4 directions");
     // No disk has space for 2^58 samples, which is detected before the first sample.
     const std::size_t many = std::size_t{1} << 14;
-    EXPECT_SAYS(creating(path_, grid_of(many, many, many, many, 1), ErrorCode::cannot_write), path_.string());
+    LightFieldGrid large = grid_of(many, many, many, many, 1);
+    large.pitch = 0.1e-3;
+    EXPECT_SAYS(creating(path_, large, ErrorCode::cannot_write), path_.string());
     EXPECT_SAYS(creating(path_, grid, ErrorCode::usage, {{"format", "mine"}}), "reserved");
     EXPECT_SAYS(creating(path_, grid, ErrorCode::usage, {{"a", "1"}, {"a", "2"}}), "twice");
     EXPECT_SAYS(creating(path_, grid, ErrorCode::usage, {{"a", std::string(70000, 'x')}}), "more than a file holds");

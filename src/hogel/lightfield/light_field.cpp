@@ -128,7 +128,8 @@ void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& wha
             code, fmt::format("{}: {}x{} hogels of {}x{} directions in {} channels are more samples than can "
                               "be addressed",
                               what, grid.hogels_s, grid.hogels_t, grid.directions_u, grid.directions_v, grid.channels));
-    require_metres(grid, code, what);
+    // A file may say what it likes; whoever asks for such a size means another unit.
+    if (code == ErrorCode::usage) require_metres(grid, code, what);
 }
 
 void require_common_directions(const LightFieldGrid& grid, ErrorCode code, const std::string& what) {

@@ -12,11 +12,19 @@ bool are_equal(const CornerLook& a, const CornerLook& b) {
 
 Mesh& FaceMeshes::mesh(std::size_t picture) {
     const auto [found, is_new] = meshes_.try_emplace(picture);
-    if (is_new) found->second.material.base_color = {1, 1, 1};
-    return found->second;
+    Mesh& mesh = found->second;
+    if (!is_new) return mesh;
+    mesh.material.base_color = {1, 1, 1};
+    if (from_faces_.any()) return mesh;
+    mesh.positions = vertices_.positions;
+    mesh.normals = vertices_.normals;
+    mesh.colors = vertices_.colors;
+    mesh.texture_coordinates = vertices_.coordinates;
+    return mesh;
 }
 
 std::uint32_t FaceMeshes::corner(std::size_t vertex, std::size_t picture, const CornerLook& look) {
+    if (!from_faces_.any()) return static_cast<std::uint32_t>(vertex);
     constexpr int longest_search = 32;  // so that no file takes quadratic time
     std::uint32_t copy = newest_[vertex];
     for (int i = 0; copy != none && i < longest_search; copy = copies_[copy].older, ++i)

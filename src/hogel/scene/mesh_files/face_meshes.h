@@ -22,18 +22,23 @@ struct CornerLook {
     Rgb color;  ///< linear
 };
 
-/// Which attributes of vertices come from faces.
+/// What faces may give their vertices.
 struct FaceAttributes {
-    bool coordinates = false, colors = false;
+    bool coordinates = false, colors = false, pictures = false;
+
+    bool any() const { return coordinates || colors || pictures; }
 };
 
-/// Builds a mesh for each picture, with the vertices that its faces use. A vertex to which faces give several pictures,
-/// colours or texture coordinates is copied for each of them.
+/// Builds a mesh for each picture. Where faces give nothing to vertices, it has the vertices of the file in their
+/// order; otherwise those that faces use. A vertex to which faces give several pictures, colours or texture coordinates
+/// is copied for each of them.
 class FaceMeshes {
   public:
     /// @param vertices  lives longer than this
     FaceMeshes(const Vertices& vertices, FaceAttributes from_faces)
-        : vertices_(vertices), from_faces_(from_faces), newest_(vertices.positions.size(), none) {}
+        : vertices_(vertices),
+          from_faces_(from_faces),
+          newest_(from_faces.any() ? vertices.positions.size() : 0, none) {}
 
     /// The mesh of a picture, new and white when it is first asked for.
     Mesh& mesh(std::size_t picture);

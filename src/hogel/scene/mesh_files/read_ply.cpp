@@ -107,7 +107,8 @@ class PlySurfaces {
           pictures_(header.textures.size()),
           vertices_(vertices.positions.size()),
           columns_(header),
-          from_faces_{columns_.coordinates.has_value(), has(columns_.color) && vertices.colors.empty()},
+          from_faces_{columns_.coordinates.has_value(), has(columns_.color) && vertices.colors.empty(),
+                      columns_.picture.has_value()},
           parts_(vertices, from_faces_) {}
 
     void add_faces(const Element& element, RowReader reader) {
