@@ -87,6 +87,7 @@ Read import_file(const std::filesystem::path& path, std::uintmax_t size, const s
         read.imported = import_in_child(path, file, with_leading_zeros(about_the_origin(std::move(text), offset)));
         for (ImportedMesh& part : read.imported.meshes)
             for (Vec3& position : part.mesh.positions) position = position + offset;
+        read.imported.has_singles = false;
         read.imported.notes.insert(read.imported.notes.begin(), notes.begin(), notes.end());
     } else if (has_extension(path, {".ply"}) || starts_like_ply(start)) {
         const std::string bytes = read_file(path, size, file);
@@ -100,8 +101,10 @@ Read import_file(const std::filesystem::path& path, std::uintmax_t size, const s
         read.imported.notes.insert(read.imported.notes.end(), notes.begin(), notes.end());
     } else if (has_extension(path, {".dat"})) {
         read.imported.meshes.push_back({discs_of(read_dat(file, read_file(path, size, file)), options, file)});
+        read.imported.has_singles = false;
     } else if (has_extension(path, {".xyz", ".pts", ".asc"})) {
         read.imported.meshes.push_back({discs_of(read_xyz(file, read_file(path, size, file)), options, file)});
+        read.imported.has_singles = false;
     } else if (has_extension(path, {".splat", ".ksplat", ".spz"})) {
         reject_splats(file);
     } else {
@@ -234,9 +237,7 @@ Scene convert(Read read, const std::filesystem::path& path, const std::string& f
         Turned turned;
         for (Mesh& mesh : scene.meshes) face_outwards(mesh, has_extension(path, {".stl"}), turned);
         note(turned, scene.notes);
-        // These keep double floats.
-        if (!has_extension(path, {".obj", ".ply", ".off", ".xyz", ".pts", ".asc", ".dat"}))
-            note_distance(scene, scene.notes);
+        if (imported.has_singles) note_distance(scene, scene.notes);
     }
     add_missing_normals(scene, crease);
     return scene;

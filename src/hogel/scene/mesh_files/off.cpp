@@ -224,6 +224,7 @@ Imported read_off(const std::string& file, std::string_view bytes) {
     decode(faces.colors);
     normalize_or_clear(vertices.normals);
     Imported imported;
+    imported.has_singles = false;
     imported.meshes.push_back({mesh_of(vertices, faces, file)});
     if (faces.numbered > 0)
         imported.notes.push_back(fmt::format(

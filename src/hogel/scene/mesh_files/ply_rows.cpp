@@ -124,7 +124,9 @@ void RowReader::read_text(const Element& element, std::size_t number, Row& row) 
             if (word.empty()) reject_line("ends early", whole);
             const auto value = parse_number(word);
             if (!value) reject_line(fmt::format("has '{}'", quoted(word)), "a number");
-            row.values.push_back(*value);
+            // As in binary data.
+            const bool is_single = !property.type.is_integer && property.type.size == 4;
+            row.values.push_back(is_single ? static_cast<double>(static_cast<float>(*value)) : *value);
         }
         row.ends.push_back(row.values.size());
     }

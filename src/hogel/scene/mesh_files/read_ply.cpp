@@ -234,6 +234,8 @@ PlyContents read_ply(const std::string& file, std::string_view bytes) {
         std::ranges::none_of(header.elements, [](const Element& e) { return is_surface(e) && e.count > 0; });
     PlyContents contents;
     contents.surfaces.notes = notes_of(header, vertices, are_points);
+    contents.surfaces.has_singles =
+        std::ranges::any_of(vertex->properties, [](const Property& p) { return p.name == "x" && p.type.size == 4; });
     if (are_points) {
         contents.points = std::move(vertices);
         return contents;

@@ -202,6 +202,17 @@ TEST_F(Strangers, obj_far_from_the_origin_keeps_its_shape) {
     EXPECT_EQ(bounds(import("near.obj", "v 1 2 3\nv 2 2 3\nv 1 4 3\nf 1 2 3\n")).high, (Vec3{2, 4, 3}));
 }
 
+TEST_F(Strangers, ply_says_how_exact_its_coordinates_are) {
+    for (const bool exact : {false, true}) {
+        const Scene scene =
+            import("far.ply", fmt::format("ply\nformat ascii 1.0\nelement vertex 3\nproperty {0} x\nproperty {0} y\n"
+                                          "property {0} z\nelement face 1\n{1}end_header\n500000.125 0 0\n"
+                                          "500000.375 0 0\n500000.125 0.5 0\n3 0 1 2\n",
+                                          exact ? "double" : "float", face_list));
+        EXPECT_EQ(scene.notes.size(), exact ? 0u : 1u);
+    }
+}
+
 std::string cube_of(double x, double size, bool inwards, int first) {
     std::string text;
     for (int i = 0; i < 8; ++i)

@@ -40,6 +40,7 @@ struct Imported {
     std::vector<TextureSource> textures;
     Metadata provenance;             ///< which the parent reads
     std::vector<std::string> notes;  ///< Scene::notes
+    bool has_singles = true;         ///< coordinates are single floats
 };
 
 /// In the child: sends what was read, piece by piece, so that it is not held twice.
