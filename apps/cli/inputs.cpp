@@ -136,9 +136,9 @@ LightFieldGrid RenderOptions::grid() const {
     return grid;
 }
 
-LightFieldRequest RenderOptions::request(const Scene& scene) const {
+LightFieldRequest RenderOptions::request(const Scene& loaded) const {
     LightFieldRequest wanted = request();
-    wanted.shading.model = shading_model(scene, wanted.shading);
+    wanted.shading.model = shading_model(loaded, wanted.shading);
     return wanted;
 }
 
@@ -196,10 +196,7 @@ bool HologramChoices::record(RunRecord& record, const HologramRequest& request, 
     if (std::abs(effective - pitch) > 1e-9 * pitch) record.acted("pitch", compact_length(effective));
     const auto shared = [&](const char* otherwise) { record.acted("phase", phase.empty() ? otherwise : phase); };
     bool seeded = true;
-    if (std::holds_alternative<Fourier>(request.method)) {
-        shared("random");
-        record.acted({"lobes"});
-    } else if (std::holds_alternative<Lines>(request.method)) {
+    if (std::holds_alternative<Fourier>(request.method) || std::holds_alternative<Lines>(request.method)) {
         shared("random");
         record.acted({"lobes"});
     } else if (const auto* fringes = std::get_if<Basis>(&request.method)) {
@@ -343,7 +340,7 @@ Scene load_scene(const Session& session, const std::string& name, const RenderOp
     }
     const LightFieldRequest request = scene_request(options);
     Stage stage(session, "scene");
-    const Scene scene = placing_scene([&] { return hogel::load_scene(name, request, stage.progress()); });
+    Scene scene = placing_scene([&] { return hogel::load_scene(name, request, stage.progress()); });
     options.scene.record(record, scene);
     for (const std::string& note : scene.notes) session.say(fmt::format("{}: note: {}", name, note));
     return scene;

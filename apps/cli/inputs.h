@@ -45,7 +45,7 @@ struct RenderOptions {
     LightFieldGrid grid() const;
     LightFieldRequest request() const;
     /// With the shading model that `auto` stands for.
-    LightFieldRequest request(const Scene& scene) const;
+    LightFieldRequest request(const Scene& loaded) const;
 };
 void add_render_options(Command& command, RenderOptions& options);
 /// --hemicube, for commands that use all faces.

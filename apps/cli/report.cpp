@@ -129,7 +129,7 @@ std::string pictures_html(const Report& report, const std::filesystem::path& fol
         std::string pictures, numbers;
         const auto add = [&](const Image& image, const std::string& file, const std::string& label,
                              const std::string& by) {
-            pictures += html_of({image, folder, file}, label, eye + ", photographed by " + by);
+            pictures += html_of({image, folder, file}, label, fmt::format("{}, photographed by {}", eye, by));
         };
         const auto compare = [&](const std::string& name, const ImageComparison& comparison) {
             numbers += fmt::format("<span class=\"soft num\">{}: PSNR {} · SSIM {:.3f}</span>", name,

@@ -116,7 +116,7 @@ fs::path picture_of(const fs::path& file, const Json& frame, const std::string& 
     const fs::path named = (folder / fs::path(found->get<std::string>())).lexically_normal();
     std::error_code none;
     for (const char* extension : {"", ".png", ".exr", ".jpg"}) {
-        const fs::path whole = named.string() + extension;
+        fs::path whole = named.string() + extension;
         if (!fs::is_regular_file(whole, none)) continue;
         // A file that names others must not make hogel read just any: SECURITY.md.
         const fs::path inside = fs::canonical(whole, none).lexically_relative(fs::canonical(folder, none));

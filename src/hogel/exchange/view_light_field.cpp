@@ -21,8 +21,10 @@ constexpr std::size_t together = 64;
 std::vector<float> linear_table(Transfer transfer, std::size_t codes, std::uint32_t max) {
     std::vector<float> table(codes);
     const std::size_t full = codes - 1;
-    for (std::size_t i = 0; i < codes; ++i)
-        table[i] = decode(transfer, static_cast<float>((i * max + full / 2) / full) / static_cast<float>(max));
+    for (std::size_t i = 0; i < codes; ++i) {
+        const std::size_t in_file = (i * max + full / 2) / full;
+        table[i] = decode(transfer, static_cast<float>(in_file) / static_cast<float>(max));
+    }
     return table;
 }
 

@@ -2,8 +2,6 @@
 // Primitives that are packed: KHR_draco_mesh_compression.
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "hogel/core/child_process.h"
 #include "hogel/core/part.h"
 #include "hogel/scene/mesh_files/checks.h"
@@ -141,7 +139,7 @@ std::vector<std::vector<std::string>> decode_in_child(const Gltf& gltf,
 }
 
 /// Gives an accessor data of its own.
-void set_data(Gltf& gltf, std::size_t accessor, std::string bytes) {
+void set_data(Gltf& gltf, std::size_t accessor, const std::string& bytes) {
     Json& views = gltf.json["bufferViews"];
     Json& object = gltf.json["accessors"][accessor];
     object["bufferView"] = views.size();
@@ -177,7 +175,7 @@ void unpack_draco(Gltf& gltf) {
     }
     for (std::size_t i = 0; i < primitives.size(); ++i)
         for (std::size_t k = 0; k < primitives[i].accessors.size(); ++k)
-            set_data(gltf, primitives[i].accessors[k], std::move(lists[i][k]));
+            set_data(gltf, primitives[i].accessors[k], lists[i][k]);
 }
 
 }  // namespace hogel::scene::mesh_files
