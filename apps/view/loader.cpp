@@ -96,7 +96,7 @@ void Loader::finish() {
 void Loader::change(const std::map<std::string, std::string>& options, bool moving) {
     const std::lock_guard lock(mutex_);
     if (waiting_ && !waiting_->file.empty()) return;  // of what will not be shown any more
-    if (!waiting_) waiting_.emplace();
+    if (!waiting_) waiting_ = Task{};
     for (const auto& [name, value] : options) waiting_->options[name] = value;
     waiting_->moving = moving;
     stop_.request_stop();
@@ -168,7 +168,7 @@ void Loader::give_up(std::string why, const std::filesystem::path& file) {
     // A file that came before the first input was shown stopped the work on that.
     if (!is_shown_ && !file.empty()) {
         const std::lock_guard lock(mutex_);
-        if (!waiting_) waiting_.emplace();
+        if (!waiting_) waiting_ = Task{};
     }
     viewer_.complain(why);
     viewer_.say("", 1);

@@ -21,7 +21,7 @@ void send(const std::weak_ptr<Socket>& to, std::string text) {
 template <class Work>
 void attempt_for(const std::weak_ptr<Socket>& to, const Work& work, const std::string& picture = "") {
     constexpr unsigned stopped = 503;
-    attempt(work, [&](Response refused) {
+    attempt(work, [&](const Response& refused) {
         if (refused.status == stopped) return;
         Json json = Json::parse(refused.body);
         if (!picture.empty()) json["id"] = picture;

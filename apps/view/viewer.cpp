@@ -182,7 +182,7 @@ std::function<void()> Viewer::put(Worker& worker, std::function<void(std::stop_t
         const std::lock_guard lock(mutex_);
         asking_.insert(client);
     }
-    const auto work_and_forget = [this, client, work = std::move(work)](std::stop_token stop) {
+    const auto work_and_forget = [this, client, work = std::move(work)](const std::stop_token& stop) {
         work(stop);
         forget(client);
     };
