@@ -12,9 +12,9 @@ namespace {
 template <class T>
 bool append_elements(const draco::Mesh& mesh, const draco::PointAttribute& from, std::size_t components,
                      std::string& bytes) {
-    constexpr std::size_t most_components = 4;
-    if (components > most_components) return false;
-    std::array<T, most_components> element{};
+    constexpr std::size_t max_components = 4;
+    if (components > max_components) return false;
+    std::array<T, max_components> element{};
     for (draco::PointIndex i(0); i < mesh.num_points(); ++i) {
         if (!from.ConvertValue<T>(from.mapped_index(i), static_cast<std::int8_t>(components), element.data()))
             return false;

@@ -25,9 +25,9 @@ Mesh& FaceMeshes::mesh(std::size_t picture) {
 
 std::uint32_t FaceMeshes::corner(std::size_t vertex, std::size_t picture, const CornerLook& look) {
     if (!from_faces_.any()) return static_cast<std::uint32_t>(vertex);
-    constexpr int longest_search = 32;  // so that no file takes quadratic time
+    constexpr int max_search = 32;  // so that no file takes quadratic time
     std::uint32_t copy = newest_[vertex];
-    for (int i = 0; copy != none && i < longest_search; copy = copies_[copy].older, ++i)
+    for (int i = 0; copy != none && i < max_search; copy = copies_[copy].older, ++i)
         if (copies_[copy].picture == picture && are_equal(copies_[copy].look, look)) return copies_[copy].index;
     Mesh& to = mesh(picture);
     const auto index = static_cast<std::uint32_t>(to.positions.size());

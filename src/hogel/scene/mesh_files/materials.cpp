@@ -178,9 +178,9 @@ void apply_obj_looks(ImportedMesh& part, Textures& textures) {
 
 /// By its name or, where that is a path on another machine, by the longest end of it that exists.
 std::optional<std::filesystem::path> Textures::find(const TextureSource& source) const {
-    constexpr int most_parts = 32;
+    constexpr int max_parts = 32;
     std::string name = source.name;
-    for (int i = 0; i < most_parts; ++i) {
+    for (int i = 0; i < max_parts; ++i) {
         if (auto path = find_in_folder(folder_, name)) return path;
         const std::size_t first = name.find_first_of("/\\");
         if (first == name.npos) break;

@@ -84,7 +84,7 @@ void for_vertices(std::string_view text, const Visit& visit) {
     }
 }
 
-double largest_part(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+double max_coordinate(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 }  // namespace
 
@@ -97,10 +97,10 @@ std::string about_the_origin(std::string text, Vec3& offset) {
         if (!low) low = high = p;
         low = Vec3{std::min(low->x, p.x), std::min(low->y, p.y), std::min(low->z, p.z)};
         high = Vec3{std::max(high->x, p.x), std::max(high->y, p.y), std::max(high->z, p.z)};
-        return far * largest_part(*high - *low) < largest_part(*low) + largest_part(*high);
+        return far * max_coordinate(*high - *low) < max_coordinate(*low) + max_coordinate(*high);
     });
     offset = {};
-    if (!low || !(far * largest_part(*high - *low) < largest_part(*low))) return text;
+    if (!low || !(far * max_coordinate(*high - *low) < max_coordinate(*low))) return text;
     offset = *low;
     std::string moved;
     moved.reserve(text.size());

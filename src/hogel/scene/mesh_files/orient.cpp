@@ -183,10 +183,10 @@ Sides turn_inside_out(Mesh& mesh, const std::vector<TriangleEdge>& edges) {
         if (sums[i].is_turned() || (!mesh.normals.empty() && sums[i].has_normals_inwards())) ++result.turned;
     }
     turn_surfaces(mesh, links, sums);
-    constexpr double least_share = 0.9;  // of the area
+    constexpr double min_share = 0.9;  // of the area
     Sums all = bodies;
     all += sides;
-    result.is_body = sides.is_body() || bodies.area >= least_share * all.area || all.is_body();
+    result.is_body = sides.is_body() || bodies.area >= min_share * all.area || all.is_body();
     return result;
 }
 

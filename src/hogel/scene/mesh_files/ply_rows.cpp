@@ -42,7 +42,7 @@ double binary_number(const char* from, const Type& type, Format format) {
 }
 
 /// Bytes of a row whose lists are empty.
-std::size_t least_bytes(const Element& element) {
+std::size_t min_bytes(const Element& element) {
     std::size_t bytes = 0;
     for (const Property& property : element.properties)
         bytes += property.count ? property.count->size : property.type.size;
@@ -74,7 +74,7 @@ void RowReader::reject_end(const Element& element, std::size_t rows) const {
 
 void RowReader::check_room(const Element& element) const {
     // Rows of binary data without properties have no bytes, those of text a line.
-    const std::size_t least = format_ == Format::ascii ? 1 : std::max<std::size_t>(least_bytes(element), 1);
+    const std::size_t least = format_ == Format::ascii ? 1 : std::max<std::size_t>(min_bytes(element), 1);
     if (element.count > data_.size() / least) reject_end(element, format_ == Format::ascii ? 0 : data_.size() / least);
 }
 
@@ -91,7 +91,7 @@ void RowReader::skip(const Element& element) {
     const bool has_lists =
         std::ranges::any_of(element.properties, [](const Property& p) { return p.count.has_value(); });
     if (format_ != Format::ascii && !has_lists) {
-        data_.remove_prefix(element.count * least_bytes(element));
+        data_.remove_prefix(element.count * min_bytes(element));
         return;
     }
     Row row;

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
-#include <map>
+#include <utility>
 #include <vector>
 
 #include "hogel/image.h"
@@ -60,7 +60,7 @@ Rgb color_of(const Row& row, const Element& element, const std::array<Column, 3>
     return {part(0), part(1), part(2)};
 }
 
-Vertices read_vertices(const std::string& file, const Element& element, RowReader reader) {
+Vertices read_vertices(const std::string& file, const Element& element, RowReader& reader) {
     const auto value = [&](std::initializer_list<std::string_view> names) {
         return find_column(element, Kind::value, names);
     };
@@ -215,21 +215,22 @@ std::vector<std::string> notes_of(const Header& header, const Vertices& vertices
 
 PlyContents read_ply(const std::string& file, std::string_view bytes) {
     const Header header = parse_header(file, bytes);
-    std::vector<RowReader> starts;
+    Vertices vertices;
+    const Element* vertex = nullptr;
+    std::vector<std::pair<const Element*, RowReader>> shapes;  // from where they start: vertices may follow
     RowReader reader(file, header.format, bytes.substr(header.size));
     for (const Element& element : header.elements) {
         for (const Property& property : element.properties)
             if (property.name.starts_with("f_dc_") || property.name == "packed_position") reject_splats(file);
-        starts.push_back(reader);
+        if (element.name == "vertex" && vertex == nullptr) {
+            vertex = &element;
+            vertices = read_vertices(file, element, reader);
+            continue;
+        }
+        if (is_surface(element)) shapes.emplace_back(&element, reader);
         reader.skip(element);
     }
-    const auto vertex = std::ranges::find(header.elements, "vertex", &Element::name);
-    if (vertex == header.elements.end() || vertex->count == 0)
-        reject_file(file, "has neither faces nor points", "a mesh or a point cloud");
-    const auto start_of = [&](const auto& element) {
-        return starts[static_cast<std::size_t>(element - header.elements.begin())];
-    };
-    Vertices vertices = read_vertices(file, *vertex, start_of(vertex));
+    if (vertices.positions.empty()) reject_file(file, "has neither faces nor points", "a mesh or a point cloud");
     const bool are_points =
         std::ranges::none_of(header.elements, [](const Element& e) { return is_surface(e) && e.count > 0; });
     PlyContents contents;
@@ -241,10 +242,8 @@ PlyContents read_ply(const std::string& file, std::string_view bytes) {
         return contents;
     }
     PlySurfaces surfaces(file, header, vertices);
-    for (auto element = header.elements.begin(); element != header.elements.end(); ++element) {
-        if (element->name == "face") surfaces.add_faces(*element, start_of(element));
-        if (element->name == "tristrips") surfaces.add_strips(*element, start_of(element));
-    }
+    for (const auto& [element, start] : shapes)
+        element->name == "face" ? surfaces.add_faces(*element, start) : surfaces.add_strips(*element, start);
     contents.surfaces.meshes = std::move(surfaces).meshes();
     for (const std::string& name : header.textures)
         contents.surfaces.textures.push_back({TextureSource::Kind::file, name, 0, 0, {}});
