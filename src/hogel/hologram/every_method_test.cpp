@@ -310,6 +310,18 @@ TEST(OverlapAdd, neighbouring_parallax_is_the_largest_depth_times_the_step_of_di
     EXPECT_EQ(neighbouring_parallax(LightFieldBuffer(grid), 6.4_um), 0);
 }
 
+TEST(OverlapAdd, a_picture_at_infinity_is_told_from_a_background) {
+    LightFieldBuffer light_field({40, 30, 6.4_um, 3, 3, Perspective{0.045, 0.036}, 1}, true);
+    std::ranges::fill(light_field.depth.elements(), std::numeric_limits<float>::infinity());
+    std::ranges::fill(light_field.radiance.elements(), 0.02f);
+    light_field.depth.data()[7] = 1e-3f;
+    light_field.radiance.data()[7] = 1;
+    EXPECT_FALSE(has_picture_at_infinity(borrow(light_field).front()));
+    for (std::size_t ray = 0; ray < light_field.radiance.size(); ray += 9) light_field.radiance.data()[ray] = 1;
+    EXPECT_TRUE(has_picture_at_infinity(borrow(light_field).front()));
+    EXPECT_FALSE(has_picture_at_infinity(LightFieldBuffer(light_field.grid())));
+}
+
 // A fan of directions to one side, as for an off-axis camera, gives the same brightness as a fan straight ahead.
 TEST(OverlapAdd, an_off_axis_plane_photographs_with_its_own_radiance) {
     for (const double center : {0.5, -0.5}) {

@@ -55,7 +55,12 @@ LightField open_for_holograms(const std::filesystem::path& path, HologramRequest
 }
 
 std::string warning_about(const LightField& light_field, const HologramRequest& request) {
-    if (!std::holds_alternative<OverlapAdd>(request.method)) return {};
+    const auto* overlap_add = std::get_if<OverlapAdd>(&request.method);
+    if (overlap_add == nullptr) return {};
+    if (overlap_add->phases == PointPhases::fixed && hologram::has_picture_at_infinity(light_field.front()))
+        return "rays that meet nothing show a picture at infinity, of which smooth surfaces keep the mean alone; "
+               "random "
+               "phases would show it";
     const double parallax = hologram::neighbouring_parallax(light_field.front(), request.pitch);
     if (parallax <= hologram::max_parallax) return {};
     const LightFieldGrid& grid = light_field.grid();

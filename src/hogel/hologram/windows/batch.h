@@ -13,11 +13,6 @@
 
 namespace hogel::hologram::windows {
 
-/// The distance of the points of a diffuse surface along x and along y, in hogels. Points that stood as the hogels do
-/// would meet all of them alike, so that single directions of a plane parallel to the hologram were brighter than
-/// others.
-inline constexpr double point_spacing = 15.0 / 16;
-
 /// A direction of a window's Fourier transform, with the ray of the light field nearest to it.
 struct WindowDirection {
     std::uint32_t coefficient;  // index [row][column] of the transform

@@ -142,11 +142,12 @@ void FillWindows(const WindowBatch::Shared& shared, WindowBatch::Work& work, con
         for (std::size_t i = 0; i < width; i += hn::Lanes(d)) {
             const auto light = hn::Mul(hn::LoadU(d, radiance + i), hn::Set(d, direction.share));
             const auto lit = hn::Gt(light, hn::Zero(d));
-            const auto ray = hn::LoadU(d, depth + i);
+            // A smooth backdrop of rays that meet nothing lies on the plane; a rough one is a distant surface.
+            auto ray = hn::LoadU(d, depth + i);
+            if (!points) ray = hn::IfThenElseZero(hn::IsFinite(ray), ray);
             const auto finite = hn::IsFinite(ray);
             something = something || !hn::AllFalse(d, lit);
             all_finite = all_finite && hn::AllTrue(d, finite);
-            // A ray that meets nothing is treated as one to a distant surface.
             const auto farthest = hn::Set(d, static_cast<float>(last));
             const auto at = hn::IfThenElse(finite, hn::Min(hn::Mul(hn::Abs(ray), steps_a_metre), farthest), farthest);
             const auto step = hn::ConvertTo(whole, at);
@@ -176,7 +177,7 @@ void FillWindows(const WindowBatch::Shared& shared, WindowBatch::Work& work, con
             for (std::size_t i = 0; i < width; i += hn::Lanes(d))
                 hn::Store(hn::Add(hn::Load(d, cycles + i), hn::Load(d, own_cycles + i)), d, cycles + i);
         }
-        if (!all_finite) {
+        if (points && !all_finite) {
             CyclesOfNothing(at_hogels, direction.coefficient, own_cycles);
             const V first = hn::Set(d, static_cast<float>(direction.first_cycles - std::round(direction.first_cycles)));
             for (std::size_t i = 0; i < width; i += hn::Lanes(d))

@@ -21,9 +21,30 @@ struct Line {
     std::span<const float> window;
     std::size_t hop;
     double pitch, wavelength;
-    double point_spacing;  // of the points of a surface, in hogels
-    int offsets;           // how many places between hogels the points take, evenly
 };
+
+// Points that are 1 − 1/n hogels apart take n places between hogels, evenly.
+const int point_offsets = static_cast<int>(std::lround(1 / (1 - point_spacing)));
+
+// A direction of a window's transform along one axis.
+struct Frequency {
+    std::ptrdiff_t j;
+    double sine, U;
+};
+
+std::vector<Frequency> frequencies_in(const Fan& fan, const Line& line) {
+    const std::size_t side = line.window.size();
+    const double step = line.wavelength / (static_cast<double>(side) * line.pitch);
+    const auto reach = static_cast<std::ptrdiff_t>((side - 1) / 2);
+    std::vector<Frequency> found;
+    for (std::ptrdiff_t j = -reach; j <= reach; ++j) {
+        const double sine = step * static_cast<double>(j);
+        if (std::abs(sine) >= 1) continue;
+        const double U = -sine * fan.slant / std::sqrt(1 - sine * sine);
+        if (std::abs(U - fan.center) <= fan.half) found.push_back({j, sine, U});
+    }
+    return found;
+}
 
 // The windows of one point: that of frequency j begins at sample starts[i] of the sum and has the values from i · side.
 struct PointWindows {
@@ -35,17 +56,11 @@ struct PointWindows {
 // @param offset  of the point from a hogel, in hogels
 PointWindows windows_of_point(const Line& line, const Fan& fan, double depth, double offset) {
     const std::size_t side = line.window.size();
-    const double step = line.wavelength / (static_cast<double>(side) * line.pitch);
     const double hop = static_cast<double>(line.hop) * line.pitch;
-    const auto reach = static_cast<std::ptrdiff_t>((side - 1) / 2);
     PointWindows point;
-    for (std::ptrdiff_t j = -reach; j <= reach; ++j) {
-        const double sine = step * static_cast<double>(j);
-        if (std::abs(sine) >= 1) continue;
-        const double U = -sine * fan.slant / std::sqrt(1 - sine * sine);
-        if (std::abs(U - fan.center) > fan.half) continue;
+    for (const auto& [j, sine, U] : frequencies_in(fan, line)) {
         const double met = offset - U * depth / hop, hops = std::round(met);
-        if (std::abs(hops - met) > 0.5 * line.point_spacing) continue;  // a ray of no hogel is nearest to this point
+        if (std::abs(hops - met) > 0.5 * point_spacing) continue;  // a ray of no hogel is nearest to this point
         const double path = std::hypot(depth * fan.slant, (hops - offset) * hop) - depth;
         point.frequencies.push_back(j);
         point.starts.push_back(static_cast<std::ptrdiff_t>(hops) * static_cast<std::ptrdiff_t>(line.hop));
@@ -115,17 +130,54 @@ std::vector<float> factors_of(const std::vector<PointWindows>& points, const Lin
     return factors;
 }
 
-std::vector<float> factors_along(const Line& line, const Fan& fan, double depth_step, std::size_t steps) {
-    const std::size_t reach = (line.window.size() - 1) / 2;
-    std::vector<float> table((2 * reach + 1) * steps, factor_alone(line));
-    // The last step stands for all larger depths, whose windows lie apart.
-    for (std::size_t step = 0; step + 1 < steps; ++step) {
-        const double depth = depth_step * (static_cast<double>(step) + 0.5);
-        std::vector<PointWindows> points;
-        for (int i = 0; i < line.offsets; ++i)
-            points.push_back(windows_of_point(line, fan, depth, static_cast<double>(i) / line.offsets));
-        const std::vector<float> factors = factors_of(points, line);
-        for (std::size_t j = 0; j < factors.size(); ++j) table[j * steps + step] = factors[j];
+std::vector<float> rough_factors(const Line& line, const Fan& fan, double depth) {
+    std::vector<PointWindows> points;
+    for (int i = 0; i < point_offsets; ++i)
+        points.push_back(windows_of_point(line, fan, depth, static_cast<double>(i) / point_offsets));
+    return factors_of(points, line);
+}
+
+// The factor with which the windows of a uniform surface, whose points have one phase, add up to a plane wave of the
+// fan's power. A direction contributes the mean of its wave under the window, ŵ_j = Σ_p w_p exp(2πi j p/side)/hop,
+// which is nonzero at frequency 0 and its neighbours. Their phases depend on the depth; far away they are unrelated.
+float smooth_factor(const Line& line, const Fan& fan, double depth) {
+    const auto side = static_cast<double>(line.window.size());
+    std::complex<double> sum = 0;
+    double power = 0;
+    for (const Frequency& frequency : frequencies_in(fan, line)) {
+        double mean = 0;
+        for (std::size_t p = 0; p < line.window.size(); ++p)
+            mean +=
+                static_cast<double>(line.window[p]) * std::cos(2 * std::numbers::pi * static_cast<double>(frequency.j) *
+                                                               (static_cast<double>(p) - 0.5 * (side - 1)) / side);
+        mean /= static_cast<double>(line.hop);
+        const double path = (1 / std::sqrt(1 - frequency.sine * frequency.sine) - 1) * depth;
+        if (std::isfinite(depth)) sum += std::polar(mean, 2 * std::numbers::pi * path / line.wavelength);
+        power += mean * mean;
+    }
+    const auto sine_of = [](double tangent) { return tangent / std::sqrt(1 + tangent * tangent); };
+    const double width = sine_of(fan.center + fan.half) - sine_of(fan.center - fan.half);
+    const double step = line.wavelength / (side * line.pitch);
+    // Where windows cancel, or the wave misses the fan, the factor would have no bound.
+    const double lower_bound = 0.25 * side / static_cast<double>(line.hop);
+    return static_cast<float>(std::sqrt(width / step) /
+                              std::max(std::isfinite(depth) ? std::abs(sum) : std::sqrt(power), lower_bound));
+}
+
+std::vector<float> factors_along(const Line& line, const Fan& fan, double depth_step, PointPhases phases) {
+    using Table = WindowBrightness;
+    const std::size_t directions = 2 * ((line.window.size() - 1) / 2) + 1;
+    std::vector<float> table(directions * Table::steps);
+    for (std::size_t step = 0; step < Table::steps; ++step) {
+        // The last step stands for all larger depths, where the windows of one point lie apart.
+        const bool is_last = step + 1 == Table::steps;
+        const double depth = is_last ? HUGE_VAL : depth_step * (static_cast<double>(step) + 0.5);
+        std::vector<float> factors(directions, factor_alone(line));
+        if (phases == PointPhases::fixed)
+            std::ranges::fill(factors, smooth_factor(line, fan, depth));
+        else if (!is_last)
+            factors = rough_factors(line, fan, depth);
+        for (std::size_t j = 0; j < directions; ++j) table[j * Table::steps + step] = factors[j];
     }
     return table;
 }
@@ -133,20 +185,18 @@ std::vector<float> factors_along(const Line& line, const Fan& fan, double depth_
 }  // namespace
 
 WindowBrightness::WindowBrightness(const LightFieldGrid& rays, const FieldGrid& grid, std::size_t hop,
-                                   std::span<const float> window, double point_spacing)
+                                   std::span<const float> window, PointPhases phases)
     : reach_(static_cast<std::ptrdiff_t>((window.size() - 1) / 2)) {
     const double pitch = grid.plane.pitch_x, extent = static_cast<double>(window.size()) * pitch;
     const double depth_step = 1.25 * extent * extent / grid.wavelength / static_cast<double>(steps - 1);
     steps_a_metre_ = static_cast<float>(1 / depth_step);
-    // Points that are 1 − 1/n hogels apart take n places.
-    const int offsets = point_spacing < 1 ? static_cast<int>(std::lround(1 / (1 - point_spacing))) : 1;
-    const Line line{window, hop, pitch, grid.wavelength, point_spacing, offsets};
+    const Line line{window, hop, pitch, grid.wavelength};
     own_share_ = 1 / (factor_alone(line) * factor_alone(line));
     const auto slant = [](double other) { return std::sqrt(1 + other * other); };
     const Fan across{rays.center_u(), rays.half_u(), slant(rays.center_v())},
         down{rays.center_v(), rays.half_v(), slant(rays.center_u())};
-    across_ = factors_along(line, across, depth_step, steps);
-    down_ = down == across ? across_ : factors_along(line, down, depth_step, steps);
+    across_ = factors_along(line, across, depth_step, phases);
+    down_ = down == across ? across_ : factors_along(line, down, depth_step, phases);
 }
 
 }  // namespace hogel::hologram::windows

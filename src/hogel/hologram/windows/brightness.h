@@ -8,9 +8,15 @@
 #include <vector>
 
 #include "hogel/field.h"
+#include "hogel/hologram.h"
 #include "hogel/light_field.h"
 
 namespace hogel::hologram::windows {
+
+/// The distance of the points of a diffuse surface along x and along y, in hogels. Points that stood as the hogels do
+/// would meet all of them alike, so that single directions of a plane parallel to the hologram were brighter than
+/// others.
+inline constexpr double point_spacing = 15.0 / 16;
 
 /// The factors that correct the amplitudes of rays shown by overlapping windows, by direction and depth. Near the plane
 /// the windows that show one point overlap and interfere, far from it they are separate. For each depth the windows of
@@ -18,6 +24,10 @@ namespace hogel::hologram::windows {
 /// those for which every window has the energy of its ray in the sum of all, b_j Re⟨w_j, Σ_i b_i w_i⟩ = hop
 /// (docs/notation.md, section 3). In two dimensions the windows of a point are
 /// products, and so are the factors, but for the curvature of the spherical wave that mixes x and y.
+///
+/// Where all points have the same phase, the windows of different points interfere too, and a uniform surface sends a
+/// plane wave forward. The factor of a depth, the same for all directions, gives this wave the power of the light
+/// field's rays: |F|² = L Δs_x Δs_y, where Δs_x Δs_y is the fan's area in direction sines.
 class WindowBrightness {
   public:
     /// The number of steps of depth.
@@ -25,10 +35,8 @@ class WindowBrightness {
 
     /// @param hop     side of a hogel in samples
     /// @param window  values along one axis
-    /// @param point_spacing  of the points of a surface, in hogels: 1, or 1 − 1/n with a whole number n; then points
-    ///                       take n places between hogels, and factors are for the mean over these
     WindowBrightness(const LightFieldGrid& rays, const FieldGrid& grid, std::size_t hop, std::span<const float> window,
-                     double point_spacing);
+                     PointPhases phases);
 
     /// The step of a depth, which must be finite; the last one is for all larger depths.
     std::size_t step_of(float depth) const {

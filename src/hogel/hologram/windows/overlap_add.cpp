@@ -67,7 +67,7 @@ class OverlapAddHologram final : public FieldSource, public optics::EyeLight, pu
           side_(window_layout(light_field_.grid(), grid).columns),
           fft_(side_, side_),
           window_(hann_window(side_)),
-          brightness_(light_field_.grid(), grid, hop_, window_, phases == PointPhases::random ? point_spacing : 1) {
+          brightness_(light_field_.grid(), grid, hop_, window_, phases) {
         for (const float row : window_)
             for (const float column : window_) square_.push_back(row * column);
         hogels_a_metre_ = 1 / light_field_.grid().pitch;
@@ -295,18 +295,21 @@ class OverlapAddHologram final : public FieldSource, public optics::EyeLight, pu
                 const std::size_t n_u = rays.directions_u;
                 const auto along_u = three(l * n_u + middle(k, n_u), n_u < 3 ? 0 : 1);
                 const auto along_v = three(middle(l, rays.directions_v) * n_u + k, rays.directions_v < 3 ? 0 : n_u);
+                // The windows of a smooth surface interfere at any slope alike: brightness needs no correction.
+                const double sloped = phases_ == PointPhases::random ? 1 : 0;
                 // Rows are counted downwards but y upwards, so a row of the transform is −j_y.
                 const auto row = static_cast<std::size_t>((n - jy) % n),
                            column = static_cast<std::size_t>((n + jx) % n);
                 const double first = -0.5 * static_cast<double>(n - 1) / static_cast<double>(n);
-                directions_.push_back(
-                    {static_cast<std::uint32_t>(row * side_ + column),
-                     static_cast<std::uint32_t>(l * rays.directions_u + k), static_cast<float>(step * step / cosine),
-                     static_cast<float>(U), static_cast<float>(V), (1 / cosine - reference_cosine_) / grid_.wavelength,
-                     static_cast<double>(jx - jy) * first, along_u, along_v,
-                     static_cast<float>(U / (rays.u(1) - rays.u(0))), static_cast<float>(V / (rays.v(1) - rays.v(0))),
-                     static_cast<std::uint32_t>(brightness_.first(jx)),
-                     static_cast<std::uint32_t>(brightness_.first(jy))});
+                directions_.push_back({static_cast<std::uint32_t>(row * side_ + column),
+                                       static_cast<std::uint32_t>(l * rays.directions_u + k),
+                                       static_cast<float>(step * step / cosine), static_cast<float>(U),
+                                       static_cast<float>(V), (1 / cosine - reference_cosine_) / grid_.wavelength,
+                                       static_cast<double>(jx - jy) * first, along_u, along_v,
+                                       static_cast<float>(sloped * U / (rays.u(1) - rays.u(0))),
+                                       static_cast<float>(sloped * V / (rays.v(1) - rays.v(0))),
+                                       static_cast<std::uint32_t>(brightness_.first(jx)),
+                                       static_cast<std::uint32_t>(brightness_.first(jy))});
             }
     }
 
@@ -318,10 +321,11 @@ class OverlapAddHologram final : public FieldSource, public optics::EyeLight, pu
         for (const WindowDirection& direction : directions_) {
             const float light = radiance[direction.ray] * direction.share;
             if (!(light > 0)) continue;
-            const float depth = depths[direction.ray];
+            // A smooth backdrop of rays that meet nothing lies on the plane; a rough one is a distant surface.
+            float depth = depths[direction.ray];
+            if (!points && !std::isfinite(depth)) depth = 0;
             double cycles = direction.first_cycles;
             float amplitude = std::sqrt(light);
-            // A ray that meets nothing is treated as one to a distant surface.
             const std::size_t step = std::isfinite(depth) ? brightness_.step_of(depth) : WindowBrightness::steps - 1;
             amplitude *= brightness_.on_slope(brightness_.across()[direction.across + step],
                                               surface_stretch(depths, direction.along_u, depth, direction.slope_u)) *
