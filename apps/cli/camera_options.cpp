@@ -60,7 +60,8 @@ void add_camera_options(Command& command, CameraOptions& options) {
     command.point("--gaze", options.gaze, "What is in the middle of the picture");
     command.length("--focus", options.focus, "Depth in focus: positive behind the hologram, negative in front");
     command.angles("--focus-tilt", options.focus_tilt,
-                   "Tilt of the plane in focus, as by a tilted film: its depth grows to the right, and upwards");
+                   "Tilt of the plane in focus, as by a tilted film: its depth grows to the right and upwards, by one "
+                   "angle for both or by one each");
     const Option pupil = command.positive_length("--pupil", options.pupil, "Diameter of the lens");
     command.number("--f-number", options.f_number, "NUMBER", "The same as a part of the focal length")
         .no_default()

@@ -28,6 +28,8 @@ const picture = (page, samples = 16) => page.evaluate(samples => new Promise((re
   });
 }), samples);
 
+const text = (page, id) => page.locator(`#${id}`).textContent();
+
 // What the canvas shows against `hogel photo` with the command line that the page gives.
 async function psnr(page) {
   await page.evaluate(() => { window.copied = ""; navigator.clipboard.writeText = async text => { window.copied = text; }; });
@@ -164,9 +166,19 @@ async function run() {
       resolve({...event.detail, seen: looks});
     });
   }), test);
+  // Until the first are there it is said that they are computed, if that takes long enough to be read.
+  await page.evaluate(() => {
+    const said = document.getElementById("said"), since = performance.now();
+    window.told = [];
+    new MutationObserver(() => window.told.push(said.textContent)).observe(said, {childList: true});
+    document.getElementById("picture").addEventListener("hogel-picture", () => { window.waited = performance.now() - since; }, {once: true});
+  });
   let waves = shown(page, "about.looks === 2 && about.of_looks === 2");
   await page.selectOption("#by", "waves");
   const refined = await waves;
+  const {told, waited} = await page.evaluate(() => ({told: window.told, waited: window.waited}));
+  expect(waited < 500 || told.includes("Computing waves; until then by rays"), `while waves are computed the page says: ${told}`);
+  expect(await text(page, "said") === "", "the page still says that waves are computed");
   expect(refined.seen[0] === 1, `looks that were shown: ${refined.seen}`);
   expect((await page.locator("#timing").textContent()).includes("look 2 of 2"), "the page does not say how many looks there are");
   await page.waitForFunction(() => location.hash.includes("by=waves"));
@@ -228,6 +240,9 @@ async function run() {
   const port = Number(new URL(server.address).port);
   await ended(server);
   await page.waitForFunction(() => !document.getElementById("problem").hidden);
+  await page.setViewportSize({width: 390, height: 844});
+  const box390 = await page.locator("#problem").boundingBox();
+  expect(box390.width > 0.85 * 390, `on a phone a message is ${box390.width} pixels wide`);
   if (shots) await page.screenshot({path: path.join(shots, "view_lost.png")});
   server = await serve(hogel, input, "--looks", "2", "--port", String(port));
   await page.waitForFunction(() => document.getElementById("problem").hidden, null, {timeout: 60000});

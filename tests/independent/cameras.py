@@ -26,6 +26,7 @@ from common.pictures import read_exr
 
 MAX_BRIGHTNESS = 3e-3
 MAX_UNLIKENESS = {"full": 4e-3, "narrow": 8e-3, "eye": 8e-3}  # correlations of 1 - (this)^2/2
+MAX_TILTED = 8e-3
 MAX_SHIFT = 0.01        # pixels from the sum
 MAX_SIGHT = 0.1         # pixels from the line of sight; a resolution cell is 1.9
 WAVELENGTH = 633e-9
@@ -71,15 +72,16 @@ class Lens:
             light[part] = (turned(r) / r**2) @ field.ravel() * PITCH**2 * self.centre[2] / (1j * WAVELENGTH)
         return light
 
-    def picture(self, light, columns, rows, pixel, focus):
-        """Means over pixels, by 3 x 3 points of Gauss's rule in each."""
+    def picture(self, light, columns, rows, pixel, focus, slope=0):
+        """Means over pixels, by 3 x 3 points of Gauss's rule in each; the depth in focus is focus + slope x."""
         node, weight = np.polynomial.legendre.leggauss(3)
         x = (positions(columns, pixel)[:, None] + pixel / 2 * node).ravel()
         y = (-positions(rows, pixel)[:, None] - pixel / 2 * node).ravel()
         x, y = np.meshgrid(x, y)
         seen = np.stack([x.ravel(), y.ravel(), 0 * x.ravel()], axis=1)
         away = seen - self.centre
-        there = self.centre + away * (1 + focus / self.centre[2])
+        reach = (self.centre[2] + focus + slope * self.centre[0]) / (self.centre[2] - slope * away[:, 0])
+        there = self.centre + away * reach[:, None]
         film = np.empty(len(there), complex)
         for part in np.array_split(np.arange(len(there)), 16):
             film[part] = turned(-distances(there[part], self.points)) @ (light * self.weight)
@@ -100,10 +102,10 @@ def photograph(hogel, source, folder, camera, eye, pupil, focus, resolution, *mo
     return read_exr(path)[0]
 
 
-def compare(checks, name, photographed, summed):
+def compare(checks, name, photographed, summed, limit=None):
     checks.at_most(f"{name}, brightness", abs(photographed.sum() / summed.sum() - 1), MAX_BRIGHTNESS)
     checks.at_most(f"{name}, unlikeness", np.sqrt(((photographed - summed) ** 2).sum()) / np.sqrt(
-        ((summed - summed.mean()) ** 2).sum()), MAX_UNLIKENESS[name.split(",")[0]])
+        ((summed - summed.mean()) ** 2).sum()), limit or MAX_UNLIKENESS[name.split(",")[0]])
 
 
 def noise(checks, hogel, folder):
@@ -118,13 +120,17 @@ def noise(checks, hogel, folder):
         eye = eye_at(degrees, azimuth, 9e-3)
         lens = Lens(eye, pupil)
         light = lens.light_of(field)
-        for focus in by_turns((0.0, 0.1e-3, -0.1e-3), turn):
-            summed = lens.picture(light, columns, rows, pixel, focus)
+        cases = [(focus, 0) for focus in by_turns((0.0, 0.1e-3, -0.1e-3), turn)]
+        cases += [(0.0, tilt) for tilt in by_turns((5, 15, 30), turn)]
+        for focus, tilt in cases:
+            summed = lens.picture(light, columns, rows, pixel, focus, np.tan(np.radians(tilt)))
             for camera in ("full", "narrow", "eye"):
                 source, more = (folder / "noise.h5", ["--wave", "--looks", "1", *making]) if camera == "eye" else (
                     folder / "hologram.h5", [])
-                there = photograph(hogel, source, folder, camera, eye, pupil, focus, f"{columns}x{rows}", *more)
-                compare(checks, f"{camera}, {degrees} degrees, focus {focus * 1e3:g} mm", there, summed)
+                there = photograph(hogel, source, folder, camera, eye, pupil, focus, f"{columns}x{rows}", "--focus-tilt",
+                                   f"{tilt}deg,0deg", *more)
+                compare(checks, f"{camera}, {degrees} degrees, focus {focus * 1e3:g} mm, tilted by {tilt}", there, summed,
+                        MAX_TILTED if tilt else None)
 
 
 def middle(picture, pixel):

@@ -6,6 +6,9 @@ usage: overlap_add.py HOGEL      exit status 77: numpy or h5py is missing
 
 A hogel a sample, views over the whole band. The hologram is carried back to the plane by the angular spectrum, and its amplitude
 there, scaled to the same mean, is compared with the root of the texture's radiance, without a border.
+
+Hogels of several samples, random phases: how far beside each other the directions of a pupil see a disc, over what geometry
+says. It is the step of the light field's directions over that of the windows' transforms.
 """
 import pathlib
 import sys
@@ -26,6 +29,10 @@ HALF = WAVELENGTH / (2 * PITCH)  # the sines of the band, and so small that they
 
 # Depth in metres, views across, PSNR in dB that is held.
 HELD = [(0.5e-3, 9, 57), (2e-3, 9, 37), (2e-3, 17, 60), (5e-3, 9, 21), (5e-3, 17, 46)]
+
+
+# Steps of directions that are 6 % less than those of the windows and 5 % more, and how many: more than a pupil sees.
+STEPS = [(0.16 / 27, 13), (0.16 / 31, 13)]
 
 
 class Texture:
@@ -69,6 +76,37 @@ def psnr_of(hogel, folder, texture, depth, views):
     return 10 * np.log10(exact.max() ** 2 / np.mean((shown * exact.mean() / shown.mean() - exact) ** 2))
 
 
+def disc(hogels, pitch, step, directions, depth, radius):
+    """The radiance of a bright disc on the axis, [t][s][v][u]."""
+    s, u = positions(hogels, pitch), positions(directions, step)
+    square = (s[:, None] + u * depth) ** 2
+    return (square[:, None, :, None] + square[None, :, None, :] <= radius**2).astype("f4")
+
+
+def defocus_of(hogel, folder, step, directions, seeds=6, samples=4, hogels=60, depth=6e-3):
+    """The windows' step of directions, and the places where its multiples see the disc over those by geometry."""
+    pitch, wavelength = 3e-6, 532e-9
+    rays = disc(hogels, samples * pitch, step, directions, depth, 60e-6)
+    write_light_field(folder / "disc.h5", rays[None], samples * pitch, directions * step / 2,
+                      depth=np.where(rays > 0, depth, np.inf))
+    windows_step = wavelength / (round(wavelength / (step * samples * pitch)) * samples * pitch)
+    sine = -wavelength * np.fft.fftfreq(hogels * samples, pitch)  # of the rays, which run backwards
+    x, middle = positions(hogels * samples, pitch), np.abs(sine)[:, None] < 3.5 * windows_step
+    seen = windows_step * np.array([-3, -2, -1, 1, 2, 3])
+    light = np.zeros((len(seen), len(x)))
+    for seed in range(seeds):
+        run(hogel, "hologram", folder / "disc.h5", "-o", folder / "hologram.h5", "--method", "olas", "--pitch", "3um",
+            "--wavelength", "532nm", "--seed", seed)
+        field = read_field(folder / "hologram.h5")
+        for across in (field, field[::-1].T):
+            spectrum = np.fft.fft2(across) * middle
+            for i, direction in enumerate(seen):
+                near = np.exp(-(((sine - direction) / (0.7 * windows_step)) ** 2))
+                light[i] += (np.abs(np.fft.ifft2(spectrum * near)) ** 2).sum(axis=0)
+    places = -(light @ x) / light.sum(axis=1)
+    return windows_step, places @ seen / (seen @ seen) / depth
+
+
 def main():
     hogel = pathlib.Path(sys.argv[1]).resolve()
     checks, texture = Checks(), Texture()
@@ -76,6 +114,10 @@ def main():
         for depth, views, held in HELD:
             checks.at_least(f"{views} x {views} views, {depth * 1e3:g} mm, PSNR in dB",
                             psnr_of(hogel, pathlib.Path(folder), texture, depth, views), held)
+        for step, directions in STEPS:
+            windows_step, defocus = defocus_of(hogel, pathlib.Path(folder), step, directions)
+            checks.at_most(f"steps of {step:.4f} by windows of {windows_step:.4f}, 6 mm, defocus {defocus:.3f} beside their "
+                           f"ratio {step / windows_step:.3f}", abs(defocus - step / windows_step), 0.04)
     checks.finish()
 
 

@@ -6,6 +6,8 @@ usage: stereogram.py HOGEL      exit status 77: numpy or h5py is missing
 
 docs/notation.md, section 3: a hogel is a sum of the plane waves of frequencies j/d, with the moduli
 (lambda/d) sqrt(L cos)/cos and phases counted from its first sample; L is the mean of the light field over the lobe of the wave.
+
+An eye between two of these directions sees a soft spot beside its place by geometry: docs/holograms.md, `fourier`.
 """
 import pathlib
 import sys
@@ -15,11 +17,12 @@ sys.dont_write_bytecode = True
 try:
     import numpy as np
 
-    from common.light_fields import read_field, write_light_field
+    from common.light_fields import positions, read_field, write_light_field
 except ImportError as missing:
     print(missing)
     sys.exit(77)
 from common.checks import Checks, run
+from common.pictures import read_exr
 
 WAVELENGTH, PITCH, SIDE = 532e-9, 1e-6, 32
 HOGEL = SIDE * PITCH
@@ -163,6 +166,30 @@ def fringes(checks, hogel, folder, random):
         checks.at_most(f"basis {basis}, with those over the border", difference(shown, right), MAX_BORDER)
 
 
+def shift_of_spot(hogel, folder, direction, pupil, hogel_width=64e-6, depth=40e-3, distance=0.3, pixels=128):
+    """How far the spot lies beside its line of sight, in the plane of the spot. `direction` is the eye's, in steps of the waves,
+    and so is the pupil; the shift is in steps times the depth."""
+    step = WAVELENGTH / hogel_width
+    eye = direction * step * (distance + depth)
+    run(hogel, "photo", folder / "spot.h5", "-o", folder / "spot.exr", "--wave", "--looks", "expected", "--pitch", "2um",
+        "--wavelength", "532nm", "--eye", f"{eye * 1e3!r},0,{distance * 1e3!r}mm", "--pupil",
+        f"{pupil * step * distance * 1e3!r}mm", "--focus", f"{depth * 1e3!r}mm", "--resolution", pixels)
+    x, seen = positions(pixels, 64 * hogel_width / pixels), eye * depth / (distance + depth)
+    light = np.where(np.abs(x - seen) < 1.2e-3, read_exr(folder / "spot.exr")[0].sum(axis=0), 0)
+    return (light @ x / light.sum() - seen) * (1 + depth / distance) / (step * depth)
+
+
+def places(checks, hogel, folder):
+    """A spot of 0.1 mm at 40 mm, hogels of 64 um, from eyes on a direction of the hogels, a quarter and half a step beside it."""
+    s, u = positions(64, 64e-6), positions(33, 0.12 / 33)
+    spot = np.exp(-(((s[:, None] + u * 40e-3) / 0.1e-3) ** 2) / 2)
+    write_light_field(folder / "spot.h5", (spot[:, None, :, None] * spot[None, :, None, :])[None], 64e-6, 0.06)
+    for pupil, quarter in ((0.8, -0.15), (1.6, 0.035)):
+        for direction, expected in ((0, 0), (0.25, quarter), (0.5, 0), (0.75, -quarter)):
+            checks.at_most(f"a pupil of {pupil} directions, {direction} beside one, a spot lies {expected} beside geometry",
+                           abs(shift_of_spot(hogel, folder, direction, pupil) - expected), 0.02)
+
+
 def main():
     hogel = pathlib.Path(sys.argv[1]).resolve()
     checks, random = Checks(), np.random.default_rng(1)
@@ -172,6 +199,7 @@ def main():
         phases(checks, hogel, folder, turns)
         perspective(checks, hogel, folder, random)
         fringes(checks, hogel, folder, random)
+        places(checks, hogel, folder)
     checks.finish()
 
 

@@ -35,6 +35,7 @@ function ask(moving, since) {
   asked.set(id, {since, aspect: stage.aspect, pair: view.pair, by: view.by});
   for (const old of asked.keys()) if (old < id - 64) asked.delete(old);
   const waves = byWaves(view.by), looks = moving && waves ? {looks: 1, preview: "yes"} : {};
+  if (waves && !(drawn && byWaves(drawn.by))) announceWaves();
   link.send("picture?" + query({...words(moving), ...looks, quality: moving ? inMotion.quality : waves ? speckled : atRest.quality, moving: moving ? "yes" : "no", id}));
 }
 
@@ -75,6 +76,7 @@ async function picture(about, blob) {
   if (!(await stage.draw(blob, id, aspect))) return;
   drawn = {...about, pair, by: method};
   if (refused) problem("");
+  if (method === view.by) wavesAnnounced();
   if (about.looks === about.of_looks) asked.delete(id);
   const latency = since === undefined ? 0 : performance.now() - since;
   const how = about.looks ? `look ${about.looks} of ${about.of_looks}, ${about.seconds.toFixed(1)} s` : `${about.pupil_samples} points of the pupil, ${Math.round(latency)} ms`;
@@ -142,8 +144,23 @@ function say(text) {
   saidUntil = setTimeout(() => { by("said").textContent = ""; }, 4000);
 }
 
+// The first picture by waves may take long. It comes at once where the waves are known: then nothing is said.
+let announcing = 0;
+function announceWaves() {
+  if (announcing) return;
+  announcing = setTimeout(() => { clearTimeout(saidUntil); by("said").textContent = drawn ? "Computing waves; until then by rays" : "Computing waves"; }, 300);
+}
+
+function wavesAnnounced() {
+  if (!announcing) return;
+  clearTimeout(announcing);
+  announcing = 0;
+  say("");
+}
+
 function problem(text) {
   refused = false;
+  if (text) wavesAnnounced();
   if (text) say("");
   by("problem").hidden = !text;
   by("problem-text").textContent = text;

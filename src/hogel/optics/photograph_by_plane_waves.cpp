@@ -198,6 +198,16 @@ core::LineRange film_rows(const Grid& plane, double scale, Vec3 origin, const Ca
     return {first, within(std::ceil(high + around)) - first};
 }
 
+// The width of the pupil in the directions between it and the plane in focus, of which the middle is `m` times as far
+// from the lens as the hologram. The whole pupil counts, however far out of focus the hologram is: a narrower cone
+// holds the hologram's light, but not what the rim diffracts. Parts of a tilted plane that are nearer are seen more
+// obliquely.
+double width_towards_focus(const Camera& camera, double m, const Rectangle& seen) {
+    double nearer = 1;
+    for (const Vec3& corner : corners(seen)) nearer = std::max(nearer, m / focus_ratio(camera, corner.x, corner.y));
+    return edge_margin * camera.pupil * nearer;
+}
+
 // All frequencies that the samples of a wave tell apart.
 Band band_of(const Wave& wave) {
     const Grid& plane = wave.grid().plane;
@@ -248,11 +258,10 @@ std::optional<Focused> wave_in_focus(const Spectrum& at_lens, const Camera& came
     }();
     // The distance to propagate, and the magnification of the picture there.
     const double distance = b > 0 ? b : -m * R, larger = std::abs(distance) / R;
-    const double pupil = edge_margin * camera.pupil * (b > 0 ? 1 / larger : 1);
-    const double fade = larger * fade_width(wavelength, R);
+    const double pupil = width_towards_focus(camera, m, seen), fade = larger * fade_width(wavelength, R);
     propagate(behind, {distance, distance / R * (camera.eye.x - hologram.center_x),
-                       distance / R * (camera.eye.y - hologram.center_y), 0.5 * larger * (whole.size_x() + pupil),
-                       0.5 * larger * (whole.size_y() + pupil), fade, fade});
+                       distance / R * (camera.eye.y - hologram.center_y), 0.5 * (larger * whole.size_x() + pupil),
+                       0.5 * (larger * whole.size_y() + pupil), fade, fade});
     const Vec3 origin = in_focus(camera, hologram.center_x, hologram.center_y);
     if (is_tilted(camera)) {
         const Orientation axes = stand(camera);
