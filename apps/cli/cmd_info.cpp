@@ -8,9 +8,9 @@
 #include "fields.h"
 #include "hogel/files.h"
 #include "hogel/image.h"
+#include "hogel/printable.h"
 #include "hogel/scenes.h"
 #include "outputs.h"
-#include "printable.h"
 
 namespace hogel::cli {
 namespace {

@@ -28,6 +28,16 @@ class Errors(InFolder):
             self.assertEqual((caught.exception.name, caught.exception.status), (name, status))
             self.assertEqual(len(str(caught.exception).splitlines()), 1)
 
+    def test_texts_of_strangers_are_one_plain_line(self):
+        name = "torn\x1b[31m\n" + 200 * "x" + ".h5"
+        with self.assertRaises(hogel.UsageError) as caught:
+            hogel.length("12\x1b[2J\n\u202e" + 500 * "x", "size")
+        with self.assertRaises(hogel.BadInputError) as missing:
+            hogel.Scene.load(name)
+        for error in (caught.exception, missing.exception):
+            self.assertTrue(str(error).isprintable(), repr(str(error)))
+            self.assertLessEqual(len(str(error)), 403)
+
     def test_messages_name_the_keyword(self):
         lf, _ = light_field()
         scene = hogel.Scene.load("pumpkin")
