@@ -306,6 +306,14 @@ class SameBytes(InFolder):
                 opened.slm(encoding="phase", pixels=(64, 48), pixel_pitch="4um").save(f"q{number}.png")
                 self.assert_same(f"s{number}.png", f"q{number}.png")
 
+    def test_a_pitch_that_is_not_given(self):
+        wide = ["--hogels", "4", "--directions", "8", "--size", "0.2mm", "--fov", "40deg"]
+        command_line("render", "sphere", "-o", "lf.h5", *wide)
+        command_line("hologram", "lf.h5", "-o", "c.h5", "--wavelength", "532nm")
+        with self.assertWarns(UserWarning):
+            hogel.LightField.open("lf.h5").hologram(wavelength="532nm").save("p.h5")
+        self.assert_same("c.h5", "p.h5")
+
     def test_join(self):
         for number in (1, 2, 3):
             command_line("render", "pumpkin", "-o", "lf.h5", *SMALL, "--part", f"{number}/3")
