@@ -24,8 +24,7 @@ SampleComparison compare_samples(const Options& options, FileKind kind, const Se
     const auto open = [&](const std::string& name) {
         RunRecord unused(session);
         if (!is_external(name, options.field)) return open_hologram(name);
-        return open_fields(name, options.field, *session.command, options.field.pitch, options.field.wavelengths,
-                           unused);
+        return open_fields(session, name, options.field, options.field.pitch, options.field.wavelengths, unused);
     };
     const Fields a = open(options.a), b = open(options.b);
     return compare(a, b, stage.progress());
@@ -46,10 +45,20 @@ FileKind kind_of(const std::string& path, const FieldOptions& options) {
     return is_view_set(path) ? FileKind::light_field : file_kind(path);
 }
 
-int compare_files(const Options& options, const Session& session) {
-    const FileKind kind = kind_of(options.a, options.field);
-    if (kind_of(options.b, options.field) != kind)
+// What both files are compared as: a pattern is a picture beside a picture, and a field beside a field.
+FileKind common_kind(const Options& options) {
+    const FileKind a = kind_of(options.a, options.field), b = kind_of(options.b, options.field);
+    const auto is_picture = [&](const std::string& path, FileKind kind) {
+        return kind == FileKind::picture || (kind == FileKind::hologram && is_pattern(path, options.field));
+    };
+    if (is_picture(options.a, a) && is_picture(options.b, b)) return FileKind::picture;
+    if (a != b)
         throw Error(ErrorCode::bad_input, fmt::format("{} and {} are not files of one kind", options.a, options.b));
+    return a;
+}
+
+int compare_files(const Options& options, const Session& session) {
+    const FileKind kind = common_kind(options);
     std::optional<double> psnr, sqnr;
     if (kind == FileKind::picture) {
         if (options.min_sqnr) misses(session, "sqnr", options.min_sqnr, sqnr);

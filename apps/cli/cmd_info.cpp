@@ -8,9 +8,9 @@
 #include "fields.h"
 #include "hogel/files.h"
 #include "hogel/image.h"
+#include "hogel/printable.h"
 #include "hogel/scenes.h"
 #include "outputs.h"
-#include "printable.h"
 
 namespace hogel::cli {
 namespace {
@@ -122,8 +122,9 @@ FileSummary summarize_any(const std::string& path, const Progress& progress) {
 }
 
 int info(const std::string& path, const FieldOptions& options, const Session& session) {
-    const FileSummary summary = is_external(path, options) ? summarize_field(path, options, *session.command)
-                                                           : summarize_any(path, Progress(session.stop.get_token()));
+    const FileSummary summary = is_external(path, options) && !is_pattern(path, options)
+                                    ? summarize_field(path, options, *session.command)
+                                    : summarize_any(path, Progress(session.stop.get_token()));
     std::string words;
     for (const auto& [name, value] : summary.text)
         words += fmt::format("{:<24} {}\n", printable(name), printable(value));

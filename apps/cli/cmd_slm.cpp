@@ -66,11 +66,11 @@ Result result_of(const Pattern& pattern, double wavelength, double per_cycle, En
     if (is_phase_only(encoding)) {
         result.emplace_back("light_field_efficiency", pattern.light_field_efficiency);
         result.emplace_back("correlation", pattern.correlation);
-        result.emplace_back("aperture_cycles", pattern.aperture.radius);
-        result.emplace_back("aperture_x_cycles", pattern.aperture.x);
-        result.emplace_back("aperture_y_cycles", pattern.aperture.y);
-        result.emplace_back("aperture_per_focal_length", pattern.aperture.radius * per_cycle);
     }
+    result.emplace_back("aperture_cycles", pattern.aperture.radius);
+    result.emplace_back("aperture_x_cycles", pattern.aperture.x);
+    result.emplace_back("aperture_y_cycles", pattern.aperture.y);
+    result.emplace_back("aperture_per_focal_length", pattern.aperture.radius * per_cycle);
     if (pattern.iterations > 0) result.emplace_back("iterations", pattern.iterations);
     if (pattern.reference_angle != 0)
         result.emplace_back("reference_angle_deg", pattern.reference_angle * 180 / std::numbers::pi);
@@ -98,7 +98,7 @@ constexpr double example_focal_length = 0.2;
 std::string in_words(const Aperture& aperture, double per_cycle) {
     std::string middle;
     if (aperture.x != 0 || aperture.y != 0)
-        middle = fmt::format(" around {:.4f} to the right and {:.4f} up", aperture.x, -aperture.y);
+        middle = fmt::format(" around {:.4f} to the right and {:.4f} up", aperture.x, 0.0 - aperture.y);
     return fmt::format("radius {:.4f} cycles a pixel{}, {:.2f} mm at a lens of 200 mm", aperture.radius, middle,
                        aperture.radius * per_cycle * example_focal_length / 1e-3);
 }
@@ -130,11 +130,10 @@ void report(const Pattern& pattern, double wavelength, double per_cycle, Encodin
     }
     session.say(line);
     metadata.emplace_back("power at " + name, fmt::format("{:.6g}", pattern.power));
-    if (!phases) return;
     const std::string aperture = in_words(pattern.aperture, per_cycle);
     session.say(fmt::format("{}: aperture: {}", name, aperture));
     metadata.emplace_back("aperture at " + name, aperture);
-    if (pattern.correlation < poor_correlation)
+    if (phases && pattern.correlation < poor_correlation)
         session.say(
             fmt::format("{}: warning: what this aperture lets through differs from the hologram (correlation "
                         "below {}); light within {:.2g} degrees would do, as of hogel hologram --method olas "
@@ -149,6 +148,17 @@ std::string powers_of(const std::vector<Pattern>& patterns) {
     for (const Pattern& pattern : patterns) ratio.push_back(fmt::format("{:.3g}", pattern.power / patterns[1].power));
     return fmt::format("the colours of the hologram by light on the modulator of the powers {}",
                        fmt::join(ratio, " : "));
+}
+
+// The texts by which the file says of which field it is.
+Metadata pattern_entries(const Fields& fields, Encoding encoding, const PatternOptions& options) {
+    using Values = ExternalField::Values;
+    ExternalField what{.pitch_x = options.modulator.pitch, .pitch_y = options.modulator.pitch};
+    what.values = is_phase_only(encoding) ? Values::phase : Values::amplitude;
+    what.phase_code = options.phase_code;
+    std::vector<double> wavelengths;
+    for (const auto& field : fields) wavelengths.push_back(field->grid().wavelength);
+    return field_entries(what, wavelengths);
 }
 
 std::string name_of(Encoding encoding) {
@@ -172,8 +182,8 @@ void record_pattern(RunRecord& record, const Options& options, const std::string
     const bool iterated = encoding == Encoding::gerchberg_saxton || encoding == Encoding::gradient;
     if (encoding == Encoding::gerchberg_saxton) record.acted({"window"});
     if (iterated && options.pattern.iterations > 0) record.acted({"iterations"});
-    // Phases and signs alone do not depend on how large a modulus is.
-    if (encoding != Encoding::phase && encoding != Encoding::binary) record.acted({"clip"});
+    // Of phases and signs alone the power depends on it.
+    record.acted({"clip"});
     if (encoding == Encoding::intensity || encoding == Encoding::bipolar || encoding == Encoding::binary)
         record.acted({"reference"});
 }
@@ -217,6 +227,7 @@ int slm(const Options& options, const Session& session) {
         patterns.push_back(result_of(pattern, wavelength, per_cycle, encoded.encoding));
     }
     if (colours == 3) session.say(powers_of(encoded.patterns));
+    for (auto& entry : pattern_entries(fields, encoded.encoding, pattern_options)) metadata.push_back(std::move(entry));
     if (!is_first_process()) return 0;
     const Stoppable stoppable(Progress(session.stop.get_token()));
     write_raw_pixels(options.output, levels, with_history(metadata, to_metadata(fields.front()->provenance())));

@@ -44,6 +44,56 @@ void refuse_options(const std::string& name, const FieldOptions& options, const 
             throw Error(ErrorCode::usage, fmt::format("{}: {} comes from the file itself", name, option));
 }
 
+// Whether options say what a file's numbers are.
+bool are_described(const FieldOptions& options) {
+    return !options.values.empty() || !options.phase_code.empty() || !options.imaginary.empty() ||
+           !options.phases.empty();
+}
+
+std::string compact_lengths(const std::vector<double>& lengths) {
+    std::vector<std::string> texts;
+    for (const double length : lengths) texts.push_back(compact_length(length));
+    return fmt::format("{}", fmt::join(texts, ","));
+}
+
+// Says that an option was taken where the file says something else. @param said  empty: nothing
+void state_contradiction(const Session& session, const std::string& name, const std::string& option,
+                         const std::string& taken, const std::string& said) {
+    if (!session.command->given(option) || said.empty() || said == taken) return;
+    session.say(fmt::format("{}: {} {} is taken, but the file says {}", name, option, taken, said));
+}
+
+// See state_contradiction().
+void state_contradictions(const Session& session, const std::string& name, const FieldOptions& options,
+                          const ExternalFacts& facts, const ExternalField& what,
+                          const std::vector<double>& wavelengths) {
+    if (facts.pitch_x > 0 && (facts.pitch_x != what.pitch_x || facts.pitch_y != what.pitch_y))
+        state_contradiction(
+            session, name, "--pitch", compact_lengths({what.pitch_x}),
+            compact_lengths(facts.pitch_x == facts.pitch_y ? std::vector{facts.pitch_x}
+                                                           : std::vector{facts.pitch_x, facts.pitch_y}));
+    state_contradiction(session, name, "--wavelength", compact_lengths(wavelengths),
+                        compact_lengths(facts.wavelengths));
+    state_contradiction(session, name, "--values", options.values, facts.values);
+    if (facts.phase_code.empty() || !what.phase_code || *what.phase_code == parse_phase_code(facts.phase_code)) return;
+    state_contradiction(session, name, options.code_option, options.phase_code, facts.phase_code);
+}
+
+// Records the options that say what numbers are, or what the file says instead.
+void record_values(const FieldOptions& options, const ExternalFacts& facts, const Command& command, RunRecord& record) {
+    const std::string_view code = std::string_view(options.code_option).substr(2);
+    const bool phases = options.values.empty() || options.values == "phase";
+    if (command.given(options.code_option))
+        record.acted({code});
+    else if (phases && !facts.phase_code.empty())
+        record.acted(code, facts.phase_code);
+    // A phase code alone says that numbers are phases.
+    else if (command.given("--values"))
+        record.acted({"values"});
+    else if (!facts.values.empty())
+        record.acted("values", facts.values);
+}
+
 // The pitch and the wavelengths of a field, from the options or else from the file.
 void complete_sampling(const std::string& name, const ExternalFacts& facts, const Command& command, double pitch,
                        std::vector<double>& wavelengths, ExternalField& what, RunRecord& record) {
@@ -64,9 +114,7 @@ void complete_sampling(const std::string& name, const ExternalFacts& facts, cons
         record.acted({"wavelength"});
     } else if (!facts.wavelengths.empty()) {
         wavelengths = facts.wavelengths;
-        std::vector<std::string> texts;
-        for (const double wavelength : wavelengths) texts.push_back(compact_length(wavelength));
-        record.acted("wavelength", fmt::format("{}", fmt::join(texts, ",")));
+        record.acted("wavelength", compact_lengths(wavelengths));
     } else {
         throw Error(ErrorCode::usage,
                     fmt::format("--wavelength: is needed, because {} does not say of which light it is{}", name, why));
@@ -164,13 +212,16 @@ void add_reconstruction_options(Command& command, FieldOptions& options) {
 bool is_external(const std::string& name, const FieldOptions& options) {
     std::error_code status;
     if (!std::filesystem::is_regular_file(name, status)) return false;
-    const bool described =
-        !options.values.empty() || !options.phase_code.empty() || !options.imaginary.empty() || !options.phases.empty();
+    const bool described = are_described(options);
     // An array of four axes can be a light field or a field of several colours: who says what its numbers are means the
     // latter.
     if (!described && is_view_set(name)) return false;
     if (is_external_field(name)) return true;
     return described && file_kind(name) == FileKind::picture;
+}
+
+bool is_pattern(const std::string& name, const FieldOptions& options) {
+    return !are_described(options) && is_external(name, options) && external_facts(name).format == "picture";
 }
 
 void require_described(const std::string& name, const FieldOptions& options) {
@@ -206,8 +257,9 @@ ExternalField external_field(const FieldOptions& options) {
     return what;
 }
 
-Fields open_fields(const std::string& name, const FieldOptions& options, const Command& command, double pitch,
+Fields open_fields(const Session& session, const std::string& name, const FieldOptions& options, double pitch,
                    const std::vector<double>& given_wavelengths, RunRecord& record) {
+    const Command& command = *session.command;
     if (!is_external(name, options)) {
         require_described(name, options);
         std::error_code status;
@@ -228,11 +280,10 @@ Fields open_fields(const std::string& name, const FieldOptions& options, const C
             throw Error(ErrorCode::usage, fmt::format("--variable: {} has no variables with names", name));
         std::vector<double> wavelengths = given_wavelengths;
         complete_sampling(name, facts, command, pitch, wavelengths, what, record);
-        for (const std::string& option :
-             {options.code_option, std::string("--imaginary"), std::string("--phases"), std::string("--variable")})
+        state_contradictions(session, name, options, facts, what, wavelengths);
+        for (const char* option : {"--imaginary", "--phases", "--variable"})
             if (command.given(option)) record.acted({std::string_view(option).substr(2)});
-        // A phase code alone says that numbers are phases.
-        if (command.given("--values") && !command.given(options.code_option)) record.acted({"values"});
+        record_values(options, facts, command, record);
         record.acted({"conjugate"});
         // Numbers that are not whole have the zero 0 by default.
         const bool whole = facts.numbers.starts_with("whole");
@@ -252,7 +303,7 @@ Fields open_fields(const std::string& name, const FieldOptions& options, const C
 Fields open_and_reconstruct(const Session& session, const std::string& name, const FieldOptions& options, double pitch,
                             const std::vector<double>& wavelengths, RunRecord& record) {
     const Command& command = *session.command;
-    Fields fields = open_fields(name, options, command, pitch, wavelengths, record);
+    Fields fields = open_fields(session, name, options, pitch, wavelengths, record);
     const bool image = options.reconstruct != "none";
     if (image != command.given("--focal"))
         throw Error(ErrorCode::usage, image ? "--reconstruct: needs the focal length or distance; give --focal"

@@ -26,8 +26,12 @@ void add_field_options(Command& command, FieldOptions& options, bool sampling, b
 /// The options of a lens or a reference wave between the hologram and what it shows.
 void add_reconstruction_options(Command& command, FieldOptions& options);
 
-/// Whether a name is that of another program's field: an array, or a picture that the options declare as one.
+/// Whether a name is that of another program's field: an array, a picture that the options declare as one, or a
+/// pattern.
 bool is_external(const std::string& name, const FieldOptions& options);
+
+/// Whether a file is a picture that says itself of which field its numbers are, as patterns do, and no option says it.
+bool is_pattern(const std::string& name, const FieldOptions& options);
 
 /// Throws Error(usage) for a picture, of which options must say what its numbers are.
 void require_described(const std::string& name, const FieldOptions& options);
@@ -36,9 +40,10 @@ void require_described(const std::string& name, const FieldOptions& options);
 ExternalField external_field(const FieldOptions& options);
 
 /// Opens a hologram, or another program's field with the --pitch and the --wavelength, one for each of its colours,
-/// that are given to `command` or that the file holds. Throws Error(usage) if they are missing, or if they are given
-/// for a hologram, which has its own. Records the options that acted.
-Fields open_fields(const std::string& name, const FieldOptions& options, const Command& command, double pitch,
+/// that are given to the command or that the file holds. Says in a line where the file says something else than an
+/// option. Throws Error(usage) if they are missing, or if they are given for a hologram, which has its own. Records the
+/// options that acted.
+Fields open_fields(const Session& session, const std::string& name, const FieldOptions& options, double pitch,
                    const std::vector<double>& wavelengths, RunRecord& record);
 
 /// As open_fields(), and then as add_reconstruction_options() say: the order of a recorded hologram, and the image

@@ -11,12 +11,7 @@ namespace hogel::cli {
 HologramRequest request_for(std::span<const LightFieldGrid> faces, const HologramChoices& choices,
                             const Session& session, std::size_t looks) {
     HologramRequest request = choices.request(session, looks);
-    // The sides of a hemicube show what the front's samples do not diffract.
-    if (session.command->given("--pitch") || faces.size() != 1) return request;
-    LightFieldRequest front;
-    front.grid = faces.front();
-    for (const Advice& advice : advise({}, front, request))
-        if (advice.parameter == "pitch") request.pitch = advice.enough;
+    if (!session.command->given("--pitch")) request.pitch = diffracting_pitch(faces, request);
     return request;
 }
 

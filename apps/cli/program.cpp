@@ -12,9 +12,9 @@
 #include <new>
 
 #include "hogel/error.h"
+#include "hogel/printable.h"
 #include "hogel/resources.h"
 #include "interrupts.h"
-#include "printable.h"
 #include "standard_output.h"
 
 namespace hogel::cli {

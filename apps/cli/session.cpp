@@ -12,7 +12,7 @@
 
 #include "command_line.h"
 #include "hogel/error.h"
-#include "printable.h"
+#include "hogel/printable.h"
 #include "standard_output.h"
 
 namespace hogel::cli {

@@ -145,6 +145,8 @@ struct ExternalFacts {
     double pitch_x = 0, pitch_y = 0;    ///< metres; 0 where the file does not say it
     std::vector<double> wavelengths;    ///< metres, one for each field; empty where the file does not say them
     std::string complaint;              ///< why a pitch or a wavelength in the file was not taken
+    std::string values;                 ///< "phase" or "amplitude" where a picture says it, see field_entries()
+    std::string phase_code;             ///< of those phases, one that parse_phase_code() takes
 };
 
 /// Throws Error(bad_input) for a file that is missing or damaged, and Error(usage) if it has no array `what.variable`.
@@ -152,16 +154,22 @@ HOGEL_API ExternalFacts external_facts(const std::filesystem::path& path, const 
 
 /// Opens a field written by another program: an array of NumPy (.npy, .npz) or MATLAB (.mat, up to version 7.3), a
 /// complex field of OpenHolo (.ohc), an OpenEXR file with channels of real and imaginary parts or of amplitudes and
-/// phases, or pictures: of amplitudes, of phases, of both, or of real and imaginary parts (docs/files.md). Row 0 is at
+/// phases, or pictures: of amplitudes, of phases, of both, or of real and imaginary parts (docs/files.md). What `what`
+/// leaves out is taken from the file, of pictures from the texts of field_entries(). Row 0 is at
 /// the top, column 0 at the left, and the middle of the array is at x = y = 0. NPY files are read region by region on
 /// demand, others completely when opened. Throws Error(bad_input) for a file that is damaged or of another kind, and
 /// Error(usage) if `what` does not suit the file's numbers, or neither says the sampling.
 HOGEL_API std::shared_ptr<const FieldSource> open_external_field(const std::filesystem::path& path,
                                                                  const ExternalField& what);
 
-/// Whether a file is known by its contents as a field of another program, without more being said: .npy, .npz, .mat,
-/// .ohc, and .exr with channels of fields. Throws Error(bad_input) for a file that is missing.
+/// Whether a file is known by its contents as a field, without more being said: .npy, .npz, .mat, .ohc, .exr with
+/// channels of fields, and pictures with the texts of field_entries(). Throws Error(bad_input) for a file that is
+/// missing, and for a damaged picture.
 HOGEL_API bool is_external_field(const std::filesystem::path& path);
+
+/// The texts by which a picture of numbers, such as write_raw_pixels() writes, says of which field it is: the pitch,
+/// the wavelengths (metres), and whether its numbers are phases, in which code, or amplitudes.
+HOGEL_API Metadata field_entries(const ExternalField& what, std::span<const double> wavelengths);
 
 /// Throws Error(usage) for a name whose ending is none of those that write_fields() writes: .npy, .npz, .mat, .exr.
 HOGEL_API void require_fields_name(const std::filesystem::path& path);

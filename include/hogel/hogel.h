@@ -23,6 +23,7 @@
 #include "hogel/phase_code.h"
 #include "hogel/photograph.h"
 #include "hogel/pipeline.h"
+#include "hogel/printable.h"
 #include "hogel/progress.h"
 #include "hogel/propagate.h"
 #include "hogel/provenance.h"

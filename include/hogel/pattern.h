@@ -91,8 +91,9 @@ struct Pattern {
     /// angle, also where successive columns make it.
     double reference_angle = 0;
     std::size_t iterations = 0;  ///< of an iterated encoding
-    /// For phases, the aperture for the field: it lets 99.9 % of its light through, or less where that would take a
-    /// radius above 0.4. Beside frequency zero only where that makes it smaller by a fifth.
+    /// The aperture for the field: it lets 99.9 % of its light through, or less where that would take a radius above
+    /// 0.4. Beside frequency zero only where that makes it smaller by a fifth. For amplitudes it is around the useful
+    /// order, and no wider than keeps out the light of other orders if it is a tenth too wide.
     Aperture aperture;
     /// For phases, |Σ P F*| / √(Σ|P|² Σ|F|²), after rounding to levels: the pattern's spectrum P within the aperture
     /// and a tenth of its radius farther, up to 0.4, the field's spectrum F everywhere. 1 if the aperture lets the

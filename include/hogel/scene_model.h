@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,5 +54,9 @@ struct Advice {
 /// @param scene  as it is placed; its nearest and farthest depths count
 HOGEL_API std::vector<Advice> advise(const Bounds& scene, const LightFieldRequest& light_field,
                                      const HologramRequest& hologram);
+
+/// The pitch of a request, or where that does not diffract the field of view of the one face, the `enough` of advise(),
+/// metres. The sides of a hemicube show what no pitch diffracts: of several faces it is the pitch of the request.
+HOGEL_API double diffracting_pitch(std::span<const LightFieldGrid> faces, const HologramRequest& hologram);
 
 }  // namespace hogel

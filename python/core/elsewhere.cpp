@@ -41,7 +41,9 @@ void add_external_fields(py::module_& module) {
         .def_readonly("pitch_x", &ExternalFacts::pitch_x)
         .def_readonly("pitch_y", &ExternalFacts::pitch_y)
         .def_readonly("wavelengths", &ExternalFacts::wavelengths)
-        .def_readonly("complaint", &ExternalFacts::complaint);
+        .def_readonly("complaint", &ExternalFacts::complaint)
+        .def_readonly("values", &ExternalFacts::values)
+        .def_readonly("phase_code", &ExternalFacts::phase_code);
     module.def(
         "external_facts",
         [](const std::filesystem::path& path, const ExternalField& what) {
@@ -54,6 +56,12 @@ void add_external_fields(py::module_& module) {
             return run_for(py::none(), [&](const Progress&) { return open_external_field(path, what); });
         },
         arg("path"), arg("what"));
+    module.def(
+        "field_entries",
+        [](const ExternalField& what, const std::vector<double>& wavelengths) {
+            return field_entries(what, wavelengths);
+        },
+        arg("what"), arg("wavelengths"));
     module.def("is_external_field", &is_external_field, arg("path"), py::call_guard<py::gil_scoped_release>());
 }
 

@@ -93,6 +93,12 @@ void add_plans(py::module_& module) {
             return advise(bounds(placed), light_field, hologram);
         },
         arg("placed"), arg("light_field"), arg("hologram"));
+    module.def(
+        "diffracting_pitch",
+        [](const LightField& light_field, const HologramRequest& hologram) {
+            return diffracting_pitch(light_field.grids(), hologram);
+        },
+        arg("light_field"), arg("hologram"));
     module.def("require_resources", &require_resources, arg("plan"), arg("what"), arg("file"));
     module.def("with_history", &with_history, arg("now"), arg("before"));
     module.def(

@@ -7,6 +7,7 @@
 #include "hogel/parts.h"
 #include "hogel/phase_code.h"
 #include "hogel/pipeline.h"
+#include "hogel/printable.h"
 #include "hogel/resources.h"
 #include "hogel/table.h"
 
@@ -18,7 +19,7 @@ void add_errors(py::module_&) {
             if (thrown) std::rethrow_exception(thrown);
         } catch (const Error& error) {
             const py::object errors = py::module_::import("hogel.errors");
-            const py::object raised = errors.attr("of")(static_cast<int>(error.code()), error.what());
+            const py::object raised = errors.attr("of")(static_cast<int>(error.code()), printable(error.what()));
             PyErr_SetObject(py::type::handle_of(raised).ptr(), raised.ptr());
         }
     });
@@ -28,6 +29,7 @@ void add_units(py::module_& module) {
     using py::arg;
     module.def("parse_length", &parse_length, arg("text"), arg("what"));
     module.def("parse_angle", &parse_angle, arg("text"), arg("what"));
+    module.def("printable", &printable, arg("text"));
     module.def("format_length", &format_length, arg("metres"));
     module.def("format_bytes", &format_bytes, arg("bytes"));
     module.def("format_duration", &format_duration, arg("seconds"));

@@ -70,8 +70,12 @@ def external_record(name: str, what: _core.ExternalField, **given: Any) -> _reco
         value = given[option.replace("-", "_")]
         if value:
             acted[option] = os.fspath(value) if isinstance(value, (str, os.PathLike)) else "own"
-    if given["values"] is not None and given["phase_code"] is None:
-        acted["values"] = given["values"]
+    # A phase code alone says that numbers are phases; files of patterns say what their numbers are.
+    if given["phase_code"] is None:
+        if facts.phase_code and given["values"] in (None, "phase"):
+            acted["phase-code"] = facts.phase_code
+        elif given["values"] is not None or facts.values:
+            acted["values"] = given["values"] or facts.values
     if given["imaginary"] is not None:
         # Numbers that are not whole have the zero 0.
         whole = facts.numbers.startswith("whole")

@@ -65,8 +65,8 @@ class Hologram:
         reconstruct: str = "none",
         focal: Optional[units.Length] = None,
     ) -> "Hologram":
-        """Opens a hologram (.h5), or the field of another program: .npy, .npz, .mat, .ohc, .exr, or pictures of amplitudes,
-        phases, or real and imaginary parts. The options are those of `hogel photo` of these names
+        """Opens a hologram (.h5), a pattern of slm(), which says what it is, or the field of another program: .npy, .npz,
+        .mat, .ohc, .exr, or pictures of amplitudes, phases, or real and imaginary parts. The options are those of `hogel photo` of these names
         (docs/holograms-from-elsewhere.md).
 
         pitch, wavelength  metres, for files that do not say them

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Callable, Sequence
 from typing import Any, Optional, Union
 
@@ -248,7 +249,8 @@ class LightField(Rays):
         progress: Progress = None,
     ) -> Hologram:
         """The hologram of the light field, computed when it is read: one field for each wavelength, without any three
-        (red, green, blue). The options are those of `hogel hologram`.
+        (red, green, blue). The options are those of `hogel hologram`. Without a pitch it has that of hogel.defaults, or
+        where that does not diffract the field of view, one that does, with a warning (UserWarning) that says which.
 
         >>> import hogel, os, tempfile
         >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
@@ -257,6 +259,11 @@ class LightField(Rays):
         """
         wanted = hologram_request(wavelength, pitch, method, phase, lobes, basis, tolerance, line_pitch, looks, seed)
         common = self._for_holograms(wanted, basis is None)
+        if pitch is None:
+            usual, wanted.pitch = wanted.pitch, _core.diffracting_pitch(common, wanted)
+            if wanted.pitch != usual:
+                taken, other = units.say_length(wanted.pitch), units.say_length(usual)
+                warnings.warn(f"pitch: {taken}, which diffracts the field of view; {other}, the default, does not", stacklevel=2)
         _core.require_holograms(common, wanted)
         again = LightField(common, self.where)
         prepared = again._prepared(len(wanted.channels), _core.needs_depth(wanted.method), progress)

@@ -23,10 +23,18 @@ class Pattern:
     (32, 32, 1)
     """
 
-    def __init__(self, levels: "np.ndarray[Any, Any]", encoding: str, modulator: _core.Modulator, parts: list[_core.Pattern]) -> None:
+    def __init__(
+        self,
+        levels: "np.ndarray[Any, Any]",
+        encoding: str,
+        modulator: _core.Modulator,
+        parts: list[_core.Pattern],
+        fields: list[_core.FieldSource],
+        phase_code: _core.PhaseCode,
+    ) -> None:
         self.levels, self.encoding, self.modulator, self._parts = levels, encoding, modulator, parts
+        self._fields, self._phase_code = fields, phase_code
         self._made: Optional[_record.Record] = None
-        self._fields: list[_core.FieldSource] = []
 
     def __array__(self, dtype: Any = None) -> "np.ndarray[Any, Any]":
         return self.levels if dtype is None else self.levels.astype(dtype, copy=False)
@@ -43,8 +51,8 @@ class Pattern:
 
     @property
     def aperture(self) -> list[_core.Aperture]:
-        """For each wavelength, of patterns of phases: the round aperture in the plane of the spectrum that lets the
-        hologram's light through, its middle (x to the right, y downwards) and radius in cycles per pixel."""
+        """For each wavelength, the round aperture in the plane of the spectrum that lets the hologram's light through, its
+        middle (x to the right, y downwards) and radius in cycles per pixel."""
         return [part.aperture for part in self._parts]
 
     @property
@@ -70,7 +78,8 @@ class Pattern:
         return _core.transmission(self._parts[number], _core.encoding(self.encoding))
 
     def save(self, path: Union[str, "os.PathLike[str]"], *, metadata: Any = None) -> None:
-        """Writes .png or .bmp of 8 bits, the levels as they are.
+        """Writes .png or .bmp of 8 bits, the levels as they are. Files but .bmp say of which field they are: pitch,
+        wavelength and phase code, by which hogel opens them without being told.
 
         >>> import hogel, numpy as np, os, tempfile
         >>> wave = hogel.Field.from_array(np.ones((32, 32), np.complex64), pitch="8um", wavelength="532nm")
@@ -80,7 +89,7 @@ class Pattern:
         name = os.fspath(path)
         _core.require_writable(name)
         if metadata is None:
-            metadata = _record.by_function("Hologram.slm") if self._made is None else self._entries()
+            metadata = _record.by_function("Hologram.slm") + self._field_entries() if self._made is None else self._entries()
         _core.write_raw_pixels(name, self.levels, metadata)
 
     def _entries(self) -> list[tuple[str, str]]:
@@ -97,9 +106,16 @@ class Pattern:
             if part.reference_angle != 0:
                 entries.append((f"reference angle at {name}", f"{part.reference_angle / units.deg:.6f}deg"))
             entries.append((f"power at {name}", f"{part.power:.6g}"))
-            if phases:
-                entries.append((f"aperture at {name}", _in_words(part.aperture, field.grid.wavelength / self.modulator.pitch)))
-        return _core.with_history(entries, self._fields[0].provenance)
+            entries.append((f"aperture at {name}", _in_words(part.aperture, field.grid.wavelength / self.modulator.pitch)))
+        return _core.with_history(entries + self._field_entries(), self._fields[0].provenance)
+
+    def _field_entries(self) -> list[tuple[str, str]]:
+        """By which its file says of which field it is."""
+        what, values = _core.ExternalField(), _core.ExternalField.Values
+        what.pitch_x = what.pitch_y = self.modulator.pitch
+        what.values = values.phase if _core.is_phase_only(_core.encoding(self.encoding)) else values.amplitude
+        what.phase_code = self._phase_code
+        return _core.field_entries(what, [field.grid.wavelength for field in self._fields])
 
     def __repr__(self) -> str:
         m = self.modulator
@@ -111,7 +127,7 @@ def _in_words(aperture: _core.Aperture, per_cycle: float) -> str:
     """The words of `hogel slm`; per_cycle: wavelength over pixel pitch."""
     middle = ""
     if aperture.x != 0 or aperture.y != 0:
-        middle = f" around {aperture.x:.4f} to the right and {-aperture.y:.4f} up"
+        middle = f" around {aperture.x:.4f} to the right and {0.0 - aperture.y:.4f} up"
     return f"radius {aperture.radius:.4f} cycles a pixel{middle}, {aperture.radius * per_cycle * 0.2 / 1e-3:.2f} mm at a lens of 200 mm"
 
 
@@ -167,7 +183,7 @@ def pattern_of(
         else:
             options.encoding = _core.encoding(encoding)
             parts = [_core.encode_pattern(field, options, report) for field in fields]
-    pattern = Pattern(np.stack([part.levels for part in parts], axis=-1), encoding, modulator, parts)
+    pattern = Pattern(np.stack([part.levels for part in parts], axis=-1), encoding, modulator, parts, fields, options.phase_code)
     if made is None:
         return pattern
     acted = {**_record.renamed(made, "phase-code", "input-phase-code"), "encoding": encoding}
@@ -183,9 +199,8 @@ def pattern_of(
         acted["window"] = str(options.window)
     if encoding in ("gerchberg-saxton", "gradient") and iterations:
         acted["iterations"] = str(iterations)
-    if encoding not in ("phase", "binary"):
-        acted["clip"] = _record.number(options.clip)
+    acted["clip"] = _record.number(options.clip)
     if encoding in ("intensity", "bipolar", "binary"):
         acted["reference"] = _record.angle(reference)
-    pattern._made, pattern._fields = acted, fields
+    pattern._made = acted
     return pattern

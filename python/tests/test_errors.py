@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Errors are of the fitting classes and name what was wrong; units are taken everywhere."""
 import unittest
+import warnings
 from pathlib import Path
 
 import hogel
@@ -27,6 +28,28 @@ class Errors(InFolder):
             self.assertIsInstance(caught.exception, builtin)
             self.assertEqual((caught.exception.name, caught.exception.status), (name, status))
             self.assertEqual(len(str(caught.exception).splitlines()), 1)
+
+    def test_texts_of_strangers_are_one_plain_line(self):
+        name = "torn\x1b[31m\n" + 200 * "x" + ".h5"
+        with self.assertRaises(hogel.UsageError) as caught:
+            hogel.length("12\x1b[2J\n\u202e" + 500 * "x", "size")
+        with self.assertRaises(hogel.BadInputError) as missing:
+            hogel.Scene.load(name)
+        for error in (caught.exception, missing.exception):
+            self.assertTrue(str(error).isprintable(), repr(str(error)))
+            self.assertLessEqual(len(str(error)), 403)
+
+    def test_a_pitch_that_is_not_given_diffracts_the_field_of_view(self):
+        wide = hogel.Scene.load("sphere").render(hogels=4, directions=8, size="0.2mm", fov=40 * deg)
+        with self.assertWarnsRegex(UserWarning, "^pitch: .*, which diffracts the field of view; 1.5625 um, the default, does not$"):
+            made = wide.hologram(wavelength="532nm")
+        self.assertLess(made.grid.pitch_x, 0.532e-6 / (2 * np.sin(20 * deg)))
+        with self.assertRaisesRegex(hogel.UsageError, "pitch"):
+            wide.hologram(wavelength="532nm", pitch="1.5625um")
+        narrow, _ = light_field()
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.assertAlmostEqual(narrow.hologram(wavelength="532nm").grid.pitch_x, hogel.defaults["pitch"], delta=0.1e-6)
 
     def test_messages_name_the_keyword(self):
         lf, _ = light_field()

@@ -306,6 +306,29 @@ class SameBytes(InFolder):
                 opened.slm(encoding="phase", pixels=(64, 48), pixel_pitch="4um").save(f"q{number}.png")
                 self.assert_same(f"s{number}.png", f"q{number}.png")
 
+    def test_patterns_say_what_they_are(self):
+        command_line("render", "sphere", "-o", "lf.h5", *SMALL[:-1], "2deg")
+        command_line("hologram", "lf.h5", "-o", "h.h5", "--wavelength", "532nm", "--pitch", "1.5625um")
+        for number, encoding in enumerate(("double-phase", "bipolar")):
+            words = ["--encoding", encoding, "--pixels", "64x48", "--pixel-pitch", "1.5625um"]
+            command_line("slm", "h.h5", "-o", f"c{number}.png", *words)
+            made = hogel.Hologram.open("h.h5").slm(encoding=encoding, pixels=(64, 48), pixel_pitch="1.5625um")
+            made.save(f"p{number}.png")
+            self.assert_same(f"c{number}.png", f"p{number}.png")
+            command_line("propagate", f"c{number}.png", "-o", f"c{number}.h5", "--distance", "2mm")
+            opened = hogel.Hologram.open(f"c{number}.png")
+            opened.propagate("2mm").save(f"q{number}.h5")
+            self.assert_same(f"c{number}.h5", f"q{number}.h5")
+            self.assertEqual(opened.wavelengths, [532e-9])
+
+    def test_a_pitch_that_is_not_given(self):
+        wide = ["--hogels", "4", "--directions", "8", "--size", "0.2mm", "--fov", "40deg"]
+        command_line("render", "sphere", "-o", "lf.h5", *wide)
+        command_line("hologram", "lf.h5", "-o", "c.h5", "--wavelength", "532nm")
+        with self.assertWarns(UserWarning):
+            hogel.LightField.open("lf.h5").hologram(wavelength="532nm").save("p.h5")
+        self.assert_same("c.h5", "p.h5")
+
     def test_join(self):
         for number in (1, 2, 3):
             command_line("render", "pumpkin", "-o", "lf.h5", *SMALL, "--part", f"{number}/3")

@@ -41,7 +41,8 @@ PROPAGATED = {"wavelengths_m": [REAL], "distance_m": REAL,
                                 "frequencies_x": COUNT, "frequencies_y": COUNT, "tiles": COUNT, "light_share": REAL}]}
 PLANE = FILE | PROPAGATED | {"pitch_x_m": REAL, "pitch_y_m": REAL}
 SLM = FILE | {"width": COUNT, "height": COUNT, "pixel_pitch_m": REAL, "levels": COUNT, "encoding": WORD}
-PATTERN = {"wavelength_m": REAL, "efficiency": REAL, "power": REAL}
+PATTERN = {"wavelength_m": REAL, "efficiency": REAL, "power": REAL, "aperture_cycles": REAL, "aperture_x_cycles": REAL,
+           "aperture_y_cycles": REAL, "aperture_per_focal_length": REAL}
 MADE = {"folder": WORD, "report": WORD, "triangles": COUNT, "wavelengths_m": [REAL], "looks": COUNT, "width": COUNT,
         "height": COUNT, "exposure": REAL, "seconds": REAL,
         "photographs": [{"file": WORD, "expected_file": WORD, "geometric_file": WORD, "psnr": DECIBELS, "ssim": REAL}]}
@@ -70,9 +71,7 @@ TABLE = [
      {"wavelengths_m": [REAL], "depth_of_focus_m": REAL, "light_depth_of_focus_m": REAL, "seconds": REAL, "depths_m": [REAL], "contrasts": [[REAL]],
       "planes": [{"depth_m": REAL, "prominence": REAL, "contrast": WORD, "cell": COUNT}]}),
     ("slm s.h5 -o slm.png --pixels 64x48 --pixel-pitch 6.4um",
-     SLM | {"patterns": [PATTERN | {"light_field_efficiency": REAL, "correlation": REAL, "aperture_cycles": REAL,
-                                 "aperture_x_cycles": REAL, "aperture_y_cycles": REAL, "aperture_per_focal_length": REAL,
-                                 "iterations": COUNT}]}),
+     SLM | {"patterns": [PATTERN | {"light_field_efficiency": REAL, "correlation": REAL, "iterations": COUNT}]}),
     ("slm s.h5 -o slm.bmp --pixels 64x48 --pixel-pitch 6.4um --encoding binary",
      SLM | {"patterns": [PATTERN | {"reference_angle_deg": REAL}]}),
     ("print x.h5 -o hogels", {"folder": WORD, "bytes": COUNT, "pictures": COUNT, "first": WORD, "last": WORD,

@@ -145,6 +145,7 @@ CASES = [
      {"phase-code": "slmsuite"}),
     ("propagate, amplitude and phase", "propagate re.png --phases im.png --phase-code odak --distance 1mm --pitch 1.6um --wavelength 532nm",
      "o.h5", {"phase-code": "slmsuite", "phases": "re.png"}),
+    ("propagate, pattern", "propagate pattern.png --distance 1mm", "o.h5", {"phase-code": "slmsuite"}),
     ("propagate, archive", "propagate f.npz --distance 1mm", "o.h5", {}),
     ("propagate, order", "propagate f.h5 --distance 1mm --order +1", "o.h5", {"order": "-1"}),
     ("propagate, behind a lens", "propagate f.h5 --distance 1mm --reconstruct fourier --focal 40mm", "o.h5",

@@ -35,6 +35,7 @@ END
 together << END
 propagate f.h5 -o f.npy --distance 0mm
 propagate f.h5 -o f.npz --distance 0mm
+slm s.h5 -o pattern.png --encoding phase --pixels 128x96 --pixel-pitch 6.4um
 propagate f.h5 -o real.exr --distance 1mm --display amplitude
 propagate f.h5 -o imaginary.exr --distance 2mm --display amplitude
 propagate f.h5 -o other.exr --distance 3mm --display amplitude

@@ -72,6 +72,12 @@ void advise_hogels(const LightFieldGrid& grid, double depth, const HologramReque
 
 }  // namespace
 
+double diffracting_pitch(std::span<const LightFieldGrid> faces, const HologramRequest& hologram) {
+    std::vector<Advice> advice;
+    if (faces.size() == 1) advise_pitch(faces.front(), hologram, advice);
+    return advice.empty() ? hologram.pitch : advice.front().enough;
+}
+
 SceneModel::SceneModel(std::string name, const ImportOptions& options, const Progress& progress)
     : name_(std::move(name)) {
     const core::StopScope scope(progress);

@@ -83,6 +83,7 @@ TEST_F(SceneModels, advise_pitches_that_do_not_alias) {
             }
         };
         EXPECT_EQ(advice == nullptr, possible()) << pitch;
+        EXPECT_EQ(diffracting_pitch(faces, holograms_), advice == nullptr ? pitch : advice->enough);
         if (advice == nullptr) continue;
         EXPECT_TRUE(advice->refused);
         holograms_.pitch = advice->enough;

@@ -55,6 +55,13 @@ double reference_carrier(double band, const PatternOptions& options, double wave
     return carrier;
 }
 
+// From the middle of the useful order at -frequency to the light of others, cycles per sample: to the middle between
+// two orders of columns; to |F|² around zero, which the intensity contains; otherwise to what is not diffracted.
+double room_around(double frequency, double band, Encoding encoding) {
+    if (encoding == Encoding::burckhardt || encoding == Encoding::lee) return frequency / 2;
+    return encoding == Encoding::intensity ? frequency - 2 * band : frequency;
+}
+
 // The m-th of the `columns` non-negative real components of a complex number. Only the two adjacent to its phase are
 // not zero. If components are more than a right angle apart they can exceed the modulus, so all are scaled down.
 float component(Complex value, std::size_t m, std::size_t columns) {
@@ -90,22 +97,22 @@ double band_along_x(View<const Complex, 2> field) {
 }
 
 Array<float, 2> encode_amplitude(View<const Complex, 2> field, const PatternOptions& options, double wavelength,
-                                 Carrier& carrier, double& angle) {
+                                 CarriedOrder& order) {
     const double band = band_along_x(field), pitch = options.modulator.pitch;
     const std::size_t columns = options.encoding == Encoding::burckhardt ? 3
                                 : options.encoding == Encoding::lee      ? 4
                                                                          : 0;
-    const double frequency =
-        columns > 0 ? column_carrier(band, columns, pitch) : reference_carrier(band, options, wavelength);
-    angle = std::asin(std::min(1.0, frequency * wavelength / pitch));
+    order.frequency = columns > 0 ? column_carrier(band, columns, pitch) : reference_carrier(band, options, wavelength);
+    order.room = room_around(order.frequency, band, options.encoding);
+    order.angle = std::asin(std::min(1.0, order.frequency * wavelength / pitch));
     for (std::size_t x = 0; x < field.extent(1); ++x)
-        carrier.push_back(
-            Complex(std::polar(1.0, -2 * std::numbers::pi * std::fmod(frequency * static_cast<double>(x), 1.0))));
+        order.carrier.push_back(
+            Complex(std::polar(1.0, -2 * std::numbers::pi * std::fmod(order.frequency * static_cast<double>(x), 1.0))));
 
     Array<float, 2> values(field.shape());
     for (std::size_t y = 0; y < field.extent(0); ++y)
         for (std::size_t x = 0; x < field.extent(1); ++x) {
-            const Complex value = field(y, x), fringe = value * carrier[x];
+            const Complex value = field(y, x), fringe = value * order.carrier[x];
             float& out = values(y, x);
             if (columns > 0)
                 out = component(value, x % columns, columns);

@@ -94,6 +94,12 @@ Aperture aperture_for(View<const Complex, 2> spectrum) {
 
 }  // namespace
 
+Aperture aperture_around(const CarriedOrder& order, Aperture of_field) {
+    of_field.x -= order.frequency;
+    of_field.radius = std::min(of_field.radius, order.room / margin);
+    return of_field;
+}
+
 FieldBand::FieldBand(View<const Complex, 2> field)
     : fft_(field.extent(0), field.extent(1)), wanted_(field.shape()), lit_(field.size()) {
     std::copy_n(field.data(), field.size(), wanted_.data());

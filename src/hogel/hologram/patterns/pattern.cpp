@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "hogel/core/parallel.h"
 #include "hogel/hologram/patterns/pattern_parts.h"
@@ -239,24 +238,23 @@ Pattern hologram::patterns::encode_by(Team* team, const FieldSource& source, con
     Array<Complex, 2> field = fit(source, options.modulator);
     const double unit = normalise(field, options.clip);
     Pattern pattern;
-    Carrier carrier;
+    CarriedOrder order;
     Convergence convergence;
     const bool phases = is_phase_only(options.encoding);
-    std::optional<FieldBand> band;
-    if (phases) band.emplace(field);
-    pattern.values = phases
-                         ? encode_phase(field, *band, options, convergence, progress, team)
-                         : encode_amplitude(field, options, source.grid().wavelength, carrier, pattern.reference_angle);
+    const FieldBand band(field);
+    pattern.values = phases ? encode_phase(field, band, options, convergence, progress, team)
+                            : encode_amplitude(field, options, source.grid().wavelength, order);
     pattern.levels = round_to_levels(pattern.values, options.modulator.levels, phases, options.phase_code);
     const Array<Complex, 2> transmitted = transmission(pattern, options.encoding, options.phase_code);
-    pattern.efficiency = efficiency_of(transmitted, field, carrier);
+    pattern.efficiency = efficiency_of(transmitted, field, order.carrier);
     pattern.power = unit * unit * mean_power(field) / pattern.efficiency;
+    pattern.reference_angle = order.angle;
+    pattern.aperture = phases ? band.aperture() : aperture_around(order, band.aperture());
     if (!phases) return pattern;
-    pattern.aperture = band->aperture();
     pattern.light_field_efficiency = light_field_efficiency_of(transmitted, field, options.window, team);
     pattern.iterations = convergence.iterations;
     Array<Complex, 2> spectrum = transmitted;
-    pattern.correlation = std::sqrt(1 - band->match(spectrum).error);
+    pattern.correlation = std::sqrt(1 - band.match(spectrum).error);
     return pattern;
 }
 

@@ -52,10 +52,22 @@ using Carrier = std::vector<std::complex<float>>;
 /// scatter the rest widely.
 double band_along_x(View<const std::complex<float>, 2> field);
 
-/// Encodes a field with |F| <= 1 as amplitudes in [0, 1], for the encodings for amplitude. Sets `carrier` and `angle`
-/// to those of the order that carries F. Throws Error(usage) if the orders would overlap.
+/// The order of a pattern of amplitudes that carries F.
+struct CarriedOrder {
+    Carrier carrier;
+    double frequency = 0;  ///< of the reference wave, cycles per sample; the order is at -frequency along x
+    double angle = 0;      ///< of the reference wave, radians
+    double room = 0;       ///< from the middle of the order to the light of others, cycles per sample
+};
+
+/// Encodes a field with |F| <= 1 as amplitudes in [0, 1], for the encodings for amplitude. Sets `order`. Throws
+/// Error(usage) if the orders would overlap.
 Array<float, 2> encode_amplitude(View<const std::complex<float>, 2> field, const PatternOptions& options,
-                                 double wavelength, Carrier& carrier, double& angle);
+                                 double wavelength, CarriedOrder& order);
+
+/// The aperture for an order that carries a field: that for the field, around the order, and no wider than its room,
+/// less a tenth.
+Aperture aperture_around(const CarriedOrder& order, Aperture of_field);
 
 /// Encoding::gerchberg_saxton: phases in cycles [0, 1), by alternating projections in squares.
 Array<float, 2> iterate_phases(View<const std::complex<float>, 2> field, const PatternOptions& options,

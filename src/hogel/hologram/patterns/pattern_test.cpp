@@ -294,6 +294,46 @@ TEST(Pattern, the_aperture_is_around_the_light_of_a_field_beside_frequency_zero)
     EXPECT_NEAR(pattern.aperture.radius, 0.06, 0.01);
 }
 
+// The share of the field's order within the aperture of a pattern of amplitudes, a tenth wider, by its likeness to the
+// field: light of other orders makes it less.
+double likeness_behind(const Pattern& pattern, Encoding encoding, const Field& field) {
+    Array<Complex, 2> shown = transmission(pattern, encoding), wanted = field.samples;
+    const math::Fft2 fft(side, side);
+    const double carrier = std::sin(pattern.reference_angle) * 8_um / 633_nm;
+    for (std::size_t y = 0; y < side; ++y)
+        for (std::size_t x = 0; x < side; ++x)
+            wanted(y, x) *= Complex(std::polar(1.0, -2 * std::numbers::pi * std::fmod(carrier * double(x), 1.0)));
+    fft.forward(shown);
+    fft.forward(wanted);
+    std::complex<double> product = 0;
+    double energy = 0, all = 0;
+    for (std::size_t y = 0; y < side; ++y)
+        for (std::size_t x = 0; x < side; ++x) {
+            const double across = std::remainder(double(x) / side - pattern.aperture.x, 1.0),
+                         down = std::remainder(double(y) / side - pattern.aperture.y, 1.0);
+            const std::complex<double> a = shown(y, x), b = wanted(y, x);
+            all += std::norm(b);
+            if (std::hypot(across, down) > 1.1 * pattern.aperture.radius) continue;
+            product += a * std::conj(b);
+            energy += std::norm(a);
+        }
+    return std::norm(product) / (energy * all);
+}
+
+TEST(Pattern, of_amplitudes_has_its_aperture_around_the_order_that_shows_the_field) {
+    const Field field = speckle(0.05);
+    for (const Encoding encoding : {Encoding::intensity, Encoding::bipolar, Encoding::burckhardt, Encoding::lee}) {
+        const Pattern pattern = encode_pattern(field, options_for(encoding));
+        EXPECT_NEAR(pattern.aperture.x, -std::sin(pattern.reference_angle) * 8_um / 633_nm, 1e-9);
+        EXPECT_EQ(pattern.aperture.y, 0);
+        EXPECT_GT(pattern.aperture.radius, 0.05);
+        EXPECT_GT(likeness_behind(pattern, encoding, field), 0.95) << int(encoding);
+    }
+    // Where the field is as wide as it may be, the aperture keeps out what is not diffracted.
+    const Pattern wide = encode_pattern(speckle(0.2), options_for(Encoding::bipolar));
+    EXPECT_LT(1.1 * wide.aperture.radius, -wide.aperture.x + 1e-9);
+}
+
 TEST(Pattern, a_field_that_fills_the_band_of_the_modulator_correlates_little) {
     const Pattern pattern = encode_pattern(speckle(0.49), descent_options());
     EXPECT_EQ(pattern.aperture.radius, 0.4);

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstring>
 
 #include "hogel/error.h"
 #include "hogel/image/channels.h"
+#include "hogel/io/arrays/field_entries.h"
 #include "hogel/io/arrays/named_arrays.h"
 
 namespace hogel::io::arrays {
@@ -37,16 +37,6 @@ std::vector<PartPair> pairs_of(const Channels& channels) {
     return pairs;
 }
 
-// Lengths in the texts that hogel writes.
-double length_of(const Metadata& texts, const std::string& name) {
-    for (const auto& [key, text] : texts)
-        if (double value = 0; key == name) {
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-            return error == std::errc() && value > 0 ? value : 0;
-        }
-    return 0;
-}
-
 ExternalFacts facts_of(const image::NamedChannels& picture, const std::vector<PartPair>& pairs) {
     ExternalFacts facts;
     facts.format = "exr";
@@ -54,12 +44,7 @@ ExternalFacts facts_of(const image::NamedChannels& picture, const std::vector<Pa
     facts.width = picture.channels.front().second.extent(1);
     facts.height = picture.channels.front().second.extent(0);
     facts.colours = pairs.size();
-    facts.pitch_x = length_of(picture.texts, "pitch_x_m");
-    facts.pitch_y = length_of(picture.texts, "pitch_y_m");
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-        if (const double length = length_of(picture.texts, fmt::format("field{}_wavelength_m", i)); length > 0)
-            facts.wavelengths.push_back(length);
-    if (facts.wavelengths.size() != pairs.size()) facts.wavelengths.clear();
+    take_entries(picture.texts, facts);
     return facts;
 }
 

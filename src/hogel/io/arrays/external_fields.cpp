@@ -33,7 +33,9 @@ Format format_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-bool is_external_field(const std::filesystem::path& path) { return format_of(path) != Format::picture; }
+bool is_external_field(const std::filesystem::path& path) {
+    return format_of(path) != Format::picture || is_picture_field(path);
+}
 
 ExternalFacts external_facts(const std::filesystem::path& path, const ExternalField& what) {
     switch (format_of(path)) {

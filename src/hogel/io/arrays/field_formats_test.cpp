@@ -266,6 +266,49 @@ TEST_F(FieldFormats, of_two_pictures_of_levels_have_their_zero_at_the_median_or_
     EXPECT_LT(std::abs(sample - std::polar(100.0f, float(2 * std::numbers::pi * 8 / 255))), 1e-4f);
 }
 
+// A picture with the texts of field_entries() is opened without a word; what is said goes before them.
+TEST_F(FieldFormats, of_pictures_that_say_what_they_are_need_no_description) {
+    if (without_pictures()) return;
+    Array<std::uint8_t, 3> levels({2, 2, 3});
+    for (std::size_t i = 0; i < 12; ++i) levels.data()[i] = static_cast<std::uint8_t>(20 * i);
+    const std::vector<double> waves{638e-9, 520.25e-9, 450e-9};
+    const PhaseCode codes[] = {parse_phase_code("slmsuite"), {5, -1, true, true}, {4, 0.5, false, false}};
+    for (const PhaseCode& code : codes) {
+        ExternalField what{.pitch_x = 3.74e-6, .pitch_y = 3.74e-6, .values = ExternalField::Values::phase};
+        what.phase_code = code;
+        write_raw_pixels(directory_ / "p.png", levels, field_entries(what, waves));
+        EXPECT_TRUE(is_external_field(directory_ / "p.png"));
+        EXPECT_EQ(external_facts(directory_ / "p.png").values, "phase");
+        for (std::size_t c = 0; c < 3; ++c) {
+            ExternalField colour{.colour = c};
+            const auto field = open_external_field(directory_ / "p.png", colour);
+            EXPECT_EQ(field->grid(), (FieldGrid{{2, 2, 3.74e-6, 3.74e-6, 0, 0}, waves[c]}));
+            const auto phase = static_cast<float>(code.phase(20.0 * double(9 + c), 255));
+            EXPECT_LT(std::abs(all_of(*field)(1, 1) - std::polar(1.0f, phase)), 1e-5f);
+        }
+    }
+    ExternalField said{.pitch_x = 8e-6, .pitch_y = 8e-6, .wavelength = 532e-9};
+    said.values = ExternalField::Values::amplitude;
+    const auto field = open_external_field(directory_ / "p.png", said);
+    EXPECT_EQ(field->grid(), (FieldGrid{{2, 2, 8e-6, 8e-6, 0, 0}, 532e-9}));
+    EXPECT_EQ(all_of(*field)(1, 1), Complex(180));
+    // Of amplitudes, and in BMP, which has no texts.
+    write_raw_pixels(directory_ / "a.png", levels, field_entries(said, waves));
+    EXPECT_EQ(all_of(*open_external_field(directory_ / "a.png", {}))(1, 1), Complex(180));
+    write_raw_pixels(directory_ / "a.bmp", levels, field_entries(said, waves));
+    EXPECT_FALSE(is_external_field(directory_ / "a.bmp"));
+    // Texts of strangers.
+    for (const auto& [name, text] : Metadata{{"phase_code", "unknown"}, {"values", "other"}, {"pitch_x_m", "-1"}}) {
+        ExternalField what{.pitch_x = 1e-6, .pitch_y = 1e-6, .values = ExternalField::Values::phase};
+        what.phase_code = codes[0];
+        Metadata entries = field_entries(what, waves);
+        for (auto& [key, value] : entries)
+            if (key == name) value = text;
+        write_raw_pixels(directory_ / "s.png", levels, entries);
+        EXPECT_THROW(open_external_field(directory_ / "s.png", {}), Error) << name;
+    }
+}
+
 TEST_F(FieldFormats, of_a_picture_whose_colours_differ_are_three) {
     if (without_pictures()) return;
     Array<std::uint8_t, 3> levels({2, 2, 3});

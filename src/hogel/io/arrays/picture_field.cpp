@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "hogel/error.h"
 #include "hogel/image.h"
+#include "hogel/image/picture_formats.h"
+#include "hogel/io/arrays/field_entries.h"
 #include "hogel/io/arrays/numbers.h"
-#include "hogel/units.h"
 
 namespace hogel::io::arrays {
 namespace {
@@ -48,25 +48,43 @@ std::filesystem::path second_picture(const std::filesystem::path& path, const Ex
     return what.imaginary.empty() ? what.phases : what.imaginary;
 }
 
-// What a pattern is to be multiplied with to have the amplitudes of its hologram, if the file says which power its
-// light needs, as those of `hogel slm` do; otherwise 1.
-float amplitude_scale(const std::filesystem::path& path, double wavelength) {
-    const std::string key = "power at " + format_length(wavelength);
-    for (const auto& [name, text] : read_metadata(path)) {
-        double power = 0;
-        if (name != key || std::from_chars(text.data(), text.data() + text.size(), power).ec != std::errc()) continue;
-        if (power > 1e-12 && power < 1e12) return static_cast<float>(std::sqrt(power));
-    }
-    return 1;
+// A description with the values and the phase code that the file says, where it leaves them out.
+ExternalField completed(ExternalField what, const ExternalFacts& facts) {
+    using Values = ExternalField::Values;
+    if (what.values == Values::complex && !facts.values.empty())
+        what.values = facts.values == "phase" ? Values::phase : Values::amplitude;
+    const bool phases = what.values == Values::phase || !what.phases.empty();
+    if (phases && !what.phase_code && !facts.phase_code.empty()) what.phase_code = parse_phase_code(facts.phase_code);
+    return what;
+}
+
+// Takes what the pictures say of themselves. Of two the second one says in which code its phases are.
+void take_texts(const std::filesystem::path& path, const ExternalField& what, ExternalFacts& facts) {
+    take_entries(read_metadata(path), facts);
+    if (what.phases.empty() && what.imaginary.empty()) return;
+    facts.values = facts.phase_code = "";
+    if (what.phases.empty()) return;
+    ExternalFacts of_phases;
+    take_entries(read_metadata(what.phases), of_phases);
+    facts.phase_code = of_phases.phase_code;
 }
 
 }  // namespace
 
+bool is_picture_field(const std::filesystem::path& path) {
+    const image::PictureFormat* const format = image::format_by_extension(path);
+    if (format == nullptr || !format->built_in || !format->written_as_levels) return false;
+    ExternalFacts facts;
+    take_entries(read_metadata(path), facts);
+    return facts.pitch_x > 0 && !facts.values.empty();
+}
+
 ExternalFacts picture_facts(const std::filesystem::path& path, const ExternalField& what) {
     ExternalFacts facts = facts_of(read_raw_channels(path));
+    const std::filesystem::path second = second_picture(path, what);
     // Parts of three colours of which one part is grey are still three colours.
-    if (const std::filesystem::path second = second_picture(path, what); !second.empty())
-        facts.colours = std::max(facts.colours, facts_of(read_raw_channels(second)).colours);
+    if (!second.empty()) facts.colours = std::max(facts.colours, facts_of(read_raw_channels(second)).colours);
+    take_texts(path, what, facts);
     return facts;
 }
 
@@ -82,16 +100,22 @@ std::unique_ptr<FieldSource> open_picture_field(const std::filesystem::path& pat
                                                second.values.extent(0), path.string(), first.values.extent(1),
                                                first.values.extent(0)));
     const Content content = !two ? Content::real : what.imaginary.empty() ? Content::amplitude_phase : Content::complex;
-    SampleConverter convert(path, what, content, number_of(first), number_of(second));
-    convert.set_largest_phase(two ? second.largest : first.largest);
     ExternalFacts facts = facts_of(first);
     facts.colours = std::max(facts.colours, second.values.extent(2));
+    take_texts(path, what, facts);
+    const ExternalField meant = completed(what, facts);
+    SampleConverter convert(path, meant, content, number_of(first), number_of(second));
+    convert.set_largest_phase(two ? second.largest : first.largest);
     auto field = std::make_unique<Field>(external_grid(path, what, facts));
     const std::size_t channels[2] = {first.values.extent(2), second.values.extent(2)};
     const std::size_t colour[2] = {channels[0] == 1 ? 0 : what.colour, channels[1] == 1 ? 0 : what.colour};
     if (content == Content::complex)
         convert.set_zero(zero_of(first, colour[0], what), zero_of(second, colour[1], what));
-    const float scale = two ? 1 : amplitude_scale(path, what.wavelength);
+    // A pattern has the amplitudes of its hologram; its largest level is the amplitude 1 of the light on it.
+    const double power = two ? 0 : power_of_pattern(read_metadata(path), field->grid().wavelength);
+    const bool levels = meant.values == ExternalField::Values::amplitude && first.largest > 0;
+    const auto scale =
+        static_cast<float>(power > 0 ? std::sqrt(power) / (levels ? static_cast<double>(first.largest) : 1) : 1);
     for (std::size_t i = 0; i < field->samples.size(); ++i)
         field->samples.data()[i] = scale * convert(double{first.values.data()[i * channels[0] + colour[0]]},
                                                    two ? double{second.values.data()[i * channels[1] + colour[1]]} : 0);

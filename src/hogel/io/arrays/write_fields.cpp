@@ -119,8 +119,8 @@ void write_mat_file(const std::filesystem::path& path, std::span<const Field> fi
 void write_exr_file(const std::filesystem::path& path, std::span<const Field> fields, const Metadata& metadata) {
     const Grid& plane = fields[0].grid().plane;
     image::NamedChannels picture{{}, metadata};
-    picture.texts.emplace_back("pitch_x_m", fmt::format("{}", plane.pitch_x));
-    picture.texts.emplace_back("pitch_y_m", fmt::format("{}", plane.pitch_y));
+    const ExternalField sampling{.pitch_x = plane.pitch_x, .pitch_y = plane.pitch_y};
+    for (auto& entry : field_entries(sampling, wavelengths_of(fields))) picture.texts.push_back(std::move(entry));
     for (std::size_t c = 0; c < fields.size(); ++c) {
         Array<float, 2> real({plane.height, plane.width}), imaginary = real;
         for (std::size_t i = 0; i < real.size(); ++i) {
@@ -129,8 +129,6 @@ void write_exr_file(const std::filesystem::path& path, std::span<const Field> fi
         }
         picture.channels.emplace_back(fmt::format("field{}.real", c), std::move(real));
         picture.channels.emplace_back(fmt::format("field{}.imaginary", c), std::move(imaginary));
-        picture.texts.emplace_back(fmt::format("field{}_wavelength_m", c),
-                                   fmt::format("{}", fields[c].grid().wavelength));
     }
     image::write_named_channels(path, std::move(picture));
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "printable.h"
+#include "hogel/printable.h"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
 
-namespace hogel::cli {
+namespace hogel {
 namespace {
 
 constexpr std::size_t letters_at_an_end = 200;
@@ -70,4 +70,4 @@ std::string printable(std::string_view text) {
     return line.substr(0, begins[letters_at_an_end]) + "..." + line.substr(begins[begins.size() - letters_at_an_end]);
 }
 
-}  // namespace hogel::cli
+}  // namespace hogel

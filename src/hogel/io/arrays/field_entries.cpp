@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the texts of a picture say of the field that its numbers are.
+#include "hogel/io/arrays/field_entries.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "hogel/error.h"
+#include "hogel/units.h"
+
+namespace hogel {
+
+using namespace io::arrays;
+
+namespace {
+
+constexpr const char *pitch_x_key = "pitch_x_m", *pitch_y_key = "pitch_y_m", *values_key = "values",
+                     *phase_code_key = "phase_code";
+
+std::string wavelength_key(std::size_t field) { return fmt::format("field{}_wavelength_m", field); }
+
+// The name of a code, or its description. Of levels of 8 bits, so that an open range ends at 255 of 256.
+std::string phase_code_text(const PhaseCode& code) {
+    for (const PhaseCodeInfo& known : phase_codes().rows())
+        if (known.code == code) return known.name;
+    return fmt::format("range={}rad,offset={}rad{}", code.closed ? code.range : code.range * 255 / 256, code.offset,
+                       code.inverted ? ",invert" : "");
+}
+
+const std::string* find_text(const Metadata& entries, const std::string& key) {
+    const auto found = std::ranges::find(entries, key, [](const auto& entry) { return entry.first; });
+    return found == entries.end() ? nullptr : &found->second;
+}
+
+// A positive number, or 0.
+double positive_number(const Metadata& entries, const std::string& key) {
+    const std::string* const text = find_text(entries, key);
+    double value = 0;
+    if (text == nullptr) return 0;
+    const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
+    return error == std::errc() && std::isfinite(value) && value > 0 ? value : 0;
+}
+
+}  // namespace
+
+Metadata field_entries(const ExternalField& what, std::span<const double> wavelengths) {
+    Metadata entries{{pitch_x_key, fmt::format("{}", what.pitch_x)}, {pitch_y_key, fmt::format("{}", what.pitch_y)}};
+    for (std::size_t i = 0; i < wavelengths.size(); ++i)
+        entries.emplace_back(wavelength_key(i), fmt::format("{}", wavelengths[i]));
+    const bool phases = what.values == ExternalField::Values::phase;
+    if (phases || what.values == ExternalField::Values::amplitude)
+        entries.emplace_back(values_key, phases ? "phase" : "amplitude");
+    if (phases && what.phase_code) entries.emplace_back(phase_code_key, phase_code_text(*what.phase_code));
+    return entries;
+}
+
+void io::arrays::take_entries(const Metadata& entries, ExternalFacts& facts) {
+    facts.pitch_x = positive_number(entries, pitch_x_key);
+    facts.pitch_y = positive_number(entries, pitch_y_key);
+    for (std::size_t i = 0; i < facts.colours; ++i)
+        if (const double length = positive_number(entries, wavelength_key(i)); length > 0)
+            facts.wavelengths.push_back(length);
+    if (facts.wavelengths.size() != facts.colours) facts.wavelengths.clear();
+    const std::string* const values = find_text(entries, values_key);
+    if (values == nullptr || (*values != "phase" && *values != "amplitude")) return;
+    facts.values = *values;
+    const std::string* const code = find_text(entries, phase_code_key);
+    if (code == nullptr || *values != "phase") return;
+    try {
+        parse_phase_code(*code);
+        facts.phase_code = *code;
+    } catch (const Error&) {
+        // A code of a later version: it is asked for.
+    }
+}
+
+double io::arrays::power_of_pattern(const Metadata& entries, double wavelength) {
+    const double power = positive_number(entries, "power at " + format_length(wavelength));
+    return power > 1e-12 && power < 1e12 ? power : 0;
+}
+
+}  // namespace hogel
