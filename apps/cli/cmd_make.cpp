@@ -14,6 +14,7 @@
 #include "concerns.h"
 #include "hogel/pipeline.h"
 #include "hogel/resources.h"
+#include "hogel/stop.h"
 #include "hogel/team.h"
 #include "hogel/units.h"
 #include "hologram_pitch.h"
@@ -94,12 +95,14 @@ void timed(const Session& session, Report& report, const std::string& name, Work
     session.say(fmt::format("{:<24} {:8.1f} s", name, stage.seconds()));
 }
 
-// Calls work(i) for all i below `count` on as many threads as there are; an error of one is thrown in the end.
-void on_all_threads(std::size_t count, const std::function<void(std::size_t)>& work) {
+// Calls work(i) for all i below `count` on as many threads as there are; an error of one is thrown in the end. A stop
+// ends the work of each.
+void on_all_threads(const Session& session, std::size_t count, const std::function<void(std::size_t)>& work) {
     std::atomic<std::size_t> next = 0;
     std::vector<std::future<void>> threads;
     for (std::size_t thread = 0; thread < std::min(count, thread_count()); ++thread)
         threads.push_back(std::async(std::launch::async, [&] {
+            const Stoppable stoppable(Progress(session.stop.get_token()));
             for (std::size_t i = next++; i < count; i = next++) work(i);
         }));
     for (std::future<void>& thread : threads) thread.wait();
@@ -107,25 +110,25 @@ void on_all_threads(std::size_t count, const std::function<void(std::size_t)>& w
 }
 
 // The same by all processes of a team, which all have to do it.
-void on_all_threads_of_team(std::size_t count, const std::function<void(std::size_t)>& work) {
+void on_all_threads_of_team(const Session& session, std::size_t count, const std::function<void(std::size_t)>& work) {
     Team* const all = team();
-    if (all == nullptr) return on_all_threads(count, work);
+    if (all == nullptr) return on_all_threads(session, count, work);
     const std::uint64_t queue = all->next_number();
-    on_all_threads(thread_count(), [&](std::size_t) {
+    on_all_threads(session, thread_count(), [&](std::size_t) {
         for (Team::Tiles some = all->next_tiles(queue, count); some.count > 0; some = all->next_tiles(queue, count))
             for (std::uint64_t i = some.first; i < some.first + some.count; ++i) work(i);
     });
 }
 
-void compare_pictures(Report& report) {
-    on_all_threads(report.pairs.size(), [&](std::size_t i) {
+void compare_pictures(const Session& session, Report& report) {
+    on_all_threads(session, report.pairs.size(), [&](std::size_t i) {
         PhotographPair& pair = report.pairs[i];
         if (report.looks > 0) pair.comparison = compare(pair.geometric, pair.wave, report.exposure);
         if (report.expected) pair.expected_comparison = compare(pair.geometric, pair.expected, report.exposure);
     });
 }
 
-void write_pictures(const std::filesystem::path& folder, const Report& report) {
+void write_pictures(const Session& session, const std::filesystem::path& folder, const Report& report) {
     const auto with_exposure = [&](Metadata metadata) {
         metadata.emplace_back("exposure", fmt::format("{:.9g}", report.exposure));
         return metadata;
@@ -143,7 +146,7 @@ void write_pictures(const std::filesystem::path& folder, const Report& report) {
             if (report.expected) add(pair.expected_file, pair.expected, expected);
             add(pair.geometric_file, pair.geometric, rays);
         }
-    on_all_threads_of_team(works.size(), [&](std::size_t i) { works[i](); });
+    on_all_threads_of_team(session, works.size(), [&](std::size_t i) { works[i](); });
 }
 
 // Prints the resources that the work needs, and returns the camera that is chosen. Throws if they are not available.
@@ -359,8 +362,8 @@ int make(const Options& options, const Session& session) {
 
     // One exposure for all pictures, from the view from above.
     report.exposure = automatic_exposure(report.pairs[1].geometric);
-    if (is_first_process()) compare_pictures(report);
-    write_pictures(folder.path(), report);
+    if (is_first_process()) compare_pictures(session, report);
+    write_pictures(session, folder.path(), report);
     if (Team* const all = team()) all->meet();
     if (!is_first_process()) return 0;
     write_text(folder.path() / "report.json", report_json(report));

@@ -10,7 +10,6 @@
 #include "display.h"
 #include "fields.h"
 #include "hogel/pipeline.h"
-#include "hogel/stop.h"
 #include "hogel/team.h"
 #include "hologram_pitch.h"
 #include "inputs.h"
@@ -230,7 +229,6 @@ void write_photographs(const Options& options, std::span<const Image> pictures, 
         Stage stage(session, "writing the pictures");
         bytes = write_movie(options.output, pictures, exposure, options.view.frame_rate, metadata, stage.progress());
     } else {
-        const Stoppable stoppable(Progress(session.stop.get_token()));
         write_image(options.output, first, exposure, metadata);
         bytes = std::filesystem::file_size(options.output);
     }

@@ -12,7 +12,6 @@
 #include "fields.h"
 #include "hogel/pipeline.h"
 #include "hogel/propagate.h"
-#include "hogel/stop.h"
 #include "hogel/team.h"
 #include "hogel/units.h"
 #include "inputs.h"
@@ -292,7 +291,6 @@ int propagate_fields(const Options& options, const Session& session) {
         const double exposure = grey ? 1 : automatic_exposure(picture);
         metadata.emplace_back("exposure", fmt::format("{:.9g}", exposure));
         exposed = {{"width", picture.width()}, {"height", picture.height()}, {"exposure", exposure}};
-        const Stoppable stoppable(Progress(session.stop.get_token()));
         if (is_first_process()) write_image(options.output, picture, exposure, metadata);
     }
     if (!is_first_process()) return 0;

@@ -13,7 +13,6 @@
 #include "hogel/image.h"
 #include "hogel/pattern.h"
 #include "hogel/pipeline.h"
-#include "hogel/stop.h"
 #include "hogel/team.h"
 #include "hogel/units.h"
 #include "inputs.h"
@@ -229,7 +228,6 @@ int slm(const Options& options, const Session& session) {
     if (colours == 3) session.say(powers_of(encoded.patterns));
     for (auto& entry : pattern_entries(fields, encoded.encoding, pattern_options)) metadata.push_back(std::move(entry));
     if (!is_first_process()) return 0;
-    const Stoppable stoppable(Progress(session.stop.get_token()));
     write_raw_pixels(options.output, levels, with_history(metadata, to_metadata(fields.front()->provenance())));
     kept.complete();
     session.say(fmt::format("{}: {}x{} pixels of {}", options.output, modulator.width, modulator.height,

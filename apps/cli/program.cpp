@@ -14,6 +14,7 @@
 #include "hogel/error.h"
 #include "hogel/printable.h"
 #include "hogel/resources.h"
+#include "hogel/stop.h"
 #include "interrupts.h"
 #include "standard_output.h"
 
@@ -34,6 +35,7 @@ int run(std::span<const CommandInfo> commands, int argc, char** argv, Session& s
     if (session.command == nullptr) return 0;
     if (processes != nullptr) processes->begin(session);
     const ThreadLimit limit(session.threads);
+    const Stoppable stoppable(Progress(session.stop.get_token()));
     return session.command->run();
 }
 

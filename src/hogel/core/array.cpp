@@ -6,6 +6,8 @@
 #include <new>
 
 #include "hogel/core/freed_blocks.h"
+#include "hogel/core/parallel.h"
+#include "hogel/error.h"
 #include "hogel/resources.h"
 
 namespace hogel {
@@ -33,11 +35,33 @@ core::FreedBlocks& freed_blocks() {
     return *blocks;
 }
 
+constexpr std::size_t large = std::size_t{256} << 20;
+
+// Has the system clear the pages of a large block, which takes seconds for gigabytes, in parts between which it checks
+// for a stop.
+void touch(std::byte* memory, std::size_t bytes) {
+    constexpr std::size_t page = 4096, bytes_between_checks = std::size_t{16} << 20;
+    for (std::size_t at = 0; at < bytes; at += page) {
+        if (at % bytes_between_checks == 0) core::throw_if_stopped();
+        *static_cast<volatile std::byte*>(memory + at) = std::byte{};
+    }
+}
+
 }  // namespace
 
 void set_max_kept_memory(std::size_t bytes) { freed_blocks().set_max_kept(bytes); }
 
-void* allocate_lines(std::size_t bytes) { return freed_blocks().allocate(bytes); }
+void* allocate_lines(std::size_t bytes) {
+    void* memory = freed_blocks().allocate(bytes);
+    if (bytes < large) return memory;
+    try {
+        touch(static_cast<std::byte*>(memory), bytes);
+    } catch (const Error&) {
+        freed_blocks().free(memory);
+        throw;
+    }
+    return memory;
+}
 
 void free_lines(void* memory) { freed_blocks().free(memory); }
 #endif

@@ -10,10 +10,13 @@
 #include <new>
 #include <random>
 #include <set>
+#include <stop_token>
 #include <thread>
 #include <vector>
 
 #include "hogel/array.h"
+#include "hogel/core/parallel.h"
+#include "hogel/core/test_errors.h"
 
 namespace hogel::core {
 namespace {
@@ -272,6 +275,16 @@ TEST(FreedBlocks, are_the_memory_of_arrays) {
     for (int i = 0; i < 3; ++i) places.insert(Array<float, 2>({1024, 1024}).data());
     EXPECT_EQ(places.size(), 1u);
 }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(Array, of_hundreds_of_megabytes_is_not_cleared_to_the_end_when_a_stop_is_requested) {
+    std::stop_source stop;
+    const StopScope scope{Progress(stop.get_token())};
+    stop.request_stop();
+    EXPECT_FALSE(is_cancelled([] { const Array<std::byte, 1> small({mega}); }));
+    EXPECT_TRUE(is_cancelled([] { const Array<std::byte, 1> large({1024 * mega}); }));
+}
+#endif
 
 }  // namespace
 }  // namespace hogel::core

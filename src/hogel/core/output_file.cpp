@@ -7,6 +7,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
@@ -16,6 +17,8 @@
 #include <utility>
 #include <vector>
 
+#include "hogel/core/parallel.h"
+#include "hogel/core/raw_file.h"
 #include "hogel/error.h"
 
 namespace hogel::core {
@@ -134,19 +137,14 @@ void OutputFile::commit() {
 }
 
 void write_file(const std::filesystem::path& path, std::span<const unsigned char> bytes) {
+    constexpr std::size_t bytes_between_checks = std::size_t{16} << 20;
     OutputFile file(path);
-    const int out = ::open(file.temporary().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (out < 0) fail(path, message(errno));
-    int error = 0;
-    while (!bytes.empty() && error == 0) {
-        const ssize_t written = ::write(out, bytes.data(), bytes.size());
-        if (written > 0)
-            bytes = bytes.subspan(static_cast<std::size_t>(written));
-        else if (errno != EINTR)
-            error = errno;
+    RawFile out(file.temporary(), RawFile::Mode::create, path);
+    for (std::size_t at = 0; at < bytes.size(); at += bytes_between_checks) {
+        throw_if_stopped();
+        out.write(at, bytes.data() + at, std::min(bytes_between_checks, bytes.size() - at));
     }
-    if (::close(out) != 0 && error == 0) error = errno;
-    if (error != 0) fail(path, message(error));
+    out.close();
     file.commit();
 }
 

@@ -10,10 +10,13 @@
 #include <csignal>
 #include <fstream>
 #include <iterator>
+#include <stop_token>
 #include <string>
 #include <vector>
 
+#include "hogel/core/parallel.h"
 #include "hogel/core/raw_file.h"
+#include "hogel/core/test_errors.h"
 #include "hogel/error.h"
 
 namespace hogel::core {
@@ -48,6 +51,16 @@ class OutputFileTest : public testing::Test {
 
     fs::path directory_ = fs::path(testing::TempDir()) / ("hogel_output_" + std::to_string(::getpid()));
 };
+
+TEST_F(OutputFileTest, a_stop_while_a_file_is_written_leaves_the_one_that_was_there) {
+    write_text(directory_ / "a", "before");
+    std::stop_source stop;
+    const StopScope scope{Progress(stop.get_token())};
+    stop.request_stop();
+    EXPECT_TRUE(is_cancelled([&] { write_text(directory_ / "a", "after"); }));
+    EXPECT_EQ(text_of(directory_ / "a"), "before");
+    EXPECT_EQ(files(), 1u);
+}
 
 TEST_F(OutputFileTest, replaces_a_file_and_leaves_nothing_else) {
     write_text(directory_ / "a.txt", "first, and longer");

@@ -17,6 +17,8 @@ namespace {
 // One value per pixel, [y][x], for instance the luma of display values (Rec. 709 weights, those of the sRGB primaries).
 using Plane = Array<double, 2>;
 
+constexpr std::size_t values_between_checks = 1 << 18;  // for a stop, in loops on one thread
+
 float display(float linear, double exposure) { return srgb_encode(static_cast<float>(linear * exposure)); }
 
 Plane display_luma(const Image& image, double exposure) {
@@ -71,6 +73,7 @@ double structural_similarity(const Plane& a, const Plane& b) {
     const Plane mean_ab = mean_of([&](std::size_t y, std::size_t x) { return a(y, x) * b(y, x); });
     double sum = 0;
     for (std::size_t i = 0; i < mean_a.size(); ++i) {
+        if (i % values_between_checks == 0) core::throw_if_stopped();
         const double ma = mean_a.elements()[i], mb = mean_b.elements()[i];
         const double var_a = mean_aa.elements()[i] - ma * ma, var_b = mean_bb.elements()[i] - mb * mb;
         const double covariance = mean_ab.elements()[i] - ma * mb;
@@ -101,6 +104,7 @@ ImageComparison compare(const Image& a, const Image& b, double exposure) {
     ImageComparison result;
     double display_squares = 0, linear_squares = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        if (i % values_between_checks == 0) core::throw_if_stopped();
         const float va = a.pixels.elements()[i], vb = b.pixels.elements()[i];
         const double error = static_cast<double>(display(va, exposure)) - display(vb, exposure);
         display_squares += error * error;

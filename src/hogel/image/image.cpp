@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "hogel/core/parallel.h"
+
 namespace hogel {
 
 // IEC 61966-2-1, with the constants as published there.
@@ -47,20 +49,21 @@ bool shows(const Image& image, std::size_t x, std::size_t y, Rgb background) {
 
 double automatic_exposure(const Image& image) {
     const Rgb background = background_of(image.provenance);
-    std::vector<float> largest;
-    largest.reserve(image.width() * image.height());
-    for (std::size_t y = 0; y < image.height(); ++y)
+    std::vector<float> largest(image.width() * image.height());
+    core::parallel_for(image.height(), [&](std::size_t y) {
         for (std::size_t x = 0; x < image.width(); ++x) {
             float value = 0;
             for (std::size_t c = 0; c < image.channels(); ++c) {
                 const float sample = image.pixels(y, x, c);
                 if (std::isfinite(sample)) value = std::max(value, sample);
             }
-            largest.push_back(shows(image, x, y, background) ? 0 : value);
+            largest[y * image.width() + x] = shows(image, x, y, background) ? 0 : value;
         }
+    });
     if (largest.empty()) return 1;
     const auto rank = static_cast<std::ptrdiff_t>(0.995 * static_cast<double>(largest.size() - 1));
     std::nth_element(largest.begin(), largest.begin() + rank, largest.end());
+    core::throw_if_stopped();
     float white = largest[static_cast<std::size_t>(rank)];
     // If fewer than half a per cent of the pixels are not black, uses the maximum.
     if (!(white > 0)) white = *std::max_element(largest.begin(), largest.end());

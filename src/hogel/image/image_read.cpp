@@ -8,6 +8,7 @@
 #include <system_error>
 #include <type_traits>
 
+#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/image.h"
 #include "hogel/image/picture_bytes.h"
@@ -45,6 +46,7 @@ void PictureBytes::check_size(std::uint64_t width, std::uint64_t height, std::ui
 namespace {
 
 constexpr std::size_t max_texture = std::size_t{1} << 28;  // pixels
+constexpr std::size_t pixels_between_checks = 1 << 20;
 
 constexpr const char* unknown_format =
     "its first bytes are not those of a PNG, JPEG, EXR, TIFF, WebP, GIF, BMP, HDR, PNM, PFM or TGA file";
@@ -71,14 +73,18 @@ Image linear_image(Samples&& samples, bool numbers = false) {
             constexpr std::size_t step = std::is_same_v<T, std::uint8_t> ? 257 : 1;
             const std::vector<float>& table = linear_of_display();
             image.pixels = Array<float, 3>(values.shape());
-            std::ranges::transform(values.elements(), image.pixels.data(),
-                                   [&](T value) { return table[static_cast<std::size_t>(value) * step]; });
             // Alpha, and what is no light, has no transfer curve.
             const std::size_t channels = values.extent(2), first = numbers ? 0 : channels == 4 ? 3 : channels;
             constexpr float largest = std::is_same_v<T, std::uint8_t> ? 255.0f : 65535.0f;
-            for (std::size_t c = first; c < channels; ++c)
-                for (std::size_t i = c; i < values.size(); i += channels)
-                    image.pixels.data()[i] = static_cast<float>(values.data()[i]) / largest;
+            core::parallel_for(values.extent(0), [&](std::size_t y) {
+                const View<const T, 2> from = values[y];
+                const View<float, 2> to = image.pixels[y];
+                std::ranges::transform(from.elements(), to.data(),
+                                       [&](T value) { return table[static_cast<std::size_t>(value) * step]; });
+                for (std::size_t c = first; c < channels; ++c)
+                    for (std::size_t i = c; i < from.size(); i += channels)
+                        to.data()[i] = static_cast<float>(from.data()[i]) / largest;
+            });
         },
         samples);
     return image;
@@ -92,15 +98,18 @@ RawChannels raw_channels(const Array<T, 3>& samples, std::uint32_t max_code) {
     if constexpr (!std::is_same_v<T, float>)
         raw.largest = max_code > 0 ? max_code : (std::size_t{1} << (8 * sizeof(T))) - 1;
     bool grey = true;
-    for (std::size_t i = 0; i < pixels && channels == 3; ++i) {
+    for (std::size_t i = 0; i < pixels && channels == 3 && grey; ++i) {
+        if (i % pixels_between_checks == 0) core::throw_if_stopped();
         const T* pixel = samples.data() + i * channels;
-        grey = grey && pixel[0] == pixel[1] && pixel[0] == pixel[2];
+        grey = pixel[0] == pixel[1] && pixel[0] == pixel[2];
     }
     const std::size_t kept = grey ? 1 : channels;
     raw.values = Array<float, 3>({samples.extent(0), samples.extent(1), kept});
-    for (std::size_t i = 0; i < pixels; ++i)
+    for (std::size_t i = 0; i < pixels; ++i) {
+        if (i % pixels_between_checks == 0) core::throw_if_stopped();
         for (std::size_t c = 0; c < kept; ++c)
             raw.values.data()[i * kept + c] = static_cast<float>(samples.data()[i * channels + c]);
+    }
     return raw;
 }
 

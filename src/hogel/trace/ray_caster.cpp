@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 
 namespace hogel::trace {
@@ -17,6 +18,17 @@ constexpr std::size_t packet = 16;  // rays that Embree traces together
 
 [[noreturn]] void fail(const char* what) {
     throw Error(ErrorCode::internal, fmt::format("RayCaster: {}; expected Embree to accept the mesh", what));
+}
+
+// Whether Embree is to go on with what it builds. It asks on several threads, of which the one that has begun knows of
+// a stop; nothing may be thrown through it.
+bool goes_on(void*, double) {
+    try {
+        core::throw_if_stopped();
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
 }
 
 }  // namespace
@@ -119,8 +131,11 @@ void RayCaster::Device::build() {
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
+    rtcSetSceneProgressMonitorFunction(scene, goes_on, nullptr);
     rtcCommitScene(scene);
-    if (rtcGetDeviceError(device) != RTC_ERROR_NONE) give_up("Embree reports an error");
+    const bool is_built = rtcGetDeviceError(device) == RTC_ERROR_NONE;
+    if (!is_built) core::throw_if_stopped();
+    if (!is_built) give_up("Embree reports an error");
 }
 
 bool RayCaster::Device::is_front(Vec3 direction, std::uint32_t index) const {

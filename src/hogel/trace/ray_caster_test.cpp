@@ -7,7 +7,10 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <stop_token>
 
+#include "hogel/core/parallel.h"
+#include "hogel/core/test_errors.h"
 #include "hogel/error.h"
 
 namespace hogel::trace {
@@ -103,6 +106,15 @@ void compare_with_brute_force(const Soup& soup, Vec3 center, double size) {
 }
 
 TEST(RayCaster, finds_what_brute_force_finds) { compare_with_brute_force(random_soup(200, {}, 1), {}, 1); }
+
+TEST(RayCaster, ends_inside_the_building_of_its_hierarchy_when_a_stop_is_requested) {
+    const Soup soup = random_soup(20000, {}, 1);
+    std::stop_source stop;
+    const core::StopScope scope{Progress(stop.get_token())};
+    EXPECT_FALSE(core::is_cancelled([&] { const RayCaster caster(soup.positions, soup.triangles); }));
+    stop.request_stop();
+    EXPECT_TRUE(core::is_cancelled([&] { const RayCaster caster(soup.positions, soup.triangles); }));
+}
 
 TEST(RayCaster, passes_through_backs_where_only_fronts_are_hit) {
     const Soup soup = random_soup(200, {}, 1);

@@ -19,6 +19,7 @@
 
 #include "hogel/image/formats/exr_memory.h"
 #include "hogel/image/formats/formats.h"
+#include "hogel/image/formats/row_blocks.h"
 #include "hogel/image/picture_bytes.h"
 
 namespace hogel::image {
@@ -145,11 +146,13 @@ Array<float, 3> read_channels(Imf::InputFile& in, const std::vector<Channel>& ch
                                                           : slice(Imf::FLOAT, samples.data() + c, count));
     }
     in.setFrameBuffer(buffer);
-    in.readPixels(window.min.y, window.max.y);
-    // Whole numbers become fractions of the largest one.
-    for (std::size_t c = 0; c < count; ++c)
-        for (std::size_t i = 0; i < wholes[c].size(); ++i)
-            samples.data()[i * count + c] = static_cast<float>(wholes[c][i] / 4294967295.0);
+    for_row_blocks(size.height, size.width * count, [&](std::size_t first, std::size_t last) {
+        in.readPixels(window.min.y + static_cast<int>(first), window.min.y + static_cast<int>(last) - 1);
+        // Whole numbers become fractions of the largest one.
+        for (std::size_t c = 0; c < count; ++c)
+            for (std::size_t i = first * size.width; channels[c].whole && i < last * size.width; ++i)
+                samples.data()[i * count + c] = static_cast<float>(wholes[c][i] / 4294967295.0);
+    });
     return samples;
 }
 
@@ -210,7 +213,10 @@ ExrChannels read_exr_channels(const PictureBytes& file) {
     const Array<float, 3> samples = read_channels(in, channels, size);
     for (std::size_t c = 0; c < channels.size(); ++c) {
         Array<float, 2>& plane = picture.channels[c].second = Array<float, 2>({size.height, size.width});
-        for (std::size_t i = 0; i < plane.size(); ++i) plane.data()[i] = samples.data()[i * channels.size() + c];
+        for_row_blocks(size.height, size.width, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first * size.width; i < last * size.width; ++i)
+                plane.data()[i] = samples.data()[i * channels.size() + c];
+        });
     }
     return picture;
 }
@@ -230,7 +236,8 @@ std::vector<unsigned char> exr_channels_file(const ExrChannels& picture) {
     {
         Imf::OutputFile out(sink, header, threads);
         out.setFrameBuffer(buffer);
-        out.writePixels(static_cast<int>(height));
+        for_row_blocks(height, width * picture.channels.size(),
+                       [&](std::size_t first, std::size_t last) { out.writePixels(static_cast<int>(last - first)); });
     }
     return std::move(sink.bytes);
 }
@@ -239,8 +246,11 @@ std::vector<unsigned char> exr_channels_file(const ExrChannels& picture) {
 // values would have fewer than eleven bits.
 bool halves_hold(View<const float, 3> pixels) {
     float largest = 0;
-    for (const float value : pixels.elements())
-        if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+    const std::size_t row = pixels.extent(1) * pixels.extent(2);
+    for_row_blocks(pixels.extent(0), row, [&](std::size_t first, std::size_t last) {
+        for (const float value : pixels.elements().subspan(first * row, (last - first) * row))
+            if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+    });
     return largest == 0 || (largest <= HALF_MAX && largest >= HALF_NRM_MIN);
 }
 
@@ -260,7 +270,6 @@ std::vector<unsigned char> exr_file(View<const float, 3> pixels, const Metadata&
     std::vector<half> halves;
     if (halves_hold(pixels)) {
         halves.resize(pixels.size());
-        std::ranges::transform(pixels.elements(), halves.begin(), [](float value) { return half(value); });
         insert(Imf::HALF, halves.data(), sizeof(half));
     } else {
         insert(Imf::FLOAT, pixels.data(), sizeof(float));
@@ -270,7 +279,12 @@ std::vector<unsigned char> exr_file(View<const float, 3> pixels, const Metadata&
     {
         Imf::OutputFile out(sink, header, threads);
         out.setFrameBuffer(buffer);
-        out.writePixels(static_cast<int>(height));
+        const std::size_t row = width * channels;
+        for_row_blocks(height, row, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first * row; !halves.empty() && i < last * row; ++i)
+                halves[i] = half(pixels.data()[i]);
+            out.writePixels(static_cast<int>(last - first));
+        });
     }  // the table of rows is written at the end
     return std::move(sink.bytes);
 }

@@ -12,6 +12,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 #include <numeric>
 #include <stop_token>
 
@@ -134,13 +135,23 @@ void expect_samples(const Picture& picture, View<const T, 3> expected, int toler
         ASSERT_NEAR(samples->data()[i], expected.data()[i], tolerance) << i;
 }
 
-TEST(PngWriter, ends_between_rows_when_a_stop_is_requested) {
+TEST(Pictures, are_neither_read_nor_written_to_the_end_when_a_stop_is_requested) {
     const Array<std::uint8_t, 3> grey({4, 3, 1});
-    std::stop_source stop;
-    const core::StopScope scope{Progress(stop.get_token())};
-    EXPECT_FALSE(core::is_cancelled([&] { png_file(grey.view(), {}, Curve::srgb); }));
-    stop.request_stop();
-    EXPECT_TRUE(core::is_cancelled([&] { png_file(grey.view(), {}, Curve::srgb); }));
+    const Array<float, 3> light({4, 3, 3});
+    const Bytes png = png_file(grey.view(), {}, Curve::srgb), jpeg = jpeg_file(grey, 90), exr = exr_file(light, {});
+    const std::vector<std::function<void()>> works{[&] { png_file(grey.view(), {}, Curve::srgb); },
+                                                   [&] { jpeg_file(grey, 90); },
+                                                   [&] { exr_file(light, {}); },
+                                                   [&] { read_png(request(png)); },
+                                                   [&] { read_jpeg(request(jpeg)); },
+                                                   [&] { read_exr(request(exr)); }};
+    for (std::size_t i = 0; i < works.size(); ++i) {
+        std::stop_source stop;
+        const core::StopScope scope{Progress(stop.get_token())};
+        EXPECT_FALSE(core::is_cancelled(works[i])) << i;
+        stop.request_stop();
+        EXPECT_TRUE(core::is_cancelled(works[i])) << i;
+    }
 }
 
 TEST(PngReader, reads_interlaced_and_palette_and_narrow_pictures) {

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "hogel/image/formats/formats.h"
+#include "hogel/image/formats/row_blocks.h"
 
 namespace hogel::image {
 namespace {
@@ -91,13 +92,15 @@ class JpegReader {
         std::vector<JSAMPLE> line(inks ? 4 * width : 0);
         JSAMPLE* const first = samples.data();
         JSAMPLE* const colours = line.data();
-        run([&] {
-            while (jpeg_.output_scanline < jpeg_.output_height) {
-                JSAMPLE* const row = first + jpeg_.output_scanline * width * channels;
-                JSAMPROW into = inks ? colours : row;
-                jpeg_read_scanlines(&jpeg_, &into, 1);
-                if (inks) to_rgb(colours, row, width);
-            }
+        for_row_blocks(jpeg_.output_height, width * channels, [&](std::size_t, std::size_t last) {
+            run([&] {
+                while (jpeg_.output_scanline < last) {
+                    JSAMPLE* const row = first + jpeg_.output_scanline * width * channels;
+                    JSAMPROW into = inks ? colours : row;
+                    jpeg_read_scanlines(&jpeg_, &into, 1);
+                    if (inks) to_rgb(colours, row, width);
+                }
+            });
         });
         return samples;
     }
@@ -159,13 +162,17 @@ class Writer {
             if (!grey && quality >= full_colours)
                 jpeg_.comp_info[0].h_samp_factor = jpeg_.comp_info[0].v_samp_factor = 1;
             jpeg_start_compress(&jpeg_, TRUE);
-            while (jpeg_.next_scanline < jpeg_.image_height) {
-                // libjpeg does not write to it.
-                auto* line = const_cast<JSAMPLE*>(pixels.data() + jpeg_.next_scanline * row);
-                jpeg_write_scanlines(&jpeg_, &line, 1);
-            }
-            jpeg_finish_compress(&jpeg_);
         });
+        for_row_blocks(pixels.extent(0), row, [&](std::size_t, std::size_t last) {
+            run([&] {
+                while (jpeg_.next_scanline < last) {
+                    // libjpeg does not write to it.
+                    auto* line = const_cast<JSAMPLE*>(pixels.data() + jpeg_.next_scanline * row);
+                    jpeg_write_scanlines(&jpeg_, &line, 1);
+                }
+            });
+        });
+        run([&] { jpeg_finish_compress(&jpeg_); });
         return {file_, file_ + bytes_};
     }
 

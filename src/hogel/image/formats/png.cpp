@@ -11,8 +11,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "hogel/core/parallel.h"
 #include "hogel/image/formats/formats.h"
+#include "hogel/image/formats/row_blocks.h"
 #include "hogel/image/picture_bytes.h"
 
 namespace hogel::image {
@@ -136,11 +136,13 @@ class PngReader {
         if (png_get_rowbytes(png_, info_) != row * sizeof(T)) file_.fail("its rows are not of the size they should be");
         T* const first = samples.data();
         const std::size_t height = samples.extent(0);
-        run([&] {
-            for (int pass = 0; pass < passes_; ++pass)
-                for (std::size_t y = 0; y < height; ++y)
-                    png_read_row(png_, reinterpret_cast<png_bytep>(first + y * row), nullptr);
-        });
+        for (int pass = 0; pass < passes_; ++pass)
+            for_row_blocks(height, row, [&](std::size_t begin, std::size_t end) {
+                run([&] {
+                    for (std::size_t y = begin; y < end; ++y)
+                        png_read_row(png_, reinterpret_cast<png_bytep>(first + y * row), nullptr);
+                });
+            });
         return samples;
     }
 
@@ -185,8 +187,6 @@ std::vector<png_text> png_texts(Metadata& texts) {
     return list;
 }
 
-constexpr std::size_t samples_between_checks = 1 << 20;
-
 // libpng's structures of a file that is written.
 struct PngWriting {
     explicit PngWriting(Failure& failure)
@@ -229,15 +229,12 @@ std::vector<unsigned char> encode(View<const T, 3> pixels, const Metadata& texts
         png_write_info(png, info);
         if (sizeof(T) == 2 && std::endian::native == std::endian::little) png_set_swap(png);
     });
-    // Some rows at a time, because the check for a stop may not throw through libpng.
-    const std::size_t rows = std::max(samples_between_checks / row, std::size_t{1});
-    for (std::size_t first = 0; done && first < height; first += rows) {
-        core::throw_if_stopped();
-        done = attempt(png, [&] {
-            for (std::size_t y = first; y < std::min<std::size_t>(first + rows, height); ++y)
-                png_write_row(png, reinterpret_cast<png_const_bytep>(pixels.data() + y * row));
-        });
-    }
+    for_row_blocks(height, row, [&](std::size_t first, std::size_t last) {
+        done = done && attempt(png, [&] {
+                   for (std::size_t y = first; y < last; ++y)
+                       png_write_row(png, reinterpret_cast<png_const_bytep>(pixels.data() + y * row));
+               });
+    });
     done = done && attempt(png, [&] { png_write_end(png, info); });
     if (!done) throw std::runtime_error(failure.text.data());
     return bytes;

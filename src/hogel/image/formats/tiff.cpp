@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/image/formats/formats.h"
+#include "hogel/image/formats/row_blocks.h"
 
 #include <fmt/format.h>
 #include <tiffio.h>
@@ -117,10 +118,12 @@ Samples read_rows(TIFF* tiff, const Layout& layout, const PictureBytes& file, co
     if (static_cast<std::size_t>(TIFFScanlineSize(tiff)) != width * stored * sizeof(T)) fail(file, memory);
     Array<T, 3> samples({layout.height, width, kept});
     std::vector<T> row(width * stored);
-    for (std::uint32_t y = 0; y < layout.height; ++y) {
-        if (TIFFReadScanline(tiff, row.data(), y, 0) != 1) fail(file, memory);
-        for (std::size_t x = 0; x < width; ++x) std::copy_n(&row[x * stored], kept, &samples(y, x, 0u));
-    }
+    for_row_blocks(layout.height, width * stored, [&](std::size_t first, std::size_t last) {
+        for (std::size_t y = first; y < last; ++y) {
+            if (TIFFReadScanline(tiff, row.data(), static_cast<std::uint32_t>(y), 0) != 1) fail(file, memory);
+            for (std::size_t x = 0; x < width; ++x) std::copy_n(&row[x * stored], kept, &samples(y, x, 0u));
+        }
+    });
     return samples;
 }
 
@@ -203,10 +206,12 @@ std::vector<unsigned char> tiff_file(View<const std::uint8_t, 3> pixels, const M
         if (!lines.empty()) TIFFSetField(tiff.get(), TIFFTAG_IMAGEDESCRIPTION, lines.c_str());
         std::vector<std::uint8_t> line(row);
         done = true;
-        for (std::size_t y = 0; y < height && done; ++y) {
-            std::copy_n(pixels.data() + y * row, row, line.data());  // libtiff changes what it is given
-            done = TIFFWriteScanline(tiff.get(), line.data(), static_cast<std::uint32_t>(y), 0) == 1;
-        }
+        for_row_blocks(height, row, [&](std::size_t first, std::size_t last) {
+            for (std::size_t y = first; y < last && done; ++y) {
+                std::copy_n(pixels.data() + y * row, row, line.data());  // libtiff changes what it is given
+                done = TIFFWriteScanline(tiff.get(), line.data(), static_cast<std::uint32_t>(y), 0) == 1;
+            }
+        });
         done = done && TIFFWriteDirectory(tiff.get()) == 1;
     }
     if (!done) throw std::runtime_error(memory.error);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "hogel/core/half.h"
+#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/io/hdf5/dataset.h"
 #include "hogel/io/hdf5/runs.h"
@@ -17,8 +18,9 @@
 namespace hogel::io::hdf5 {
 namespace {
 
-constexpr std::size_t max_halves = std::size_t{1} << 24;      // of a box that is converted as a whole
-constexpr std::size_t halves_written = std::size_t{1} << 19;  // of a larger one at a time: they stay in the caches
+constexpr std::size_t max_halves = std::size_t{1} << 24;       // of a box that is converted as a whole
+constexpr std::size_t halves_written = std::size_t{1} << 19;   // of a larger one at a time: they stay in the caches
+constexpr std::size_t samples_written = std::size_t{1} << 22;  // at a time, between two checks for a stop
 // How long the first process of a team that is stopped waits for the others to say what they have done: a stop takes
 // less than a second, and what starts the processes may kill them soon after.
 constexpr std::chrono::milliseconds patience{500};
@@ -198,7 +200,12 @@ void DatasetFile::write_bytes(std::size_t dataset, const Box& box, const void* f
     const std::size_t bytes = bytes_of(to.element);
     const std::lock_guard lock(writing_);
     for_each_run(to.shape, box, [&](std::size_t there, std::size_t here, std::size_t n) {
-        raw_->write(offsets_[dataset] + bytes * there, static_cast<const char*>(from) + bytes * here, bytes * n);
+        for (std::size_t done = 0, some = 0; done < n; done += some) {
+            core::throw_if_stopped();
+            some = std::min(samples_written, n - done);
+            raw_->write(offsets_[dataset] + bytes * (there + done),
+                        static_cast<const char*>(from) + bytes * (here + done), bytes * some);
+        }
     });
 }
 
@@ -216,6 +223,7 @@ void DatasetFile::write(std::size_t dataset, const Box& box, const float* from) 
     const std::lock_guard lock(writing_);
     for_each_run(datasets_[dataset].shape, box, [&](std::size_t there, std::size_t here, std::size_t n) {
         for (std::size_t done = 0, some = 0; done < n; done += some) {
+            core::throw_if_stopped();
             some = std::min(at_once, n - done);
             core::to_half(from + here + done, halves->data(), some);
             raw_->write(offsets_[dataset] + 2 * (there + done), halves->data(), 2 * some);

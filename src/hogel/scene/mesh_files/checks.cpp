@@ -5,6 +5,7 @@
 #include <cctype>
 #include <fstream>
 
+#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/scene/mesh_files/checks.h"
 
@@ -44,10 +45,14 @@ bool starts_like_ply(std::string_view bytes) { return lower_case(std::string(byt
 bool starts_with_mark(std::string_view bytes) { return bytes.starts_with("\xEF\xBB\xBF"); }
 
 std::string read_file(const std::filesystem::path& path, std::uintmax_t size, const std::string& file) {
+    constexpr std::size_t bytes_between_checks = std::size_t{16} << 20;
     std::string bytes(size, '\0');
     std::ifstream stream(path, std::ios::binary);
-    if (!stream.read(bytes.data(), static_cast<std::streamsize>(size)))
-        reject_file(file, fmt::format("{} cannot be read", one_line(path.filename().string())), "a readable file");
+    for (std::size_t at = 0; at < size; at += bytes_between_checks) {
+        core::throw_if_stopped();
+        if (!stream.read(bytes.data() + at, static_cast<std::streamsize>(std::min(bytes_between_checks, size - at))))
+            reject_file(file, fmt::format("{} cannot be read", one_line(path.filename().string())), "a readable file");
+    }
     if (starts_with_mark(bytes)) bytes.erase(0, 3);
     return bytes;
 }

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <map>
 
+#include "hogel/core/parallel.h"
+#include "hogel/scene/edges.h"
 #include "hogel/scene/mesh_files/checks.h"
 #include "hogel/scene/mesh_files/files.h"
 
@@ -50,7 +52,8 @@ class Line {
 
 template <class Each>
 void for_lines(std::string_view text, const Each& each) {
-    while (!text.empty()) {
+    for (std::size_t lines = 0; !text.empty(); ++lines) {
+        if (lines % between_checks == 0) core::throw_if_stopped();
         const std::size_t end = std::min(text.find('\n'), text.size());
         each(text.substr(0, end));
         text.remove_prefix(std::min(end + 1, text.size()));

@@ -10,6 +10,9 @@
 #include <optional>
 #include <string_view>
 
+#include "hogel/core/parallel.h"
+#include "hogel/scene/edges.h"
+
 namespace hogel::scene::mesh_files {
 namespace {
 
@@ -30,8 +33,9 @@ std::size_t find_bare_point(std::string_view line, std::size_t from) {
 
 std::string with_leading_zeros(std::string text) {
     std::string whole;
-    std::size_t done = 0, end = 0;
+    std::size_t done = 0, end = 0, lines = 0;
     for (std::size_t begin = 0; begin < text.size(); begin = end + 1) {
+        if (lines++ % between_checks == 0) core::throw_if_stopped();
         end = std::min(text.find('\n', begin), text.size());
         std::string_view line(text.data() + begin, end - begin);
         line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
@@ -77,7 +81,8 @@ std::optional<ObjVertex> parse_vertex(std::string_view line) {
 /// Calls `visit` with each line, its end included, and its vertex if it has one, until `visit` returns false.
 template <class Visit>
 void for_vertices(std::string_view text, const Visit& visit) {
-    while (!text.empty()) {
+    for (std::size_t lines = 0; !text.empty(); ++lines) {
+        if (lines % between_checks == 0) core::throw_if_stopped();
         const std::size_t size = std::min(text.find('\n'), text.size() - 1) + 1;
         if (!visit(text.substr(0, size), parse_vertex(text.substr(0, size)))) return;
         text.remove_prefix(size);

@@ -98,7 +98,10 @@ struct Sums {
 /// The surface that each triangle belongs to.
 std::vector<Surfaces::Link> find_surfaces(Surfaces& surfaces, std::size_t triangles) {
     std::vector<Surfaces::Link> links(triangles);
-    for (std::uint32_t t = 0; t < triangles; ++t) links[t] = surfaces.find(t);
+    for (std::uint32_t t = 0; t < triangles; ++t) {
+        if (t % between_checks == 0) core::throw_if_stopped();
+        links[t] = surfaces.find(t);
+    }
     return links;
 }
 
@@ -106,6 +109,7 @@ std::vector<Sums> sum_surfaces(const Mesh& mesh, const std::vector<Surfaces::Lin
     std::vector<Sums> sums(links.size());
     const Vec3 origin = mesh.positions[mesh.triangles[0][0]];
     for (std::size_t t = 0; t < links.size(); ++t) {
+        if (t % between_checks == 0) core::throw_if_stopped();
         const auto& [a, b, c] = mesh.triangles[t];
         const Vec3 p = mesh.positions[a] - origin, q = mesh.positions[b] - origin, r = mesh.positions[c] - origin;
         const Vec3 front = 0.5 * cross(q - p, r - p);
