@@ -119,6 +119,8 @@ bool io::hdf5::is_hdf5(const std::filesystem::path& path) {
     std::error_code status;
     const std::filesystem::file_status there = std::filesystem::status(path, status);
     if (!std::filesystem::exists(there)) fail("no such file");
+    if (std::filesystem::is_directory(there))
+        fail("it is a folder without a set of views that is recognised; `hogel import` says why");
     if (!std::filesystem::is_regular_file(there)) fail("it is not a plain file");
     std::ifstream file(path, std::ios::binary);
     if (!file) fail("it cannot be opened");

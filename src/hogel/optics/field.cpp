@@ -30,11 +30,14 @@ constexpr double max_wavelength = 0.1e-3;
 
 void require_wavelength(double wavelength, ErrorCode code, const std::string& what) {
     require_positive(wavelength, code, what, "the wavelength");
-    if (wavelength > max_wavelength)
-        throw Error(code,
-                    fmt::format("{}: the wavelength is {:g} m; expected at most {}: lengths are in metres, and {:g} "
-                                "nanometres are {:g}*nm",
-                                what, wavelength, format_length(max_wavelength), wavelength, wavelength));
+    if (wavelength <= max_wavelength) return;
+    double nanometres = wavelength;
+    while (nanometres < 100) nanometres *= 1000;
+    throw Error(
+        code,
+        fmt::format("{}: the wavelength is {:g} m; expected at most {}: {:g} nanometres are {:g}nm, or in "
+                    "programs {:g}*nm, {:g}e-9 metres",
+                    what, wavelength, format_length(max_wavelength), nanometres, nanometres, nanometres, nanometres));
 }
 
 // The largest multiple of `alignment` up to a number, at least one.

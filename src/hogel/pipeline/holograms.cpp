@@ -57,20 +57,27 @@ LightField open_for_holograms(const std::filesystem::path& path, HologramRequest
 std::string warning_about(const LightField& light_field, const HologramRequest& request) {
     const auto* overlap_add = std::get_if<OverlapAdd>(&request.method);
     if (overlap_add == nullptr) return {};
-    if (overlap_add->phases == PointPhases::fixed && hologram::has_picture_at_infinity(light_field.front()))
+    const bool smooth = overlap_add->phases == PointPhases::fixed;
+    if (smooth && hologram::has_picture_at_infinity(light_field.front()))
         return "rays that meet nothing show a picture at infinity, of which smooth surfaces keep the mean alone; "
-               "random "
-               "phases would show it";
+               "random phases would show it";
+    const LightFieldGrid& grid = light_field.grid();
+    const double samples = std::round(grid.pitch / request.pitch);
+    if (smooth && samples > hologram::max_smooth_hogel)
+        return fmt::format(
+            "hogels are {:.0f} samples wide, and smooth surfaces show them as a grid with colours of its own; hogels "
+            "of up to {:.0f} samples, or random phases, would do",
+            samples, hologram::max_smooth_hogel);
     const double parallax = hologram::neighbouring_parallax(light_field.front(), request.pitch);
     if (parallax <= hologram::max_parallax) return {};
-    const LightFieldGrid& grid = light_field.grid();
     const auto enough = [&](std::size_t count) {
         return std::ceil(static_cast<double>(count) * parallax / hologram::max_parallax);
     };
     return fmt::format(
         "neighbouring directions see the deepest things {:.1f} samples apart, and windows overlap well up "
-        "to {:.0f}; {}x{} directions would do",
-        parallax, hologram::max_parallax, enough(grid.directions_u), enough(grid.directions_v));
+        "to {:.0f}{}; {}x{} directions would do",
+        parallax, hologram::max_parallax, smooth ? ", beyond which smooth surfaces lose brightness and colour" : "",
+        enough(grid.directions_u), enough(grid.directions_v));
 }
 
 Fields make_holograms(const LightField& light_field, const HologramRequest& request) {

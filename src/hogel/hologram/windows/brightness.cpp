@@ -3,6 +3,7 @@
 
 #include <complex>
 #include <numbers>
+#include <optional>
 
 namespace hogel::hologram::windows {
 namespace {
@@ -137,46 +138,80 @@ std::vector<float> rough_factors(const Line& line, const Fan& fan, double depth)
     return factors_of(points, line);
 }
 
-// The factor with which the windows of a uniform surface, whose points have one phase, add up to a plane wave of the
-// fan's power. A direction contributes the mean of its wave under the window, ŵ_j = Σ_p w_p exp(2πi j p/side)/hop,
-// which is nonzero at frequency 0 and its neighbours. Their phases depend on the depth; far away they are unrelated.
-float smooth_factor(const Line& line, const Fan& fan, double depth) {
-    const auto side = static_cast<double>(line.window.size());
-    std::complex<double> sum = 0;
-    double power = 0;
-    for (const Frequency& frequency : frequencies_in(fan, line)) {
-        double mean = 0;
-        for (std::size_t p = 0; p < line.window.size(); ++p)
-            mean +=
-                static_cast<double>(line.window[p]) * std::cos(2 * std::numbers::pi * static_cast<double>(frequency.j) *
-                                                               (static_cast<double>(p) - 0.5 * (side - 1)) / side);
-        mean /= static_cast<double>(line.hop);
-        const double path = (1 / std::sqrt(1 - frequency.sine * frequency.sine) - 1) * depth;
-        if (std::isfinite(depth)) sum += std::polar(mean, 2 * std::numbers::pi * path / line.wavelength);
-        power += mean * mean;
+// A uniform surface whose points have one phase.
+class SmoothSurface {
+  public:
+    SmoothSurface(const Line& line, const Fan& fan) : line_(line), fan_(fan), frequencies_(frequencies_in(fan, line)) {
+        const std::size_t side = line.window.size();
+        for (const Frequency& frequency : frequencies_) {
+            std::vector<std::complex<double>>& wave = waves_.emplace_back(line.hop);
+            const double a_sample = static_cast<double>(frequency.j) / static_cast<double>(side);
+            for (std::size_t p = 0; p < side; ++p)
+                wave[p % line.hop] += std::polar(static_cast<double>(line.window[p]),
+                                                 2 * std::numbers::pi * a_sample * static_cast<double>(p));
+        }
     }
-    const auto sine_of = [](double tangent) { return tangent / std::sqrt(1 + tangent * tangent); };
-    const double width = sine_of(fan.center + fan.half) - sine_of(fan.center - fan.half);
-    const double step = line.wavelength / (side * line.pitch);
-    // Where windows cancel, or the wave misses the fan, the factor would have no bound.
-    const double lower_bound = 0.25 * side / static_cast<double>(line.hop);
-    return static_cast<float>(std::sqrt(width / step) /
-                              std::max(std::isfinite(depth) ? std::abs(sum) : std::sqrt(power), lower_bound));
-}
+
+    // The factor with which the windows of the surface at a depth add up to the power of the fan's rays. Without a
+    // depth the phases of directions are unrelated.
+    float factor(std::optional<double> depth) const {
+        const double sines = sine_of(fan_.center + fan_.half) - sine_of(fan_.center - fan_.half);
+        const auto side = static_cast<double>(line_.window.size()), hop = static_cast<double>(line_.hop);
+        const double step = line_.wavelength / (side * line_.pitch);
+        // Where windows cancel, or the wave misses the fan, the factor would have no bound.
+        const double lower_bound = 0.0625 * (side / hop) * (side / hop);
+        return static_cast<float>(std::sqrt(sines / step / std::max(depth ? power(*depth) : power(), lower_bound)));
+    }
+
+  private:
+    static double sine_of(double tangent) { return tangent / std::sqrt(1 + tangent * tangent); }
+
+    double power(double depth) const {
+        std::vector<std::complex<double>> sum(line_.hop);
+        for (std::size_t i = 0; i < waves_.size(); ++i) {
+            const double sine = frequencies_[i].sine, path = (1 / std::sqrt(1 - sine * sine) - 1) * depth;
+            // Waves are counted from the middle of the window.
+            const double first = -0.5 * static_cast<double>(frequencies_[i].j) *
+                                 static_cast<double>(line_.window.size() - 1) /
+                                 static_cast<double>(line_.window.size());
+            const auto phase = std::polar(1.0, 2 * std::numbers::pi * (path / line_.wavelength + first));
+            for (std::size_t x = 0; x < line_.hop; ++x) sum[x] += phase * waves_[i][x];
+        }
+        return mean_power(sum);
+    }
+    double power() const {
+        double sum = 0;
+        for (const auto& wave : waves_) sum += mean_power(wave);
+        return sum;
+    }
+    static double mean_power(std::span<const std::complex<double>> wave) {
+        double sum = 0;
+        for (const auto& sample : wave) sum += std::norm(sample);
+        return sum / static_cast<double>(wave.size());
+    }
+
+    const Line& line_;
+    const Fan& fan_;
+    std::vector<Frequency> frequencies_;
+    // One period, a hogel wide, of the sum of a direction's waves under the windows of all hogels.
+    std::vector<std::vector<std::complex<double>>> waves_;
+};
 
 std::vector<float> factors_along(const Line& line, const Fan& fan, double depth_step, PointPhases phases) {
     using Table = WindowBrightness;
     const std::size_t directions = 2 * ((line.window.size() - 1) / 2) + 1;
     std::vector<float> table(directions * Table::steps);
+    std::optional<SmoothSurface> smooth;
+    if (phases == PointPhases::fixed) smooth.emplace(line, fan);
     for (std::size_t step = 0; step < Table::steps; ++step) {
         // The last step stands for all larger depths, where the windows of one point lie apart.
-        const bool is_last = step + 1 == Table::steps;
-        const double depth = is_last ? HUGE_VAL : depth_step * (static_cast<double>(step) + 0.5);
+        std::optional<double> depth;
+        if (step + 1 < Table::steps) depth = depth_step * (static_cast<double>(step) + 0.5);
         std::vector<float> factors(directions, factor_alone(line));
-        if (phases == PointPhases::fixed)
-            std::ranges::fill(factors, smooth_factor(line, fan, depth));
-        else if (!is_last)
-            factors = rough_factors(line, fan, depth);
+        if (smooth)
+            std::ranges::fill(factors, smooth->factor(depth));
+        else if (depth)
+            factors = rough_factors(line, fan, *depth);
         for (std::size_t j = 0; j < directions; ++j) table[j * Table::steps + step] = factors[j];
     }
     return table;

@@ -25,9 +25,9 @@ inline constexpr double point_spacing = 15.0 / 16;
 /// (docs/notation.md, section 3). In two dimensions the windows of a point are
 /// products, and so are the factors, but for the curvature of the spherical wave that mixes x and y.
 ///
-/// Where all points have the same phase, the windows of different points interfere too, and a uniform surface sends a
-/// plane wave forward. The factor of a depth, the same for all directions, gives this wave the power of the light
-/// field's rays: |F|² = L Δs_x Δs_y, where Δs_x Δs_y is the fan's area in direction sines.
+/// Where all points have the same phase, the windows of different points interfere too. The factor of a depth, the same
+/// for all directions, gives a uniform surface the power of the light field's rays: mean |F|² = L Δs_x Δs_y, where
+/// Δs_x Δs_y is the fan's area in direction sines.
 class WindowBrightness {
   public:
     /// The number of steps of depth.

@@ -7,6 +7,7 @@
 
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/printable.h"
 #include "hogel/scene/mesh_files/checks.h"
 
 namespace hogel::scene::mesh_files {
@@ -26,11 +27,8 @@ void reject_file(const std::string& file, const std::string& what, const std::st
 }
 
 std::string one_line(const std::string& message) {
-    constexpr std::size_t longest = 200;
-    std::string line = message.substr(0, longest);
-    for (char& c : line)
-        if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~') c = ' ';
-    while (!line.empty() && line.back() == ' ') line.pop_back();
+    std::string line = printable(message);
+    while (line.ends_with(' ')) line.pop_back();
     return line;
 }
 

@@ -119,8 +119,8 @@ TEST_F(Libraries, say_what_is_left_out) {
     expect_note(read("", "curv 0 1 1 2\nend\n"), "free-form curves");
     write("a.mtl", "newmtl a\nd -halo 0.5\n");
     expect_refusal("c.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n", "halo");
-    expect_note(import_scene(write("b.obj", "mtllib lost.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")),
-                "its material library 'lost.mtl' is not found");
+    expect_note(import_scene(write("b.obj", "mtllib grün.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")),
+                "its material library 'grün.mtl' is not found");
 }
 
 TEST_F(Libraries, of_other_formats_are_noted_too) {
