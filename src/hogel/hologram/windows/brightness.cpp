@@ -5,6 +5,8 @@
 #include <numbers>
 #include <optional>
 
+#include "hogel/core/parallel.h"
+
 namespace hogel::hologram::windows {
 namespace {
 
@@ -204,6 +206,7 @@ std::vector<float> factors_along(const Line& line, const Fan& fan, double depth_
     std::optional<SmoothSurface> smooth;
     if (phases == PointPhases::fixed) smooth.emplace(line, fan);
     for (std::size_t step = 0; step < Table::steps; ++step) {
+        core::throw_if_stopped();
         // The last step stands for all larger depths, where the windows of one point lie apart.
         std::optional<double> depth;
         if (step + 1 < Table::steps) depth = depth_step * (static_cast<double>(step) + 0.5);
