@@ -94,11 +94,11 @@ std::vector<Camera> make_cameras(const CameraOptions& options, double width, dou
     return cameras;
 }
 
-void add_wave_camera_option(Command& command, std::string& camera, std::vector<std::string> names) {
+void add_wave_camera_option(Command& command, std::string& camera, const std::vector<std::string>& names) {
     const bool full = std::ranges::count(names, "full") > 0;
     std::string type;
     for (const std::string& name : names) type += (type.empty() ? "" : "|") + name;
-    command.choice("--camera", camera, std::move(names), type,
+    command.choice("--camera", camera, names, type,
                    std::string("How waves are photographed:"
                                "\nauto: eye where the hogels are known and that is cheaper, otherwise narrow"
                                "\neye: the few numbers of each hogel that enter the lens"

@@ -34,7 +34,7 @@ void add_camera_options(Command& command, CameraOptions& options);
 std::vector<Camera> make_cameras(const CameraOptions& options, double width, double height);
 
 /// --camera, the way in which waves are photographed.
-void add_wave_camera_option(Command& command, std::string& camera, std::vector<std::string> names);
+void add_wave_camera_option(Command& command, std::string& camera, const std::vector<std::string>& names);
 /// What photograph() is asked for by --camera auto, eye or narrow, and --looks.
 PhotographOptions photograph_options(const std::string& camera, bool expected);
 /// Says with -v from what photographs are computed, and why; returns its name, eye or narrow. Throws Error(usage) for

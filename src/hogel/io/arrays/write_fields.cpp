@@ -122,7 +122,7 @@ void write_exr_file(const std::filesystem::path& path, std::span<const Field> fi
     const ExternalField sampling{.pitch_x = plane.pitch_x, .pitch_y = plane.pitch_y};
     for (auto& entry : field_entries(sampling, wavelengths_of(fields))) picture.texts.push_back(std::move(entry));
     for (std::size_t c = 0; c < fields.size(); ++c) {
-        Array<float, 2> real({plane.height, plane.width}), imaginary = real;
+        Array<float, 2> real({plane.height, plane.width}), imaginary({plane.height, plane.width});
         for (std::size_t i = 0; i < real.size(); ++i) {
             real.data()[i] = fields[c].samples.data()[i].real();
             imaginary.data()[i] = fields[c].samples.data()[i].imag();
