@@ -5,6 +5,9 @@
 
 #include <algorithm>
 
+#include "hogel/core/parallel.h"
+#include "hogel/io/arrays/numbers.h"
+
 namespace hogel::io::arrays {
 namespace {
 
@@ -35,21 +38,12 @@ bool inflate_first(std::span<const unsigned char> packed, std::span<unsigned cha
     return true;
 }
 
-}  // namespace
-
-bool inflate(const std::filesystem::path&, std::span<const unsigned char> packed, std::span<unsigned char> plain,
-             Extent extent) {
-    if (extent == Extent::first) return inflate_first(packed, plain);
-    uLongf length = plain.size();
-    return uncompress(plain.data(), &length, packed.data(), packed.size()) == Z_OK && length == plain.size();
-}
-
-bool inflate_bare(const std::filesystem::path&, std::span<const unsigned char> packed, std::span<unsigned char> plain) {
-    Stream stream(-MAX_WBITS);
+bool inflate_all(Stream& stream, std::span<const unsigned char> packed, std::span<unsigned char> plain) {
     if (!stream.started) return false;
-    constexpr std::size_t most = 1u << 30;
     for (std::size_t from = 0, to = 0;;) {
-        const std::size_t in = std::min(packed.size() - from, most), out = std::min(plain.size() - to, most);
+        core::throw_if_stopped();
+        const std::size_t in = std::min(packed.size() - from, bytes_between_checks),
+                          out = std::min(plain.size() - to, bytes_between_checks);
         stream.next_in = const_cast<unsigned char*>(packed.data() + from);
         stream.avail_in = static_cast<unsigned>(in);
         stream.next_out = plain.data() + to;
@@ -60,6 +54,20 @@ bool inflate_bare(const std::filesystem::path&, std::span<const unsigned char> p
         if (status == Z_STREAM_END) return to == plain.size();
         if (status != Z_OK || (in == stream.avail_in && out == stream.avail_out)) return false;
     }
+}
+
+}  // namespace
+
+bool inflate(const std::filesystem::path&, std::span<const unsigned char> packed, std::span<unsigned char> plain,
+             Extent extent) {
+    if (extent == Extent::first) return inflate_first(packed, plain);
+    Stream stream;
+    return inflate_all(stream, packed, plain);
+}
+
+bool inflate_bare(const std::filesystem::path&, std::span<const unsigned char> packed, std::span<unsigned char> plain) {
+    Stream stream(-MAX_WBITS);
+    return inflate_all(stream, packed, plain);
 }
 
 }  // namespace hogel::io::arrays

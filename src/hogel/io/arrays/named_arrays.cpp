@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/io/arrays/named_arrays.h"
+#include "hogel/core/parallel.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -315,10 +316,12 @@ std::unique_ptr<FieldSource> open_arrays(const std::filesystem::path& path, cons
         if (parts.second || a.step_pair > 0) return second.real_at(i + a.step_pair);
         return first.imaginary.empty() ? 0 : first.imaginary_at(i);
     };
-    for (std::size_t y = 0; y < a.height; ++y)
+    for (std::size_t y = 0; y < a.height; ++y) {
+        core::throw_if_stopped();
         for (std::size_t x = 0; x < a.width; ++x)
             field->samples(y, x) = convert(first.real_at(y * a.step_y + x * a.step_x + what.colour * a.step_colour),
                                            other_at(y * b.step_y + x * b.step_x + what.colour * b.step_colour));
+    }
     require_finite(*field, what.colour, path);
     return field;
 }

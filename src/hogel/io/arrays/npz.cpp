@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "hogel/core/parallel.h"
 #include "hogel/io/arrays/named_arrays.h"
 #include "hogel/io/arrays/npy.h"
 #include "hogel/io/arrays/zip.h"
@@ -31,6 +32,7 @@ NumberArray array_of(const std::string& name, const NpyHeader& header, std::span
         if (header.big_endian) std::reverse(to, to + number);
     };
     for (std::size_t i = 0; i < count; ++i) {
+        if (i % bytes_between_checks == 0) core::throw_if_stopped();
         const unsigned char* at = &bytes[header.begin + i * sample];
         copy(at, &array.real[i * number]);
         if (header.complex) copy(at + number, &array.imaginary[i * number]);

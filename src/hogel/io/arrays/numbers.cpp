@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include <numbers>
 
 #include "hogel/core/half.h"
+#include "hogel/core/parallel.h"
 #include "hogel/core/raw_file.h"
 #include "hogel/error.h"
 
@@ -34,7 +36,10 @@ void fail_external(const std::filesystem::path& path, const std::string& why) {
 std::vector<unsigned char> all_bytes(const std::filesystem::path& path) {
     const core::RawFile file(path, core::RawFile::Mode::read, path);
     std::vector<unsigned char> bytes(file.size());
-    file.read(0, bytes.data(), bytes.size());
+    for (std::size_t at = 0; at < bytes.size(); at += bytes_between_checks) {
+        core::throw_if_stopped();
+        file.read(at, &bytes[at], std::min(bytes_between_checks, bytes.size() - at));
+    }
     return bytes;
 }
 

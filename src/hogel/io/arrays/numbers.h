@@ -84,6 +84,9 @@ ExternalFacts picture_facts(const std::filesystem::path& path, const ExternalFie
 /// Error(bad_input) for an empty array, and Error(usage) if neither says it.
 FieldGrid external_grid(const std::filesystem::path& path, const ExternalField& what, const ExternalFacts& facts);
 
+/// Work on the bytes of whole arrays checks for a stop after so many.
+inline constexpr std::size_t bytes_between_checks = std::size_t{16} << 20;
+
 /// All bytes of a file.
 std::vector<unsigned char> all_bytes(const std::filesystem::path& path);
 

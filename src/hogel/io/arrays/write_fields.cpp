@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "hogel/core/output_file.h"
+#include "hogel/core/parallel.h"
 #include "hogel/core/raw_file.h"
 #include "hogel/error.h"
 #include "hogel/files.h"
@@ -93,11 +94,13 @@ void write_mat_file(const std::filesystem::path& path, std::span<const Field> fi
     const Grid& plane = fields[0].grid().plane;
     std::vector<float> real, imaginary;
     for (const Field& field : fields)
-        for (std::size_t x = 0; x < plane.width; ++x)
+        for (std::size_t x = 0; x < plane.width; ++x) {
+            core::throw_if_stopped();
             for (std::size_t y = 0; y < plane.height; ++y) {
                 real.push_back(field.samples(y, x).real());
                 imaginary.push_back(field.samples(y, x).imag());
             }
+        }
     // MATLAB's order of colours: rows, columns, wavelengths.
     std::vector<std::size_t> shape{plane.height, plane.width};
     if (fields.size() > 1) shape.push_back(fields.size());

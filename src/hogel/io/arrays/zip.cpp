@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/io/arrays/zip.h"
+#include "hogel/core/parallel.h"
 
 #include <fmt/format.h>
 
@@ -91,7 +92,11 @@ std::uint32_t crc32_of(std::span<const unsigned char> bytes) {
         return made;
     }();
     std::uint32_t crc = 0xffffffff;
-    for (const unsigned char byte : bytes) crc = table[(crc ^ byte) & 0xff] ^ (crc >> 8);
+    for (; !bytes.empty(); bytes = bytes.subspan(std::min(bytes_between_checks, bytes.size()))) {
+        core::throw_if_stopped();
+        for (const unsigned char byte : bytes.first(std::min(bytes_between_checks, bytes.size())))
+            crc = table[(crc ^ byte) & 0xff] ^ (crc >> 8);
+    }
     return ~crc;
 }
 
