@@ -151,7 +151,7 @@ class Bench:
         self.made = set()
 
     def start(self, command):
-        # Files keep what the command says, because a pipe that nobody empties would hold it up.
+        # Output goes to files: a full pipe would block the command.
         words = command.replace("OUT", "out").split()
         with open(self.spool.parent / "said", "wb") as said:
             return subprocess.Popen([self.hogel, *words, "--seed", SEED], cwd=self.folder, stdout=said, stderr=said,

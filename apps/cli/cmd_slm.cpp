@@ -149,7 +149,7 @@ std::string powers_of(const std::vector<Pattern>& patterns) {
                        fmt::join(ratio, " : "));
 }
 
-// The texts by which the file says of which field it is.
+// The texts by which the file describes its field.
 Metadata pattern_entries(const Fields& fields, Encoding encoding, const PatternOptions& options) {
     using Values = ExternalField::Values;
     ExternalField what{.pitch_x = options.modulator.pitch, .pitch_y = options.modulator.pitch};
@@ -181,7 +181,7 @@ void record_pattern(RunRecord& record, const Options& options, const std::string
     const bool iterated = encoding == Encoding::gerchberg_saxton || encoding == Encoding::gradient;
     if (encoding == Encoding::gerchberg_saxton) record.acted({"window"});
     if (iterated && options.pattern.iterations > 0) record.acted({"iterations"});
-    // Of phases and signs alone the power depends on it.
+    // The encodings of phases and signs use it for the power alone.
     record.acted({"clip"});
     if (encoding == Encoding::intensity || encoding == Encoding::bipolar || encoding == Encoding::binary)
         record.acted({"reference"});

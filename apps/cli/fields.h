@@ -30,7 +30,7 @@ void add_reconstruction_options(Command& command, FieldOptions& options);
 /// pattern.
 bool is_external(const std::string& name, const FieldOptions& options);
 
-/// Whether a file is a picture that says itself of which field its numbers are, as patterns do, and no option says it.
+/// Whether a file is a picture that describes its field, as patterns do, and no option describes it.
 bool is_pattern(const std::string& name, const FieldOptions& options);
 
 /// Throws Error(usage) for a picture, of which options must say what its numbers are.

@@ -167,7 +167,7 @@ HOGEL_API std::shared_ptr<const FieldSource> open_external_field(const std::file
 /// missing, and for a damaged picture.
 HOGEL_API bool is_external_field(const std::filesystem::path& path);
 
-/// The texts by which a picture of numbers, such as write_raw_pixels() writes, says of which field it is: the pitch,
+/// The texts by which a picture of numbers, such as write_raw_pixels() writes, describes its field: the pitch,
 /// the wavelengths (metres), and whether its numbers are phases, in which code, or amplitudes.
 HOGEL_API Metadata field_entries(const ExternalField& what, std::span<const double> wavelengths);
 

@@ -78,7 +78,7 @@ class Pattern:
         return _core.transmission(self._parts[number], _core.encoding(self.encoding))
 
     def save(self, path: Union[str, "os.PathLike[str]"], *, metadata: Any = None) -> None:
-        """Writes .png or .bmp of 8 bits, the levels as they are. Files but .bmp say of which field they are: pitch,
+        """Writes .png or .bmp of 8 bits, the levels as they are. Files but .bmp describe their field: pitch,
         wavelength and phase code, by which hogel opens them without being told.
 
         >>> import hogel, numpy as np, os, tempfile
@@ -110,7 +110,7 @@ class Pattern:
         return _core.with_history(entries + self._field_entries(), self._fields[0].provenance)
 
     def _field_entries(self) -> list[tuple[str, str]]:
-        """By which its file says of which field it is."""
+        """The texts by which its file describes its field."""
         what, values = _core.ExternalField(), _core.ExternalField.Values
         what.pitch_x = what.pitch_y = self.modulator.pitch
         what.values = values.phase if _core.is_phase_only(_core.encoding(self.encoding)) else values.amplitude

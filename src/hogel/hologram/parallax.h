@@ -16,8 +16,8 @@ inline constexpr double max_smooth_hogel = 4;
 /// of some hogels spread over the light field. Zero without depth.
 double neighbouring_parallax(const LightFieldSource& light_field, double pitch);
 
-/// Whether rays of a hogel that meet nothing differ, in some hogels spread over the light field: a picture at infinity,
-/// of which smooth surfaces show the mean alone. False without depth.
+/// Whether rays of a hogel that meet nothing differ, in some hogels spread over the light field: a picture at infinity.
+/// Smooth surfaces show only its mean. False without depth.
 bool has_picture_at_infinity(const LightFieldSource& light_field);
 
 }  // namespace hogel::hologram

@@ -59,8 +59,9 @@ std::string warning_about(const LightField& light_field, const HologramRequest& 
     if (overlap_add == nullptr) return {};
     const bool smooth = overlap_add->phases == PointPhases::fixed;
     if (smooth && hologram::has_picture_at_infinity(light_field.front()))
-        return "rays that meet nothing show a picture at infinity, of which smooth surfaces keep the mean alone; "
-               "random phases would show it";
+        return "rays that meet nothing show a picture at infinity, and smooth surfaces keep only its mean; random "
+               "phases "
+               "would show it";
     const LightFieldGrid& grid = light_field.grid();
     const double samples = std::round(grid.pitch / request.pitch);
     if (smooth && samples > hologram::max_smooth_hogel)

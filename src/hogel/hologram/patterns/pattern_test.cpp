@@ -205,12 +205,10 @@ TEST(Pattern, descent_converges_to_the_field_within_its_band) {
     }
 }
 
-// The correlation of a pattern is that of its order and the field behind an aperture with the shape of the field's
-// band.
-TEST(Pattern, its_correlation_is_that_behind_an_aperture) {
-    const Field field = speckle(0.1);
-    const Pattern pattern = encode_pattern(field, descent_options());
-    Array<Complex, 2> shown = transmission(pattern, Encoding::gradient), wanted = field.samples;
+// The correlation of what an aperture lets through with all of the wanted light.
+// @param is_inside  whether the aperture passes a frequency, from its column and row in the spectrum
+template <class IsInside>
+double correlation_behind(Array<Complex, 2> shown, Array<Complex, 2> wanted, const IsInside& is_inside) {
     const math::Fft2 fft(side, side);
     fft.forward(shown);
     fft.forward(wanted);
@@ -218,12 +216,25 @@ TEST(Pattern, its_correlation_is_that_behind_an_aperture) {
     double energy = 0, all = 0;
     for (std::size_t y = 0; y < side; ++y)
         for (std::size_t x = 0; x < side; ++x) {
-            if (std::max(std::min(y, side - y), std::min(x, side - x)) > std::size_t(0.1 * side)) continue;
-            product += std::complex<double>(shown(y, x) * std::conj(wanted(y, x)));
-            energy += std::norm(shown(y, x));
-            all += std::norm(wanted(y, x));
+            const std::complex<double> a = shown(y, x), b = wanted(y, x);
+            all += std::norm(b);
+            if (!is_inside(x, y)) continue;
+            product += a * std::conj(b);
+            energy += std::norm(a);
         }
-    EXPECT_NEAR(std::abs(product) / std::sqrt(energy * all), pattern.correlation, 0.003);
+    return std::abs(product) / std::sqrt(energy * all);
+}
+
+// The correlation of a pattern is that of its order and the field behind an aperture with the shape of the field's
+// band.
+TEST(Pattern, its_correlation_is_that_behind_an_aperture) {
+    const Field field = speckle(0.1);
+    const Pattern pattern = encode_pattern(field, descent_options());
+    const auto is_inside = [](std::size_t x, std::size_t y) {
+        return std::max(std::min(y, side - y), std::min(x, side - x)) <= std::size_t(0.1 * side);
+    };
+    EXPECT_NEAR(correlation_behind(transmission(pattern, Encoding::gradient), field.samples, is_inside),
+                pattern.correlation, 0.003);
 }
 
 TEST(Pattern, the_encoding_that_suits_a_field_is_the_first_that_shows_it) {
@@ -297,27 +308,19 @@ TEST(Pattern, the_aperture_is_around_the_light_of_a_field_beside_frequency_zero)
 // The share of the field's order within the aperture of a pattern of amplitudes, a tenth wider, by its likeness to the
 // field: light of other orders makes it less.
 double likeness_behind(const Pattern& pattern, Encoding encoding, const Field& field) {
-    Array<Complex, 2> shown = transmission(pattern, encoding), wanted = field.samples;
-    const math::Fft2 fft(side, side);
+    Array<Complex, 2> wanted = field.samples;
     const double carrier = std::sin(pattern.reference_angle) * 8_um / 633_nm;
     for (std::size_t y = 0; y < side; ++y)
         for (std::size_t x = 0; x < side; ++x)
             wanted(y, x) *= Complex(std::polar(1.0, -2 * std::numbers::pi * std::fmod(carrier * double(x), 1.0)));
-    fft.forward(shown);
-    fft.forward(wanted);
-    std::complex<double> product = 0;
-    double energy = 0, all = 0;
-    for (std::size_t y = 0; y < side; ++y)
-        for (std::size_t x = 0; x < side; ++x) {
-            const double across = std::remainder(double(x) / side - pattern.aperture.x, 1.0),
-                         down = std::remainder(double(y) / side - pattern.aperture.y, 1.0);
-            const std::complex<double> a = shown(y, x), b = wanted(y, x);
-            all += std::norm(b);
-            if (std::hypot(across, down) > 1.1 * pattern.aperture.radius) continue;
-            product += a * std::conj(b);
-            energy += std::norm(a);
-        }
-    return std::norm(product) / (energy * all);
+    const Aperture& aperture = pattern.aperture;
+    const double correlation =
+        correlation_behind(transmission(pattern, encoding), wanted, [&](std::size_t x, std::size_t y) {
+            const double across = std::remainder(double(x) / side - aperture.x, 1.0),
+                         down = std::remainder(double(y) / side - aperture.y, 1.0);
+            return std::hypot(across, down) <= 1.1 * aperture.radius;
+        });
+    return correlation * correlation;
 }
 
 TEST(Pattern, of_amplitudes_has_its_aperture_around_the_order_that_shows_the_field) {

@@ -292,7 +292,7 @@ TEST_F(FieldFormats, of_pictures_that_say_what_they_are_need_no_description) {
     const auto field = open_external_field(directory_ / "p.png", said);
     EXPECT_EQ(field->grid(), (FieldGrid{{2, 2, 8e-6, 8e-6, 0, 0}, 532e-9}));
     EXPECT_EQ(all_of(*field)(1, 1), Complex(180));
-    // Of amplitudes, and in BMP, which has no texts.
+    // A pattern of amplitudes, and a BMP file, which has no texts.
     write_raw_pixels(directory_ / "a.png", levels, field_entries(said, waves));
     EXPECT_EQ(all_of(*open_external_field(directory_ / "a.png", {}))(1, 1), Complex(180));
     write_raw_pixels(directory_ / "a.bmp", levels, field_entries(said, waves));

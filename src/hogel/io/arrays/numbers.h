@@ -69,7 +69,8 @@ bool is_mat(std::span<const unsigned char> start);
 bool is_ohc(std::span<const unsigned char> start);
 /// Whether an EXR file holds channels of fields, and not a picture. Throws Error(bad_input).
 bool is_exr_field(const std::filesystem::path& path, std::span<const unsigned char> start);
-/// Whether the texts of a picture say of which field its numbers are: see field_entries(). Throws Error(bad_input).
+/// Whether the texts of a picture describe the field that its numbers encode: see field_entries(). Throws
+/// Error(bad_input).
 bool is_picture_field(const std::filesystem::path& path);
 
 // What the files say of themselves.
