@@ -12,6 +12,7 @@ import concurrent.futures
 import os
 import pathlib
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -370,13 +371,19 @@ def kill_until_complete(run, chance, command, kills_wanted):
     made, whole, seconds = made_alone(run, command)
     kept = Kept(made)
     kills = completed = resumed = 0
-    while kills < kills_wanted or completed == 0:
+    # A photograph by rays is kept whole, just before it is written.
+    keeps = command != RAYS
+    for _ in range(20 + kills_wanted):
+        if kills >= kills_wanted and completed > 0 and (resumed > 0 or not keeps):
+            break
         process = run.start(chance.choice(RANKS), *command)
-        if kills == 0 and command != RAYS:
+        # A rank that is killed too late has completed the work, one that is killed too early has kept nothing.
+        killing = kills < kills_wanted or (keeps and resumed == 0)
+        if killing and keeps and resumed == 0:
             wait_until(process, kept.has_begun)
-        elif kills < kills_wanted:
+        elif killing:
             time.sleep(chance.uniform(0.1, 0.5 + seconds))
-        ranks = children(process.pid) if kills < kills_wanted else []
+        ranks = children(process.pid) if killing else []
         if ranks:
             kills += signal_all([chance.choice(ranks)], signal.SIGKILL)
         _, error = end_of(process)
@@ -385,15 +392,14 @@ def kill_until_complete(run, chance, command, kills_wanted):
             completed += 1
             require(made.read_bytes() == whole, "other bytes after", kills, "kills")
             made.unlink()
-        elif kills == kills_wanted and not ranks:
+        elif not killing:
             require(False, "ended with", process.returncode, error)
         resumed += kept.is_there()
         # A killed process leaves a temporary file, which the next one removes; of HDF5 files that is the kept one.
         wrong = [name for name in run.left() if name not in (*inputs, kept.part.name, kept.journal.name)
                  and not (made.suffix != ".h5" and name.endswith(".tmp"))]
         require(not wrong, "left behind:", wrong)
-    # A photograph by rays is kept whole, just before it is written.
-    require(resumed > 0 or command == RAYS, "nothing was ever kept")
+    require(completed > 0 and (resumed > 0 or not keeps), "completed", completed, "times, kept something", resumed, "times")
     print(f"{' '.join(command[:6])}: {kills} kills, {completed} completed, {resumed} times something was kept")
     kept.remove()
 
@@ -426,27 +432,33 @@ def kill_make_until_complete(run, chance, command, kills):
     made, whole = run.folder / "m", run.folder / "whole"
     began = time.monotonic()
     run.alone(*command, "--threads", "1")
-    seconds, log = time.monotonic() - began, made / "make.part"
+    seconds, kept = time.monotonic() - began, Kept(made / "make")
     made.rename(whole)
-    resumed = 0
-    for kill in range(kills + 1):
+    killed = resumed = 0
+    for _ in range(20 + kills):
         process = run.start(chance.choice(RANKS), *command)
-        if kill == 0:
-            wait_until(process, log.exists)
-        elif kill < kills:
+        # A rank that is killed too late has completed the work; the first rank removes a log in which nothing is kept yet.
+        killing = killed < kills or resumed == 0
+        if killing and resumed == 0:
+            wait_until(process, kept.has_begun)
+        elif killing:
             time.sleep(chance.uniform(0.5, 0.5 + seconds))
-        if kill < kills and (ranks := children(process.pid)):
-            signal_all([chance.choice(ranks)], signal.SIGKILL)
+        if killing and (ranks := children(process.pid)):
+            killed += signal_all([chance.choice(ranks)], signal.SIGKILL)
         _, error = end_of(process)
-        resumed += log.exists()
-        if (made / "report.html").exists():
+        resumed += kept.is_there()
+        complete = (made / "report.html").exists()
+        require(complete or killing, "ended with", process.returncode, error)
+        if complete and resumed > 0:
             break
-    require((made / "report.html").exists() and resumed > 0, "resumed", resumed, "times, ended with", process.returncode, error)
+        if complete:
+            shutil.rmtree(made)
+    require(complete and resumed > 0, "resumed", resumed, "times, ended with", process.returncode, error)
     names = sorted(path.name for path in whole.iterdir())
     require(sorted(path.name for path in made.iterdir()) == names, "made", sorted(made.iterdir()))
     for name in names:
         require(name.startswith("report") or (made / name).read_bytes() == (whole / name).read_bytes(), name, "has other bytes")
-    print(f"make: killed {kill} times, resumed {resumed} times")
+    print(f"make: killed {killed} times, resumed {resumed} times")
 
 
 # Some seconds of it, of which a third is done when its ranks are halted; and a minute, of which nobody sees the end.
