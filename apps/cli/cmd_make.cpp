@@ -109,17 +109,6 @@ void on_all_threads(const Session& session, std::size_t count, const std::functi
     for (std::future<void>& thread : threads) thread.get();
 }
 
-// The same by all processes of a team, which all have to do it.
-void on_all_threads_of_team(const Session& session, std::size_t count, const std::function<void(std::size_t)>& work) {
-    Team* const all = team();
-    if (all == nullptr) return on_all_threads(session, count, work);
-    const std::uint64_t queue = all->next_number();
-    on_all_threads(session, thread_count(), [&](std::size_t) {
-        for (Team::Tiles some = all->next_tiles(queue, count); some.count > 0; some = all->next_tiles(queue, count))
-            for (std::uint64_t i = some.first; i < some.first + some.count; ++i) work(i);
-    });
-}
-
 void compare_pictures(const Session& session, Report& report) {
     on_all_threads(session, report.pairs.size(), [&](std::size_t i) {
         PhotographPair& pair = report.pairs[i];
@@ -146,7 +135,7 @@ void write_pictures(const Session& session, const std::filesystem::path& folder,
             if (report.expected) add(pair.expected_file, pair.expected, expected);
             add(pair.geometric_file, pair.geometric, rays);
         }
-    on_all_threads_of_team(session, works.size(), [&](std::size_t i) { works[i](); });
+    on_all_threads(session, works.size(), [&](std::size_t i) { works[i](); });
 }
 
 // Prints the resources that the work needs, and returns the camera that is chosen. Throws if they are not available.
@@ -362,10 +351,9 @@ int make(const Options& options, const Session& session) {
 
     // One exposure for all pictures, from the view from above.
     report.exposure = automatic_exposure(report.pairs[1].geometric);
-    if (is_first_process()) compare_pictures(session, report);
-    write_pictures(session, folder.path(), report);
-    if (Team* const all = team()) all->meet();
     if (!is_first_process()) return 0;
+    compare_pictures(session, report);
+    write_pictures(session, folder.path(), report);
     write_text(folder.path() / "report.json", report_json(report));
     write_text(folder.path() / "report.html", report_html(report, folder.path()));
     kept.complete();

@@ -11,7 +11,6 @@
 #include "hogel/core/pieces.h"
 #include "hogel/core/shared_order.h"
 #include "hogel/core/shared_plane.h"
-#include "hogel/core/work_before.h"
 #include "mpi/test_ranks.h"
 
 namespace hogel::mpi {
@@ -46,6 +45,37 @@ TEST_P(SharedWorkTest, TheFirstMergesAllInOrder) {
     EXPECT_EQ(merged, n);
     EXPECT_FALSE(too_far) << "results beyond those that the first process has room for";
     for (const auto& times : computed) ASSERT_EQ(times, 1);
+}
+
+// One at a time in each process, and long results in parts.
+TEST_P(SharedWorkTest, JobsAreDoneOneByOne) {
+    constexpr std::size_t n = 20;
+    const auto result = [](std::size_t i) { return std::string(i, 'x') + std::to_string(i); };
+    std::vector<std::string> merged;
+    std::vector<std::atomic<int>> computed(n);
+    run_ranks(GetParam(), [&](RankTeam& team) {
+        std::atomic<int> at_work = 0;
+        core::ordered_in_team(
+            team, n, 1,
+            [&](std::size_t i) {
+                EXPECT_EQ(++at_work, 1);
+                ++computed[i];
+                std::this_thread::sleep_for(std::chrono::microseconds(300));
+                --at_work;
+                return result(i);
+            },
+            [&](std::size_t i, std::string_view bytes) {
+                EXPECT_EQ(i, merged.size());
+                merged.emplace_back(bytes);
+            },
+            5);
+        EXPECT_FALSE(team.settle({}, patience)->failed);
+    });
+    ASSERT_EQ(merged.size(), n);
+    for (std::size_t i = 0; i < n; ++i) {
+        EXPECT_EQ(merged[i], result(i));
+        EXPECT_EQ(computed[i], 1);
+    }
 }
 
 // Loops of the same team may overlap: those that are not the first begin the next while the first still merges.
@@ -157,46 +187,6 @@ TEST_P(SharedWorkTest, AllGetTheNumbersOfTheFirst) {
         }
         EXPECT_FALSE(team.settle({}, patience)->failed);
     });
-}
-
-// By a clock that stands still, the first has done its work after a fifth of a second, in which the second has done
-// half, and the third says nothing.
-TEST(WorkBefore, SaysWhatIsLeftWhenTheFirstIsDone) {
-    using Clock = core::WorkBefore::Clock;
-    for (const std::size_t fast : {0, 1, 2}) {
-        std::array<std::vector<double>, 3> left;
-        std::atomic<int> milliseconds = 0;
-        std::atomic<bool> is_first_done = false;
-        run_ranks(3, [&](RankTeam& team) {
-            const std::size_t place = (team.rank() + 3 - fast) % 3;
-            core::WorkBefore work(team, {3, 3, 3}, {1. / 3, 1. / 3, 1. / 3},
-                                  [&] { return Clock::time_point(std::chrono::milliseconds(milliseconds)); });
-            team.meet();
-            milliseconds = 200;
-            if (place == 1) work.report(0.5);
-            // After the second meeting what was sent before the first one has come.
-            team.meet();
-            team.meet();
-            if (place == 0) {
-                left[team.rank()] = work.finish();
-                is_first_done = true;
-            } else {
-                EXPECT_TRUE(comes_true([&] { return is_first_done.load(); }));
-                milliseconds = 300;
-                if (place == 2) work.report(1);  // too late
-                left[team.rank()] = work.finish();
-            }
-            team.meet();
-        });
-        EXPECT_EQ(left[1], left[0]);
-        EXPECT_EQ(left[2], left[0]);
-        const auto of = [&](std::size_t place) { return left[0].at((place + fast) % 3); };
-        EXPECT_EQ(of(0), 0);
-        // All do 7.5 thirds of their work a second, so that a third process would take 0.267 s, and the second has
-        // 0.2 s left, in which they do 0.75.
-        EXPECT_NEAR(of(1), 3 * 0.75, 1e-12) << fast;
-        EXPECT_NEAR(of(2), 3 * 0.25, 1e-12) << fast;
-    }
 }
 
 TEST(SharedPlane, LinesAreDividedEvenlyInGroups) {

@@ -33,7 +33,12 @@ class Merger {
         team_.listen(queue_, [this](std::string bytes) {
             if (bytes.empty()) return open();
             const std::uint64_t i = take_last_number(bytes);
-            put(i, std::move(bytes));
+            if (const bool is_last = take_last_number(bytes) != 0; !is_last)
+                parts_[i] += bytes;
+            else if (const auto part = parts_.extract(i))
+                put(i, std::move(part.mapped()) + bytes);
+            else
+                put(i, std::move(bytes));
         });
         thread_ = std::jthread([this] { run(); });
     }
@@ -108,6 +113,7 @@ class Merger {
     const std::function<void(std::size_t, std::string_view)>& merge_;
     std::mutex mutex_;
     std::condition_variable changed_;
+    std::map<std::size_t, std::string> parts_;  // of results whose last part has not come
     std::map<std::size_t, std::string> results_;
     std::size_t merged_ = 0;
     bool over_ = false;
@@ -117,38 +123,47 @@ class Merger {
 
 }  // namespace
 
+namespace {
+
+// Sends the result i to the first process.
+void send_result(Team& team, std::uint64_t channel, std::size_t i, std::string bytes, std::size_t max_message) {
+    const auto send = [&](std::string part, bool is_last) {
+        append_number(part, is_last ? 1 : 0);
+        append_number(part, i);
+        team.send(channel, std::move(part));
+    };
+    std::size_t first = 0;
+    for (; bytes.size() - first > max_message; first += max_message) send(bytes.substr(first, max_message), false);
+    send(first == 0 ? std::move(bytes) : bytes.substr(first), true);
+}
+
+}  // namespace
+
 void ordered_in_team(Team& team, std::size_t n, std::size_t in_flight,
                      const std::function<std::string(std::size_t)>& body,
-                     const std::function<void(std::size_t, std::string_view)>& merge) {
+                     const std::function<void(std::size_t, std::string_view)>& merge, std::size_t max_message) {
+    const bool one_by_one = in_flight == 1;
     const std::uint64_t number = team.next_number();
-    TileQueue queue(team, number, n, tiles_in_flight(in_flight) * team.size());
-    if (team.is_first()) {
-        Merger merger(team, number, n, merge);
-        parallel_for(n, [&](std::size_t) {
-            merger.check();
-            const std::optional<std::size_t> i = queue.next();
-            if (!i) return;
-            try {
-                merger.put(*i, body(*i));
-            } catch (...) {
-                merger.open();
-                throw;
-            }
-        });
-        return merger.finish();
-    }
-    parallel_for(n, [&](std::size_t) {
+    TileQueue queue(team, number, n, one_by_one ? n : tiles_in_flight(in_flight) * team.size());
+    std::optional<Merger> merger;
+    if (team.is_first()) merger.emplace(team, number, n, merge);
+    const auto turn = [&](std::size_t) {
+        if (merger) merger->check();
         const std::optional<std::size_t> i = queue.next();
         if (!i) return;
         try {
             std::string bytes = body(*i);
-            append_number(bytes, *i);
-            team.send(number, std::move(bytes));
+            merger ? merger->put(*i, std::move(bytes)) : send_result(team, number, *i, std::move(bytes), max_message);
         } catch (...) {
-            team.send(number, "");
+            merger ? merger->open() : team.send(number, "");
             throw;
         }
-    });
+    };
+    if (one_by_one)
+        for (std::size_t i = 0; i < n; ++i) turn(i);
+    else
+        parallel_for(n, turn);
+    if (merger) merger->finish();
 }
 
 void ordered_by_bytes(std::size_t n, std::size_t in_flight, const std::function<std::string(std::size_t)>& body,

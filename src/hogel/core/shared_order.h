@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hogel/core/alone.h"
 #include "hogel/core/message.h"
 #include "hogel/core/parallel.h"
 #include "hogel/core/result_log.h"
@@ -20,6 +21,9 @@ inline Team* team_of_several() {
     Team* const all = team();
     return all != nullptr && all->size() > 1 ? all : nullptr;
 }
+
+/// Whether loops send their results to other processes, or keep them in a file.
+inline bool is_shared_or_kept() { return team_of_several() != nullptr || result_log() != nullptr; }
 
 /// How results travel between the processes of a team.
 template <class Result>
@@ -43,10 +47,12 @@ Sent<Array<Value, axes>> sent_array() {
 
 /// shared_ordered() in a team, for results as bytes.
 /// @param in_flight  as of parallel_ordered(); in a team tiles_in_flight() of each process, on the average, are alive,
-///                   results in the first one
+///                   results in the first one. 1: each process computes one result at a time, on the calling thread
+/// @param max_message  bytes; longer results are sent in parts
 void ordered_in_team(Team& team, std::size_t n, std::size_t in_flight,
                      const std::function<std::string(std::size_t)>& body,
-                     const std::function<void(std::size_t, std::string_view)>& merge);
+                     const std::function<void(std::size_t, std::string_view)>& merge,
+                     std::size_t max_message = std::size_t{1} << 30);
 
 /// shared_ordered() for results as bytes, alone or in a team: those that are kept in a file are taken from it.
 void ordered_by_bytes(std::size_t n, std::size_t in_flight, const std::function<std::string(std::size_t)>& body,
@@ -65,8 +71,7 @@ template <class Result>
 void shared_ordered(std::size_t n, std::size_t in_flight, const Sent<Result>& sent,
                     const std::function<Result(std::size_t)>& body,
                     const std::function<void(std::size_t, Result&)>& merge) {
-    if (team_of_several() == nullptr && result_log() == nullptr)
-        return parallel_ordered<Result>(n, in_flight, body, merge);
+    if (!is_shared_or_kept()) return parallel_ordered<Result>(n, in_flight, body, merge);
     ordered_by_bytes(
         n, in_flight,
         [&](std::size_t i) {
@@ -92,6 +97,28 @@ class NothingKept {
   private:
     ResultLog* log_;
 };
+
+/// While this object exists, this process works without its team and keeps nothing.
+class JobScope {
+    AloneScope alone_;
+    NothingKept nothing_;
+};
+
+/// As shared_ordered(), for jobs that use all threads of a process: a process works on one job at a time, within a
+/// JobScope. Within a ResumeScope jobs are kept as a whole.
+template <class Result>
+void shared_jobs(std::size_t n, const Sent<Result>& sent, const std::function<Result(std::size_t)>& job,
+                 const std::function<void(std::size_t, Result&)>& take) {
+    const std::function<Result(std::size_t)> body = [&](std::size_t i) {
+        const JobScope scope;
+        return job(i);
+    };
+    if (is_shared_or_kept()) return shared_ordered<Result>(n, 1, sent, body, take);
+    for (std::size_t i = 0; i < n; ++i) {
+        Result result = job(i);
+        take(i, result);
+    }
+}
 
 /// For large results that all processes of a team make together, one after the other: calls make(i) for every i in
 /// [0, n) and take(i, result) after each. Within a ResumeScope the results of the first process are kept in a file, and

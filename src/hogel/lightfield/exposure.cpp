@@ -76,37 +76,8 @@ Exposure::Exposure(std::vector<LightFieldGrid> faces, const Camera& camera, std:
       grid_(faces_.front()),
       camera_(camera),
       vectors_(looking == Looking::fast && is_separable(grid_)),
-      end_row_(camera.picture.height),
       points_(lens_points(camera.pupil, lens_count)),
       film_({grid_.channels, camera.picture.height, camera.picture.width}) {}
-
-Exposure::Exposure(std::vector<LightFieldGrid> faces, const Camera& camera, std::size_t lens_count, std::size_t first,
-                   std::size_t end)
-    : Exposure(std::move(faces), camera, lens_count) {
-    first_row_ = first;
-    end_row_ = end;
-}
-
-// The row of hogels, counted from the first one's middle, where a ray from a height of the lens to a height of the
-// picture crosses the hologram. A ray from a lens point to the pixel's point of the plane in focus crosses the hologram
-// plane at the pixel's position plus a fraction of the lens point's offset.
-double Exposure::row_of_hogels(double row, double lens) const {
-    const double R = camera_.eye.z, shift = 1 - R / (R + camera_.focus_depth);
-    const double y = camera_.picture.y(row) + shift * lens;
-    return 0.5 * static_cast<double>(grid_.hogels_t) - 0.5 - y / grid_.pitch;
-}
-
-std::pair<std::size_t, std::size_t> Exposure::cells() const {
-    const auto last = static_cast<double>(std::max<std::size_t>(grid_.hogels_t, 2) - 1);
-    double low = last, high = 0;
-    for (const double row : {static_cast<double>(first_row_) - 0.5, static_cast<double>(end_row_) - 0.5})
-        for (const double lens : {-0.5 * camera_.pupil, 0.5 * camera_.pupil}) {
-            low = std::min(low, std::floor(row_of_hogels(row, lens)) - 1);
-            high = std::max(high, std::floor(row_of_hogels(row, lens)) + 2);
-        }
-    return {static_cast<std::size_t>(std::clamp(low, 0.0, last)),
-            static_cast<std::size_t>(std::clamp(high, 0.0, last))};
-}
 
 std::pair<std::size_t, std::size_t> Exposure::Run::within(std::size_t first, std::size_t last) const {
     const std::size_t from = std::clamp(begin, first, last);
@@ -140,7 +111,9 @@ Exposure::Rays Exposure::rays_of(const LensPoint& point) const {
     const LightFieldGrid& grid = grid_;
     const Grid& picture = camera_.picture;
     const double lens_x = camera_.eye.x + point.x, lens_y = camera_.eye.y + point.y, R = camera_.eye.z;
-    const double shift = 1 - R / (R + camera_.focus_depth);  // see row_of_hogels()
+    // A ray from a lens point to the pixel's point of the plane in focus crosses the hologram plane at the pixel's
+    // position plus a fraction of the lens point's offset.
+    const double shift = 1 - R / (R + camera_.focus_depth);
     Rays rays;
     if (vectors_) {
         rays.columns_of_directions = run(grid.hogels_s, grid.directions_u, [&](std::size_t i) {
@@ -157,10 +130,9 @@ Exposure::Rays Exposure::rays_of(const LensPoint& point) const {
         return x / grid.pitch + 0.5 * static_cast<double>(grid.hogels_s) - 0.5;
     });
     rays.rows_of_hogels = run(picture.height, grid.hogels_t, [&](std::size_t row) {
-        return row_of_hogels(static_cast<double>(row) + point.pixel_y, point.y);
+        const double y = picture.y(static_cast<double>(row) + point.pixel_y) + shift * point.y;
+        return 0.5 * static_cast<double>(grid.hogels_t) - 0.5 - y / grid.pitch;
     });
-    Run& rows = rays.rows_of_hogels;
-    std::tie(rows.begin, rows.end) = rows.within(first_row_, end_row_);
     return rays;
 }
 

@@ -61,15 +61,9 @@ class Exposure {
   public:
     Exposure(std::vector<LightFieldGrid> faces, const Camera& camera, std::size_t lens_count,
              Looking looking = Looking::fast);
-    /// The same for rows [first, end) of the picture alone, which are those of the whole picture to the last bit.
-    Exposure(std::vector<LightFieldGrid> faces, const Camera& camera, std::size_t lens_count, std::size_t first,
-             std::size_t end);
 
     /// Keeps the rays of all points, which each block of hogels needs, if they take no more than so many bytes.
     void keep_rays(std::size_t bytes) { max_kept_ = bytes; }
-
-    /// Rows [first, end) of hogels, with whose cells below them the rows of the picture have to do.
-    std::pair<std::size_t, std::size_t> cells() const;
 
     /// Adds all rays of a face that cross the hologram plane in a cell whose upper left hogel is in `cells`; the block
     /// holds these hogels and their right and lower neighbours.
@@ -106,7 +100,6 @@ class Exposure {
     static std::vector<LensPoint> lens_points(double pupil, std::size_t count);
     template <class Index>
     static Run run(std::size_t places, std::size_t samples, const Index& index);
-    double row_of_hogels(double row, double lens) const;
     Rays rays_of(const LensPoint& point) const;
     void prepare(std::size_t first, std::size_t count);
     bool shown_before(std::size_t face, Vec3 direction) const;
@@ -124,8 +117,7 @@ class Exposure {
     LightFieldGrid grid_;  // its hogels and channels are those of all faces
     Camera camera_;
     std::size_t max_kept_ = max_kept_rays;
-    bool vectors_;                         // whether the front is looked at by vectors
-    std::size_t first_row_ = 0, end_row_;  // of the picture
+    bool vectors_;  // whether the front is looked at by vectors
     std::vector<LensPoint> points_;
     std::vector<Rays> prepared_;  // of points from first_prepared_ on
     std::size_t first_prepared_ = 0;

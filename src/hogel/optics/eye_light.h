@@ -2,18 +2,15 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "hogel/array.h"
-#include "hogel/core/shared_plane.h"
 #include "hogel/field.h"
 #include "hogel/optics/narrow_band/band_grid.h"
 #include "hogel/optics/packed_band.h"
-#include "hogel/team.h"
 
 namespace hogel::optics {
 
@@ -28,27 +25,16 @@ struct Eye {
 /// The narrow bands of eyes: [eye][look].
 using PackedBands = std::vector<std::vector<PackedBand>>;
 
-using WantedLooks = std::function<core::LineRange(std::size_t process)>;
-
 /// Draws the light of a part of a hologram towards several eyes.
 class EyeDrawing {
   public:
     virtual ~EyeDrawing() = default;
     /// The sampling of the narrow band of an eye.
     virtual const narrow_band::BandGrid& band(std::size_t eye) const = 0;
-    /// Whether the processes of a team can draw it together, by draw_in_rows().
-    virtual bool has_rows() const { return false; }
-    /// As draw(), by all processes of a team: each draws the light of some rows of hogels, and gets the whole bands of
-    /// the looks that it wants.
-    /// @param wanted  looks of a process, counted from first_look
-    virtual PackedBands draw_in_rows(Team& /*team*/, std::size_t /*first_look*/, std::size_t /*looks*/,
-                                     const WantedLooks& /*wanted*/, const Progress& /*progress*/) const {
-        return {};
-    }
     /// The memory that a look to an eye takes while it is drawn.
     virtual double look_bytes(std::size_t eye) const { return PackedBand::bytes(band(eye).plane); }
     /// The narrow bands of looks [first_look, first_look + looks), as from draw_narrow_bands(). They do not depend on
-    /// the number of threads; in a team the first process has them.
+    /// the number of threads; those from samples are drawn by all processes of a team, and the first one has them.
     virtual PackedBands draw(std::size_t first_look, std::size_t looks, const Progress& progress) const = 0;
 };
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "hogel/core/alone.h"
 #include "hogel/core/parallel.h"
+#include "hogel/core/shared_order.h"
 #include "hogel/image/film.h"
 #include "hogel/optics/eye_drawings.h"
 #include "hogel/optics/film/film.h"
@@ -35,7 +35,7 @@ struct SeenColour {
 
     // The wave of the next look, in each process of a team.
     film::PupilWave draw(std::size_t look) const {
-        const core::AloneScope alone;
+        const core::JobScope alone;
         auto bands = drawing->draw(look, 1, {});
         return film->pupil_wave(bands.front().front());
     }

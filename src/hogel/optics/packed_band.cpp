@@ -13,10 +13,14 @@ constexpr std::size_t cleared_together = std::size_t{1} << 18;
 
 }  // namespace
 
-std::vector<PackedBand> PackedBand::unset(std::size_t count, std::size_t height, std::size_t width) {
-    const std::size_t each = size(height, width);
+std::vector<PackedBand> PackedBand::dark(std::size_t count, std::size_t height, std::size_t width) {
+    const std::size_t each = size(height, width), all = count * each;
     const std::shared_ptr<math::PackedComplex> memory(
-        static_cast<math::PackedComplex*>(allocate_lines(count * each * sizeof(math::PackedComplex))), free_lines);
+        static_cast<math::PackedComplex*>(allocate_lines(all * sizeof(math::PackedComplex))), free_lines);
+    core::parallel_for((all + cleared_together - 1) / cleared_together, [&](std::size_t i) {
+        const std::size_t first = i * cleared_together;
+        std::fill_n(memory.get() + first, std::min(cleared_together, all - first), math::PackedComplex());
+    });
     std::vector<PackedBand> bands(count);
     for (std::size_t i = 0; i < count; ++i) {
         bands[i].height_ = height;
@@ -24,16 +28,6 @@ std::vector<PackedBand> PackedBand::unset(std::size_t count, std::size_t height,
         bands[i].memory_ = memory;
         bands[i].squares_ = memory.get() + i * each;
     }
-    return bands;
-}
-
-std::vector<PackedBand> PackedBand::dark(std::size_t count, std::size_t height, std::size_t width) {
-    std::vector<PackedBand> bands = unset(count, height, width);
-    const std::size_t all = count * size(height, width);
-    core::parallel_for((all + cleared_together - 1) / cleared_together, [&](std::size_t i) {
-        const std::size_t first = i * cleared_together;
-        std::fill_n(bands.front().squares_ + first, std::min(cleared_together, all - first), math::PackedComplex());
-    });
     return bands;
 }
 

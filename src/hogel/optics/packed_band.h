@@ -37,10 +37,8 @@ class PackedBand {
     ~PackedBand() = default;
 
     /// Bands of one size in one block of memory, which is freed with the last of them: it has huge pages, which the
-    /// system clears in a fraction of the time that small ones take. Dark ones are cleared on all threads; others have
-    /// any numbers.
+    /// system clears in a fraction of the time that small ones take. They are cleared on all threads.
     static std::vector<PackedBand> dark(std::size_t count, std::size_t height, std::size_t width);
-    static std::vector<PackedBand> unset(std::size_t count, std::size_t height, std::size_t width);
 
     static double bytes(const Grid& plane) {
         return static_cast<double>(sizeof(math::PackedComplex) * plane.samples());
@@ -52,12 +50,6 @@ class PackedBand {
     /// A number; those of the same row and square follow.
     math::PackedComplex* at(std::size_t row, std::size_t column) { return squares_ + offset(row, column); }
     const math::PackedComplex* at(std::size_t row, std::size_t column) const { return squares_ + offset(row, column); }
-
-    /// The squares of rows [first, end), of which the first is a multiple of 16, one row of squares after the other.
-    std::span<math::PackedComplex> rows(std::size_t first, std::size_t end) {
-        const std::size_t row = squares_of(width_) * square;
-        return {squares_ + first / side * row, squares_of(end - first) * row};
-    }
 
     /// Whether a row has a number that is not zero.
     bool is_lit(std::size_t row) const;

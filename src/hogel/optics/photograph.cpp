@@ -14,7 +14,6 @@
 #include "hogel/optics/line_diffuser.h"
 #include "hogel/optics/narrow_band/narrow_band.h"
 #include "hogel/optics/photograph_plan.h"
-#include "hogel/optics/shared_looks.h"
 #include "hogel/optics/spectrum.h"
 #include "hogel/team.h"
 #include "hogel/units.h"
@@ -99,22 +98,17 @@ void photograph_window(const FieldSource& whole, const PhotographPlan::Window& p
     const std::size_t looks = window.looks();
     const std::size_t looks_at_once =
         plan.looks_at_once(static_cast<double>(options.memory), looks, share_of_bands(window, *drawing, looking));
-    bool one_lens = true;
-    for (std::size_t e = 0; e < eyes.size(); ++e)
-        for (const std::size_t camera : eyes[e].members) one_lens = one_lens && films[e].has_one_lens(cameras[camera]);
-    const SharedLooks shared(*drawing, looks, looks_at_once, one_lens);
-    const core::LineRange& own = shared.own();
-    for (std::size_t first = own.first; first < own.end(); first += looks_at_once) {
-        const std::size_t count = std::min(looks_at_once, own.end() - first);
+    for (std::size_t first = 0; first < looks; first += looks_at_once) {
+        const std::size_t count = std::min(looks_at_once, looks - first);
         const auto report = [&](double done) {
-            progress.report((static_cast<double>(first - own.first) + done * static_cast<double>(count)) /
-                            static_cast<double>(own.count));
+            progress.report((static_cast<double>(first) + done * static_cast<double>(count)) /
+                            static_cast<double>(looks));
         };
-        PackedBands drawn = shared.drawn(first, count, [&](double fraction) {
+        PackedBands drawn = drawing->draw(first, count, [&](double fraction) {
             report(0.9 * fraction);
             return true;
         });
-        if (!shared.exposes()) continue;  // the first process has the light of all
+        if (!is_first_process()) continue;  // the first one has the light of all
         for (std::size_t e = 0; e < eyes.size(); ++e) {
             // Waves of a pupil take less memory than the bands from which they come.
             std::vector<film::PupilWave> waves;
@@ -123,7 +117,7 @@ void photograph_window(const FieldSource& whole, const PhotographPlan::Window& p
                 band = {};
             }
             for (std::size_t c = 0; c < eyes[e].members.size(); ++c)
-                shared.expose(films[e], waves, cameras[eyes[e].members[c]], intensities[e][c]);
+                films[e].expose(waves, cameras[eyes[e].members[c]], intensities[e][c]);
             report(0.9 + 0.1 * static_cast<double>(e + 1) / static_cast<double>(eyes.size()));
         }
     }
@@ -131,7 +125,6 @@ void photograph_window(const FieldSource& whole, const PhotographPlan::Window& p
     for (std::size_t e = 0; e < eyes.size(); ++e)
         for (std::size_t c = 0; c < eyes[e].members.size(); ++c) {
             const std::size_t camera = eyes[e].members[c];
-            shared.finish(intensities[e][c]);
             films[e].develop(intensities[e][c], cameras[camera], part.shown, 1 / static_cast<double>(looks),
                              images[camera]);
         }

@@ -5,13 +5,10 @@
 #include <complex>
 
 #include "hogel/core/parallel.h"
-#include "hogel/core/shared_order.h"
 #include "hogel/image/film.h"
 #include "hogel/optics/eye_light.h"
 #include "hogel/optics/film/film.h"
 #include "hogel/optics/photograph_plan.h"
-#include "hogel/optics/shared_looks.h"
-#include "hogel/team.h"
 
 namespace hogel::optics {
 namespace {
@@ -78,29 +75,17 @@ std::optional<std::vector<std::vector<Image>>> photograph_together(
                           film::film_samples(options.preview));
     };
     std::vector<std::vector<Array<float, 2>>> intensities(colours.size(), std::vector<Array<float, 2>>(cameras.size()));
-    const auto develop = [&](const film::Film& film, std::size_t c, std::size_t camera) {
-        film.develop(intensities[c][camera], cameras[camera], light->shown,
-                     1 / static_cast<double>(colours.front()->looks()), pictures[c][camera]);
-    };
     const std::size_t looks = colours.front()->looks();
-    bool one_lens = true;
-    for (std::size_t c = 0; c < colours.size() && core::team_of_several() != nullptr; ++c)
-        for (std::size_t e = 0; e < eyes.size(); ++e)
-            for (const film::Film film = film_of(c, e); const std::size_t camera : eyes[e].members)
-                one_lens = one_lens && film.has_one_lens(cameras[camera]);
-    const SharedLooks shared(*light->drawing, looks, light->looks_at_once, one_lens);
-    const core::LineRange& own = shared.own();
-    for (std::size_t first = own.first; first < own.end(); first += light->looks_at_once) {
-        const std::size_t count = std::min(light->looks_at_once, own.end() - first);
+    for (std::size_t first = 0; first < looks; first += light->looks_at_once) {
+        const std::size_t count = std::min(light->looks_at_once, looks - first);
         const auto report = [&](double done) {
-            progress.report((static_cast<double>(first - own.first) + done * static_cast<double>(count)) /
-                            static_cast<double>(own.count));
+            progress.report((static_cast<double>(first) + done * static_cast<double>(count)) /
+                            static_cast<double>(looks));
         };
-        PackedBands drawn = shared.drawn(first, count, [&](double fraction) {
+        PackedBands drawn = light->drawing->draw(first, count, [&](double fraction) {
             report(0.9 * fraction);
             return true;
         });
-        if (!shared.exposes()) continue;  // the first process has the light of all
         // One film at a time, whose memory the next one uses.
         for (std::size_t c = 0; c < colours.size(); ++c)
             for (std::size_t e = 0; e < eyes.size(); ++e) {
@@ -113,18 +98,14 @@ std::optional<std::vector<std::vector<Image>>> photograph_together(
                 for (const std::size_t camera : eyes[e].members) {
                     Array<float, 2>& intensity = intensities[c][camera];
                     if (intensity.size() == 0) intensity = film.unexposed();
-                    shared.expose(film, waves, cameras[camera], intensity);
-                    if (!shared.is_shared() && first + count == looks) develop(film, c, camera);
+                    film.expose(waves, cameras[camera], intensity);
+                    if (first + count == looks)
+                        film.develop(intensity, cameras[camera], light->shown, 1 / static_cast<double>(looks),
+                                     pictures[c][camera]);
                 }
             }
         report(1);
     }
-    for (std::size_t c = 0; c < colours.size() && shared.is_shared() && is_first_process(); ++c)
-        for (std::size_t e = 0; e < eyes.size(); ++e)
-            for (const film::Film film = film_of(c, e); const std::size_t camera : eyes[e].members) {
-                shared.finish(intensities[c][camera]);
-                develop(film, c, camera);
-            }
     return pictures;
 }
 

@@ -8,23 +8,15 @@
 #include <optional>
 #include <utility>
 
-#include "hogel/core/alone.h"
+#include "hogel/core/pieces.h"
 #include "hogel/core/shared_order.h"
-#include "hogel/core/speeds.h"
-#include "hogel/core/unequal_parts.h"
-#include "hogel/core/work_before.h"
 #include "hogel/error.h"
 #include "hogel/hologram/parallax.h"
 #include "hogel/image/film.h"
-#include "hogel/optics/eye_light.h"
-#include "hogel/optics/photograph_together.h"
 #include "hogel/pipeline.h"
-#include "hogel/pipeline/picture_shares.h"
+#include "hogel/pipeline/picture_jobs.h"
 
 namespace hogel {
-
-using pipeline::PictureShare;
-using pipeline::PictureShares;
 
 void require_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                        std::span<const Camera> cameras) {
@@ -102,148 +94,36 @@ std::vector<std::size_t> in_order(const Fields& holograms) {
     return order;
 }
 
-// Photographs of holograms in several colours.
-struct Colours {
-    const Fields& holograms;
-    std::span<const Camera> cameras;
-    const WaveCamera& with;
-
-    std::vector<Image> unexposed() const {
-        std::vector<Image> pictures(cameras.size());
-        image::load_film(cameras, holograms.size(), holograms.front()->provenance(), pictures);
-        return pictures;
-    }
-
-    PictureShare all_of(std::size_t colour) const { return pipeline::by_all_cameras(colour, cameras.size()); }
-
-    std::vector<Image> photograph(const PictureShare& share, const Progress& progress) const {
-        std::vector<Camera> some;
-        for (const std::size_t camera : share.cameras) some.push_back(cameras[camera]);
-        const FieldSource& hologram = *holograms[share.colour];
-        if (const auto* full = std::get_if<PlaneWaveCameraOptions>(&with))
-            return photograph_by_plane_waves(hologram, some, *full, progress);
-        return hogel::photograph(hologram, some, std::get<PhotographOptions>(with), progress);
-    }
-};
-
-bool has_colour(std::span<const PictureShares> shares, std::size_t colour) {
-    return std::ranges::any_of(shares, [&](const PictureShares& own) {
-        return std::ranges::any_of(own, [&](const PictureShare& share) { return share.colour == colour; });
-    });
+std::vector<Image> unexposed(const Fields& holograms, std::span<const Camera> cameras) {
+    std::vector<Image> pictures(cameras.size());
+    image::load_film(cameras, holograms.size(), holograms.front()->provenance(), pictures);
+    return pictures;
 }
 
-// Makes the pictures that this process makes by itself, and divides the rows of the colours that all then make together
-// by what each process still has to do.
-// @param left  colours
-std::vector<std::vector<Image>> photograph_alone(Team& team, const Colours& colours,
-                                                 const std::vector<PictureShares>& shares,
-                                                 std::span<const std::size_t> left, const std::vector<double>& speeds,
-                                                 std::optional<core::UnequalParts>& parts, const Progress& progress) {
-    const auto& options = std::get<PhotographOptions>(colours.with);
-    std::optional<core::WorkBefore> before;
-    if (!left.empty() && std::ranges::none_of(shares, &PictureShares::empty))
-        before.emplace(team, pipeline::costs_of(shares, colours.holograms, colours.cameras, options), speeds);
-    const PictureShares& own = shares[team.rank()];
-    std::vector<std::vector<Image>> seen;
-    while (seen.size() < own.size()) {
-        const core::AloneScope alone;
-        const Progress part = progress.part(seen.size(), colours.holograms.size());
-        const auto report = [&](double fraction) {
-            const double done = static_cast<double>(seen.size()) + fraction;
-            if (before) before->report(done / static_cast<double>(own.size()));
-            return part(fraction);
-        };
-        seen.push_back(colours.photograph(own[seen.size()], Progress(part.stop(), report)));
-    }
-    if (!before) return seen;
-    const std::vector<double> to_do = before->finish();
-    PictureShares rest;
-    for (const std::size_t colour : left) rest.push_back(colours.all_of(colour));
-    const double work = pipeline::cost_of_rows(rest, colours.holograms, colours.cameras, options);
-    parts.emplace(speeds, core::parts_after(speeds, to_do, work));
-    return seen;
-}
-
-// Photographs by one camera or several of all colours, which processes of a team share.
-std::vector<Image> photograph_in_one_way(const Colours& colours, const Progress& progress) {
-    const auto& [holograms, cameras, with] = colours;
-    std::vector<Image> pictures = colours.unexposed();
+// Photographs by one camera or several of all colours, which the processes of a team make together, one colour after
+// the other. The narrow camera keeps the light of each tile; but not behind a diffuser, where that is gigabytes.
+void photograph_one_by_one(const Fields& holograms, std::span<const Camera> cameras, const WaveCamera& with,
+                           std::span<Image> pictures, const Progress& progress) {
     const auto* const options = std::get_if<PhotographOptions>(&with);  // null: the full camera's
-    Team* const team = core::team_of_several();
-    std::vector<double> speeds;
-    if (team != nullptr && options != nullptr) speeds = core::speeds_of_processes(*team);
-    std::optional<core::UnequalParts> parts(std::in_place, speeds, speeds);
-    // The narrow camera keeps more: the light of each tile; not behind a diffuser, where that is gigabytes.
-    const bool keeps_colours = core::result_log() != nullptr && (pipeline::are_of_hogels_or_planes(holograms, with) ||
-                                                                 (options != nullptr && options->vertical_diffuser));
-    std::optional<std::vector<std::vector<Image>>> together;  // [colour][camera]
-    if (options != nullptr && !keeps_colours)
-        together = optics::photograph_together(holograms, cameras, *options, progress);
-    std::vector<std::size_t> order = in_order(holograms);
-    std::vector<PictureShares> shares;
-    if (!together) shares = pipeline::shares_of_processes(holograms, order, with, cameras.size(), speeds);
-    std::erase_if(order, [&](std::size_t colour) { return has_colour(shares, colour); });
-    std::vector<std::vector<Image>> seen;  // by this process alone
-    if (!shares.empty()) seen = photograph_alone(*team, colours, shares, order, speeds, parts, progress);
-    const auto photograph_all = [&](std::size_t k) {
-        if (together) return std::move((*together)[order[k]]);
-        return colours.photograph(colours.all_of(order[k]), progress.part(seen.size() + k, holograms.size()));
+    const std::vector<std::size_t> order = in_order(holograms);
+    pipeline::PictureJob job{0, {}, std::vector<std::size_t>(cameras.size())};
+    std::iota(job.cameras.begin(), job.cameras.end(), std::size_t{0});
+    const auto photograph = [&](std::size_t k) {
+        const FieldSource& hologram = *holograms[order[k]];
+        const Progress part = progress.part(k, order.size());
+        if (options != nullptr) return hogel::photograph(hologram, cameras, *options, part);
+        return photograph_by_plane_waves(hologram, cameras, std::get<PlaneWaveCameraOptions>(with), part);
     };
-    const auto put_all = [&](std::size_t k, std::vector<Image>& one) {
-        pipeline::put(colours.all_of(order[k]), one, pictures);
+    const auto put = [&](std::size_t k, std::vector<Image>& made) {
+        job.colours = {order[k]};
+        pipeline::put(job, made, pictures);
     };
-    if (keeps_colours) {
-        core::kept_one_by_one<std::vector<Image>>(order.size(), image::sent_pictures(), photograph_all, put_all);
-    } else {
-        for (std::size_t k = 0; k < order.size(); ++k) {
-            std::vector<Image> one = photograph_all(k);
-            put_all(k, one);
-        }
+    if (options == nullptr || options->vertical_diffuser)
+        return core::kept_one_by_one<std::vector<Image>>(order.size(), image::sent_pictures(), photograph, put);
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        std::vector<Image> made = photograph(k);
+        put(k, made);
     }
-    pipeline::gather(shares, seen, pictures);
-    pipeline::share(pictures);
-    return pictures;
-}
-
-// Photographs in several ways, [way][camera], of which each process of a team makes some when it is free.
-std::vector<std::vector<Image>> photograph_by_jobs(Team& team, const Fields& holograms, std::span<const Camera> cameras,
-                                                   std::span<const WaveCamera> ways,
-                                                   std::span<const pipeline::PictureJob> jobs,
-                                                   const Progress& progress) {
-    const auto colours = [&](std::size_t way) { return Colours{holograms, cameras, ways[way]}; };
-    double sum = 0, done = 0;
-    for (const pipeline::PictureJob& job : jobs) sum += job.cost;
-    const double own_part = sum / static_cast<double>(team.size());
-    std::vector<std::vector<Image>> pictures;
-    for (std::size_t way = 0; way < ways.size(); ++way) pictures.push_back(colours(way).unexposed());
-    std::vector<std::uint64_t> own;                                  // jobs
-    std::vector<std::vector<std::vector<Image>>> seen(ways.size());  // [way][job]
-    const std::uint64_t queue = team.next_number();
-    for (Team::Tiles some = team.next_tiles(queue, jobs.size()); some.count > 0;
-         some = team.next_tiles(queue, jobs.size()))
-        for (std::uint64_t i = some.first; i < some.first + some.count; ++i) {
-            const pipeline::PictureJob& job = jobs[i];
-            const core::AloneScope alone;
-            const auto report = [&](double fraction) {
-                return progress(std::min(0.99, (done + fraction * job.cost) / own_part));
-            };
-            seen[job.way].push_back(colours(job.way).photograph(job.pictures, Progress(progress.stop(), report)));
-            own.push_back(i);
-            done += job.cost;
-        }
-    core::MessageWriter message;
-    message.put(own);
-    std::vector<std::vector<PictureShares>> shares(ways.size(), std::vector<PictureShares>(team.size()));
-    const std::vector<std::string> all = core::all_of(team, message.take());
-    for (std::size_t process = 0; process < team.size(); ++process)
-        for (const std::uint64_t i : core::MessageReader(all[process]).get_vector<std::uint64_t>())
-            shares[jobs[i].way][process].push_back(jobs[i].pictures);
-    for (std::size_t way = 0; way < ways.size(); ++way) {
-        pipeline::gather(shares[way], seen[way], pictures[way]);
-        pipeline::share(pictures[way]);
-    }
-    progress.report(1);
-    return pictures;
 }
 
 }  // namespace
@@ -252,22 +132,24 @@ std::vector<std::vector<Image>> photograph_colours(const Fields& holograms, std:
                                                    std::span<const WaveCamera> ways, const Progress& progress) {
     const core::StopScope scope(progress);
     if (holograms.empty()) throw Error(ErrorCode::usage, "a photograph needs a hologram; there is none");
-    const auto share_rays = [&](const WaveCamera& with) {
-        const auto* const options = std::get_if<PhotographOptions>(&with);
-        return options != nullptr && optics::are_photographed_together(holograms, cameras, *options);
-    };
-    if (Team* const team = core::team_of_several()) {
-        std::vector<pipeline::PictureJob> jobs;
-        if (team->is_first() && std::ranges::none_of(ways, share_rays))
-            jobs = pipeline::jobs_of(team->size(), holograms, in_order(holograms), cameras, ways);
-        // Costs may differ in their last bits between machines.
-        core::share_result(jobs, pipeline::sent_jobs());
-        if (!jobs.empty()) return photograph_by_jobs(*team, holograms, cameras, ways, jobs, progress);
-    }
     std::vector<std::vector<Image>> pictures;
-    for (const WaveCamera& with : ways)
-        pictures.push_back(
-            photograph_in_one_way({holograms, cameras, with}, progress.part(pictures.size(), ways.size())));
+    for (std::size_t way = 0; way < ways.size(); ++way) pictures.push_back(unexposed(holograms, cameras));
+    const std::vector<pipeline::PictureJob> jobs =
+        pipeline::picture_jobs(holograms, in_order(holograms), cameras, ways);
+    std::size_t others = 0, done = 0;
+    for (const WaveCamera& with : ways) others += pipeline::is_made_in_jobs(holograms, with) ? 0 : 1;
+    const std::size_t parts = jobs.size() + others;
+    core::shared_jobs<std::vector<Image>>(
+        jobs.size(), image::sent_pictures(),
+        [&](std::size_t i) { return pipeline::photograph(jobs[i], holograms, cameras, ways, progress.part(i, parts)); },
+        [&](std::size_t i, std::vector<Image>& made) { pipeline::put(jobs[i], made, pictures[jobs[i].way]); });
+    for (std::size_t way = 0; way < ways.size(); ++way)
+        if (!pipeline::is_made_in_jobs(holograms, ways[way]))
+            photograph_one_by_one(holograms, cameras, ways[way], pictures[way],
+                                  progress.part(jobs.size() + done++, parts));
+    if (Team* const all = core::team_of_several())
+        for (std::vector<Image>& of_way : pictures)
+            for (Image& picture : of_way) core::share_in_pieces<float>(*all, picture.pixels.elements());
     return pictures;
 }
 

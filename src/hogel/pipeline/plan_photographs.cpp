@@ -111,14 +111,6 @@ double seconds_of_films(const FieldGrid& hologram, std::span<const Camera> camer
 
 }  // namespace
 
-double photograph_seconds(const FieldSource& hologram, const optics::WavePowers::Counts& counts,
-                          std::span<const Camera> cameras, const PhotographOptions& options) {
-    const FieldGrid& grid = hologram.grid();
-    if (options.expected) return optics::expected::work(grid, counts, cameras, options).products * seconds_a_product;
-    return seconds_from_hogels(counts.across * counts.down, {grid, counts.samples, counts.samples}, cameras,
-                               hologram.looks());
-}
-
 LightChoice choose_light(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                          std::span<const Camera> cameras, const PhotographOptions& options) {
     if (options.expected) return {LightFrom::hogels, "the mean of infinitely many looks is a sum over hogels"};

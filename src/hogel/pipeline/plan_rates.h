@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <span>
 
-#include "hogel/optics/eye_light.h"
 #include "hogel/pipeline.h"
 #include "hogel/resources.h"
 
@@ -17,11 +16,6 @@ inline constexpr double seconds_a_sample = 5e-9;
 inline double on_all_threads(double processor_seconds) {
     return processor_seconds / static_cast<double>(std::max<std::size_t>(thread_count(), 1));
 }
-
-/// Processor seconds of photographs of one colour from square hogels whose waves are known, or of their mean of
-/// infinitely many looks.
-double photograph_seconds(const FieldSource& hologram, const optics::WavePowers::Counts& counts,
-                          std::span<const Camera> cameras, const PhotographOptions& options);
 
 /// Samples of one look of all holograms of a request.
 double hologram_samples(std::span<const LightFieldGrid> faces, const HologramRequest& request);

@@ -42,7 +42,7 @@ struct MeanFrequency {
 Aperture mean_frequency(View<const Complex, 2> spectrum) {
     const std::size_t rows = spectrum.extent(0), columns = spectrum.extent(1);
     const double turn = 2 * std::numbers::pi;
-    const MeanFrequency mean = sum_of_lines(rows, nullptr, [&](std::size_t y) {
+    const MeanFrequency mean = sum_of_lines(rows, [&](std::size_t y) {
         MeanFrequency line;
         const std::complex<double> down = std::polar(1.0, turn * frequency(y, rows));
         for (std::size_t x = 0; x < columns; ++x) {
@@ -68,7 +68,7 @@ struct LightByDistance {
 // The radius around the middle of an aperture within which a share of the light lies.
 double radius_around(View<const Complex, 2> spectrum, const Aperture& middle, double share) {
     const std::size_t rows = spectrum.extent(0), columns = spectrum.extent(1);
-    const LightByDistance all = sum_of_lines(rows, nullptr, [&](std::size_t y) {
+    const LightByDistance all = sum_of_lines(rows, [&](std::size_t y) {
         LightByDistance line;
         for (std::size_t x = 0; x < columns; ++x) {
             const double r = distance(frequency(x, columns), frequency(y, rows), middle);
@@ -107,7 +107,7 @@ FieldBand::FieldBand(View<const Complex, 2> field)
     aperture_ = aperture_for(wanted_);
     const double radius = std::min(margin * aperture_.radius, max_radius);
     const std::size_t rows = field.extent(0), columns = field.extent(1);
-    energy_ = sum_of_lines(rows, nullptr, [&](std::size_t y) {
+    energy_ = sum_of_lines(rows, [&](std::size_t y) {
         double all = 0;
         for (std::size_t x = 0; x < columns; ++x) {
             all += std::norm(wanted_(y, x));
@@ -121,7 +121,7 @@ FieldBand::FieldBand(View<const Complex, 2> field)
 
 FieldBand::Match FieldBand::match(Array<Complex, 2>& shown) const {
     fft_.forward(shown);
-    return match(sum_of_lines(shown.extent(0), nullptr, [&](std::size_t y) {
+    return match(sum_of_lines(shown.extent(0), [&](std::size_t y) {
         Sums row;
         for (std::size_t x = 0; x < shown.extent(1); ++x) add(y, x, shown(y, x), row);
         return row;

@@ -94,13 +94,12 @@ float cycles_of(Complex value) {
 }
 
 Array<float, 2> encode_phase(View<const Complex, 2> field, const FieldBand& band, const PatternOptions& options,
-                             Convergence& convergence, const Progress& progress, Team* team) {
+                             Convergence& convergence, const Progress& progress) {
     if (options.encoding == Encoding::gerchberg_saxton) {
         convergence.iterations = options.iterations > 0 ? options.iterations : projections;
         return iterate_phases(field, options, progress);
     }
-    if (options.encoding == Encoding::gradient)
-        return descend_phases(field, band, options, convergence, progress, team);
+    if (options.encoding == Encoding::gradient) return descend_phases(field, band, options, convergence, progress);
     Array<float, 2> cycles(field.shape());
     core::parallel_for(field.extent(0), [&](std::size_t y) {
         for (std::size_t x = 0; x < field.extent(1); ++x) {
@@ -138,7 +137,7 @@ Array<std::uint8_t, 2> round_to_levels(View<const float, 2> values, unsigned lev
 
 // The share of the modulator's light that is F times the carrier: |<E, F c>|² / (<F, F> pixels).
 double efficiency_of(View<const Complex, 2> transmitted, View<const Complex, 2> field, const Carrier& carrier) {
-    const FieldBand::Sums sums = sum_of_lines(field.extent(0), nullptr, [&](std::size_t y) {
+    const FieldBand::Sums sums = sum_of_lines(field.extent(0), [&](std::size_t y) {
         FieldBand::Sums row;
         for (std::size_t x = 0; x < field.extent(1); ++x) {
             const Complex wave = carrier.empty() ? field(y, x) : optics::times(field(y, x), carrier[x]);
@@ -151,7 +150,7 @@ double efficiency_of(View<const Complex, 2> transmitted, View<const Complex, 2> 
 }
 
 double mean_power(View<const Complex, 2> field) {
-    return sum_of_lines(field.extent(0), nullptr,
+    return sum_of_lines(field.extent(0),
                         [&](std::size_t y) {
                             double row = 0;
                             for (std::size_t x = 0; x < field.extent(1); ++x) row += std::norm(field(y, x));
@@ -169,17 +168,14 @@ struct LightShare {
 };
 
 // The share of the modulator's light that reproduces the moduli of the field's local spectra: (Σ|A||B|)²/Σ|B|² of A's
-// energy in each square. The processes of a team share the squares.
-double light_field_efficiency_of(View<const Complex, 2> transmitted, View<const Complex, 2> field, std::size_t side,
-                                 Team* team) {
+// energy in each square.
+double light_field_efficiency_of(View<const Complex, 2> transmitted, View<const Complex, 2> field, std::size_t side) {
     side = std::min({side, field.extent(0), field.extent(1)});
     const math::Fft2 fft(side, side);
-    const std::size_t rows = field.extent(0) / side;
-    const core::LineRange own = core::own_lines(team, rows);
-    const LightShare share = sum_of_lines(own.count, team, [&](std::size_t row) {
+    const LightShare share = sum_of_lines(field.extent(0) / side, [&](std::size_t row) {
         Array<Complex, 2> shown({side, side}), wanted({side, side});
         LightShare of_row;
-        const std::size_t y0 = (own.first + row) * side;
+        const std::size_t y0 = row * side;
         for (std::size_t x0 = 0; x0 + side <= field.extent(1); x0 += side) {
             for (std::size_t y = 0; y < side; ++y) {
                 std::copy_n(&transmitted(y0 + y, x0), side, &shown(y, 0));
@@ -228,11 +224,6 @@ Table<EncodingInfo>& encodings() {
 }
 
 Pattern encode_pattern(const FieldSource& source, const PatternOptions& options, const Progress& progress) {
-    return encode_by(nullptr, source, options, progress);
-}
-
-Pattern hologram::patterns::encode_by(Team* team, const FieldSource& source, const PatternOptions& options,
-                                      const Progress& progress) {
     const core::StopScope scope(progress);
     require_fitting(source.grid(), options);
     Array<Complex, 2> field = fit(source, options.modulator);
@@ -242,7 +233,7 @@ Pattern hologram::patterns::encode_by(Team* team, const FieldSource& source, con
     Convergence convergence;
     const bool phases = is_phase_only(options.encoding);
     const FieldBand band(field);
-    pattern.values = phases ? encode_phase(field, band, options, convergence, progress, team)
+    pattern.values = phases ? encode_phase(field, band, options, convergence, progress)
                             : encode_amplitude(field, options, source.grid().wavelength, order);
     pattern.levels = round_to_levels(pattern.values, options.modulator.levels, phases, options.phase_code);
     const Array<Complex, 2> transmitted = transmission(pattern, options.encoding, options.phase_code);
@@ -251,7 +242,7 @@ Pattern hologram::patterns::encode_by(Team* team, const FieldSource& source, con
     pattern.reference_angle = order.angle;
     pattern.aperture = phases ? band.aperture() : aperture_around(order, band.aperture());
     if (!phases) return pattern;
-    pattern.light_field_efficiency = light_field_efficiency_of(transmitted, field, options.window, team);
+    pattern.light_field_efficiency = light_field_efficiency_of(transmitted, field, options.window);
     pattern.iterations = convergence.iterations;
     Array<Complex, 2> spectrum = transmitted;
     pattern.correlation = std::sqrt(1 - band.match(spectrum).error);

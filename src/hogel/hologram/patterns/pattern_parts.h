@@ -9,40 +9,20 @@
 #include <vector>
 
 #include "hogel/core/parallel.h"
-#include "hogel/core/shared_order.h"
-#include "hogel/core/shared_plane.h"
 #include "hogel/math/fft.h"
 #include "hogel/optics/phase_walk.h"
 #include "hogel/pattern.h"
-#include "hogel/team.h"
 
 namespace hogel::hologram::patterns {
 
-/// The sum of what each line has, of those of all processes of a team in their order, so that it is the same for any
-/// number of processes.
-template <class Sum>
-Sum sum_in_order(const std::vector<Sum>& own, Team* team) {
-    Sum sum{};
-    if (team == nullptr) {
-        for (const Sum& line : own) sum += line;
-        return sum;
-    }
-    core::MessageWriter message;
-    message.put(own);
-    for (const std::string& bytes : core::all_of(*team, message.take())) {
-        core::MessageReader reader(bytes);
-        for (const Sum& line : reader.get_vector<Sum>()) sum += line;
-    }
-    return sum;
-}
-
-/// The sum of of_line(i) of all own lines, and of those of the other processes of a team; the same for any number of
-/// threads and processes.
+/// The sum of of_line(i) of all lines, in their order; the same for any number of threads.
 template <class OfLine>
-auto sum_of_lines(std::size_t own, Team* team, const OfLine& of_line) {
-    std::vector<decltype(of_line(own))> lines(own);
-    core::parallel_for(own, [&](std::size_t i) { lines[i] = of_line(i); });
-    return sum_in_order(lines, team);
+auto sum_of_lines(std::size_t count, const OfLine& of_line) {
+    std::vector<decltype(of_line(count))> lines(count);
+    core::parallel_for(count, [&](std::size_t i) { lines[i] = of_line(i); });
+    decltype(of_line(count)) sum{};
+    for (const auto& line : lines) sum += line;
+    return sum;
 }
 
 /// The carrier wave e^{2πi f_x·column}, by column. The useful order of a pattern is F times the carrier.
@@ -83,10 +63,8 @@ class FieldBand;
 
 /// Encoding::gradient: phases in cycles [0, 1), by descent. Ends when the correlation with the field no longer gains.
 /// @param band  of the field
-/// @param team  whose processes share the work, all of which call it and get the phases; null: none
 Array<float, 2> descend_phases(View<const std::complex<float>, 2> field, const FieldBand& band,
-                               const PatternOptions& options, Convergence& convergence, const Progress& progress,
-                               Team* team);
+                               const PatternOptions& options, Convergence& convergence, const Progress& progress);
 /// Iterations where PatternOptions::iterations is 0: alternating projections, and the most of a descent.
 inline constexpr std::size_t projections = 40, max_descent_steps = 200;
 
@@ -138,11 +116,6 @@ class FieldBand {
     double energy_ = 0;                     // Σ|F|², also beyond the band
     Aperture aperture_;
 };
-
-/// encode_pattern(), by the processes of a team together where the encoding allows it: see can_be_shared().
-Pattern encode_by(Team* team, const FieldSource& source, const PatternOptions& options, const Progress& progress);
-/// Whether processes can work on one pattern together.
-inline bool can_be_shared(Encoding encoding) { return encoding == Encoding::gradient; }
 
 /// The first of `phase`, `double_phase` and `gradient` by which all patterns have sufficient_correlation, or else the
 /// one whose least correlation is highest, with the patterns.

@@ -10,10 +10,8 @@
 #include <vector>
 
 #include "hogel/core/object_pool.h"
-#include "hogel/core/shared_order.h"
-#include "hogel/core/speeds.h"
+#include "hogel/core/parallel.h"
 #include "hogel/core/steps.h"
-#include "hogel/core/unequal_parts.h"
 #include "hogel/optics/expected/kernels.h"
 #include "hogel/optics/expected/spots.h"
 #include "hogel/optics/expected/tails.h"
@@ -185,39 +183,6 @@ class Photographer {
                     if (const std::size_t hogel = nearest_row(exposure, row); hogel >= first && hogel < end)
                         expose_row(eye, exposure, row, left, right, pictures[exposure.camera]);
                 });
-    }
-
-    // Gives all processes of a team the pixels and tails that each has made of its own rows of hogels.
-    void gather(Team& team, std::span<Image> pictures) {
-        const auto rows_of = [&](std::size_t process) {
-            return core::lines_in_parts(core::first_parts(team.size()), process, hogels_.plane.height);
-        };
-        const auto visit = [&](const core::LineRange& own, const auto& each) {
-            for (ExpectedEye& eye : eyes_)
-                for (Exposure& exposure : eye.exposures) {
-                    for (std::size_t t = own.first; t < own.end(); ++t)
-                        each(std::span(exposure.tails_of_row(t), hogels_.plane.width));
-                    Image& picture = pictures[exposure.camera];
-                    for (std::size_t row = 0; row < picture.height(); ++row) {
-                        const std::size_t hogel = nearest_row(exposure, row);
-                        if (exposure.rows.seen[row] > 0 && hogel >= own.first && hogel < own.end())
-                            each(std::span(&picture.pixels(row, 0, 0), picture.width()));
-                    }
-                }
-        };
-        std::vector<float> mine;
-        visit(rows_of(team.rank()), [&](std::span<float> line) { mine.insert(mine.end(), line.begin(), line.end()); });
-        core::MessageWriter message;
-        message.put(mine);
-        const std::vector<std::string> all = core::all_of(team, message.take());
-        for (std::size_t process = 0; process < team.size(); ++process) {
-            const std::vector<float> theirs = core::MessageReader(all[process]).get_vector<float>();
-            const float* from = theirs.data();
-            visit(rows_of(process), [&](std::span<float> line) {
-                std::copy_n(from, line.size(), line.begin());
-                from += line.size();
-            });
-        }
     }
 
     // Adds the light that falls far from its hogels.
@@ -492,20 +457,15 @@ void photograph(const FieldSource& hologram, const WavePowers& waves, std::span<
             continue;
         }
         const std::size_t rows = fit >= counts.down ? counts.down : std::max(fit, around + 1) - around;
-        Team* const all = core::team_of_several();
-        const core::LineRange own = all != nullptr
-                                        ? core::lines_in_parts(core::first_parts(all->size()), all->rank(), counts.down)
-                                        : core::LineRange{0, counts.down};
         const auto fraction = [&](std::size_t row) {
             return (static_cast<double>(done) + 0.98 * static_cast<double>(some.size()) * static_cast<double>(row) /
                                                     static_cast<double>(counts.down)) /
                    static_cast<double>(eyes.size());
         };
-        for (std::size_t first = own.first; first < own.end(); first += rows) {
-            const std::size_t end = std::min(own.end(), first + rows);
+        for (std::size_t first = 0; first < counts.down; first += rows) {
+            const std::size_t end = std::min(counts.down, first + rows);
             photographer.expose(first, end, pictures, progress.part(fraction(first), fraction(end)));
         }
-        if (all != nullptr) photographer.gather(*all, pictures);
         photographer.add_tails(pictures);
         done += some.size();
     }

@@ -237,22 +237,7 @@ void Film::transform_columns(const std::vector<char>& is_lit, Scratch& scratch) 
     });
 }
 
-bool Film::has_one_lens(const Camera& camera) const {
-    const FilmLens lens(size_.sines, hologram_.wavelength, camera);
-    return lens.nodes_x * lens.nodes_y == 1;
-}
-
 void Film::expose(std::span<const PupilWave> pupil_waves, const Camera& camera, View<float, 2> intensity) const {
-    expose_each(pupil_waves, camera, [&](std::size_t) { return intensity; });
-}
-
-void Film::expose(std::span<const PupilWave> pupil_waves, const Camera& camera,
-                  std::span<Array<float, 2>> intensities) const {
-    expose_each(pupil_waves, camera, [&](std::size_t look) { return intensities[look].view(); });
-}
-
-void Film::expose_each(std::span<const PupilWave> pupil_waves, const Camera& camera,
-                       const std::function<View<float, 2>(std::size_t look)>& intensity) const {
     if (pupil_waves.empty()) return;
     const FilmLens lens(size_.sines, hologram_.wavelength, camera);
     // Between nodes the intensities are blended linearly.
@@ -280,8 +265,7 @@ void Film::expose_each(std::span<const PupilWave> pupil_waves, const Camera& cam
                 node.share_x(i) = share(size_.x, size_.sines.shown_x, i, a, lens.nodes_x);
             for (std::size_t j = 0; j < size_.y.count; ++j)
                 node.share_y[j] = share(size_.y, size_.sines.shown_y, j, b, lens.nodes_y);
-            for (std::size_t look = 0; look < pupil_waves.size(); ++look)
-                expose_node(pupil_waves[look], node, intensity(look));
+            for (const PupilWave& wave : pupil_waves) expose_node(wave, node, intensity);
         }
 }
 

@@ -84,13 +84,6 @@ class Film {
     /// Adds the intensities of several looks, each given by its pupil wave, on a camera's film, of the shape of
     /// unexposed(). The lens is computed once for all of them.
     void expose(std::span<const PupilWave> pupil_waves, const Camera& camera, View<float, 2> intensity) const;
-    /// The same on a film for each look.
-    void expose(std::span<const PupilWave> pupil_waves, const Camera& camera,
-                std::span<Array<float, 2>> intensities) const;
-
-    /// Whether a camera's lens is the same for light from all over the film, so that looks are exposed one after the
-    /// other.
-    bool has_one_lens(const Camera& camera) const;
 
     /// Adds a camera's picture, in radiance, of the part `shown` of the hologram plane, as far as the film shows it.
     /// @param weight  factor of the intensities: the reciprocal of the number of looks that they sum
@@ -117,8 +110,6 @@ class Film {
 
     void resample_rows(const PackedBand& band, std::vector<char>& is_lit, Scratch& scratch) const;
     void transform_columns(const std::vector<char>& is_lit, Scratch& scratch) const;
-    void expose_each(std::span<const PupilWave> pupil_waves, const Camera& camera,
-                     const std::function<View<float, 2>(std::size_t look)>& intensity) const;
     void expose_node(const PupilWave& pupil_wave, const Node& node, View<float, 2> intensity) const;
 
     narrow_band::BandGrid band_;

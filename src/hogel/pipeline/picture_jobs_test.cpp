@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/pipeline/picture_jobs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "hogel/resume.h"
+#include "hogel/units.h"
+
+namespace hogel::pipeline {
+namespace {
+
+using namespace hogel::literals;
+
+const WaveCamera looks = PhotographOptions(), expected = PhotographOptions{.expected = true};
+
+// Three eyes with two focuses each, of a hologram in three colours.
+class PictureJobsTest : public testing::Test {
+  protected:
+    PictureJobsTest() {
+        HologramRequest of;
+        of.channels = rgb(633_nm, 532_nm, 460_nm);
+        of.pitch = 1.5625_um;
+        of.looks = 16;
+        holograms_ = make_holograms(light_field_, of);
+        for (const double depth : {-1_mm, 2_mm})
+            for (const double x : {-10_mm, 0_mm, 10_mm}) {
+                cameras_.push_back(camera_for(2_mm, 2_mm, 64));
+                cameras_.back().eye.x = x;
+                cameras_.back().focus_depth = depth;
+            }
+    }
+    std::vector<PictureJob> jobs(const std::vector<WaveCamera>& ways) const {
+        return picture_jobs(holograms_, order_, cameras_, ways);
+    }
+
+    static LightField rendered() {
+        LightFieldRequest request;
+        request.grid = {8, 8, 0.25_mm, 32, 32, field_of_view(16_deg)};
+        return render_light_field(load_scene("sphere", request), request);
+    }
+
+    LightField light_field_ = rendered();
+    Fields holograms_;
+    std::vector<Camera> cameras_;
+    std::vector<std::size_t> order_{2, 1, 0};
+};
+
+TEST_F(PictureJobsTest, are_whole_colours_in_order_where_pictures_are_neither_shared_nor_kept) {
+    const std::vector<std::size_t> cameras{0, 1, 2, 3, 4, 5};
+    const std::vector<PictureJob> expected_jobs{{0, {2}, cameras}, {0, {1}, cameras}, {0, {0}, cameras}};
+    EXPECT_EQ(jobs({expected}), expected_jobs);
+    EXPECT_EQ(jobs({looks}).size(), 3u);
+    EXPECT_EQ(jobs({looks, expected}).size(), 6u);
+}
+
+TEST_F(PictureJobsTest, are_those_of_an_eye_where_pictures_without_speckle_are_kept) {
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "picture_jobs.part";
+    ResumeScope kept(file, {});
+    const std::vector<PictureJob> all = jobs({looks, expected});
+    ASSERT_EQ(all.size(), 3u + 9u);
+    EXPECT_EQ(all[2], (PictureJob{0, {0}, {0, 1, 2, 3, 4, 5}}));
+    EXPECT_EQ(all[3], (PictureJob{1, {2}, {0, 3}}));
+    EXPECT_EQ(all[11], (PictureJob{1, {0}, {2, 5}}));
+    kept.complete();
+}
+
+TEST_F(PictureJobsTest, are_none_of_cameras_that_need_samples) {
+    EXPECT_TRUE(jobs({PlaneWaveCameraOptions()}).empty());
+    EXPECT_TRUE(jobs({PhotographOptions{.from = LightFrom::samples}}).empty());
+    EXPECT_TRUE(jobs({PhotographOptions{.vertical_diffuser = true}}).empty());
+}
+
+// Pictures are the same, whatever the jobs.
+TEST_F(PictureJobsTest, do_not_change_pictures) {
+    const std::vector<WaveCamera> ways{looks, expected};
+    const auto all = photograph_colours(holograms_, cameras_, ways);
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "picture_jobs.part";
+    ResumeScope kept(file, {});
+    const auto by_jobs = photograph_colours(holograms_, cameras_, ways);
+    kept.complete();
+    for (std::size_t way = 0; way < ways.size(); ++way)
+        for (std::size_t i = 0; i < cameras_.size(); ++i)
+            EXPECT_TRUE(std::ranges::equal(all[way][i].pixels.elements(), by_jobs[way][i].pixels.elements()))
+                << way << " " << i;
+}
+
+}  // namespace
+}  // namespace hogel::pipeline
