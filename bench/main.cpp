@@ -18,8 +18,8 @@
 #include "hogel/error.h"
 #include "hogel/resources.h"
 #include "hogel/table.h"
-#include "hogel/transform/transform.h"
 #include "hogel/version.h"
+#include "thesis/wavelets/transform.h"
 
 namespace hogel::bench {
 namespace {
@@ -244,7 +244,7 @@ void add_codec(CLI::App& app, Program& program) {
     command->add_option("--transforms", options->transforms, "Transforms; all if none are named")
         ->type_name("NAME,...")
         ->delimiter(',')
-        ->check(CLI::IsMember(transform::transform_names()).description(""));
+        ->check(CLI::IsMember(wavelets::transform_names()).description(""));
     command->add_option("--sqnr", options->sqnrs, "SQNRs at which to print the rate")
         ->type_name("DB,...")
         ->delimiter(',')
@@ -366,7 +366,7 @@ void add_studies(CLI::App& app, Program& program) {
         ->capture_default_str();
     command->add_option("--transform", fringes->transform, "Transform of the directions")
         ->type_name("NAME")
-        ->check(CLI::IsMember(transform::transform_names()).description(""))
+        ->check(CLI::IsMember(wavelets::transform_names()).description(""))
         ->capture_default_str();
     command->add_option("--only", fringes->only, "Measure holograms whose name holds this text, such as lines")
         ->type_name("TEXT");

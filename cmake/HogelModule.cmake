@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-# hogel_module(NAME [FOLDER path] [USES module...] [PUBLIC header...] [LINKS target...] [TESTED_WITH module])
+# hogel_module(NAME [FOLDER path] [USES module...] [PUBLIC header...] [LINKS target...] [COMPLETED_BY module] [TESTED_WITH module])
 #   Compiles FOLDER (src/hogel/NAME) and the folders in it, tests aside, into an object library, and records which modules
 #   it may include and which public headers (include/hogel/HEADER.h) it implements. Its tests are linked with the modules
-#   that it uses, and with TESTED_WITH, one that implements a public header which the tests use.
+#   that it uses; with COMPLETED_BY, a module above it which defines functions that it declares and calls; and with
+#   TESTED_WITH, one that implements a public header which the tests use.
 function(hogel_module name)
   hogel_record_module(${ARGV})
   if(HOGEL_MINIMAL AND NOT name IN_LIST HOGEL_MINIMAL_MODULES)
     return()
   endif()
-  cmake_parse_arguments(arg "" "FOLDER" "USES;LINKS;PUBLIC;TESTED_WITH" ${ARGN})
+  cmake_parse_arguments(arg "" "FOLDER;COMPLETED_BY;TESTED_WITH" "USES;LINKS;PUBLIC" ${ARGN})
   if(NOT arg_FOLDER)
     set(arg_FOLDER src/hogel/${name})
   endif()
@@ -22,7 +23,7 @@ function(hogel_module name)
   list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
   # Highway includes a source with SIMD code again for each target. The others have names of their own for the same things.
   set(alone ${sources} ${tests})
-  list(FILTER alone INCLUDE REGEX "(_simd|/stb|/layouts/[a-z_]+|/showpieces/[a-z_]+|/(render|hologram|exchange)/[a-z_/]*_test)\\.cpp$")
+  list(FILTER alone INCLUDE REGEX "(_simd|/stb|/layouts/[a-z_]+|/showpieces/[a-z_]+|/(render|hologram|exchange|simplex)/[a-z_/]*_test)\\.cpp$")
   set_source_files_properties(${alone} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   # With a precompiled header g++ 12 takes the immediates of AVX-512 for variables where nothing is optimised; and with the
   # address sanitizer it needs minutes to see where each of a hundred vectors ends.
@@ -41,7 +42,8 @@ function(hogel_module name)
   add_library(hogel_${name}_archive STATIC EXCLUDE_FROM_ALL $<TARGET_OBJECTS:hogel_${name}>)
   set_target_properties(hogel_${name}_archive PROPERTIES LINKER_LANGUAGE CXX)
   target_link_libraries(hogel_${name}_archive PUBLIC ${arg_LINKS} ${HOGEL_FMT})
-  foreach(used ${arg_USES})
+  # Static libraries may need each other.
+  foreach(used ${arg_USES} ${arg_COMPLETED_BY})
     target_link_libraries(hogel_${name}_archive PUBLIC hogel_${used}_archive)
   endforeach()
   set_property(GLOBAL APPEND PROPERTY HOGEL_MODULES ${name})
@@ -53,7 +55,7 @@ endfunction()
 
 # The row of a module in the table that cmake/check_includes.py reads, which holds those too that are not built.
 function(hogel_record_module name)
-  cmake_parse_arguments(arg "" "FOLDER" "USES;LINKS;PUBLIC;TESTED_WITH" ${ARGN})
+  cmake_parse_arguments(arg "" "FOLDER;COMPLETED_BY;TESTED_WITH" "USES;LINKS;PUBLIC" ${ARGN})
   if(NOT arg_FOLDER)
     set(arg_FOLDER src/hogel/${name})
   endif()

@@ -17,17 +17,17 @@ import sys
 THIRD_PARTY = {  # first part of the include path -> the modules or folders that may name it; None: any
     "tbb": {"core"}, "fftw3.h": {"math"}, "OpenEXR": {"image/formats"}, "Imath": {"image/formats"}, "png.h": {"image/formats"},
     "jpeglib.h": {"image/formats"}, "stb": {"image/formats"}, "tiffio.h": {"image/formats"}, "webp": {"image/formats"}, "assimp": {"scene"}, "draco": {"scene"}, "meshoptimizer.h": {"scene"}, "embree3": {"trace"},
-    "hdf5.h": {"io/hdf5"}, "hwy": {"codec", "core", "direct", "hologram", "lightfield", "math", "optics", "render",
-            "shading"}, "fmt": None,
+    "hdf5.h": {"io/hdf5"}, "hwy": {"codec", "core", "direct", "fringes", "hologram", "lightfield", "math", "optics", "render",
+            "shading", "simplex"}, "fmt": None,
     "nlohmann": {"core", "scene", "exchange"}, "gtest": None, "boost": set(),
 }
 FORBIDDEN_IN = {  # folder -> folders that it may not include
-    "codec/format": ("codec/encode", "codec/decode", "codec/baselines"),
-    "codec/decode": ("codec/encode", "codec/baselines"),
-    "codec/baselines": ("codec/encode", "codec/decode"),
-    "render/epi": ("render/simplex", "render/baselines"),
-    "render/simplex": ("render/epi", "render/baselines"),
-    "render/baselines": ("render/epi", "render/simplex"),
+    "codec/format": ("codec/encode", "codec/decode"),
+    "codec/decode": ("codec/encode",),
+    "thesis/zerotrees": ("codec/encode", "codec/decode"),
+    "render/epi": ("render/baselines",),
+    "render/baselines": ("render/epi",),
+    "thesis/simplex": ("render/epi", "render/baselines"),
     "io/hdf5": ("io/arrays",), "io/arrays": ("io/hdf5",),
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
@@ -107,7 +107,7 @@ def check_face(table, root, wrong):
                 wrong.append(f"{path}:{number}: a public header may not include '{header}'")
     for path in sources(root / "apps"):
         for number, header in includes(path):
-            if header.startswith(("hogel/", "showpieces/")) and header not in own:
+            if header.startswith(("hogel/", "showpieces/", "thesis/")) and header not in own:
                 wrong.append(f"{path}:{number}: a front end may not include '{header}', which is private")
 
 

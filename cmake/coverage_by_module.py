@@ -4,7 +4,7 @@
 
 usage: coverage_by_module.py BUILD     in the project's folder; BUILD: a build folder with gcov's counts, which gets the
                                        same line by line, coverage.html
-A module is a folder of src/hogel; the public headers count as one.
+A module is a folder of src/hogel or thesis; the public headers count as one.
 """
 import collections
 import json
@@ -15,11 +15,13 @@ import sys
 
 def module(path):
     parts = pathlib.PurePath(path).parts
+    if parts[0] == "thesis":
+        return parts[1]
     return parts[2] if parts[:2] == ("src", "hogel") else "public headers"
 
 
 def files(build):
-    subprocess.run(["gcovr", "--root", ".", "--object-directory", build, "--filter", "include/", "--filter", "src/",
+    subprocess.run(["gcovr", "--root", ".", "--object-directory", build, "--filter", "include/", "--filter", "src/", "--filter", "thesis/",
                     "--exclude", r".*_test\.cpp$", "--json-summary", build / "coverage.json", "--html-details", build / "coverage.html"],
                    check=True)
     return json.loads((build / "coverage.json").read_text())["files"]

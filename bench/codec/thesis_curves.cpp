@@ -8,12 +8,12 @@
 
 #include "bench/session.h"
 #include "bench/temporary_folder.h"
-#include "hogel/coding/ezw.h"
 #include "hogel/coding/histogram_rule.h"
-#include "hogel/coding/jpeg4d.h"
-#include "hogel/coding/threepass.h"
 #include "hogel/compress.h"
-#include "hogel/transform/transform.h"
+#include "thesis/wavelets/transform.h"
+#include "thesis/zerotrees/ezw.h"
+#include "thesis/zerotrees/jpeg4d.h"
+#include "thesis/zerotrees/threepass.h"
 
 namespace hogel::bench {
 namespace {
@@ -35,25 +35,25 @@ class Lumigraph {
         : buffer_(buffer),
           measurement_(measurement),
           values_(buffer.radiance.elements()),
-          pyramid_(transform::Pyramid::interleaved({buffer.grid().hogels_t, buffer.grid().hogels_s,
-                                                    buffer.grid().directions_v, buffer.grid().directions_u})) {
+          pyramid_(wavelets::Pyramid::interleaved({buffer.grid().hogels_t, buffer.grid().hogels_s,
+                                                   buffer.grid().directions_v, buffer.grid().directions_u})) {
         for (const float value : values_) signal_ += static_cast<double>(value) * value;
     }
 
     const LightFieldBuffer& buffer() const { return buffer_; }
     std::span<const float> values() const { return values_; }
-    const transform::Pyramid& pyramid() const { return pyramid_; }
+    const wavelets::Pyramid& pyramid() const { return pyramid_; }
     const std::vector<double>& rates() const { return measurement_.rates; }
     double pixels() const { return static_cast<double>(values_.size()); }
 
-    std::vector<float> coefficients(const transform::Transform& transform) const {
+    std::vector<float> coefficients(const wavelets::Transform& transform) const {
         std::vector<float> result(values_.begin(), values_.end());
         transform.forward(pyramid_, result);
         return result;
     }
     // Adds a point and its slice to a curve.
     // @param decoded   coefficients; overwritten
-    void add(const transform::Transform& transform, std::vector<float>& decoded, std::size_t bytes,
+    void add(const wavelets::Transform& transform, std::vector<float>& decoded, std::size_t bytes,
              ThesisCurve& curve) const {
         transform.inverse(pyramid_, decoded);
         add_samples(decoded, bytes, curve);
@@ -75,12 +75,12 @@ class Lumigraph {
     const LightFieldBuffer& buffer_;
     const ThesisMeasurement& measurement_;
     std::span<const float> values_;
-    transform::Pyramid pyramid_;
+    wavelets::Pyramid pyramid_;
     double signal_ = 0;
 };
 
 ThesisCurve three_pass_curve(const Lumigraph& lumigraph, const char* name, const char* label) {
-    const transform::Transform transform = transform::transform(name);
+    const wavelets::Transform transform = wavelets::transform(name);
     const std::vector<float> coefficients = lumigraph.coefficients(transform);
     coding::MagnitudeHistogram histogram;
     histogram.add(coefficients);
@@ -88,12 +88,12 @@ ThesisCurve three_pass_curve(const Lumigraph& lumigraph, const char* name, const
     for (const double rate : lumigraph.rates()) {
         const double wanted = lumigraph.pixels() / rate;
         const double step = histogram.step(wanted, asked_overhead);
-        const auto encode = [&](coding::ThreePassSymbols symbols) {
-            return coding::three_pass_encode(lumigraph.pyramid(), coefficients, step, symbols);
+        const auto encode = [&](zerotrees::ThreePassSymbols symbols) {
+            return zerotrees::three_pass_encode(lumigraph.pyramid(), coefficients, step, symbols);
         };
-        const std::vector<std::uint8_t> code = encode(coding::ThreePassSymbols::bits);
+        const std::vector<std::uint8_t> code = encode(zerotrees::ThreePassSymbols::bits);
         std::vector<float> decoded = coefficients;
-        coding::three_pass_round(code, decoded);
+        zerotrees::three_pass_round(code, decoded);
         lumigraph.add(transform, decoded, code.size(), curve);
         const double of_levels = histogram.bits(step, 0), significant = histogram.bits(step, 1) - of_levels;
         const auto overhead = [&](std::size_t bytes) {
@@ -101,7 +101,7 @@ ThesisCurve three_pass_curve(const Lumigraph& lumigraph, const char* name, const
         };
         curve.points.back().overhead = overhead(code.size());
         if (name == std::string_view("haar") || name == std::string_view("ai33")) {
-            const std::size_t bytes = encode(coding::ThreePassSymbols::alphabets).size();
+            const std::size_t bytes = encode(zerotrees::ThreePassSymbols::alphabets).size();
             curve.points.back().alphabets = static_cast<double>(bytes) / static_cast<double>(code.size());
             curve.points.back().alphabet_overhead = overhead(bytes);
         }
@@ -111,15 +111,15 @@ ThesisCurve three_pass_curve(const Lumigraph& lumigraph, const char* name, const
 
 // EZW codes once; every rate is a prefix.
 ThesisCurve ezw_curve(const Lumigraph& lumigraph, const char* name, const char* label) {
-    const transform::Transform transform = transform::transform(name);
+    const wavelets::Transform transform = wavelets::transform(name);
     ThesisCurve curve{"ezw", std::string("ezw-") + name, label, {}};
     std::vector<float> work = lumigraph.coefficients(transform);
-    coding::EzwLimit limit;
+    zerotrees::EzwLimit limit;
     limit.bytes = static_cast<std::size_t>(lumigraph.pixels() / 8 / lumigraph.rates().front());
-    const std::vector<std::uint8_t> code = coding::ezw_encode(lumigraph.pyramid(), work, limit);
+    const std::vector<std::uint8_t> code = zerotrees::ezw_encode(lumigraph.pyramid(), work, limit);
     for (const double rate : lumigraph.rates()) {
         const auto bytes = std::min(code.size(), static_cast<std::size_t>(lumigraph.pixels() / 8 / rate));
-        coding::ezw_decode(lumigraph.pyramid(), std::span(code).first(bytes), work);
+        zerotrees::ezw_decode(lumigraph.pyramid(), std::span(code).first(bytes), work);
         lumigraph.add(transform, work, bytes, curve);
     }
     return curve;
@@ -136,19 +136,20 @@ void with_falling_scale(const Lumigraph& lumigraph, double scale, Code&& code) {
 // The highest rate of points that are kept.
 double max_rate(const Lumigraph& lumigraph) { return 3 * lumigraph.rates().back(); }
 
-ThesisCurve cosine_curve(const Lumigraph& lumigraph, coding::QuantisationTable table) {
-    const bool jpeg = table == coding::QuantisationTable::jpeg;
-    const transform::Transform transform = transform::transform("dct8");
+ThesisCurve cosine_curve(const Lumigraph& lumigraph, zerotrees::QuantisationTable table) {
+    const bool jpeg = table == zerotrees::QuantisationTable::jpeg;
+    const wavelets::Transform transform = wavelets::transform("dct8");
     const std::vector<float> coefficients = lumigraph.coefficients(transform);
     ThesisCurve curve{"jpeg4d", jpeg ? "dct8-jpeg" : "dct8-own", jpeg ? "DCT (JPEG)" : "DCT, own", {}};
     const double largest = *std::ranges::max_element(coefficients);
     with_falling_scale(lumigraph, jpeg ? largest / 256 : largest, [&](double scale) {
         stop_if_interrupted();
-        const std::vector<std::uint8_t> code = coding::jpeg4d_encode(lumigraph.pyramid(), coefficients, scale, table);
+        const std::vector<std::uint8_t> code =
+            zerotrees::jpeg4d_encode(lumigraph.pyramid(), coefficients, scale, table);
         const double rate = lumigraph.pixels() / (8 * static_cast<double>(code.size()));
         if (rate > max_rate(lumigraph)) return rate;
         std::vector<float> decoded(coefficients.size());
-        coding::jpeg4d_decode(lumigraph.pyramid(), code, decoded);
+        zerotrees::jpeg4d_decode(lumigraph.pyramid(), code, decoded);
         lumigraph.add(transform, decoded, code.size(), curve);
         return rate;
     });
@@ -205,8 +206,8 @@ std::vector<ThesisCurve> thesis_curves(const LightFieldBuffer& values, const The
     std::vector<ThesisCurve> curves;
     for (const auto& [name, label] : wavelets)
         if (wanted(name)) curves.push_back(three_pass_curve(lumigraph, name, label));
-    if (wanted("dct8-jpeg")) curves.push_back(cosine_curve(lumigraph, coding::QuantisationTable::jpeg));
-    if (wanted("dct8-own")) curves.push_back(cosine_curve(lumigraph, coding::QuantisationTable::own));
+    if (wanted("dct8-jpeg")) curves.push_back(cosine_curve(lumigraph, zerotrees::QuantisationTable::jpeg));
+    if (wanted("dct8-own")) curves.push_back(cosine_curve(lumigraph, zerotrees::QuantisationTable::own));
     if (wanted("hogel")) curves.push_back(hogel_curve(lumigraph));
     for (const char* const name : {"haar", "d6"})
         if (wanted(std::string("ezw-") + name)) curves.push_back(ezw_curve(lumigraph, name, "EZW"));

@@ -17,7 +17,7 @@
 #include "hogel/hologram.h"
 #include "hogel/renderer.h"
 #include "hogel/resources.h"
-#include "hogel/transform/transform.h"
+#include "thesis/wavelets/transform.h"
 
 namespace hogel::bench {
 namespace {
@@ -57,8 +57,8 @@ std::size_t rays_of(const Kind& kind) {
                            [](std::size_t sum, const LightFieldGrid& face) { return sum + face.directions(); });
 }
 
-transform::Pyramid pyramid(const LightFieldGrid& face) {
-    return transform::Pyramid::separate({face.hogels(), face.directions_v, face.directions_u}, {{1, 2}});
+wavelets::Pyramid pyramid(const LightFieldGrid& face) {
+    return wavelets::Pyramid::separate({face.hogels(), face.directions_v, face.directions_u}, {{1, 2}});
 }
 
 using Faces = std::vector<std::shared_ptr<LightFieldBuffer>>;
@@ -164,7 +164,7 @@ std::vector<double> needed(const Kind& kind, const std::string& name, const std:
         LightFieldBuffer face(grid);
         copy(*make_renderer(default_algorithm, scene, grid), face);
         for (float& value : face.radiance.elements()) value = std::sqrt(std::max(value, 0.0f));
-        transform::transform(transform).forward(pyramid(grid), face.radiance.elements());
+        wavelets::transform(transform).forward(pyramid(grid), face.radiance.elements());
         for (std::size_t i = 0; i < face.radiance.size(); ++i)
             energies[i / grid.directions()].push_back(std::pow(double{face.radiance.data()[i]}, 2));
     }
@@ -200,7 +200,7 @@ void study_kind(const Kind& kind, const FringeStudy& study) {
     ways.push_back({[&kind, &study, &all, scratch] {
         for (std::size_t i = 0; i < all.size(); ++i) {
             std::ranges::copy(all[i]->radiance.elements(), (*scratch)[i].data());
-            transform::transform(study.transform).inverse(pyramid(kind.faces[i]), (*scratch)[i].elements());
+            wavelets::transform(study.transform).inverse(pyramid(kind.faces[i]), (*scratch)[i].elements());
         }
     }});
     std::vector<std::size_t> kept;

@@ -3,11 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "hogel/codec/baselines/classic_coders.h"
 #include "hogel/codec/exact_coder.h"
 #include "hogel/codec/hogel_coder.h"
 #include "hogel/error.h"
-#include "hogel/transform/transform.h"
 
 namespace hogel {
 
@@ -46,21 +44,12 @@ void TileCoder::decode_coefficients(std::span<const std::uint8_t>, LightFieldTil
 }
 
 Table<CoderInfo>& coders() {
-    using namespace codec::baselines;
-    static Table<CoderInfo> table(
-        "coder",
-        {{"hogel", "prediction along disparities between hogels", "", false, make_hogel},
-         {"threepass", "wavelets in four dimensions, zerotrees ([K] 4.4.2)", "cdf97", false, make_threepass, true},
-         {"ezw", "wavelets in four dimensions, embedded zerotrees", "cdf97", false, make_ezw},
-         {"jpeg4d", "cosine transform in four dimensions ([K] 4.4.1)", "dct8", true, make_jpeg4d},
-         {"fringes", "threepass on amplitudes, hogels and directions apart: for basis fringes", "cdf97", false,
-          make_fringes, true}});
+    static Table<CoderInfo> table("coder", [] {
+        std::vector<CoderInfo> rows = thesis_coders();
+        rows.insert(rows.begin(), {"hogel", "prediction along disparities between hogels", "", false, make_hogel});
+        return rows;
+    }());
     return table;
-}
-
-std::vector<std::string> transform_names() {
-    const std::vector<std::string_view> names = transform::transform_names();
-    return {names.begin(), names.end()};
 }
 
 namespace codec {

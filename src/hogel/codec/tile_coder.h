@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "hogel/coding/histogram_rule.h"
 #include "hogel/compress.h"
@@ -23,5 +24,8 @@ class CountsMagnitudes {
 // Throws Error(usage) for a coder or transform that does not exist, or two that do not go together.
 std::unique_ptr<TileCoder> make_tile_coder(const CodingMethod& method, const LightFieldGrid& grid,
                                            const DirectionCross& counted = {});
+
+// The rows of coders() that reproduce [K] chapter 4: defined in thesis/zerotrees.
+std::vector<CoderInfo> thesis_coders();
 
 }  // namespace hogel::codec

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hogel/coding/quantise.h"
+#include "hogel/error.h"
 
 namespace hogel::coding {
 namespace {
@@ -17,6 +17,17 @@ constexpr int max_planes = 29;
 double lower_edge(std::size_t bin) { return std::bit_cast<float>(static_cast<std::uint32_t>(bin) << dropped); }
 
 }  // namespace
+
+float max_magnitude(std::span<const float> values) {
+    float max_value = 0;
+    bool finite = true;
+    for (float value : values) {
+        finite = finite && std::isfinite(value);
+        max_value = std::max(max_value, std::abs(value));
+    }
+    if (!finite) throw Error(ErrorCode::usage, "coding: a value is infinite or not a number, expected finite ones");
+    return max_value;
+}
 
 MagnitudeHistogram::MagnitudeHistogram() : counts_(std::size_t{1} << (31 - dropped)) {}
 

@@ -8,6 +8,9 @@
 
 namespace hogel::coding {
 
+/// The largest magnitude. Throws Error(usage) if a value is not finite.
+float max_magnitude(std::span<const float> values);
+
 /// The rule of [K] 4.4.2 that predicts the size of zerotrees from a histogram h of magnitudes: a significant
 /// coefficient whose level has n = b_max − p bits takes n + c of them, where c stands for the trees, so that all take
 /// Σ_{p < b_max} h(p) (b_max − p + c). Histograms of the tiles of a light field are added. Magnitudes are counted in 32

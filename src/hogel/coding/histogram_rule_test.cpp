@@ -6,9 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "hogel/coding/threepass.h"
 #include "hogel/error.h"
-#include "hogel/transform/transform.h"
 
 namespace hogel::coding {
 namespace {
@@ -76,23 +74,6 @@ TEST(HistogramRule, zeros_and_impossible_values) {
     EXPECT_EQ(histogram_of({0, 0}).step(100, 3), 1);
     EXPECT_EQ(histogram_of({0, 0}).step_of_planes(100, 3), 1);
     EXPECT_THROW(histogram_of({1, NAN}), Error);
-}
-
-// What the rule is for: one coding whose size is about the one asked for.
-TEST(HistogramRule, predicts_the_size_of_three_pass_codes) {
-    const transform::Pyramid pyramid = transform::Pyramid::interleaved({40, 50, 30});
-    std::vector<float> values(pyramid.size());
-    for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] =
-            static_cast<float>(std::sin(0.11 * static_cast<double>(i / 1500) + 0.18 * static_cast<double>(i / 30 % 50) +
-                                        0.25 * static_cast<double>(i % 30)) +
-                               (i / 1500 + i % 30 > i / 30 % 50 + 3 ? 0.5 : 0));
-    transform::transform("cdf97").forward(pyramid, values);
-    for (const double bits_each : {0.05, 0.3, 1.0, 4.0}) {
-        const double bits = bits_each * static_cast<double>(values.size());
-        const auto code = three_pass_encode(pyramid, values, histogram_of(values).step(bits, 4.8));
-        EXPECT_NEAR(8.0 * static_cast<double>(code.size()) / bits, 1, 0.2) << bits_each;
-    }
 }
 
 }  // namespace

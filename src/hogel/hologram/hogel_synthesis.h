@@ -134,7 +134,7 @@ enum class RayValues {
 
 /// A sum of basis fringes weighted with coefficients: [K] (3.24). The rays of a hogel, or their coefficients, are those
 /// of all faces, face after face. Throws Error(usage) for a transform that does not exist and for fringes that would
-/// not fit into memory.
+/// not fit into memory. Defined in thesis/fringes.
 /// @param rows  samples of a hogel from top to bottom; for horizontal parallax only, its lines
 std::unique_ptr<HogelSynthesis> make_basis_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
                                                      std::size_t rows, const HologramOptions& options,

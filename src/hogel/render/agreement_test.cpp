@@ -9,9 +9,9 @@
 #include <string>
 
 #include "hogel/render/oblique_triangle.h"
-#include "hogel/render/simplex/volume.h"
 #include "hogel/render/test_renderers.h"
 #include "hogel/units.h"
+#include "thesis/simplex/volume.h"
 
 namespace hogel::render {
 namespace {

@@ -13,10 +13,7 @@
 #include "hogel/render/epi/epi.h"
 #include "hogel/render/layers.h"
 #include "hogel/render/projected.h"
-#include "hogel/render/simplex/interpolated.h"
-#include "hogel/render/simplex/simplex.h"
-#include "hogel/render/simplex/simplex3d.h"
-#include "hogel/render/simplex/simploid.h"
+#include "hogel/render/thesis_renderers.h"
 
 namespace hogel {
 namespace {
@@ -61,22 +58,14 @@ std::unique_ptr<Renderer> make_as_it_is(const RendererInfo& info, std::shared_pt
 }  // namespace
 
 Table<RendererInfo>& renderers() {
-    static Table<RendererInfo> table("renderer", {render::baselines::raytrace_renderer(),  //
-                                                  render::baselines::zbuffer_renderer(),   //
-                                                  render::simplex::simplex_renderer(),     //
-                                                  render::simplex::simplex_strips_renderer(),
-                                                  render::simplex::simploid_renderer(),   //
-                                                  render::simplex::simplex3d_renderer(),  //
-                                                  render::baselines::oblique_renderer(),  //
-                                                  render::baselines::mvr_renderer(),      //
-                                                  render::epi::epi_renderer()});
+    using namespace render::baselines;
+    static Table<RendererInfo> table("renderer", [] {
+        std::vector<RendererInfo> rows{render::epi::epi_renderer(), raytrace_renderer(), zbuffer_renderer(),
+                                       oblique_renderer(), mvr_renderer()};
+        for (RendererInfo& row : render::thesis_renderers()) rows.push_back(std::move(row));
+        return rows;
+    }());
     return table;
-}
-
-std::unique_ptr<Renderer> make_interpolating_renderer(std::shared_ptr<const ShadedScene> scene,
-                                                      const LightFieldGrid& grid, std::size_t region) {
-    validate(grid, ErrorCode::usage, "light field to render");
-    return render::with_layers(render::simplex::interpolating_renderer(scene, grid, region), scene);
 }
 
 std::unique_ptr<Renderer> make_renderer(std::string_view name, std::shared_ptr<const ShadedScene> scene,

@@ -7,7 +7,7 @@
 #include "hogel/codec/test_fields.h"
 #include "hogel/core/parallel.h"
 #include "hogel/error.h"
-#include "hogel/transform/transform.h"
+#include "thesis/wavelets/transform.h"
 
 namespace hogel::codec::encode {
 namespace {
@@ -39,8 +39,8 @@ TEST(Coefficients, are_those_of_amplitudes_along_directions) {
     const auto source = open_coefficients(folder / "a.hgl").faces().front();
     LightFieldBuffer coefficients(source->grid());
     copy(*source, coefficients);
-    const transform::Pyramid pyramid = transform::Pyramid::separate({std::size_t{3} * 9 * 7, 20, 24}, {{1, 2}});
-    transform::transform("ai33").inverse(pyramid, coefficients.radiance.elements());
+    const wavelets::Pyramid pyramid = wavelets::Pyramid::separate({std::size_t{3} * 9 * 7, 20, 24}, {{1, 2}});
+    wavelets::transform("ai33").inverse(pyramid, coefficients.radiance.elements());
     const LightFieldBuffer expected = decoded(folder / "a.hgl");
     for (std::size_t i = 0; i < expected.radiance.size(); ++i)
         ASSERT_NEAR(std::pow(coefficients.radiance.data()[i], 2), expected.radiance.data()[i], 1e-5) << i;
@@ -67,8 +67,8 @@ TEST(Coefficients, of_a_hemicube_are_those_of_its_faces) {
         LightFieldBuffer amplitudes(grid), expected(grid);
         copy(*coefficients.faces()[i], amplitudes);
         copy(*decoded.faces()[i], expected);
-        transform::transform("haar").inverse(
-            transform::Pyramid::separate({grid.hogels(), grid.directions_v, grid.directions_u}, {{1, 2}}),
+        wavelets::transform("haar").inverse(
+            wavelets::Pyramid::separate({grid.hogels(), grid.directions_v, grid.directions_u}, {{1, 2}}),
             amplitudes.radiance.elements());
         for (std::size_t k = 0; k < expected.radiance.size(); ++k)
             ASSERT_NEAR(std::pow(amplitudes.radiance.data()[k], 2), expected.radiance.data()[k], 1e-5) << i << " " << k;

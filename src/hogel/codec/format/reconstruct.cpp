@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "hogel/error.h"
-#include "hogel/transform/dct.h"
+#include "hogel/math/dct.h"
 
 namespace hogel::codec::format {
 namespace {
@@ -18,7 +18,7 @@ struct Cosines {
         for (std::size_t k = 0; k < block_side; ++k)
             for (std::size_t j = 0; j < block_side; ++j) {
                 const auto element =
-                    static_cast<float>(std::nearbyint(transform::dct_element(block_side, k, j) * 0x1p20) * 0x1p-20);
+                    static_cast<float>(std::nearbyint(math::dct_element(block_side, k, j) * 0x1p20) * 0x1p-20);
                 of[0][k * block_side + j] = of[1][j * block_side + k] = element;
             }
     }

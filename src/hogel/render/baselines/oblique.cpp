@@ -49,6 +49,9 @@ struct TriangleInHogels {
     }
 };
 
+// The depth buffer, [t][s]: one direction.
+Shape<2> oblique_buffer(const HogelRange& region) { return {region.nt, region.ns}; }
+
 class ObliqueRenderer final : public Renderer, public CountsVisits {
   public:
     ObliqueRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid) : grid_(grid) {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "thesis/wavelets/wavelet.h"
+
+namespace hogel::wavelets {
+
+/// The number of lines that are transformed side by side.
+constexpr std::size_t lane_count = 16;
+
+/// One level of a wavelet on lines of one length, `lane_count` lines at a time, as its lifting steps with optional
+/// scales. Row k of a tile holds sample k of all lines, rows[k·lane_count + lane]; during the transform even samples
+/// come first, then the odd ones.
+class WaveletLine {
+  public:
+    WaveletLine(const Wavelet& wavelet, std::size_t length);
+
+    /// forward() divides sample k by before[k] before its steps and multiplies row k by after[k] after them; inverse()
+    /// inverts both.
+    void set_scales(const std::vector<double>& before, const std::vector<double>& after);
+
+    /// The sample of the line that is in a row of the tile before forward() and after inverse().
+    std::size_t sample_of_row(std::size_t row) const {
+        return row < coarse_count_ ? 2 * row : 2 * (row - coarse_count_) + 1;
+    }
+    void forward(float* rows) const;
+    void inverse(float* rows) const;
+    std::size_t length() const { return length_; }
+
+  private:
+    struct Row {  // rows[target] += Σ taps[k] · rows[source + k]
+        std::size_t target, source;
+        std::vector<float> taps;
+    };
+    struct Step {
+        Row inner;          // the first of `count` targets all of whose sources exist
+        std::size_t count;  // the others follow at distance 1
+        std::vector<Row> edges;
+    };
+    struct Scale {
+        float forward = 1, inverse = 1;
+    };
+    static void apply(const Row& row, std::size_t count, float sign, float* rows);
+
+    std::size_t length_, coarse_count_;
+    std::vector<Step> steps_;
+    std::vector<Scale> before_, after_;  // by row
+};
+
+/// All levels of a wavelet on lines of one length, scaled so that every synthesis basis function has norm 1, also at
+/// the ends of the line: an error of a coefficient is then an error of nearly the same energy in the signal (exactly
+/// the same for orthogonal bases). In several dimensions basis functions are products of these. The number of levels is
+/// limited to that which leads to a single sample.
+std::vector<WaveletLine> wavelet_levels(const Wavelet& wavelet, std::size_t length, int levels);
+
+/// The plain twins of WaveletLine: one level of one line without scales, directly from the definition and in double
+/// precision. forward: samples in, coarse samples and then details out; inverse: the reverse.
+void forward_line_plain(const Wavelet& wavelet, std::span<double> line);
+void inverse_line_plain(const Wavelet& wavelet, std::span<double> line);
+
+/// The weights by which samples 0..count−1 of a polynomial sequence of degree < count give its value at `at`.
+std::vector<double> extrapolation(std::size_t count, std::ptrdiff_t at);
+
+}  // namespace hogel::wavelets
