@@ -29,6 +29,7 @@ ENVIRONMENT = os.environ | {
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
 }
 SIZE = "--hogels 24x20 --directions 24x24 --size 4mm".split()
+FILM = "--frames 5 --to-eye 20mm,0,200mm".split()
 KILLS = int(os.environ.get("HOGEL_KILLS", 50))
 PATIENCE = 300  # seconds, after which a process hangs
 
@@ -149,6 +150,8 @@ def same_photographs(run):
         "looks.exr": ["photo", "rays.h5", *camera, "--wave", "--looks", "13", "--camera", "eye"],
         "bent.exr": ["photo", "rays.h5", *camera, "--wave", "--looks", "9", "--camera", "eye", "--focus", "40mm"],
         "expected.exr": ["photo", "rays.h5", *camera, "--looks", "expected", "--wave", "--focus", "3mm"],
+        "film.apng": ["photo", "rays.h5", *camera, *FILM, "--pupil-samples", "4"],
+        "clean.apng": ["photo", "rays.h5", *camera, *FILM, "--wave", "--looks", "expected"],
         "narrow.exr": ["photo", "hologram.h5", *camera],
         "full.exr": ["photo", "hologram.h5", *camera, "--camera", "full", "--focus", "1mm"],
         "tilted.exr": ["photo", "green.h5", *camera, "--camera", "full", "--focus-tilt", "20deg"],
