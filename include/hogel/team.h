@@ -12,9 +12,10 @@ namespace hogel {
 
 /// Several processes that do one work together, as the ranks of an MPI program do. Each of them calls the same
 /// functions with the same arguments. The light fields and holograms that they write to HDF5 files are then one file,
-/// whose tiles are handed out to whoever is free; sums over tiles (compression, photographs) are made by the first
-/// process of what all send it, in the order of the tiles; large fields are transformed in parts that the processes
-/// exchange; and everything else is computed by each of them. Results have the same bytes as those of a single process.
+/// whose tiles are handed out to whoever is free, and so are whole photographs and patterns; sums over tiles
+/// (compression, the narrow camera) are made by the first process of what all send it, in the order of the tiles; large
+/// fields are transformed in parts that the processes exchange; and everything else is computed by each of them. Results
+/// have the same bytes as those of a single process.
 /// Files of other kinds are written by the first process alone: see is_first_process(). All processes must see the
 /// folders of the files.
 ///
