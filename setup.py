@@ -27,8 +27,9 @@ class CMakeBuild(build_ext):
             (package / folder).mkdir(parents=True, exist_ok=True)
             for file in (build / folder).glob(pattern):
                 shutil.copy(file, package / folder / file.name)
-        for file in (build / "python" / "hogel").glob("_core.*.so"):
-            shutil.copy(file, package / file.name)
+        for pattern in "_core.*.so", "_core.pyi":
+            for file in (build / "python" / "hogel").glob(pattern):
+                shutil.copy(file, package / file.name)
 
     def compile(self, build):
         options = ["-DCMAKE_BUILD_TYPE=Release", "-DHOGEL_PYTHON=ON", "-DHOGEL_TESTS=OFF", f"-DPython_EXECUTABLE={sys.executable}"]
@@ -46,7 +47,7 @@ setup(
     version=version,
     packages=["hogel"],
     package_dir={"": "python"},
-    package_data={"hogel": ["py.typed", "*.pyi"]},
+    package_data={"hogel": ["py.typed"]},
     ext_modules=[Extension("hogel._core", sources=[])],
     cmdclass={"build_ext": CMakeBuild},
 )

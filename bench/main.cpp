@@ -14,7 +14,6 @@
 #include "bench/peers/renderers.h"
 #include "bench/render/render.h"
 #include "bench/session.h"
-#include "bench/studies/studies.h"
 #include "hogel/error.h"
 #include "hogel/resources.h"
 #include "hogel/table.h"
@@ -73,20 +72,14 @@ void add_output(CLI::App* command, std::string& output) {
     command->add_option("-o,--output", output, "Folder for plots, SVG")->type_name("DIR");
 }
 
-// @param threads   the default of --threads; empty: the command measures on one thread
 template <class Options>
 CLI::App* add_command(CLI::App& app, Program& program, const char* name, const char* description,
-                      std::optional<std::size_t> threads, const std::shared_ptr<Options>& options,
-                      std::function<void(const Options&)> run) {
+                      const std::shared_ptr<Options>& options, std::function<void(const Options&)> run) {
     CLI::App* command = app.add_subcommand(name, description);
-    if (threads)
-        command->add_option("--threads", program.threads, "Threads to use; 0: as many as there are cores")
-            ->type_name("N")
-            ->default_str(fmt::format("{}", *threads));
-    command->callback([&program, command, threads, options, run = std::move(run)] {
-        if (threads && command->get_option("--threads")->count() == 0) program.threads = *threads;
-        program.run = [options, run] { run(*options); };
-    });
+    command->add_option("--threads", program.threads, "Threads to use; 0: as many as there are cores")
+        ->type_name("N")
+        ->capture_default_str();
+    command->callback([&program, options, run = std::move(run)] { program.run = [options, run] { run(*options); }; });
     return command;
 }
 
@@ -184,7 +177,7 @@ void add_render_measurements(CLI::App* command, RenderChoice& options) {
 void add_render(CLI::App& app, Program& program) {
     auto options = std::make_shared<RenderChoice>();
     CLI::App* command = add_command<RenderChoice>(
-        app, program, "render", "Renderers: time for each hogel against the size of the region", 0, options,
+        app, program, "render", "Renderers: time for each hogel against the size of the region", options,
         [&session = program.session](const RenderChoice& choice) { measure_render(choice, session); });
     command->footer(
         "Examples:\n"
@@ -226,7 +219,7 @@ void add_render(CLI::App& app, Program& program) {
 void add_codec(CLI::App& app, Program& program) {
     auto options = std::make_shared<CodecOptions>();
     CLI::App* command = add_command<CodecOptions>(
-        app, program, "codec", "Coders: quality against size, and speed", 0, options,
+        app, program, "codec", "Coders: quality against size, and speed", options,
         [&session = program.session](const CodecOptions& chosen) { measure_codec(chosen, session); });
     command->footer(
         "Examples:\n"
@@ -279,8 +272,8 @@ void add_codec(CLI::App& app, Program& program) {
 void add_thesis(CLI::App& app, Program& program) {
     const auto options = std::make_shared<ThesisOptions>();
     CLI::App* command = add_command<ThesisOptions>(
-        app, program, "thesis", "Curves and pictures of chapter 4 of Kartch's thesis: transforms and coders", 0,
-        options, [&program](const ThesisOptions& chosen) { redraw_thesis(chosen, program.session); });
+        app, program, "thesis", "Curves and pictures of chapter 4 of Kartch's thesis: transforms and coders", options,
+        [&program](const ThesisOptions& chosen) { redraw_thesis(chosen, program.session); });
     add_session_options(command, program.session);
     add_output(command, options->output);
     add_names(command, "--scenes", options->scenes, "Scenes (pumpkin,church)");
@@ -300,98 +293,6 @@ void add_thesis(CLI::App& app, Program& program) {
               "Wavelets, dct8-jpeg, dct8-own, hogel, ezw-haar, ezw-d6; all if none are named");
     command->add_flag("--radiance", options->radiance, "Code L instead of its square root");
     add_count(command, "--crop", options->crop, "Side of the pictures, directions");
-}
-
-void add_studies(CLI::App& app, Program& program) {
-    const auto camera = std::make_shared<CameraStudy>();
-    CLI::App* command = add_command<CameraStudy>(
-        app, program, "camera", "Cameras: speed on a field of noise, beside bare transforms", 1, camera, study_camera);
-    add_count(command, "--samples", camera->samples, "Samples across the hologram that the narrow band takes in");
-    add_count(command, "--rounds", camera->rounds, "Rounds of which the best counts");
-
-    const auto hologram = std::make_shared<HologramStudy>();
-    command = add_command<HologramStudy>(app, program, "hologram", "Hologram methods: quality of photographs, and time",
-                                         0, hologram, study_hologram);
-    add_count(command, "--samples", hologram->samples, "Samples along a side of the hologram");
-    add_count(command, "--looks", hologram->looks, "Photographs of independent phases that are averaged");
-    add_names(command, "--methods", hologram->methods, "Methods as the table names them; all if none are named");
-
-    const auto detail = std::make_shared<DetailStudy>();
-    command = add_command<DetailStudy>(app, program, "detail", "Hologram methods: detail away from the plane", 0,
-                                       detail, study_detail);
-    add_count(command, "--looks", detail->looks, "Photographs of independent phases that are averaged");
-
-    const auto eye = std::make_shared<EyeStudy>();
-    command = add_command<EyeStudy>(app, program, "eye", "Eye camera: pictures and times beside those from samples", 0,
-                                    eye, study_eye);
-    command->add_option("--scene", eye->scene, "A built-in scene")->type_name("NAME")->capture_default_str();
-    add_count(command, "--hogels", eye->hogels, "Hogels along a side");
-    add_count(command, "--looks", eye->looks, "Photographs of independent phases that are averaged");
-    add_count(command, "--rounds", eye->rounds, "Rounds of which the least times are taken");
-
-    const auto rays = std::make_shared<RaysStudy>();
-    command = add_command<RaysStudy>(
-        app, program, "rays", "Photographs by rays of a light field in memory: pictures a second", 0, rays, study_rays);
-    command->add_option("--scene", rays->scene, "A built-in scene")->type_name("NAME")->capture_default_str();
-    add_count(command, "--hogels", rays->hogels, "Hogels along a side");
-    add_count(command, "--directions", rays->directions, "Directions along a side");
-    add_count(command, "--pixels", rays->pixels, "Pixels along a side of the picture");
-    add_count(command, "--pictures", rays->pictures, "Pictures, each from another eye");
-    command->add_option("--pupil-samples", rays->pupil_samples, "Points of the pupil")
-        ->type_name("N,...")
-        ->delimiter(',')
-        ->check(CLI::PositiveNumber.description(""))
-        ->capture_default_str();
-
-    const auto pattern = std::make_shared<PatternStudy>();
-    command = add_command<PatternStudy>(app, program, "pattern",
-                                        "Encodings for modulators: quality of photographs, light and time", 0, pattern,
-                                        study_pattern);
-    add_count(command, "--samples", pattern->samples, "Samples along a side of the hologram");
-    add_count(command, "--iterations", pattern->iterations, "Iterations of the encodings that have them");
-
-    const auto stereogram = std::make_shared<StereogramStudy>();
-    command = add_command<StereogramStudy>(app, program, "stereogram",
-                                           "Stereograms: speed on one thread, beside bare transforms", std::nullopt,
-                                           stereogram, study_stereogram);
-    add_count(command, "--samples", stereogram->samples, "Samples along a side of the hologram");
-    add_count(command, "--rounds", stereogram->rounds, "Rounds of which the best counts");
-
-    const auto fringes = std::make_shared<FringeStudy>();
-    command = add_command<FringeStudy>(app, program, "fringes",
-                                       "Basis fringes against Fourier transforms, by coefficients kept, on one thread",
-                                       std::nullopt, fringes, study_fringes);
-    command->add_option("--scene", fringes->scene, "Scene whose coefficients are counted")
-        ->type_name("SCENE")
-        ->capture_default_str();
-    command->add_option("--transform", fringes->transform, "Transform of the directions")
-        ->type_name("NAME")
-        ->check(CLI::IsMember(wavelets::transform_names()).description(""))
-        ->capture_default_str();
-    command->add_option("--only", fringes->only, "Measure holograms whose name holds this text, such as lines")
-        ->type_name("TEXT");
-    add_count(command, "--rounds", fringes->rounds, "Rounds of which the best counts");
-
-    const auto fourier = std::make_shared<FourierStudy>();
-    command = add_command<FourierStudy>(app, program, "fourier", "Fourier transforms: speed, beside FFTW", 1, fourier,
-                                        study_fourier);
-    add_count(command, "--rounds", fourier->rounds, "Rounds of which the best counts");
-
-    const auto speed = std::make_shared<SpeedStudy>();
-    command = add_command<SpeedStudy>(app, program, "speed",
-                                      "Renderers: samples a second of a sphere or sheets, turn and turn about", 1,
-                                      speed, study_speed);
-    command->add_option("--scene", speed->scene, "sphere, or sheets of which the first hides the others")
-        ->type_name("NAME")
-        ->check(CLI::IsMember({"sphere", "sheets"}).description(""))
-        ->capture_default_str();
-    add_count(command, "--triangles", speed->triangles, "Triangles of the scene, about");
-    add_count(command, "--hogels", speed->hogels, "Hogels along a side");
-    add_count(command, "--directions", speed->directions, "Directions along a side of a hogel");
-    add_parsed(command, "--tile", speed->tile, "Hogels of a row that are rendered at once; all if none are given", "N",
-               "", parse_count);
-    add_count(command, "--rounds", speed->rounds, "Rounds of which medians are taken");
-    add_names(command, "--algorithms", speed->algorithms, "Renderers; all if none are named");
 }
 
 std::vector<std::string> command_names(const CLI::App& app) {
@@ -415,7 +316,6 @@ int run(int argc, char** argv) {
     add_render(app, program);
     add_codec(app, program);
     add_thesis(app, program);
-    add_studies(app, program);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -58,17 +58,6 @@ Times median_time_of(const std::function<void()>& work, std::size_t rounds) {
     return {median(wall), median(processor)};
 }
 
-Times best_time_of(const std::function<void()>& work, std::size_t rounds) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    Times best{infinity, infinity};
-    for (std::size_t i = 0; i < rounds; ++i) {
-        stop_if_interrupted();
-        const Times times = time_of(work);
-        best = {std::min(best.wall, times.wall), std::min(best.processor, times.processor)};
-    }
-    return best;
-}
-
 double median(std::vector<double> values) {
     std::ranges::sort(values);
     return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);

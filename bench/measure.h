@@ -17,8 +17,6 @@ struct Times {
 Times time_of(const std::function<void()>& work);
 /// The medians over rounds. Throws Error(cancelled) after an interrupt.
 Times median_time_of(const std::function<void()>& work, std::size_t rounds);
-/// The minimum of either time over rounds. Throws Error(cancelled) after an interrupt.
-Times best_time_of(const std::function<void()>& work, std::size_t rounds);
 
 double median(std::vector<double> values);
 

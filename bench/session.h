@@ -13,7 +13,6 @@ namespace hogel::bench {
 struct Session {
     bool quiet = false;
     bool verbose = false;
-    std::size_t threads = 0;  ///< 0: as many as the command itself prefers
 
     /// Prints a line on stderr, unless --quiet.
     void say(const std::string& line) const;

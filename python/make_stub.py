@@ -2,8 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes hogel/_core.pyi, the types of the extension module, from what pybind11 says in its documentation strings.
 
-usage: make_stub.py FILE   with the built package in PYTHONPATH and mypy's stubgen in the PATH
+usage: make_stub.py FOLDER      FOLDER: that of the built package, hogel
+
+The build runs it where mypy is installed.
 """
+import os
 import re
 import subprocess
 import sys
@@ -11,7 +14,7 @@ import tempfile
 from pathlib import Path
 
 HEAD = '''# SPDX-License-Identifier: Apache-2.0
-# The types of the extension module; written by python/make_stub.py, which a test compares with this file.
+# The types of the extension module; written by python/make_stub.py.
 import os
 from typing import Any, Callable, ClassVar, Dict, List, Optional, Sequence, Tuple, Union, overload
 
@@ -40,10 +43,13 @@ CHANGES = [
 ]
 
 
-def stub():
-    """The text of the file."""
+def stub(packages):
+    """The text of the file, of the package in a folder."""
+    path = os.pathsep.join(filter(None, (packages, os.environ.get("PYTHONPATH"))))
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run(["stubgen", "-q", "-p", "hogel._core", "-o", folder], check=True, cwd=folder)
+        stubgen = "import sys, mypy.stubgen; mypy.stubgen.main(sys.argv[1:])"  # a compiled module, which -m cannot run
+        command = [sys.executable, "-B", "-c", stubgen, "-q", "-p", "hogel._core", "-o", folder]
+        subprocess.run(command, check=True, cwd=folder, env={**os.environ, "PYTHONPATH": path})
         text = Path(folder, "hogel", "_core.pyi").read_text()
     for pattern, replacement in CHANGES:
         text = re.sub(pattern, replacement, text, flags=re.MULTILINE)
@@ -51,4 +57,7 @@ def stub():
 
 
 if __name__ == "__main__":
-    Path(sys.argv[1]).write_text(stub())
+    folder = Path(sys.argv[1]).resolve()
+    text = stub(str(folder))
+    Path(folder, "hogel", "_core.pyi").unlink(missing_ok=True)  # a link in a folder of an earlier version
+    Path(folder, "hogel", "_core.pyi").write_text(text)

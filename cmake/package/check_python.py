@@ -9,6 +9,8 @@ import hogel
 import numpy as np
 
 assert hogel.__file__ == "/usr/lib/python3/dist-packages/hogel/__init__.py", hogel.__file__
+for name in "_core.pyi", "py.typed":
+    assert pathlib.Path(hogel.__file__).with_name(name).exists(), name
 hogel.Scene.load("pumpkin").render(hogels=20, directions=16, size="1mm").save("own.h5")
 words = [sys.executable, "-m", "hogel", "render", "pumpkin", "-o", "line.h5", "-q", "--hogels", "20", "--directions", "16", "--size", "1mm"]
 subprocess.run(words, check=True)

@@ -9,9 +9,8 @@ from common import SOURCES
 from hogel import _core
 
 WHAT_TO_DO = """
-Declared in include/hogel, and not in Python. Either bind it under its own name, in the file of its noun in python/core (then
-python/make_stub.py writes the stub anew), and give it a method or a keyword in python/hogel; or add a line to
-python/tests/coverage.txt: 'header.h: name = where Python has it', or 'header.h: name: why Python does without it'."""
+Declared in include/hogel, and not in Python. Either bind it under its own name, in the file of its noun in python/core, and
+give it a method or a keyword in python/hogel; or add a line to python/tests/coverage.txt: 'header.h: name = where Python has it', or 'header.h: name: why Python does without it'."""
 
 
 def declared():

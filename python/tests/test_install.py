@@ -10,9 +10,11 @@ from pathlib import Path
 from common import SOURCES, hogel, unless_sanitized
 
 LOOK = """
-import hogel, sys
+import hogel, pathlib, sys
 assert hogel.__file__.startswith(sys.prefix), hogel.__file__
 assert hogel.program().startswith(sys.prefix), hogel.program()
+package = pathlib.Path(hogel.__file__).parent
+assert "class LightFieldGrid" in (package / "_core.pyi").read_text() and (package / "py.typed").exists(), package
 print(hogel.LightField.from_array([[[[0.5]]]], size="1mm", fov="10deg"))
 """
 

@@ -5,6 +5,7 @@
 #include "hogel/core/part.h"
 #include "hogel/files.h"
 #include "hogel/io/hdf5/files.h"
+#include "hogel/io/mat73_arrays.h"
 #include "hogel/io/part_sinks.h"
 
 namespace hogel {
@@ -54,6 +55,11 @@ std::vector<std::unique_ptr<LightFieldSink>> io::create_light_field_part(const s
 std::vector<std::unique_ptr<FieldSink>> io::create_hologram_part(const std::filesystem::path& path,
                                                                  std::span<const FieldGrid>, const HologramFileOptions&,
                                                                  const PartNumber&, std::span<const Rows>) {
+    refuse(path);
+}
+
+std::vector<io::Mat73Array> io::read_mat73_arrays(const std::filesystem::path& path,
+                                                  const std::function<bool(const Mat73Array&)>&) {
     refuse(path);
 }
 

@@ -43,7 +43,8 @@ bool probe(const fs::path& source) {
     if (ending != ".mat" || !fs::is_regular_file(source, none)) return false;
     try {
         return !light_fields_in(source).empty();
-    } catch (const Error&) {
+    } catch (const Error& error) {
+        if (error.code() == ErrorCode::not_built_in) throw;
         return false;
     }
 }

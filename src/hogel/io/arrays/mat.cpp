@@ -39,9 +39,7 @@ bool is_wanted(const std::string& name, std::uint64_t samples, std::span<const s
     return only.empty() || samples <= max_parameter || std::ranges::find(only, name) != only.end();
 }
 
-bool has_numbers(const NumberArray& array, Reads reads) {
-    return reads == Reads::all || array.samples() <= max_parameter;
-}
+bool has_numbers(std::uint64_t samples, Reads reads) { return reads == Reads::all || samples <= max_parameter; }
 
 bool is_mat(std::span<const unsigned char> start) {
     return start.size() >= 128 && std::memcmp(start.data(), "MATLAB ", 7) == 0;

@@ -41,7 +41,7 @@ NumberArray read_mat_array(const std::filesystem::path& path, const std::string&
 
 /// Whether an array has one of the names, or is so small that it may be a parameter.
 bool is_wanted(const std::string& name, std::uint64_t samples, std::span<const std::string> only);
-/// Whether the numbers of an array are read.
-bool has_numbers(const NumberArray& array, Reads reads);
+/// Whether the numbers of an array of so many samples are read.
+bool has_numbers(std::uint64_t samples, Reads reads);
 
 }  // namespace hogel::io::arrays

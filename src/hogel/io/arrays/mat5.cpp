@@ -155,7 +155,7 @@ void take_array(const std::filesystem::path& path, std::span<const unsigned char
     Elements parts(path, bytes);
     std::optional<NumberArray> array = wanted_head(path, parts, wanted);
     if (!array) return;
-    if (has_numbers(*array, wanted.reads)) {
+    if (has_numbers(array->samples(), wanted.reads)) {
         const auto take = [&](Number& number, std::vector<unsigned char>& to) {
             const std::span<const unsigned char> numbers = take_numbers(path, parts, *array, number);
             to.assign(numbers.begin(), numbers.end());
@@ -178,7 +178,7 @@ void take_compressed(const std::filesystem::path& path, std::span<const unsigned
     Elements beginning(path, std::span(start).subspan(tag));
     std::optional<NumberArray> array = wanted_head(path, beginning, wanted);
     if (!array) return;
-    if (!has_numbers(*array, wanted.reads)) return arrays.push_back(std::move(*array));
+    if (!has_numbers(array->samples(), wanted.reads)) return arrays.push_back(std::move(*array));
     std::vector<unsigned char> held = inflated(path, compressed);
     if (array->complex) return take_array(path, std::span(held).subspan(tag), wanted, arrays);
     Elements parts(path, std::span(held).subspan(tag));

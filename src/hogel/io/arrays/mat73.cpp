@@ -1,56 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// MAT files of version 7.3: HDF5 files behind MATLAB's header of 512 bytes. Each array is a dataset of the root group
-// with its axes reversed, because MATLAB stores columns first. Complex numbers are compounds {real, imag}; the
-// attribute MATLAB_class names the class of the array.
-#include <fmt/format.h>
-
-#include <algorithm>
+// MAT files of version 7.3. Arrays have their axes reversed, because MATLAB stores columns first.
 #include <cstring>
 
-#include "hogel/io/arrays/hdf5_v0.h"
 #include "hogel/io/arrays/mat.h"
+#include "hogel/io/mat73_arrays.h"
 
 namespace hogel::io::arrays {
 namespace {
 
-std::vector<unsigned char> numbers_of(const std::vector<unsigned char>& elements, std::size_t element_bytes,
-                                      const Hdf5V0Dataset::Member& member) {
-    const std::size_t bytes = bytes_of(member.number), count = elements.size() / element_bytes;
+// One of the numbers of each element.
+std::vector<unsigned char> numbers_of(const Mat73Array& array, std::size_t offset, Number number) {
+    const std::size_t bytes = bytes_of(number), step = array.element_bytes(), count = array.elements.size() / step;
     std::vector<unsigned char> numbers(count * bytes);
-    for (std::size_t i = 0; i < count; ++i)
-        std::memcpy(&numbers[i * bytes], &elements[i * element_bytes + member.offset], bytes);
+    for (std::size_t i = 0; i < count; ++i) std::memcpy(&numbers[i * bytes], &array.elements[i * step + offset], bytes);
     return numbers;
 }
 
-bool is_complex(const Hdf5V0Dataset& dataset) {
-    return dataset.element_bytes <= 16 && dataset.members.size() == 2 && dataset.members[0].name == "real" &&
-           dataset.members[1].name == "imag";
-}
-
-// Texts, logical arrays and cells are also stored as whole numbers.
-bool is_numeric(const Hdf5V0Dataset& dataset) {
-    static constexpr const char* classes[] = {"double", "single", "int8",   "uint8", "int16",
-                                              "uint16", "int32",  "uint32", "int64", "uint64"};
-    const auto named = dataset.texts.find("MATLAB_class");
-    if (named != dataset.texts.end() && std::ranges::find(classes, named->second) == std::end(classes)) return false;
-    return is_complex(dataset) || (dataset.members.size() == 1 && dataset.members[0].name.empty());
-}
-
-bool is_read(const Hdf5V0Dataset& dataset) {
-    return is_numeric(dataset) && dataset.shape.size() >= 2 && dataset.samples() > 0;
-}
-
-// What is known of an array before its numbers are read.
-NumberArray head_of(const Hdf5V0Dataset& dataset) {
+NumberArray number_array(Mat73Array found) {
     NumberArray array;
-    array.name = dataset.name;
-    array.shape.assign(dataset.shape.rbegin(), dataset.shape.rend());
+    array.name = std::move(found.name);
+    array.shape.assign(found.shape.rbegin(), found.shape.rend());
     array.by_columns = true;
-    array.real_number = array.number_class = dataset.members[0].number;
+    array.real_number = array.number_class = found.numbers[0];
     array.floating = !is_whole(array.real_number);
-    array.count = dataset.samples();
-    array.complex = is_complex(dataset);
-    if (array.complex) array.imaginary_number = dataset.members[1].number;
+    array.count = found.samples();
+    array.complex = found.numbers.size() == 2;
+    if (!array.complex) {
+        array.real = std::move(found.elements);
+        return array;
+    }
+    array.imaginary_number = found.numbers[1];
+    array.real = numbers_of(found, 0, array.real_number);
+    array.imaginary = numbers_of(found, bytes_of(array.real_number), array.imaginary_number);
     return array;
 }
 
@@ -58,32 +39,22 @@ NumberArray head_of(const Hdf5V0Dataset& dataset) {
 
 std::vector<NumberArray> read_mat73(const std::filesystem::path& path, std::span<const std::string> only,
                                     std::size_t max_axes, Reads reads) {
-    const Hdf5V0 file(path);
+    const auto is_read = [&](const Mat73Array& found) {
+        return found.shape.size() <= max_axes && is_wanted(found.name, found.samples(), only);
+    };
+    const auto wants_elements = [&](const Mat73Array& found) {
+        return is_read(found) && has_numbers(found.samples(), reads);
+    };
     std::vector<NumberArray> arrays;
-    for (const Hdf5V0Dataset& dataset : file.datasets()) {
-        if (!is_read(dataset) || dataset.shape.size() > max_axes || !is_wanted(dataset.name, dataset.samples(), only))
-            continue;
-        NumberArray array = head_of(dataset);
-        if (!has_numbers(array, reads)) {
-            arrays.push_back(std::move(array));
-            continue;
-        }
-        std::vector<unsigned char> elements = file.read(dataset);
-        if (array.complex) {
-            array.real = numbers_of(elements, dataset.element_bytes, dataset.members[0]);
-            array.imaginary = numbers_of(elements, dataset.element_bytes, dataset.members[1]);
-        } else {
-            array.real = std::move(elements);
-        }
-        arrays.push_back(std::move(array));
-    }
+    for (Mat73Array& found : read_mat73_arrays(path, wants_elements))
+        if (is_read(found)) arrays.push_back(number_array(std::move(found)));
     return arrays;
 }
 
 std::vector<NumberArray> mat73_heads(const std::filesystem::path& path) {
     std::vector<NumberArray> arrays;
-    for (const Hdf5V0Dataset& dataset : Hdf5V0(path).datasets())
-        if (is_read(dataset)) arrays.push_back(head_of(dataset));
+    for (Mat73Array& found : read_mat73_arrays(path, [](const Mat73Array&) { return false; }))
+        arrays.push_back(number_array(std::move(found)));
     return arrays;
 }
 

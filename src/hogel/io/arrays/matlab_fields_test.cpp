@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fields in MAT files as other programs write them, and damaged files.
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <span>
 #include <string_view>
@@ -116,9 +117,7 @@ const Bytes& chunked_mat73() {
 TEST_F(MatlabFields, are_read_plain_and_compressed) {
     expect_example(*open_external_field(write("a.mat", plain_mat()), known()));
     if (!core::part("zlib").built_in) {
-        expect_example(*open_external_field(write("d.mat", plain_mat73()), known()));
         expect_not_built_in(write("b.mat", compressed_mat()), known(), "HOGEL_ZLIB");
-        expect_not_built_in(write("e.mat", chunked_mat73()), known(), "HOGEL_ZLIB");
         return;
     }
     expect_example(*open_external_field(write("b.mat", compressed_mat()), known()));
@@ -126,13 +125,23 @@ TEST_F(MatlabFields, are_read_plain_and_compressed) {
     ExternalField which = known();
     which.variable = "a";
     expect_example(*open_external_field(directory_ / "c.mat", which));
-    expect_example(*open_external_field(write("d.mat", plain_mat73()), known()));
-    expect_example(*open_external_field(write("e.mat", chunked_mat73()), known()));
-    which.variable = "field";
-    expect_example(*open_external_field(directory_ / "e.mat", which));
     which.variable = "missing";
-    EXPECT_THROW(open_external_field(directory_ / "e.mat", which), Error);
     EXPECT_THROW(open_external_field(directory_ / "c.mat", which), Error);
+}
+
+TEST_F(MatlabFields, of_version_73_are_read_plain_and_compressed) {
+    const fs::path plain = write("d.mat", plain_mat73()), packed = write("e.mat", chunked_mat73());
+    if (!core::part("HDF5").built_in) {
+        for (const fs::path& path : {plain, packed}) expect_not_built_in(path, known(), "HOGEL_HDF5");
+        return;
+    }
+    expect_example(*open_external_field(plain, known()));
+    expect_example(*open_external_field(packed, known()));
+    ExternalField which = known();
+    which.variable = "field";
+    expect_example(*open_external_field(packed, which));
+    which.variable = "missing";
+    EXPECT_THROW(open_external_field(packed, which), Error);
 }
 
 // An element of a MAT file that zlib's format holds, in blocks that are not deflated, without its checksum.
@@ -194,11 +203,17 @@ bool is_padding(const Bytes& bytes, std::size_t at) {
     return std::all_of(begin, end, [](unsigned char byte) { return byte == 0; });
 }
 
+// Files of version 7.3 are read in child processes, so that few are tried unless HOGEL_THOROUGH is in the environment.
+std::size_t stride_of(const Bytes& whole) {
+    const bool slow = whole.size() > 512 && whole[125] == 2;
+    return slow && std::getenv("HOGEL_THOROUGH") == nullptr ? 12 : 1;
+}
+
 // A damaged file is either refused or read as some field, without a crash.
 TEST_F(MatlabFields, in_damaged_files_are_refused_or_read) {
     const fs::path path = directory_ / "x";
     ExternalField what = known();
-    const bool complete = core::part("zlib").built_in && core::part("pictures").built_in;
+    const bool complete = core::part("zlib").built_in && core::part("pictures").built_in && core::part("HDF5").built_in;
     std::size_t refused = 0, read = 0;
     const auto attempt = [&](const Bytes& bytes) {
         {
@@ -222,14 +237,15 @@ TEST_F(MatlabFields, in_damaged_files_are_refused_or_read) {
          {npy_rows(), plain_mat(), compressed_mat(), two_arrays_mat(), plain_mat73(), chunked_mat73()}) {
         const std::size_t before = refused;
         const std::size_t head = whole[0] == 0x93 ? 6 : 128;  // shorter files are treated as pictures
+        const std::size_t stride = stride_of(whole);
         std::size_t cut = 0;
-        for (std::size_t length = head; length < whole.size(); ++length) {
+        for (std::size_t length = head; length < whole.size(); length += stride) {
             if (is_padding(whole, length)) continue;
             attempt(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length)));
             ++cut;
         }
         EXPECT_GE(refused - before, cut / 2);
-        for (std::size_t at = std::min<std::size_t>(head, 120); at < whole.size(); ++at) {
+        for (std::size_t at = std::min<std::size_t>(head, 120); at < whole.size(); at += stride) {
             if (is_padding(whole, at)) continue;
             constexpr int flips[] = {0x01, 0x90, 0xff};
             const std::size_t one = at % 3;  // in larger files each byte is damaged in only one way

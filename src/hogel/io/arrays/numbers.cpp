@@ -43,28 +43,6 @@ std::vector<unsigned char> all_bytes(const std::filesystem::path& path) {
     return bytes;
 }
 
-std::size_t bytes_of(Number number) {
-    switch (number) {
-        case Number::boolean:
-        case Number::int8:
-        case Number::uint8:
-            return 1;
-        case Number::int16:
-        case Number::uint16:
-        case Number::half:
-            return 2;
-        case Number::int32:
-        case Number::uint32:
-        case Number::single:
-            return 4;
-        case Number::int64:
-        case Number::uint64:
-        case Number::real:
-            break;
-    }
-    return 8;
-}
-
 bool is_whole(Number number) { return number != Number::half && number != Number::single && number != Number::real; }
 
 double number_at(Number number, const unsigned char* at) {

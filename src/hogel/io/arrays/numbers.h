@@ -8,12 +8,12 @@
 #include "hogel/array.h"
 #include "hogel/files.h"
 #include "hogel/io/finite.h"
+#include "hogel/io/number.h"
 
 namespace hogel::io::arrays {
 
-/// Types of numbers in a file, little-endian. `real` is a double, `boolean` a byte that is 0 or not.
-enum class Number { boolean, int8, uint8, int16, uint16, int32, uint32, int64, uint64, half, single, real };
-std::size_t bytes_of(Number number);
+using io::bytes_of;
+using io::Number;
 double number_at(Number number, const unsigned char* at);
 bool is_whole(Number number);
 

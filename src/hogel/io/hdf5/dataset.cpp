@@ -55,6 +55,32 @@ std::vector<std::size_t> dataset_shape(hid_t file, const char* name, const std::
     return {extents.begin(), extents.end()};
 }
 
+Storage storage_of(hid_t dataset, const std::vector<std::size_t>& shape,
+                   const std::function<void(const std::string&)>& fail) {
+    const Handle type(H5Dget_type(dataset), H5Tclose), properties(H5Dget_create_plist(dataset), H5Pclose);
+    if (!type.valid() || !properties.valid()) fail("is damaged: " + hdf5::reason());
+    const H5D_layout_t layout = H5Pget_layout(properties.id());
+    if (H5Pget_external_count(properties.id()) != 0 || layout == H5D_VIRTUAL) fail("keeps its samples in other files");
+    const std::size_t element_bytes = H5Tget_size(type.id());
+    Storage storage;
+    storage.chunk_bytes = element_bytes;
+    if (layout == H5D_CHUNKED) {
+        const int axes = static_cast<int>(shape.size());
+        std::vector<hsize_t> chunk(shape.size());
+        if (H5Pget_chunk(properties.id(), axes, chunk.data()) != axes) fail("is damaged: " + hdf5::reason());
+        for (const hsize_t extent : chunk) {
+            if (extent == 0 || extent > max_chunk / storage.chunk_bytes)
+                fail(fmt::format("has chunks of more than {} bytes", max_chunk));
+            storage.chunk_bytes *= extent;
+        }
+        storage.chunk.assign(chunk.begin(), chunk.end());
+    }
+    const hsize_t stored = H5Dget_storage_size(dataset);
+    const bool filtered = layout == H5D_CHUNKED && H5Pget_nfilters(properties.id()) > 0;
+    if (stored == 0 || (!filtered && stored / element_bytes < samples_of(shape))) fail("is not wholly written");
+    return storage;
+}
+
 void DatasetReader::fail(const std::string& why) const {
     hdf5::fail(raw_->name(), fmt::format("its dataset '{}' {}", name_, why));
 }
@@ -70,39 +96,15 @@ DatasetReader::DatasetReader(hid_t file, const char* name, std::vector<std::size
     if (!fits || H5Tget_size(type.id()) > 16)
         fail(complex ? "does not hold complex numbers {r, i}" : "does not hold floating point numbers");
     element_ = complex ? Element::complex_single : is_type(type.id(), Element::half) ? Element::half : Element::single;
-    const std::size_t chunk_bytes = check_storage(dataset.id(), properties.id());
+    const Storage storage = storage_of(dataset.id(), shape_, [this](const std::string& why) { fail(why); });
     const bool contiguous = H5Pget_layout(properties.id()) == H5D_CONTIGUOUS && is_type(type.id(), element_);
     if (contiguous)
         offset_ = H5Dget_offset(dataset.id());
     else
-        by_hdf5_ = std::make_unique<SampleServer>(raw_->name(), name_, shape_.size(), element_, chunk_bytes);
+        by_hdf5_ = std::make_unique<SampleServer>(raw_->name(), name_, shape_.size(), element_, storage.chunk_bytes);
     if (contiguous &&
         (offset_ > raw_->size() || samples_of(shape_) > (raw_->size() - offset_) / hdf5::bytes_of(element_)))
         fail("reaches beyond the end of the file");
-}
-
-// Refuses samples that were never written, which would be read as zeros, and references to other files. Returns the
-// bytes of a chunk.
-std::size_t DatasetReader::check_storage(hid_t dataset, hid_t properties) {
-    const H5D_layout_t layout = H5Pget_layout(properties);
-    if (H5Pget_external_count(properties) != 0 || layout == H5D_VIRTUAL) fail("keeps its samples in other files");
-    const Handle type(H5Dget_type(dataset), H5Tclose);
-    const std::size_t element_bytes = H5Tget_size(type.id());
-    std::size_t chunk_bytes = element_bytes;
-    if (layout == H5D_CHUNKED) {
-        std::vector<hsize_t> chunk(shape_.size());
-        if (H5Pget_chunk(properties, static_cast<int>(chunk.size()), chunk.data()) != static_cast<int>(chunk.size()))
-            fail("is damaged: " + hdf5::reason());
-        for (const hsize_t extent : chunk) {
-            if (extent == 0 || extent > max_chunk / chunk_bytes)
-                fail(fmt::format("has chunks of more than {} bytes", max_chunk));
-            chunk_bytes *= extent;
-        }
-    }
-    const hsize_t stored = H5Dget_storage_size(dataset);
-    const bool filtered = layout == H5D_CHUNKED && H5Pget_nfilters(properties) > 0;
-    if (stored == 0 || (!filtered && stored / element_bytes < samples_of(shape_))) fail("is not wholly written");
-    return chunk_bytes;
 }
 
 bool DatasetReader::read(const Box& box, float* to) const {

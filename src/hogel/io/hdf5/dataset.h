@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <complex>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -35,7 +36,6 @@ class DatasetReader {
     std::size_t axes() const { return shape_.size(); }
 
   private:
-    std::size_t check_storage(hid_t dataset, hid_t properties);
     [[noreturn]] void fail(const std::string& why) const;
 
     std::string name_;
@@ -45,6 +45,16 @@ class DatasetReader {
     std::uint64_t offset_ = 0;
     std::unique_ptr<SampleServer> by_hdf5_;  // if HDF5 must read it
 };
+
+/// How the samples of a dataset are stored.
+struct Storage {
+    std::vector<std::size_t> chunk;  ///< shape of the chunks; empty if there are none
+    std::size_t chunk_bytes = 0;     ///< of a chunk, or else of an element
+};
+/// Calls fail(), which throws, for samples that were never written, which would be read as zeros, for references to
+/// other files and for large chunks. Needs a Session.
+Storage storage_of(hid_t dataset, const std::vector<std::size_t>& shape,
+                   const std::function<void(const std::string&)>& fail);
 
 /// The shape of a dataset. Throws Error(bad_input) if there is none of that name. Needs a Session.
 std::vector<std::size_t> dataset_shape(hid_t file, const char* name, const std::filesystem::path& path);

@@ -90,14 +90,18 @@ void fail(const std::filesystem::path& path, const std::string& why) {
     throw Error(ErrorCode::bad_input, fmt::format("cannot read '{}': {}", path.string(), why));
 }
 
-Handle open_file(const std::filesystem::path& path) {
-    if (!is_hdf5(path)) fail(path, "it is not an HDF5 file");
-    check_superblock(path);
+Handle open_unchecked_file(const std::filesystem::path& path) {
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_file_locking(access.id(), false, true);  // files under their final name are never modified
     Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
     if (!file.valid()) fail(path, fmt::format("it is damaged: {}", reason()));
     return file;
+}
+
+Handle open_file(const std::filesystem::path& path) {
+    if (!is_hdf5(path)) fail(path, "it is not an HDF5 file");
+    check_superblock(path);
+    return open_unchecked_file(path);
 }
 
 std::size_t bytes_of(Element element) {

@@ -59,7 +59,9 @@ std::string reason();
 /// Throws Error(bad_input) with the file's name.
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& why);
 
-/// Opens a file for reading after check_superblock(). Throws Error(bad_input).
+/// Opens a file for reading. HDF5 may crash on a file that is not checked. Throws Error(bad_input).
+Handle open_unchecked_file(const std::filesystem::path& path);
+/// The same after check_superblock().
 Handle open_file(const std::filesystem::path& path);
 
 /// How samples are stored in a file, little-endian.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hogel/error.h"
+#include "hogel/io/hdf5/runs.h"
 
 namespace hogel::io::hdf5 {
 namespace {
@@ -23,12 +24,6 @@ constexpr std::uint64_t bytes_a_second = std::uint64_t{1} << 20;
 constexpr std::uint64_t copies_of_chunk = 4;
 
 constexpr std::size_t max_reason = 1000;
-
-std::uint64_t samples_of(const std::vector<std::uint64_t>& extent) {
-    std::uint64_t n = 1;
-    for (const std::uint64_t side : extent) n *= side;
-    return n;
-}
 
 // The child's side.
 class Samples {
