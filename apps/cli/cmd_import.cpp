@@ -214,7 +214,7 @@ void add_disparity_options(Command& command, Options& options) {
         .positive()
         .no_default();
     command.flag("--estimate-disparity", options.estimate_disparity,
-                 "Where no map comes with the set, estimate the disparity from the views (experimental)");
+                 "Where no map comes with the set, estimate the disparity from the views");
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ struct ViewOptions {
     /// for the plane on which the views agree. Views are sheared accordingly and cropped to what all of them show.
     double disparity = 0;
     /// One more than the number of views that are interpolated between neighbours, by the disparity that comes with the
-    /// set. With `estimate_disparity` a set may come without; then it is estimated, which is experimental.
+    /// set. With `estimate_disparity` a set may come without; then it is estimated.
     std::size_t densify = 1;
     bool estimate_disparity = false;
     /// Whether the light field is to have depth, by the same disparity.

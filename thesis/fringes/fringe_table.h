@@ -19,7 +19,7 @@ struct WeightedFringe {
 
 /// sum[i] = Σ weight · fringe[i] over all fringes. Plain and fast twins agree to rounding.
 void sum_fringes_plain(std::span<const WeightedFringe> fringes, std::span<std::complex<float>> sum);
-void sum_fringes(std::span<const WeightedFringe> fringes, std::span<std::complex<float>> sum);
+extern decltype(sum_fringes_plain)& sum_fringes;
 
 /// A thread-safe table of basis fringes, each computed when it is first needed.
 class FringeTable {

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twin of sum_fringes_plain, compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "thesis/fringes/fringes_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
+#include "hogel/core/simd_targets-inl.h"
 #include "thesis/fringes/fringe_table.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::fringes {
-namespace HWY_NAMESPACE {
+namespace hogel::fringes::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Keeps eight vectors of the sum in registers while it adds all fringes.
@@ -49,18 +43,9 @@ void SumFringes(std::span<const WeightedFringe> fringes, std::span<std::complex<
     }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::fringes
+}  // namespace hogel::fringes::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::fringes {
-
-HWY_EXPORT(SumFringes);
-
-void sum_fringes(std::span<const WeightedFringe> fringes, std::span<std::complex<float>> sum) {
-    HWY_DYNAMIC_DISPATCH(SumFringes)(fringes, sum);
-}
-
+HOGEL_DISPATCH(sum_fringes, SumFringes);
 }  // namespace hogel::fringes
-#endif

@@ -82,7 +82,7 @@ struct SlabRows {
 /// missing that does, and few others are found. `found` has room for TriangleBlock::size, of which those beyond the
 /// last found may change.
 std::size_t find_in_rows_plain(const TriangleBlock& block, const SlabRows& rows, std::uint32_t* found);
-std::size_t find_in_rows(const TriangleBlock& block, const SlabRows& rows, std::uint32_t* found);
+extern decltype(find_in_rows_plain)& find_in_rows;
 
 /// A point (x, ζ) in the plane of the rays of one t and one V: x as a column of hogels relative to the region's first,
 /// and the depth in hogels, which is the shift of x for U = 1.
@@ -180,6 +180,6 @@ void see_sample(const Band& band, const SlabRays& rays, std::size_t hogel, std::
 /// Scan converts bands: tests the samples between the two lines of each, and counts them.
 /// @param words  of all samples of the slab
 void draw_bands_plain(std::span<const Band> bands, const SlabRays& rays, std::uint64_t* words, Visits& visits);
-void draw_bands(std::span<const Band> bands, const SlabRays& rays, std::uint64_t* words, Visits& visits);
+extern decltype(draw_bands_plain)& draw_bands;
 
 }  // namespace hogel::simplex

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twins of slab.cpp, compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "thesis/simplex/slab_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include <bit>
 #include <cstring>
 
+#include "hogel/core/simd_targets-inl.h"
 #include "thesis/simplex/slab.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::simplex {
-namespace HWY_NAMESPACE {
+namespace hogel::simplex::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
@@ -232,23 +226,10 @@ void DrawBands(std::span<const Band> bands, const SlabRays& rays, std::uint64_t*
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::simplex
+}  // namespace hogel::simplex::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::simplex {
-
-HWY_EXPORT(FindInRows);
-HWY_EXPORT(DrawBands);
-
-std::size_t find_in_rows(const TriangleBlock& block, const SlabRows& rows, std::uint32_t* found) {
-    return HWY_DYNAMIC_DISPATCH(FindInRows)(block, rows, found);
-}
-
-void draw_bands(std::span<const Band> bands, const SlabRays& rays, std::uint64_t* words, Visits& visits) {
-    HWY_DYNAMIC_DISPATCH(DrawBands)(bands, rays, words, visits);
-}
-
+HOGEL_DISPATCH(find_in_rows, FindInRows);
+HOGEL_DISPATCH(draw_bands, DrawBands);
 }  // namespace hogel::simplex
-#endif

@@ -34,8 +34,8 @@ inline float float_of(std::uint16_t half) {
 }
 
 /// half_of() of n values of an array.
-void to_half(const float* from, std::uint16_t* to, std::size_t n);
+extern void (&to_half)(const float* from, std::uint16_t* to, std::size_t n);
 /// float_of() of n values of an array. Returns whether none of them is infinite or NaN.
-bool to_float(const std::uint16_t* from, float* to, std::size_t n);
+extern bool (&to_float)(const std::uint16_t* from, float* to, std::size_t n);
 
 }  // namespace hogel::core

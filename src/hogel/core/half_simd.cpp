@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiled for every SIMD target: from AVX2 on with the processor's conversions (F16C), otherwise with loops of
 // half_of() and float_of(), which compile to code without branches.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/core/half_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include "hogel/core/half.h"
+#include "hogel/core/simd_targets-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::core {
-namespace HWY_NAMESPACE {
+namespace hogel::core::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -51,20 +45,10 @@ bool ToFloat(const std::uint16_t* from, float* to, std::size_t n) {
     return finite && (rest & 0x8000) == 0;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::core
+}  // namespace hogel::core::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::core {
-
-HWY_EXPORT(ToHalf);
-HWY_EXPORT(ToFloat);
-
-void to_half(const float* from, std::uint16_t* to, std::size_t n) { HWY_DYNAMIC_DISPATCH(ToHalf)(from, to, n); }
-bool to_float(const std::uint16_t* from, float* to, std::size_t n) {
-    return HWY_DYNAMIC_DISPATCH(ToFloat)(from, to, n);
-}
-
+HOGEL_DISPATCH(to_half, ToHalf);
+HOGEL_DISPATCH(to_float, ToFloat);
 }  // namespace hogel::core
-#endif

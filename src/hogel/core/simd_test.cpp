@@ -3,20 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/core/simd_test.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
+#include "hogel/core/simd_targets-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::core {
-namespace HWY_NAMESPACE {
+namespace hogel::core::HWY_NAMESPACE {
 
 std::int64_t Target() { return HWY_TARGET; }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::core
+}  // namespace hogel::core::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
@@ -25,16 +19,17 @@ HWY_AFTER_NAMESPACE();
 namespace hogel::core {
 namespace {
 
-HWY_EXPORT(Target);
+extern std::int64_t (&target_in_use)();
+HOGEL_DISPATCH(target_in_use, Target);
 
 TEST(Targets, each_one_runs_and_afterwards_the_best_again) {
     const std::vector<std::int64_t> all = targets();
     for (const std::int64_t target : all) {
         use_target(target);
-        EXPECT_EQ(HWY_DYNAMIC_DISPATCH(Target)(), target) << target_name(target);
+        EXPECT_EQ(target_in_use(), target) << target_name(target);
         EXPECT_EQ(targets(), all) << "whatever is in use";
         use_target(0);
-        EXPECT_EQ(HWY_DYNAMIC_DISPATCH(Target)(), all.front());
+        EXPECT_EQ(target_in_use(), all.front());
     }
     EXPECT_THROW(use_target(1), Error);
 }

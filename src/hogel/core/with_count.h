@@ -14,8 +14,7 @@
 #include <type_traits>
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::core {
-namespace HWY_NAMESPACE {
+namespace hogel::core::HWY_NAMESPACE {
 
 // Calls use(std::integral_constant<count>) with count = 1 … max.
 template <std::size_t max, class Use>
@@ -28,7 +27,6 @@ HWY_INLINE void with_count(std::size_t count, const Use& use) {
     }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::core
+}  // namespace hogel::core::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -18,8 +18,7 @@ struct SampleRow {
 /// wave is too steep for the grid's pitch. Plain and fast twins agree to rounding.
 void add_wave_plain(const ScenePoint& point, const FieldGrid& grid, const SampleRow& row, const bool* hidden,
                     double* real, double* imaginary);
-void add_wave(const ScenePoint& point, const FieldGrid& grid, const SampleRow& row, const bool* hidden, double* real,
-              double* imaginary);
+extern decltype(add_wave_plain)& add_wave;
 
 /// The exact sum of points' waves over one tile.
 class ExactSums {

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twin of add_wave_plain, compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/direct/exact_sums_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include <numbers>
 
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/direct/exact_sums.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::direct {
-namespace HWY_NAMESPACE {
+namespace hogel::direct::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
@@ -87,19 +81,9 @@ void AddWave(const ScenePoint& point, const FieldGrid& grid, const SampleRow& ro
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::direct
+}  // namespace hogel::direct::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::direct {
-
-HWY_EXPORT(AddWave);
-
-void add_wave(const ScenePoint& point, const FieldGrid& grid, const SampleRow& row, const bool* hidden, double* real,
-              double* imaginary) {
-    HWY_DYNAMIC_DISPATCH(AddWave)(point, grid, row, hidden, real, imaginary);
-}
-
+HOGEL_DISPATCH(add_wave, AddWave);
 }  // namespace hogel::direct
-#endif

@@ -110,7 +110,7 @@ TEST(Densify, AnEstimateIsAskedForAndNamed) {
         ADD_FAILURE() << "not refused";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::usage);
-        EXPECT_NE(std::string(error.what()).find("can be estimated, which is experimental"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("can be estimated"), std::string::npos);
     }
     options.estimate_disparity = true;
     const ImportedViews views = import_views(folder.path(), options);

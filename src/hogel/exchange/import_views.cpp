@@ -40,10 +40,10 @@ std::shared_ptr<const Disparities> disparities_of(const std::filesystem::path& s
         throw Error(
             ErrorCode::usage,
             fmt::format("views are interpolated, and rays get depth, by disparity, and {} has no map of it; it can be "
-                        "estimated, which is experimental",
+                        "estimated",
                         source.string()));
     const ParallaxEvidence evidence = parallax_of(set);
-    notes.emplace_back("the disparity was estimated from the views, which is experimental");
+    notes.emplace_back("the disparity was estimated from the views");
     return estimated_disparities(set, 1.5 * std::max(evidence.across, evidence.down / set.geometry.spacing_ratio) + 1,
                                  kept);
 }

@@ -248,7 +248,7 @@ TEST_P(LobeKernels, equals_its_plain_version_for_one_hogel_and_many) {
     const FrequencyGrid::Lobe lobes[] = {{5, 3, 2, 3, 2, 0, 1.5f}, {0, 18, 22, 1, 1, 5, 1}, {7, 0, 0, 1, 3, 6, 0.1f}};
     for (const bool of_roots : {false, true}) {
         average_lobes_plain(lobes, weights, rays.data(), 19, of_roots, plain.data());
-        average_lobes(lobes, weights, rays.data(), 19, of_roots, fast.data());
+        average_lobes(std::span(lobes), weights, rays.data(), 19, of_roots, fast.data());
         for (std::size_t i = 0; i < plain.size(); ++i) EXPECT_NEAR(plain.data()[i], fast.data()[i], 1e-6f) << i;
     }
 }

@@ -23,8 +23,7 @@ inline constexpr std::size_t square_column = 2 * rows_at_once;
 /// @param out     [columns][part][row]
 void random_waves_plain(const PhaseSeries& series, std::size_t first_row, const float* moduli, std::size_t columns,
                         float* out);
-void random_waves(const PhaseSeries& series, std::size_t first_row, const float* moduli, std::size_t columns,
-                  float* out);
+extern decltype(random_waves_plain)& random_waves;
 
 /// The series of random phases of sixteen hogels or looks side by side.
 struct SeriesOfLanes {
@@ -46,8 +45,7 @@ constexpr bool middle_is_a_byte(std::size_t columns) { return columns % 16 == 0 
 /// @param out     [column][part][lane]
 void random_row_plain(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,
                       std::size_t columns, float* out);
-void random_row(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli, std::size_t columns,
-                float* out);
+extern decltype(random_row_plain)& random_row;
 
 /// The phases from the middle of a hogel of any side: e^{iπk(n − 1)/n} for k = row + x, the parts one after the other.
 std::vector<float> middle_phases(std::size_t columns);
@@ -57,21 +55,21 @@ std::vector<float> middle_phases(std::size_t columns);
 /// @param middle  middle_phases(columns)
 void random_row_of_any_side_plain(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,
                                   std::size_t apart, std::span<const float> middle, std::size_t columns, float* out);
-void random_row_of_any_side(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,
-                            std::size_t apart, std::span<const float> middle, std::size_t columns, float* out);
+extern decltype(random_row_of_any_side_plain)& random_row_of_any_side;
 
 /// out = moduli · phases. `phases` has the layout of `out`.
 void shared_waves(std::span<const float> phases, const float* moduli, float* out);
 
 /// Transposes sixteen rows [columns][part][row]: columns x, x + 1, … x + 15, x a multiple of sixteen, become rows
 /// [row][part][column] that begin at to + x/16 · to_sixteen.
-void transpose_rows(const float* from, std::size_t columns, float* to, std::size_t to_sixteen);
+extern void (&transpose_rows)(const float* from, std::size_t columns, float* to, std::size_t to_sixteen);
 
 /// to[row · to_row + i] = from[i][at + row] for sixteen rows; zero for i beyond the arrays that are given.
-void gather_rows(std::span<const float* const> from, std::size_t at, float* to, std::size_t to_row);
+extern void (&gather_rows)(std::span<const float* const> from, std::size_t at, float* to, std::size_t to_row);
 
 /// Transposes the same rows of sixteen hogels, [row][columns][hogel]: hogel h becomes [columns][row] at to +
 /// h·to_hogel, for h < hogels.
-void transpose_hogels(const float* from, std::size_t columns, std::size_t hogels, float* to, std::size_t to_hogel);
+extern void (&transpose_hogels)(const float* from, std::size_t columns, std::size_t hogels, float* to,
+                                std::size_t to_hogel);
 
 }  // namespace hogel::hologram

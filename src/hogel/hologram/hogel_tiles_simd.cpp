@@ -1,35 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twins of the functions of hogel_tiles.h, compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/hologram/hogel_tiles_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include <type_traits>
 
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/hologram/hogel_tiles.h"
 #include "hogel/hologram/philox_lanes.h"
 #include "hogel/math/transpose-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::hologram {
-namespace HWY_NAMESPACE {
+namespace hogel::hologram::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using math::HWY_NAMESPACE::transpose_sixteen;
 
 #if HWY_TARGET == HWY_SCALAR
-void RandomWaves(const PhaseSeries& series, const PhaseRoots&, std::size_t first_row, const float* moduli,
-                 std::size_t columns, float* out) {
+void RandomWaves(const PhaseSeries& series, std::size_t first_row, const float* moduli, std::size_t columns,
+                 float* out) {
     random_waves_plain(series, first_row, moduli, columns, out);
 }
-void RandomRow(const SeriesOfLanes& series, const PhaseRoots&, std::size_t row, bool shared, const float* moduli,
-               std::size_t columns, float* out) {
+void RandomRow(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli, std::size_t columns,
+               float* out) {
     random_row_plain(series, row, shared, moduli, columns, out);
 }
-void RandomRowOfAnySide(const SeriesOfLanes& series, const PhaseRoots&, std::size_t row, bool shared,
-                        const float* moduli, std::size_t apart, std::span<const float> middle, std::size_t columns,
-                        float* out) {
+void RandomRowOfAnySide(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,
+                        std::size_t apart, std::span<const float> middle, std::size_t columns, float* out) {
     random_row_of_any_side_plain(series, row, shared, moduli, apart, middle, columns, out);
 }
 #else
@@ -68,8 +61,9 @@ HWY_INLINE void Wave(D d, const PhaseRoots& roots, hn::VFromD<hn::RebindToUnsign
 }
 
 // One draw gives the phases of sixteen columns of a row; lanes are rows.
-void RandomWaves(const PhaseSeries& series, const PhaseRoots& roots, std::size_t first_row, const float* moduli,
-                 std::size_t columns, float* out) {
+void RandomWaves(const PhaseSeries& series, std::size_t first_row, const float* moduli, std::size_t columns,
+                 float* out) {
+    const PhaseRoots& roots = phase_roots();
     const D d;
     const hn::RebindToUnsigned<D> words;
     const hn::Repartition<std::uint64_t, decltype(words)> wide;
@@ -147,12 +141,12 @@ HWY_INLINE void random_row_as(const SeriesOfLanes& series, const PhaseRoots& roo
         }
 }
 
-void RandomRow(const SeriesOfLanes& series, const PhaseRoots& roots, std::size_t row, bool shared, const float* moduli,
-               std::size_t columns, float* out) {
+void RandomRow(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli, std::size_t columns,
+               float* out) {
     if (shared)
-        random_row_as<true>(series, roots, row, moduli, columns, out);
+        random_row_as<true>(series, phase_roots(), row, moduli, columns, out);
     else
-        random_row_as<false>(series, roots, row, moduli, columns, out);
+        random_row_as<false>(series, phase_roots(), row, moduli, columns, out);
 }
 
 // Draws begin before the row's first column and end after its last one, because all rows together are one sequence.
@@ -200,13 +194,12 @@ HWY_INLINE void random_row_of_any_side_as(const SeriesOfLanes& series, const Pha
         }
 }
 
-void RandomRowOfAnySide(const SeriesOfLanes& series, const PhaseRoots& roots, std::size_t row, bool shared,
-                        const float* moduli, std::size_t apart, std::span<const float> middle, std::size_t columns,
-                        float* out) {
+void RandomRowOfAnySide(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,
+                        std::size_t apart, std::span<const float> middle, std::size_t columns, float* out) {
     if (shared)
-        random_row_of_any_side_as<true>(series, roots, row, moduli, apart, middle.data(), columns, out);
+        random_row_of_any_side_as<true>(series, phase_roots(), row, moduli, apart, middle.data(), columns, out);
     else
-        random_row_of_any_side_as<false>(series, roots, row, moduli, apart, middle.data(), columns, out);
+        random_row_of_any_side_as<false>(series, phase_roots(), row, moduli, apart, middle.data(), columns, out);
 }
 #endif
 
@@ -229,46 +222,14 @@ void TransposeHogels(const float* from, std::size_t columns, std::size_t hogels,
                           [&](std::size_t h) { return to + h * to_hogel + x * rows_at_once; });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::hologram
+}  // namespace hogel::hologram::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::hologram {
-
-HWY_EXPORT(RandomWaves);
-HWY_EXPORT(RandomRow);
-HWY_EXPORT(RandomRowOfAnySide);
-HWY_EXPORT(TransposeRows);
-HWY_EXPORT(GatherRows);
-HWY_EXPORT(TransposeHogels);
-
-void random_waves(const PhaseSeries& series, std::size_t first_row, const float* moduli, std::size_t columns,
-                  float* out) {
-    HWY_DYNAMIC_DISPATCH(RandomWaves)(series, phase_roots(), first_row, moduli, columns, out);
-}
-
-void random_row(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli, std::size_t columns,
-                float* out) {
-    HWY_DYNAMIC_DISPATCH(RandomRow)(series, phase_roots(), row, shared, moduli, columns, out);
-}
-
-void random_row_of_any_side(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,
-                            std::size_t apart, std::span<const float> middle, std::size_t columns, float* out) {
-    HWY_DYNAMIC_DISPATCH(RandomRowOfAnySide)(series, phase_roots(), row, shared, moduli, apart, middle, columns, out);
-}
-
-void transpose_rows(const float* from, std::size_t columns, float* to, std::size_t to_sixteen) {
-    HWY_DYNAMIC_DISPATCH(TransposeRows)(from, columns, to, to_sixteen);
-}
-
-void gather_rows(std::span<const float* const> from, std::size_t at, float* to, std::size_t to_row) {
-    HWY_DYNAMIC_DISPATCH(GatherRows)(from, at, to, to_row);
-}
-
-void transpose_hogels(const float* from, std::size_t columns, std::size_t hogels, float* to, std::size_t to_hogel) {
-    HWY_DYNAMIC_DISPATCH(TransposeHogels)(from, columns, hogels, to, to_hogel);
-}
-
+HOGEL_DISPATCH(random_waves, RandomWaves);
+HOGEL_DISPATCH(random_row, RandomRow);
+HOGEL_DISPATCH(random_row_of_any_side, RandomRowOfAnySide);
+HOGEL_DISPATCH(transpose_rows, TransposeRows);
+HOGEL_DISPATCH(gather_rows, GatherRows);
+HOGEL_DISPATCH(transpose_hogels, TransposeHogels);
 }  // namespace hogel::hologram
-#endif

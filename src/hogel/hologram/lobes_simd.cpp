@@ -3,18 +3,12 @@
 // called.
 #include <algorithm>
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/hologram/lobes_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/hologram/lobes.h"
 #include "hogel/math/transpose-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::hologram {
-namespace HWY_NAMESPACE {
+namespace hogel::hologram::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 #if HWY_TARGET != HWY_SCALAR
 using math::HWY_NAMESPACE::transpose_four;
@@ -105,25 +99,10 @@ void Transpose(const float* from, std::size_t from_row, std::size_t rows, std::s
 #endif
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::hologram
+}  // namespace hogel::hologram::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::hologram {
-
-HWY_EXPORT(AverageLobes);
-HWY_EXPORT(Transpose);
-
-void average_lobes(std::span<const FrequencyGrid::Lobe> lobes, const float* weights, const float* rays,
-                   std::size_t row_length, bool of_roots, float* out) {
-    HWY_DYNAMIC_DISPATCH(AverageLobes)(lobes, weights, rays, row_length, of_roots, out);
-}
-
-void transpose(const float* from, std::size_t from_row, std::size_t rows, std::size_t columns, float* to,
-               std::size_t to_row) {
-    HWY_DYNAMIC_DISPATCH(Transpose)(from, from_row, rows, columns, to, to_row);
-}
-
+HOGEL_DISPATCH(average_lobes, AverageLobes);
+HOGEL_DISPATCH(transpose, Transpose);
 }  // namespace hogel::hologram
-#endif

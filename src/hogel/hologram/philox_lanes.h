@@ -14,8 +14,7 @@
 #include <cstdint>
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::hologram {
-namespace HWY_NAMESPACE {
+namespace hogel::hologram::HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 // Turns the four words of the counter into those of the draw. Lanes have 64 bits, of which only the lower halves are
@@ -39,7 +38,6 @@ HWY_INLINE void philox_lanes(D d, V& c0, V& c1, V& c2, V& c3, const std::array<s
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::hologram
+}  // namespace hogel::hologram::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

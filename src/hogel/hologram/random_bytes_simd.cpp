@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twin of random_bytes_plain, compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/hologram/random_bytes_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/hologram/philox_lanes.h"
 #include "hogel/hologram/random_bytes.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::hologram {
-namespace HWY_NAMESPACE {
+namespace hogel::hologram::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
@@ -38,18 +32,9 @@ void RandomBytes(const PhaseSeries& series, std::uint32_t first_draw, std::span<
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::hologram
+}  // namespace hogel::hologram::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::hologram {
-
-HWY_EXPORT(RandomBytes);
-
-void random_bytes(const PhaseSeries& series, std::uint32_t first_draw, std::span<std::uint8_t> bytes) {
-    HWY_DYNAMIC_DISPATCH(RandomBytes)(series, first_draw, bytes);
-}
-
+HOGEL_DISPATCH(random_bytes, RandomBytes);
 }  // namespace hogel::hologram
-#endif

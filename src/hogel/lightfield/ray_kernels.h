@@ -27,7 +27,7 @@ struct HogelRows {
 
 /// out[i] = the radiance of hogel i between its directions low[i] and the next, and between the two rows.
 void look_between_plain(const HogelRows& hogels, const Places& directions, std::span<float> out);
-void look_between(const HogelRows& hogels, const Places& directions, std::span<float> out);
+extern decltype(look_between_plain)& look_between;
 
 /// The samples of neighbouring hogels, side by side, in four neighbouring directions; floats or halves (core/half.h).
 template <class Sample>
@@ -50,10 +50,10 @@ void look_along(const FourDirections<std::uint16_t>& from, std::span<const float
 
 /// out[i] = a[i] + (b[i] − a[i]) · weight.
 void mix_lines_plain(std::span<const float> a, std::span<const float> b, float weight, std::span<float> out);
-void mix_lines(std::span<const float> a, std::span<const float> b, float weight, std::span<float> out);
+extern decltype(mix_lines_plain)& mix_lines;
 
 /// out[i] += the value of `line` between low[i] and low[i] + next.
 void add_between_plain(std::span<const float> line, std::size_t next, const Places& places, std::span<float> out);
-void add_between(std::span<const float> line, std::size_t next, const Places& places, std::span<float> out);
+extern decltype(add_between_plain)& add_between;
 
 }  // namespace hogel::lightfield

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twins of ray_kernels.cpp, compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/lightfield/ray_kernels_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/lightfield/ray_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::lightfield {
-namespace HWY_NAMESPACE {
+namespace hogel::lightfield::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Floats = hn::ScalableTag<float>;
@@ -111,22 +105,16 @@ void AddBetween(std::span<const float> line, std::size_t next, const Places& pla
     add_between_plain(line, next, rest_of(places, i), out.subspan(i));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::lightfield
+}  // namespace hogel::lightfield::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace hogel::lightfield {
 
-HWY_EXPORT(LookBetween);
 HWY_EXPORT(LookAlong);
 HWY_EXPORT(LookAlongHalves);
-HWY_EXPORT(MixLines);
-HWY_EXPORT(AddBetween);
 
-void look_between(const HogelRows& hogels, const Places& directions, std::span<float> out) {
-    HWY_DYNAMIC_DISPATCH(LookBetween)(hogels, directions, out);
-}
+HOGEL_DISPATCH(look_between, LookBetween);
 
 void look_along(const FourDirections<float>& from, std::span<const float> right_weight, float bottom_weight,
                 std::span<float> out) {
@@ -138,13 +126,8 @@ void look_along(const FourDirections<std::uint16_t>& from, std::span<const float
     HWY_DYNAMIC_DISPATCH(LookAlongHalves)(from, right_weight, bottom_weight, out);
 }
 
-void mix_lines(std::span<const float> a, std::span<const float> b, float weight, std::span<float> out) {
-    HWY_DYNAMIC_DISPATCH(MixLines)(a, b, weight, out);
-}
-
-void add_between(std::span<const float> line, std::size_t next, const Places& places, std::span<float> out) {
-    HWY_DYNAMIC_DISPATCH(AddBetween)(line, next, places, out);
-}
+HOGEL_DISPATCH(mix_lines, MixLines);
+HOGEL_DISPATCH(add_between, AddBetween);
 
 }  // namespace hogel::lightfield
 #endif

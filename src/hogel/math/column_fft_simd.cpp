@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cstdint>
-
 // Compiled for every SIMD target and dispatched at run time. The plain twin is math/fourier/plain.cpp.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/math/column_fft_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
+#include "hogel/math/column_fft.h"
 
 #include <hwy/cache_control.h>
 
+#include <algorithm>
+#include <cstdint>
+
 #include "hogel/array.h"
-#include "hogel/math/column_fft.h"
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/math/numbers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::math {
-namespace HWY_NAMESPACE {
+namespace hogel::math::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
@@ -149,8 +144,7 @@ void TransformSplitToInterleaved(const ColumnFft::Plan& plan, const float* from,
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::math
+}  // namespace hogel::math::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

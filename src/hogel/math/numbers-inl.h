@@ -14,8 +14,7 @@
 #include "hogel/math/column_fft.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::math {
-namespace HWY_NAMESPACE {
+namespace hogel::math::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET != HWY_SCALAR
@@ -60,7 +59,6 @@ struct InSplit {
 };
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::math
+}  // namespace hogel::math::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -13,8 +13,7 @@
 #include "hogel/math/packed_complex.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::math {
-namespace HWY_NAMESPACE {
+namespace hogel::math::HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 /// @param d  the tag of the parts, floats
@@ -57,8 +56,7 @@ HWY_INLINE void add_to_packed(D d, V re, V im, PackedComplex* to) {
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::math
+}  // namespace hogel::math::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

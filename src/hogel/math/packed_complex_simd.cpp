@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/math/packed_complex_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/math/packed_complex-inl.h"
 #include "hogel/math/packed_complex.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::math {
-namespace HWY_NAMESPACE {
+namespace hogel::math::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using Complex = std::complex<float>;
 
@@ -28,8 +22,7 @@ void Pack(const Complex* from, PackedComplex* to, std::size_t n) {
     for (; i < n; ++i) to[i] = math::pack(from[i]);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::math
+}  // namespace hogel::math::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -13,8 +13,7 @@
 #include <cstddef>
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::math {
-namespace HWY_NAMESPACE {
+namespace hogel::math::HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
 template <class From, class To>
@@ -85,7 +84,6 @@ HWY_INLINE void transpose_sixteen(const From& from, std::size_t columns, const T
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::math
+}  // namespace hogel::math::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -11,8 +11,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::optics {
-namespace HWY_NAMESPACE {
+namespace hogel::optics::HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 // e^{2πi cycles} for −1/2 … 1/2 cycles.
@@ -43,7 +42,6 @@ HWY_INLINE void unit_phasors(DD, hwy::HWY_NAMESPACE::Vec<DD> cycles, F& cosine, 
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::optics
+}  // namespace hogel::optics::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiled for every SIMD target: a lane for each cell. Samples are read in the order of memory, of which they are far
 // more than fits into a cache.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/render/cell_sums_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/render/cell_sums.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::render {
-namespace HWY_NAMESPACE {
+namespace hogel::render::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -71,18 +65,13 @@ void AddCells(View<const float, 2> samples, std::size_t n, View<double, 2> sums)
     }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::render
+}  // namespace hogel::render::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace hogel::render {
 
-HWY_EXPORT(AddCells);
-
-void add_cells(View<const float, 2> samples, std::size_t n, View<double, 2> sums) {
-    HWY_DYNAMIC_DISPATCH(AddCells)(samples, n, sums);
-}
+HOGEL_DISPATCH(add_cells, AddCells);
 
 void add_cells_plain(View<const float, 2> samples, std::size_t n, View<double, 2> sums) {
     for (std::size_t v = 0; v < sums.extent(0); ++v)

@@ -39,7 +39,7 @@ struct GlossyPoint {
 /// @param visibility  share of each lamp's light that arrives at the point; `lamps.size()` numbers, any values for dark
 ///                    lamps
 LightInLobe gloss_plain(const LampTable& lamps, const float* visibility, const GlossyPoint& point);
-LightInLobe gloss(const LampTable& lamps, const float* visibility, const GlossyPoint& point);
+extern decltype(gloss_plain)& gloss;
 
 /// The values of a point in single precision, used by both twins.
 struct GlossyFloats {

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twin of gloss.cpp, compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/shading/gloss_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include <numbers>
 
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/shading/gloss.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::shading {
-namespace HWY_NAMESPACE {
+namespace hogel::shading::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 LightInLobe Gloss(const LampTable& lamps, const float* visibility, const GlossyPoint& point) {
@@ -68,18 +62,9 @@ LightInLobe Gloss(const LampTable& lamps, const float* visibility, const GlossyP
     return sums.total();
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::shading
+}  // namespace hogel::shading::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::shading {
-
-HWY_EXPORT(Gloss);
-
-LightInLobe gloss(const LampTable& lamps, const float* visibility, const GlossyPoint& point) {
-    return HWY_DYNAMIC_DISPATCH(Gloss)(lamps, visibility, point);
-}
-
+HOGEL_DISPATCH(gloss, Gloss);
 }  // namespace hogel::shading
-#endif

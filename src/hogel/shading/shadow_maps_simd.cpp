@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twin of shadow_maps.cpp, compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/shading/shadow_maps_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include <algorithm>
 
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/shading/shadow_maps.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::shading {
-namespace HWY_NAMESPACE {
+namespace hogel::shading::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Tag = hn::ScalableTag<double>;
@@ -165,8 +159,7 @@ void Visibility(const ShadowMaps::Table& table, std::span<const std::uint32_t> l
     }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::shading
+}  // namespace hogel::shading::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

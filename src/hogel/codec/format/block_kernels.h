@@ -19,20 +19,18 @@ using Taps = std::array<float, taps>;
 
 // Interpolates a block from a window whose rows are `stride` samples apart. Along an axis with weights the window has
 // window_side samples; along an axis without (null) it has block_side, which are copied.
-void interpolate_block(const float* rows, std::size_t stride, const Taps* along_u, const Taps* along_v,
-                       BlockSamples& block);
 void interpolate_block_plain(const float* rows, std::size_t stride, const Taps* along_u, const Taps* along_v,
                              BlockSamples& block);
+extern decltype(interpolate_block_plain)& interpolate_block;
 
 // weight_a a + weight_b b; `out` may be a or b.
-void mix_blocks(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b, BlockSamples& out);
 void mix_blocks_plain(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b, BlockSamples& out);
+extern decltype(mix_blocks_plain)& mix_blocks;
 
 // As mix_blocks(), but `out` must be neither a nor b. Returns Σ (out − target)².
-float mix_and_compare(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b,
-                      const BlockSamples& target, BlockSamples& out);
 float mix_and_compare_plain(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b,
                             const BlockSamples& target, BlockSamples& out);
+extern decltype(mix_and_compare_plain)& mix_and_compare;
 
 // Σ (a − b)²; the rows of a are `stride` samples apart.
 float squared_difference(const float* a, std::size_t stride, const BlockSamples& b);
@@ -42,24 +40,24 @@ inline float squared_difference(const BlockSamples& a, const BlockSamples& b) {
 }
 
 // Σ (a − b)² of rows of any length, in eight partial sums of every eighth sample.
-double squared_difference_of_rows(const float* a, const float* b, std::size_t count);
 double squared_difference_of_rows_plain(const float* a, const float* b, std::size_t count);
+extern decltype(squared_difference_of_rows_plain)& squared_difference_of_rows;
 
 // The sums Σ (a − b) slope and Σ slope² of a Gauss–Newton step.
 struct AlongSlope {
     float difference, square;
     friend bool operator==(const AlongSlope&, const AlongSlope&) = default;
 };
-AlongSlope along_slope(const BlockSamples& a, const BlockSamples& b, const BlockSamples& slope);
 AlongSlope along_slope_plain(const BlockSamples& a, const BlockSamples& b, const BlockSamples& slope);
+extern decltype(along_slope_plain)& along_slope;
 
 // A bit for each sample of magnitude `min_magnitude` or more.
-std::uint64_t large_samples(const BlockSamples& block, float min_magnitude);
 std::uint64_t large_samples_plain(const BlockSamples& block, float min_magnitude);
+extern decltype(large_samples_plain)& large_samples;
 
 // Σ a², in partial sums as above.
-double sum_of_squares(const float* a, std::size_t count);
 double sum_of_squares_plain(const float* a, std::size_t count);
+extern decltype(sum_of_squares_plain)& sum_of_squares;
 
 // Slopes of a block along u and v, by central differences in a window of slope_window_side rows. The weights are those
 // of the adjacent samples and of those two away.
@@ -69,8 +67,8 @@ struct Slopes {
     BlockSamples u, v;
     friend bool operator==(const Slopes&, const Slopes&) = default;
 };
-void slopes_of_block(const float* rows, std::size_t stride, Slopes& slopes);
 void slopes_of_block_plain(const float* rows, std::size_t stride, Slopes& slopes);
+extern decltype(slopes_of_block_plain)& slopes_of_block;
 
 // For each partition edge, the best prediction so far of the samples on one side of it.
 constexpr std::size_t block_edges = 128;
@@ -91,23 +89,21 @@ using EdgeRowCuts = std::array<std::array<std::int32_t, block_edges>, block_side
 // Stores the number `choice` of a prediction for each edge and partition where the squared differences summed over that
 // partition, plus `extra`, are less than the stored cost. All 128 edges are evaluated from the sums of all cuts of the
 // rows.
-void keep_better(const BlockSamples& prediction, const BlockSamples& target, float extra, float choice,
-                 const EdgeRowCuts& edges, BestPerEdge& main, BestPerEdge& second);
 void keep_better_plain(const BlockSamples& prediction, const BlockSamples& target, float extra, float choice,
                        const EdgeRowCuts& edges, BestPerEdge& main, BestPerEdge& second);
+extern decltype(keep_better_plain)& keep_better;
 
 // in · transposed: transforms along u. `out` must not be `in`.
-void transform_along_u(const BlockSamples& transposed, const BlockSamples& in, BlockSamples& out);
 void transform_along_u_plain(const BlockSamples& transposed, const BlockSamples& in, BlockSamples& out);
+extern decltype(transform_along_u_plain)& transform_along_u;
 
 // matrix · in: transforms along v. `out` must not be `in`.
-void transform_along_v(const BlockSamples& matrix, const BlockSamples& in, BlockSamples& out);
 void transform_along_v_plain(const BlockSamples& matrix, const BlockSamples& in, BlockSamples& out);
+extern decltype(transform_along_v_plain)& transform_along_v;
 
 // matrix · in · matrixᵀ, along u first. `transposed` is matrixᵀ.
-void transform_both_ways(const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,
-                         BlockSamples& out);
 void transform_both_ways_plain(const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,
                                BlockSamples& out);
+extern decltype(transform_both_ways_plain)& transform_both_ways;
 
 }  // namespace hogel::codec::format

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twins of block_kernels.cpp, compiled for every SIMD target and chosen when first called. Products are
 // rounded before they are added, as in the plain versions.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/codec/format/block_kernels_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include "hogel/codec/format/block_kernels.h"
+#include "hogel/core/simd_targets-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::codec::format {
-namespace HWY_NAMESPACE {
+namespace hogel::codec::format::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Row = hn::CappedTag<float, block_side>;       // a row of a block, or an even part of one
@@ -300,80 +294,31 @@ void TransformBothWays(const BlockSamples& matrix, const BlockSamples& transpose
     TransformAlongV(matrix, across, out);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::codec::format
+}  // namespace hogel::codec::format::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace hogel::codec::format {
 
-HWY_EXPORT(InterpolateBlock);
-HWY_EXPORT(MixBlocks);
-HWY_EXPORT(MixAndCompare);
 HWY_EXPORT(SquaredDifference);
-HWY_EXPORT(KeepBetter);
-HWY_EXPORT(SquaredDifferenceOfRows);
-HWY_EXPORT(SumOfSquaresOf);
-HWY_EXPORT(LargeSamples);
-HWY_EXPORT(AlongSlopeOf);
-HWY_EXPORT(SlopesOfBlock);
-HWY_EXPORT(TransformAlongU);
-HWY_EXPORT(TransformAlongV);
-HWY_EXPORT(TransformBothWays);
 
-void interpolate_block(const float* rows, std::size_t stride, const Taps* along_u, const Taps* along_v,
-                       BlockSamples& block) {
-    HWY_DYNAMIC_DISPATCH(InterpolateBlock)(rows, stride, along_u, along_v, block);
-}
-
-void mix_blocks(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b, BlockSamples& out) {
-    HWY_DYNAMIC_DISPATCH(MixBlocks)(a, b, weight_a, weight_b, out);
-}
-
-float mix_and_compare(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b,
-                      const BlockSamples& target, BlockSamples& out) {
-    return HWY_DYNAMIC_DISPATCH(MixAndCompare)(a, b, weight_a, weight_b, target, out);
-}
+HOGEL_DISPATCH(interpolate_block, InterpolateBlock);
+HOGEL_DISPATCH(mix_blocks, MixBlocks);
+HOGEL_DISPATCH(mix_and_compare, MixAndCompare);
 
 float squared_difference(const float* a, std::size_t stride, const BlockSamples& b) {
     return HWY_DYNAMIC_DISPATCH(SquaredDifference)(a, stride, b);
 }
 
-double squared_difference_of_rows(const float* a, const float* b, std::size_t count) {
-    return HWY_DYNAMIC_DISPATCH(SquaredDifferenceOfRows)(a, b, count);
-}
-
-double sum_of_squares(const float* a, std::size_t count) { return HWY_DYNAMIC_DISPATCH(SumOfSquaresOf)(a, count); }
-
-std::uint64_t large_samples(const BlockSamples& block, float min_magnitude) {
-    return HWY_DYNAMIC_DISPATCH(LargeSamples)(block, min_magnitude);
-}
-
-AlongSlope along_slope(const BlockSamples& a, const BlockSamples& b, const BlockSamples& slope) {
-    return HWY_DYNAMIC_DISPATCH(AlongSlopeOf)(a, b, slope);
-}
-
-void slopes_of_block(const float* rows, std::size_t stride, Slopes& slopes) {
-    HWY_DYNAMIC_DISPATCH(SlopesOfBlock)(rows, stride, slopes);
-}
-
-void keep_better(const BlockSamples& prediction, const BlockSamples& target, float extra, float choice,
-                 const EdgeRowCuts& edges, BestPerEdge& main, BestPerEdge& second) {
-    HWY_DYNAMIC_DISPATCH(KeepBetter)(prediction, target, extra, choice, edges, main, second);
-}
-
-void transform_along_u(const BlockSamples& transposed, const BlockSamples& in, BlockSamples& out) {
-    HWY_DYNAMIC_DISPATCH(TransformAlongU)(transposed, in, out);
-}
-
-void transform_along_v(const BlockSamples& matrix, const BlockSamples& in, BlockSamples& out) {
-    HWY_DYNAMIC_DISPATCH(TransformAlongV)(matrix, in, out);
-}
-
-void transform_both_ways(const BlockSamples& matrix, const BlockSamples& transposed, const BlockSamples& in,
-                         BlockSamples& out) {
-    HWY_DYNAMIC_DISPATCH(TransformBothWays)(matrix, transposed, in, out);
-}
+HOGEL_DISPATCH(squared_difference_of_rows, SquaredDifferenceOfRows);
+HOGEL_DISPATCH(sum_of_squares, SumOfSquaresOf);
+HOGEL_DISPATCH(large_samples, LargeSamples);
+HOGEL_DISPATCH(along_slope, AlongSlopeOf);
+HOGEL_DISPATCH(slopes_of_block, SlopesOfBlock);
+HOGEL_DISPATCH(keep_better, KeepBetter);
+HOGEL_DISPATCH(transform_along_u, TransformAlongU);
+HOGEL_DISPATCH(transform_along_v, TransformAlongV);
+HOGEL_DISPATCH(transform_both_ways, TransformBothWays);
 
 }  // namespace hogel::codec::format
 #endif

@@ -26,7 +26,6 @@ constexpr double sample_place(std::size_t sample) {
 /// @param phases  [row][part][column], aligned to a cache line; parts are `row` floats apart
 void demodulation_plain(const SampleLine& across, const SampleLine& down, double bend, std::size_t rows, float* phases,
                         std::size_t row);
-void demodulation(const SampleLine& across, const SampleLine& down, double bend, std::size_t rows, float* phases,
-                  std::size_t row);
+extern decltype(demodulation_plain)& demodulation;
 
 }  // namespace hogel::hologram::eye

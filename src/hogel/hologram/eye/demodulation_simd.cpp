@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twin of demodulation.cpp, compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/hologram/eye/demodulation_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include <cmath>
 #include <numbers>
 
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/hologram/eye/demodulation.h"
 #include "hogel/optics/unit_phasors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::hologram::eye {
-namespace HWY_NAMESPACE {
+namespace hogel::hologram::eye::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
@@ -68,19 +62,9 @@ void Demodulation(const SampleLine& across, const SampleLine& down, double bend,
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::hologram::eye
+}  // namespace hogel::hologram::eye::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::hologram::eye {
-
-HWY_EXPORT(Demodulation);
-
-void demodulation(const SampleLine& across, const SampleLine& down, double bend, std::size_t rows, float* phases,
-                  std::size_t row) {
-    HWY_DYNAMIC_DISPATCH(Demodulation)(across, down, bend, rows, phases, row);
-}
-
+HOGEL_DISPATCH(demodulation, Demodulation);
 }  // namespace hogel::hologram::eye
-#endif

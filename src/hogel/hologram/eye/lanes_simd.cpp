@@ -1,25 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twins of lanes.cpp, compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/hologram/eye/lanes_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
 #include <hwy/cache_control.h>
-#include <hwy/highway.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <vector>
 
 #include "hogel/core/half.h"
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/core/with_count.h"
 #include "hogel/hologram/eye/lanes.h"
 #include "hogel/hologram/eye/spread_pairs-inl.h"
 #include "hogel/math/transpose-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::hologram::eye {
-namespace HWY_NAMESPACE {
+namespace hogel::hologram::eye::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using core::HWY_NAMESPACE::with_count;
 using math::HWY_NAMESPACE::transpose_sixteen;
@@ -242,36 +237,13 @@ void AddLooks(const HogelBasis& basis, const float* numbers, const float* carrie
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::hologram::eye
+}  // namespace hogel::hologram::eye::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::hologram::eye {
-
-HWY_EXPORT(SumRow);
-HWY_EXPORT(SumRowOfHalves);
-HWY_EXPORT(SumRows);
-HWY_EXPORT(AddLanes);
-HWY_EXPORT(AddLooks);
-
-void sum_row(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line) {
-    HWY_DYNAMIC_DISPATCH(SumRow)(basis, columns, waves, line);
-}
-void sum_row_of_halves(const HogelBasis& basis, const HogelBasis::Weights& columns, const std::uint16_t* waves,
-                       const NextRow& next, float* line) {
-    HWY_DYNAMIC_DISPATCH(SumRowOfHalves)(basis, columns, waves, next, line);
-}
-void sum_rows(const HogelBasis& basis, const HogelBasis::Weights& rows, float sign, const float* lines,
-              const float* chosen, float* numbers) {
-    HWY_DYNAMIC_DISPATCH(SumRows)(basis, rows, sign, lines, chosen, numbers);
-}
-void add_lanes(const HogelBasis& basis, const float* numbers, std::span<const LaneTarget> targets) {
-    HWY_DYNAMIC_DISPATCH(AddLanes)(basis, numbers, targets);
-}
-void add_looks(const HogelBasis& basis, const float* numbers, const float* carrier, const LinePlace& line) {
-    HWY_DYNAMIC_DISPATCH(AddLooks)(basis, numbers, carrier, line);
-}
-
+HOGEL_DISPATCH(sum_row, SumRow);
+HOGEL_DISPATCH(sum_row_of_halves, SumRowOfHalves);
+HOGEL_DISPATCH(sum_rows, SumRows);
+HOGEL_DISPATCH(add_lanes, AddLanes);
+HOGEL_DISPATCH(add_looks, AddLooks);
 }  // namespace hogel::hologram::eye
-#endif

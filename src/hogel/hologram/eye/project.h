@@ -47,6 +47,6 @@ struct HogelBases {
 /// @param waves  in the layout of HogelWaves::waves(), with phases counted from the middle
 /// @param line   of as many functions as the basis down has; padded(nodes) numbers of each row are read and written
 void project_plain(const HogelBases& bases, const HogelView& view, const float* waves, const LinePlace& line);
-void project(const HogelBases& bases, const HogelView& view, const float* waves, const LinePlace& line);
+extern decltype(project_plain)& project;
 
 }  // namespace hogel::hologram::eye

@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twin of project_plain, compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/hologram/eye/project_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include <algorithm>
 
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/core/with_count.h"
 #include "hogel/hologram/eye/project.h"
 #include "hogel/hologram/eye/spread_pairs-inl.h"
 #include "hogel/math/transpose-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::hologram::eye {
-namespace HWY_NAMESPACE {
+namespace hogel::hologram::eye::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using core::HWY_NAMESPACE::with_count;
 using math::HWY_NAMESPACE::transpose_sixteen;
@@ -216,15 +210,13 @@ void Project(const HogelBases& bases, const HogelView& view, const float* waves,
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::hologram::eye
+}  // namespace hogel::hologram::eye::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace hogel::hologram::eye {
 
 HWY_EXPORT(Multiply);
-HWY_EXPORT(Project);
 
 void MiddlePhases::apply(float* waves, const NearRows& rows) const {
     const std::size_t block = 2 * lanes * columns_;
@@ -233,9 +225,7 @@ void MiddlePhases::apply(float* waves, const NearRows& rows) const {
             HWY_DYNAMIC_DISPATCH(Multiply)(&factors_[row / lanes * block], block, waves + row / lanes * block);
 }
 
-void project(const HogelBases& bases, const HogelView& view, const float* waves, const LinePlace& line) {
-    HWY_DYNAMIC_DISPATCH(Project)(bases, view, waves, line);
-}
+HOGEL_DISPATCH(project, Project);
 
 }  // namespace hogel::hologram::eye
 #endif

@@ -27,8 +27,7 @@ struct LinePlace {
 /// @param columns  a multiple of `lanes`
 void spread_line_plain(const HogelBasis& down, const float* carrier, const float* line, std::size_t row,
                        std::size_t columns, float* light);
-void spread_line(const HogelBasis& down, const float* carrier, const float* line, std::size_t row, std::size_t columns,
-                 float* light);
+extern decltype(spread_line_plain)& spread_line;
 
 /// A row of a part's light, [part][column], or with sixteen looks side by side, [part][column][look], and the phases of
 /// its demodulation, [part][column]. All are aligned to a cache line; parts of light are `light_row` floats apart,
@@ -43,9 +42,9 @@ struct LightRow {
 /// Adds a row of light, demodulated, to a row of a band, from where a square of it begins on (optics::PackedBand).
 /// Plain and fast twins agree to rounding.
 void add_demodulated_plain(const LightRow& row, std::size_t columns, math::PackedComplex* band);
-void add_demodulated(const LightRow& row, std::size_t columns, math::PackedComplex* band);
+extern decltype(add_demodulated_plain)& add_demodulated;
 /// The same for a row of each of some looks that lie side by side.
 void add_demodulated_looks_plain(const LightRow& row, std::size_t columns, std::span<math::PackedComplex* const> bands);
-void add_demodulated_looks(const LightRow& row, std::size_t columns, std::span<math::PackedComplex* const> bands);
+extern decltype(add_demodulated_looks_plain)& add_demodulated_looks;
 
 }  // namespace hogel::hologram::eye

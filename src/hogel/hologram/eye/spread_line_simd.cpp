@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twins of spread_line.cpp, compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/hologram/eye/spread_line_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include <algorithm>
 #include <vector>
 
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/hologram/eye/spread_line.h"
 #include "hogel/hologram/eye/spread_pairs-inl.h"
 #include "hogel/math/packed_complex-inl.h"
 #include "hogel/math/transpose-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::hologram::eye {
-namespace HWY_NAMESPACE {
+namespace hogel::hologram::eye::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using math::HWY_NAMESPACE::transpose_sixteen;
 #if HWY_TARGET != HWY_SCALAR
@@ -106,27 +100,11 @@ void AddDemodulatedLooks(const LightRow& row, std::size_t columns, std::span<mat
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::hologram::eye
+}  // namespace hogel::hologram::eye::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::hologram::eye {
-
-HWY_EXPORT(SpreadLine);
-HWY_EXPORT(AddDemodulated);
-HWY_EXPORT(AddDemodulatedLooks);
-
-void spread_line(const HogelBasis& down, const float* carrier, const float* line, std::size_t row, std::size_t columns,
-                 float* light) {
-    HWY_DYNAMIC_DISPATCH(SpreadLine)(down, carrier, line, row, columns, light);
-}
-void add_demodulated(const LightRow& row, std::size_t columns, math::PackedComplex* band) {
-    HWY_DYNAMIC_DISPATCH(AddDemodulated)(row, columns, band);
-}
-void add_demodulated_looks(const LightRow& row, std::size_t columns, std::span<math::PackedComplex* const> bands) {
-    HWY_DYNAMIC_DISPATCH(AddDemodulatedLooks)(row, columns, bands);
-}
-
+HOGEL_DISPATCH(spread_line, SpreadLine);
+HOGEL_DISPATCH(add_demodulated, AddDemodulated);
+HOGEL_DISPATCH(add_demodulated_looks, AddDemodulatedLooks);
 }  // namespace hogel::hologram::eye
-#endif

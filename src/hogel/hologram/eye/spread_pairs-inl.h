@@ -16,8 +16,7 @@
 #include "hogel/hologram/eye/hogel_basis.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::hologram::eye {
-namespace HWY_NAMESPACE {
+namespace hogel::hologram::eye::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET != HWY_SCALAR
@@ -73,7 +72,6 @@ HWY_INLINE void spread_pairs(const HogelBasis& basis, const float* in, std::size
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::hologram::eye
+}  // namespace hogel::hologram::eye::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
-
 // Compiled for every SIMD target and chosen when first called. The plain twin is OverlapAddHologram::add_one_by_one().
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/hologram/windows/batch_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
-#include "hogel/core/random.h"
-#include "hogel/hologram/philox_lanes.h"
 #include "hogel/hologram/windows/batch.h"
 
+#include <cmath>
+
+#include "hogel/core/random.h"
+#include "hogel/core/simd_targets-inl.h"
+#include "hogel/hologram/philox_lanes.h"
+
 HWY_BEFORE_NAMESPACE();
-namespace hogel::hologram::windows {
-namespace HWY_NAMESPACE {
+namespace hogel::hologram::windows::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr std::size_t width = WindowBatch::hogels;
@@ -269,8 +264,7 @@ void AddColumns(WindowBatch::Work& work, std::size_t q0, std::size_t q1, const s
             }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::hologram::windows
+}  // namespace hogel::hologram::windows::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -16,8 +16,7 @@
 #include "hogel/math/numbers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::math::fourier {
-namespace HWY_NAMESPACE {
+namespace hogel::math::fourier::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET != HWY_SCALAR
@@ -213,7 +212,6 @@ HWY_INLINE void TransposeFour(const float* const* rows, std::size_t at, float* o
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::math::fourier
+}  // namespace hogel::math::fourier::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

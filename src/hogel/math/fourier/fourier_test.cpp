@@ -66,7 +66,7 @@ double error_of_many(const Line& x, const ExactLine& expected, bool is_forward) 
         for (std::size_t j = 0; j < length; ++j) rows(i, j) = columns(j, i) = line[j];
     }
     transform_rows(rows, fft, is_forward);
-    transform_columns(columns, fft, is_forward);
+    math::transform_columns(columns, fft, is_forward);
     for (const std::size_t i : {5, 20})
         worst =
             std::max({worst, relative_error(&rows(i, 0), expected), relative_error(&columns(0, i), expected, count)});
@@ -211,7 +211,7 @@ TEST_P(FourierTransforms, do_not_depend_on_other_lines_or_on_alignment) {
         std::copy(all.begin(), all.end(), rows.data());
         std::copy(all.begin(), all.end(), columns.data());
         transform_rows(rows, fft, true);
-        transform_columns(columns, fft, true);
+        math::transform_columns(columns, fft, true);
         for (const std::size_t i : {0, 7, 16, 31, 34}) {
             Line some(2 * n + 1);
             const View<Complex, 2> row(some.data() + 1, {1, n}), column(some.data() + 1, {n, 2});
@@ -219,7 +219,7 @@ TEST_P(FourierTransforms, do_not_depend_on_other_lines_or_on_alignment) {
             transform_rows(row, fft, true);
             for (std::size_t j = 0; j < n; ++j) ASSERT_EQ(row(0, j), rows(i, j)) << n;
             for (std::size_t j = 0; j < n; ++j) column(j, 0) = column(j, 1) = all[j * 35 + i];
-            transform_columns(column, fft, true);
+            math::transform_columns(column, fft, true);
             for (std::size_t j = 0; j < n; ++j) ASSERT_EQ(column(j, 1), columns(j, i)) << n;
         }
         Line aligned(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(n)), shifted(n + 1);
@@ -246,7 +246,7 @@ TEST_P(FourierTransforms, of_arrays_are_those_of_rows_and_then_of_columns) {
         std::copy(x.begin(), x.end(), steps.data());
         Fft2(height, width).backward(whole);
         transform_rows(steps, Fft1(width), false);
-        transform_columns(steps, Fft1(height), false);
+        math::transform_columns(steps, Fft1(height), false);
         EXPECT_LT(relative_error(whole.data(), {steps.elements().begin(), steps.elements().end()}), 2e-6)
             << height << " " << width;
         Array<Complex, 2> again({height, width});

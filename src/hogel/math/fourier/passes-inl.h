@@ -17,8 +17,7 @@
 #include "hogel/math/fourier/plan.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::math::fourier {
-namespace HWY_NAMESPACE {
+namespace hogel::math::fourier::HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 // Rows in memory, the first of them and the number of floats from one to the next.
@@ -167,7 +166,6 @@ HWY_INLINE void Convolve(const Plan& plan, const Chirp& chirp, std::size_t lengt
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::math::fourier
+}  // namespace hogel::math::fourier::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -71,19 +71,20 @@ struct Split {
 // `backward` exchanges the parts. Strides are in floats.
 
 /// Whether the SIMD target in use has vectors of at least four numbers. If not, use the plain transforms.
-bool has_vectors();
+extern bool (&has_vectors)();
 
 /// Transforms up to `together` columns; row r of the result is at to + r·to_row.
-void transform_columns(const Plan& plan, const Chirp* chirp, bool backward, const float* from, std::size_t from_row,
-                       float* to, std::size_t to_row, std::size_t columns, std::size_t length);
+extern void (&transform_columns)(const Plan& plan, const Chirp* chirp, bool backward, const float* from,
+                                 std::size_t from_row, float* to, std::size_t to_row, std::size_t columns,
+                                 std::size_t length);
 /// Transforms up to `together` lines in place.
-void transform_lines(const Plan& plan, const Chirp* chirp, bool backward, float* lines, std::size_t stride,
-                     std::size_t count, std::size_t length);
+extern void (&transform_lines)(const Plan& plan, const Chirp* chirp, bool backward, float* lines, std::size_t stride,
+                               std::size_t count, std::size_t length);
 /// Transforms a long line; `to` may be `from`.
-void transform_split(const Split& split, bool backward, const float* from, float* to);
+extern void (&transform_split)(const Split& split, bool backward, const float* from, float* to);
 /// Transforms sixteen lines in split layout in place, without sorting: frequency f lies in row plan.place[f].
-void transform_in_place(const Plan& plan, float* rows);
+extern void (&transform_in_place)(const Plan& plan, float* rows);
 /// x_i y_i for n complex numbers; the parts of x, or of the result, are exchanged if asked for.
-void multiply(const float* x, const float* y, float* out, std::size_t n, bool exchange_x, bool exchange_out);
+extern void (&multiply)(const float* x, const float* y, float* out, std::size_t n, bool exchange_x, bool exchange_out);
 
 }  // namespace hogel::math::fourier

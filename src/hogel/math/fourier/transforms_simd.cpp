@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiled for every SIMD target and dispatched at run time. The plain twin is plain.cpp.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/math/fourier/transforms_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include <algorithm>
 
 #include "hogel/array.h"
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/math/fourier/butterflies-inl.h"
 #include "hogel/math/fourier/passes-inl.h"
 #include "hogel/math/fourier/plan.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::math::fourier {
-namespace HWY_NAMESPACE {
+namespace hogel::math::fourier::HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
 bool HasVectors() { return false; }
@@ -281,40 +275,14 @@ void Multiply(const float* x, const float* y, float* out, std::size_t n, bool ex
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::math::fourier
+}  // namespace hogel::math::fourier::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::math::fourier {
-HWY_EXPORT(HasVectors);
-HWY_EXPORT(Columns);
-HWY_EXPORT(Lines);
-HWY_EXPORT(LongLine);
-HWY_EXPORT(Multiply);
-HWY_EXPORT(InPlace);
-
-bool has_vectors() { return HWY_DYNAMIC_DISPATCH(HasVectors)(); }
-
-void transform_columns(const Plan& plan, const Chirp* chirp, bool backward, const float* from, std::size_t from_row,
-                       float* to, std::size_t to_row, std::size_t columns, std::size_t length) {
-    HWY_DYNAMIC_DISPATCH(Columns)(plan, chirp, backward, from, from_row, to, to_row, columns, length);
-}
-
-void transform_lines(const Plan& plan, const Chirp* chirp, bool backward, float* lines, std::size_t stride,
-                     std::size_t count, std::size_t length) {
-    HWY_DYNAMIC_DISPATCH(Lines)(plan, chirp, backward, lines, stride, count, length);
-}
-
-void transform_split(const Split& split, bool backward, const float* from, float* to) {
-    HWY_DYNAMIC_DISPATCH(LongLine)(split, backward, from, to);
-}
-
-void transform_in_place(const Plan& plan, float* rows) { HWY_DYNAMIC_DISPATCH(InPlace)(plan, rows); }
-
-void multiply(const float* x, const float* y, float* out, std::size_t n, bool exchange_x, bool exchange_out) {
-    HWY_DYNAMIC_DISPATCH(Multiply)(x, y, out, n, exchange_x, exchange_out);
-}
-
+HOGEL_DISPATCH(has_vectors, HasVectors);
+HOGEL_DISPATCH(transform_columns, Columns);
+HOGEL_DISPATCH(transform_lines, Lines);
+HOGEL_DISPATCH(transform_split, LongLine);
+HOGEL_DISPATCH(transform_in_place, InPlace);
+HOGEL_DISPATCH(multiply, Multiply);
 }  // namespace hogel::math::fourier
-#endif

@@ -17,8 +17,7 @@ namespace hogel::optics::expected {
 /// @param out     aligned to a cache line
 void sum_powers_plain(const SpotBasis& basis, const SpotBasis::Weights& columns, const SpotBasis::Weights& rows,
                       const float* powers, float* out);
-void sum_powers(const SpotBasis& basis, const SpotBasis::Weights& columns, const SpotBasis::Weights& rows,
-                const float* powers, float* out);
+extern decltype(sum_powers_plain)& sum_powers;
 
 /// Arrays of the same shape in memory, `rows` of `length` numbers, with the distances from row to row.
 struct Lines {
@@ -43,6 +42,6 @@ inline float sum_products(const float* a, const float* b, std::size_t length) {
 /// out(i, x) = Σ_j weights(i, j) in(j, x), for all rows j of `in`. The rows of in and out have the same length, a
 /// multiple of SpotBasis::lanes.
 void multiply_plain(View<const float, 2> weights, View<const float, 2> in, View<float, 2> out);
-void multiply(View<const float, 2> weights, View<const float, 2> in, View<float, 2> out);
+extern decltype(multiply_plain)& multiply;
 
 }  // namespace hogel::optics::expected

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twins of kernels.cpp, compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/optics/expected/kernels_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include <algorithm>
 #include <vector>
 
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/core/with_count.h"
 #include "hogel/optics/expected/kernels.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::optics::expected {
-namespace HWY_NAMESPACE {
+namespace hogel::optics::expected::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using core::HWY_NAMESPACE::with_count;
 
@@ -113,25 +107,17 @@ void SumProducts(const Lines& lines, float* sums) {
     });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::optics::expected
+}  // namespace hogel::optics::expected::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace hogel::optics::expected {
 
-HWY_EXPORT(SumPowers);
 HWY_EXPORT(SumProducts);
-HWY_EXPORT(Multiply);
 
-void sum_powers(const SpotBasis& basis, const SpotBasis::Weights& columns, const SpotBasis::Weights& rows,
-                const float* powers, float* out) {
-    HWY_DYNAMIC_DISPATCH(SumPowers)(basis, columns, rows, powers, out);
-}
+HOGEL_DISPATCH(sum_powers, SumPowers);
 void sum_products(const Lines& lines, float* sums) { HWY_DYNAMIC_DISPATCH(SumProducts)(lines, sums); }
-void multiply(View<const float, 2> weights, View<const float, 2> in, View<float, 2> out) {
-    HWY_DYNAMIC_DISPATCH(Multiply)(weights, in, out);
-}
+HOGEL_DISPATCH(multiply, Multiply);
 
 }  // namespace hogel::optics::expected
 #endif

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twins of lanes.cpp, compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/optics/film/lanes_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include <algorithm>
 
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/math/packed_complex-inl.h"
 #include "hogel/math/transpose-inl.h"
 #include "hogel/optics/film/lanes.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::optics::film {
-namespace HWY_NAMESPACE {
+namespace hogel::optics::film::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using math::HWY_NAMESPACE::transpose_sixteen;
 #if HWY_TARGET != HWY_SCALAR
@@ -111,40 +105,14 @@ void TurnSixteen(const float* rows, std::size_t from_row, std::size_t to_row, fl
                       [&](std::size_t i) { return to + i * to_row; });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::optics::film
+}  // namespace hogel::optics::film::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::optics::film {
-
-HWY_EXPORT(TimesLens);
-HWY_EXPORT(PackRows);
-HWY_EXPORT(TurnRows);
-HWY_EXPORT(AddIntensities);
-HWY_EXPORT(SideBySide);
-HWY_EXPORT(TurnSixteen);
-
-void times_lens(const math::PackedComplex* wave, const float* lens, std::size_t rows, float* to) {
-    HWY_DYNAMIC_DISPATCH(TimesLens)(wave, lens, rows, to);
-}
-void pack_rows(const float* rows, std::span<const std::uint32_t> places, math::PackedComplex* to) {
-    HWY_DYNAMIC_DISPATCH(PackRows)(rows, places, to);
-}
-void turn_rows(const float* rows, std::span<const std::uint32_t> places, std::size_t lanes, float* to,
-               std::size_t block) {
-    HWY_DYNAMIC_DISPATCH(TurnRows)(rows, places, lanes, to, block);
-}
-void add_intensities(const float* rows, std::span<const std::uint32_t> places, const float* across,
-                     std::span<const float> down, float* out) {
-    HWY_DYNAMIC_DISPATCH(AddIntensities)(rows, places, across, down, out);
-}
-void side_by_side(const math::PackedComplex* squares, std::size_t count, float* to) {
-    HWY_DYNAMIC_DISPATCH(SideBySide)(squares, count, to);
-}
-void turn_sixteen(const float* rows, std::size_t from_row, std::size_t to_row, float* to) {
-    HWY_DYNAMIC_DISPATCH(TurnSixteen)(rows, from_row, to_row, to);
-}
-
+HOGEL_DISPATCH(times_lens, TimesLens);
+HOGEL_DISPATCH(pack_rows, PackRows);
+HOGEL_DISPATCH(turn_rows, TurnRows);
+HOGEL_DISPATCH(add_intensities, AddIntensities);
+HOGEL_DISPATCH(side_by_side, SideBySide);
+HOGEL_DISPATCH(turn_sixteen, TurnSixteen);
 }  // namespace hogel::optics::film
-#endif

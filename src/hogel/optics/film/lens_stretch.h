@@ -34,6 +34,6 @@ struct LensStretch {
 /// The lens, [column][part][row]. Plain and fast twins agree to 1e-4 of the weight.
 /// @param radius  of the pupil, metres
 void lens_stretch_plain(const LensStretch& stretch, const PupilEdge& edge, double radius, float* out);
-void lens_stretch(const LensStretch& stretch, const PupilEdge& edge, double radius, float* out);
+extern decltype(lens_stretch_plain)& lens_stretch;
 
 }  // namespace hogel::optics::film

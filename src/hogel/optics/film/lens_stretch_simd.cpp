@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twin of lens_stretch.cpp, compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/optics/film/lens_stretch_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include <cmath>
 
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/optics/film/lens_stretch.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::optics::film {
-namespace HWY_NAMESPACE {
+namespace hogel::optics::film::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using D = hn::CappedTag<float, lines_together>;
@@ -72,18 +66,9 @@ void LensStretchRows(const LensStretch& stretch, const PupilEdge& edge, double r
     }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::optics::film
+}  // namespace hogel::optics::film::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::optics::film {
-
-HWY_EXPORT(LensStretchRows);
-
-void lens_stretch(const LensStretch& stretch, const PupilEdge& edge, double radius, float* out) {
-    HWY_DYNAMIC_DISPATCH(LensStretchRows)(stretch, edge, radius, out);
-}
-
+HOGEL_DISPATCH(lens_stretch, LensStretchRows);
 }  // namespace hogel::optics::film
-#endif

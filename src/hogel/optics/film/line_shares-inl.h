@@ -13,8 +13,7 @@
 #include <cstddef>
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::optics::film {
-namespace HWY_NAMESPACE {
+namespace hogel::optics::film::HWY_NAMESPACE {
 
 // The shares of 2, 3 or 5 nodes in the weights of lines t.
 template <std::size_t nodes, class D, class V>
@@ -52,7 +51,6 @@ HWY_INLINE void with_nodes(std::size_t nodes, const Use& use) {
         use(std::integral_constant<std::size_t, 5>());
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::optics::film
+}  // namespace hogel::optics::film::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

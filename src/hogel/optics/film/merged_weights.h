@@ -41,13 +41,12 @@ class MergedWeights {
 /// tap are changed. Plain and fast twins agree to rounding.
 void add_weights_plain(std::span<const MergedWeights::Point> points, std::size_t node, std::size_t nodes,
                        std::size_t first, float* to);
-void add_weights(std::span<const MergedWeights::Point> points, std::size_t node, std::size_t nodes, std::size_t first,
-                 float* to);
+extern decltype(add_weights_plain)& add_weights;
 
 /// out[line] = the sum over the taps of weights(t[line]) · values[tap][line], of sixteen lines side by side.
 /// Plain and fast twins agree to rounding.
 /// @param values  the first sample of the lines, not that of the weights
 void sum_merged_plain(const float* values, const MergedWeights& weights, const float* t, float* out);
-void sum_merged(const float* values, const MergedWeights& weights, const float* t, float* out);
+extern decltype(sum_merged_plain)& sum_merged;
 
 }  // namespace hogel::optics::film

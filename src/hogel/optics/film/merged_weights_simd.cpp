@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twins of merged_weights.cpp, compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/optics/film/merged_weights_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include <algorithm>
 #include <array>
 
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/optics/film/interpolation.h"
 #include "hogel/optics/film/line_shares-inl.h"
 #include "hogel/optics/film/merged_weights.h"
 #include "hogel/optics/lines.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::optics::film {
-namespace HWY_NAMESPACE {
+namespace hogel::optics::film::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using D = hn::CappedTag<float, lines_together>;
@@ -77,24 +71,10 @@ void SumMerged(const float* values, const MergedWeights& weights, const float* t
     with_nodes(weights.nodes(), [&](auto nodes) HWY_ATTR { sum_taps<nodes()>(first, weights, t, out); });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::optics::film
+}  // namespace hogel::optics::film::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::optics::film {
-
-HWY_EXPORT(AddWeights);
-HWY_EXPORT(SumMerged);
-
-void add_weights(std::span<const MergedWeights::Point> points, std::size_t node, std::size_t nodes, std::size_t first,
-                 float* to) {
-    HWY_DYNAMIC_DISPATCH(AddWeights)(points, node, nodes, first, to);
-}
-
-void sum_merged(const float* values, const MergedWeights& weights, const float* t, float* out) {
-    HWY_DYNAMIC_DISPATCH(SumMerged)(values, weights, t, out);
-}
-
+HOGEL_DISPATCH(add_weights, AddWeights);
+HOGEL_DISPATCH(sum_merged, SumMerged);
 }  // namespace hogel::optics::film
-#endif

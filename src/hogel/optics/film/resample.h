@@ -35,7 +35,8 @@ struct TangentNodes {
     double squares[max], scales[max];
     alignas(64) float t[lines_together], chosen[lines_together];  ///< chosen: 1 for lines whose values are stored
 };
-void resample_nodes(const float* lines, std::size_t size, const TangentPlaces& places, const TangentNodes& nodes,
-                    const InterpolationTable& table, std::size_t count, float* out);
+extern void (&resample_nodes)(const float* lines, std::size_t size, const TangentPlaces& places,
+                              const TangentNodes& nodes, const InterpolationTable& table, std::size_t count,
+                              float* out);
 
 }  // namespace hogel::optics::film

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector step of resample.cpp, compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/optics/film/resample_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include <algorithm>
 #include <cstdint>
 
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/optics/film/line_shares-inl.h"
 #include "hogel/optics/film/resample.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::optics::film {
-namespace HWY_NAMESPACE {
+namespace hogel::optics::film::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using D = hn::CappedTag<float, lines_together>;
@@ -121,19 +115,9 @@ void ResampleNodes(const float* lines, std::size_t size, const TangentPlaces& pl
                [&](auto number) HWY_ATTR { resample<number()>(lines, size, places, nodes, table, count, out); });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::optics::film
+}  // namespace hogel::optics::film::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::optics::film {
-
-HWY_EXPORT(ResampleNodes);
-
-void resample_nodes(const float* lines, std::size_t size, const TangentPlaces& places, const TangentNodes& nodes,
-                    const InterpolationTable& table, std::size_t count, float* out) {
-    HWY_DYNAMIC_DISPATCH(ResampleNodes)(lines, size, places, nodes, table, count, out);
-}
-
+HOGEL_DISPATCH(resample_nodes, ResampleNodes);
 }  // namespace hogel::optics::film
-#endif

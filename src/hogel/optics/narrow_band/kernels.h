@@ -22,8 +22,7 @@ struct ColumnDecimation {
 };
 void decimated_columns_plain(const std::complex<float>* rows, const ColumnDecimation& how, std::complex<float>* out,
                              std::size_t out_stride, std::size_t count);
-void decimated_columns(const std::complex<float>* rows, const ColumnDecimation& how, std::complex<float>* out,
-                       std::size_t out_stride, std::size_t count);
+extern decltype(decimated_columns_plain)& decimated_columns;
 
 /// out[i] = e^{2πi (√(d² + square)/wavelength − off)}, d = first + i · pitch: the phase of the paths from the points of
 /// a line, in float precision.
@@ -31,17 +30,16 @@ struct PathPhases {
     double first = 0, pitch = 0, square = 0, wavelength = 1, off = 0;
 };
 void path_phases_plain(const PathPhases& paths, std::span<std::complex<float>> out);
-void path_phases(const PathPhases& paths, std::span<std::complex<float>> out);
+extern decltype(path_phases_plain)& path_phases;
 
 /// out[n] = Σ_k taps[2k] · line[n·step + k]: the low-pass along a line that keeps every step-th value. Each tap is
 /// stored twice, for the real and the imaginary part.
 void decimated_line_plain(const std::complex<float>* line, std::size_t step, std::span<const float> taps,
                           std::span<std::complex<float>> out);
-void decimated_line(const std::complex<float>* line, std::size_t step, std::span<const float> taps,
-                    std::span<std::complex<float>> out);
+extern decltype(decimated_line_plain)& decimated_line;
 
 /// out[x] = a[x] · b[x], for every x of `out`.
 void multiply_plain(const std::complex<float>* a, const std::complex<float>* b, std::span<std::complex<float>> out);
-void multiply(const std::complex<float>* a, const std::complex<float>* b, std::span<std::complex<float>> out);
+extern decltype(multiply_plain)& multiply;
 
 }  // namespace hogel::optics::narrow_band

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twins of kernels.cpp, compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/optics/narrow_band/kernels_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include <algorithm>
 #include <vector>
 
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/optics/narrow_band/kernels.h"
 #include "hogel/optics/unit_phasors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::optics::narrow_band {
-namespace HWY_NAMESPACE {
+namespace hogel::optics::narrow_band::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
@@ -174,35 +168,12 @@ void Multiply(const std::complex<float>* a, const std::complex<float>* b, std::s
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::optics::narrow_band
+}  // namespace hogel::optics::narrow_band::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::optics::narrow_band {
-
-HWY_EXPORT(DecimatedColumns);
-HWY_EXPORT(MakePathPhases);
-HWY_EXPORT(DecimatedLine);
-HWY_EXPORT(Multiply);
-
-void decimated_columns(const std::complex<float>* rows, const ColumnDecimation& how, std::complex<float>* out,
-                       std::size_t out_stride, std::size_t count) {
-    HWY_DYNAMIC_DISPATCH(DecimatedColumns)(rows, how, out, out_stride, count);
-}
-
-void path_phases(const PathPhases& paths, std::span<std::complex<float>> out) {
-    HWY_DYNAMIC_DISPATCH(MakePathPhases)(paths, out);
-}
-
-void decimated_line(const std::complex<float>* line, std::size_t step, std::span<const float> taps,
-                    std::span<std::complex<float>> out) {
-    HWY_DYNAMIC_DISPATCH(DecimatedLine)(line, step, taps, out);
-}
-
-void multiply(const std::complex<float>* a, const std::complex<float>* b, std::span<std::complex<float>> out) {
-    HWY_DYNAMIC_DISPATCH(Multiply)(a, b, out);
-}
-
+HOGEL_DISPATCH(decimated_columns, DecimatedColumns);
+HOGEL_DISPATCH(path_phases, MakePathPhases);
+HOGEL_DISPATCH(decimated_line, DecimatedLine);
+HOGEL_DISPATCH(multiply, Multiply);
 }  // namespace hogel::optics::narrow_band
-#endif

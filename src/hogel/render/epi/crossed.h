@@ -32,7 +32,7 @@ using CrossedByPlane = std::vector<std::vector<CrossedTriangles>>;
 /// that a plane crosses (set_up_spans) and draw_spans draws. About one in a thousand is a false positive, more where z
 /// ≈ z0. The twins give the same bits.
 void find_crossed_plain(const TriangleClusters& clusters, const RowPlanes& planes, CrossedByPlane& crossed);
-void find_crossed(const TriangleClusters& clusters, const RowPlanes& planes, CrossedByPlane& crossed);
+extern decltype(find_crossed_plain)& find_crossed;
 
 /// Whether a ray of these planes may meet a cluster's box.
 bool may_show(const ClusterBox& box, const RowPlanes& planes);

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twin of find_crossed_plain in crossed.cpp, compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/render/epi/crossed_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include <algorithm>
 #include <cstring>
 
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/render/epi/crossed.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::render::epi {
-namespace HWY_NAMESPACE {
+namespace hogel::render::epi::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using FloatTag = hn::CappedTag<float, cluster_size>;
@@ -116,18 +110,9 @@ void FindCrossed(const TriangleClusters& clusters, const RowPlanes& planes, Cros
     }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::render::epi
+}  // namespace hogel::render::epi::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::render::epi {
-
-HWY_EXPORT(FindCrossed);
-
-void find_crossed(const TriangleClusters& clusters, const RowPlanes& planes, CrossedByPlane& crossed) {
-    HWY_DYNAMIC_DISPATCH(FindCrossed)(clusters, planes, crossed);
-}
-
+HOGEL_DISPATCH(find_crossed, FindCrossed);
 }  // namespace hogel::render::epi
-#endif

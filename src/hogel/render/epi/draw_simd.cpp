@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twin of draw_spans_plain in kernels.cpp, compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/render/epi/draw_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include <algorithm>
 
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/render/epi/hits.h"
 #include "hogel/render/epi/kernels.h"
 #include "hogel/render/epi/span_bounds.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::render::epi {
-namespace HWY_NAMESPACE {
+namespace hogel::render::epi::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // `directions`: an order of directions in the lanes of a vector, such that interleaving writes the words of neighbours
@@ -235,18 +229,9 @@ void DrawSpans(std::span<const EpiSpan> spans, std::size_t first, const Epipolar
     hits.draw();
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::render::epi
+}  // namespace hogel::render::epi::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::render::epi {
-
-HWY_EXPORT(DrawSpans);
-
-void draw_spans(std::span<const EpiSpan> spans, std::size_t first, const EpipolarPlane& plane) {
-    HWY_DYNAMIC_DISPATCH(DrawSpans)(spans, first, plane);
-}
-
+HOGEL_DISPATCH(draw_spans, DrawSpans);
 }  // namespace hogel::render::epi
-#endif

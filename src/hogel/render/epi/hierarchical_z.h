@@ -47,8 +47,7 @@ struct BoxFootprint {
 /// @param columns  output, CellColumns::needed(plane.directions) elements
 FootprintBounds find_footprint_plain(const ClusterBox& box, const EpipolarPlane& plane, double shift, double z0,
                                      CellColumns* columns);
-FootprintBounds find_footprint(const ClusterBox& box, const EpipolarPlane& plane, double shift, double z0,
-                               CellColumns* columns);
+extern decltype(find_footprint_plain)& find_footprint;
 
 /// The footprints of all clusters' boxes. They are the same in all planes of a row of hogels, and each is computed when
 /// first needed.
@@ -85,7 +84,7 @@ class BoxFootprints {
 
 /// Whether all samples in every cell of a footprint are nearer than the box. The twins give the same.
 bool cells_occlude_plain(const EpipolarPlane& plane, const BoxFootprint& box);
-bool cells_occlude(const EpipolarPlane& plane, const BoxFootprint& box);
+extern decltype(cells_occlude_plain)& cells_occlude;
 
 /// The hierarchical z of an epipolar plane: cells with the farthest depth of their samples (DepthCells), behind which
 /// nothing has to be drawn.

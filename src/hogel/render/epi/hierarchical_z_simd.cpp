@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twins of find_max_depths_plain in kernels.cpp and of find_footprint_plain and cells_occlude_plain in
 // hierarchical_z.cpp, compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/render/epi/hierarchical_z_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
 
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/render/epi/hierarchical_z.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::render::epi {
-namespace HWY_NAMESPACE {
+namespace hogel::render::epi::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
@@ -162,27 +156,11 @@ bool CellsOcclude(const EpipolarPlane& plane, const BoxFootprint& box) {
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::render::epi
+}  // namespace hogel::render::epi::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::render::epi {
-
-HWY_EXPORT(FindMaxDepths);
-HWY_EXPORT(FindFootprint);
-HWY_EXPORT(CellsOcclude);
-
-void find_max_depths(const EpipolarPlane& plane) { HWY_DYNAMIC_DISPATCH(FindMaxDepths)(plane); }
-
-FootprintBounds find_footprint(const ClusterBox& box, const EpipolarPlane& plane, double shift, double z0,
-                               CellColumns* columns) {
-    return HWY_DYNAMIC_DISPATCH(FindFootprint)(box, plane, shift, z0, columns);
-}
-
-bool cells_occlude(const EpipolarPlane& plane, const BoxFootprint& box) {
-    return HWY_DYNAMIC_DISPATCH(CellsOcclude)(plane, box);
-}
-
+HOGEL_DISPATCH(find_max_depths, FindMaxDepths);
+HOGEL_DISPATCH(find_footprint, FindFootprint);
+HOGEL_DISPATCH(cells_occlude, CellsOcclude);
 }  // namespace hogel::render::epi
-#endif

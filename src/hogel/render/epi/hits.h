@@ -18,8 +18,7 @@
 #include "hogel/render/epi/lane_bits.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::render::epi {
-namespace HWY_NAMESPACE {
+namespace hogel::render::epi::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Vectors of at most one cell of directions.
@@ -171,7 +170,6 @@ class Candidates {
     std::uint32_t owners_[max_queued + 4 * max_vector];  // the span of each vector
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::render::epi
+}  // namespace hogel::render::epi::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

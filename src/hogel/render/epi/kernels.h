@@ -83,16 +83,16 @@ struct PlaneOutput {
 /// smaller number), the word becomes ordered_bits(z) · 2³² + i. The vector twin may skip samples that the plane's cells
 /// occlude.
 void draw_spans_plain(std::span<const EpiSpan> spans, std::size_t first, const EpipolarPlane& plane);
-void draw_spans(std::span<const EpiSpan> spans, std::size_t first, const EpipolarPlane& plane);
+extern decltype(draw_spans_plain)& draw_spans;
 
 /// Updates the cells of a plane to everything that has been drawn.
 void find_max_depths_plain(const EpipolarPlane& plane);
-void find_max_depths(const EpipolarPlane& plane);
+extern decltype(find_max_depths_plain)& find_max_depths;
 
 /// Writes the values of all samples of a plane, each interpolated between the ends of the span that it sees, and
 /// empties the plane.
 void shade_between_ends_plain(const EpipolarPlane& plane, std::span<const SpanValues> spans, const PlaneOutput& out);
-void shade_between_ends(const EpipolarPlane& plane, std::span<const SpanValues> spans, const PlaneOutput& out);
+extern decltype(shade_between_ends_plain)& shade_between_ends;
 
 /// The position on a span that column n sees in direction K, from 0 at end 0 to 1 at end 1.
 inline float position_on_span(const SpanValues& span, float n, float K) {

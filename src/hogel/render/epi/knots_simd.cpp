@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fills the knots of all visible spans of a plane from the radiance cache before the plane is shaded. Compiled for
 // every SIMD target and chosen when first called. The plain twin fills each knot when a sample needs it.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/render/epi/knots_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <limits>
 
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/render/epi/shaded_spans.h"
 #include "hogel/render/epi/shading_lanes.h"
 #include "hogel/render/sample_store.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::render::epi {
-namespace HWY_NAMESPACE {
+namespace hogel::render::epi::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
@@ -260,19 +254,9 @@ void FillVisibleKnots(std::span<const std::uint64_t> words, std::span<const Span
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::render::epi
+}  // namespace hogel::render::epi::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::render::epi {
-
-HWY_EXPORT(FillVisibleKnots);
-
-void fill_visible_knots(std::span<const std::uint64_t> words, std::span<const SpanValues> values, ShadedSpans& spans,
-                        const RadianceSource& source, bool colour) {
-    HWY_DYNAMIC_DISPATCH(FillVisibleKnots)(words, values, spans, source, colour);
-}
-
+HOGEL_DISPATCH(fill_visible_knots, FillVisibleKnots);
 }  // namespace hogel::render::epi
-#endif

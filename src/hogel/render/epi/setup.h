@@ -43,7 +43,6 @@ struct SpanOrigin {
 /// @param spans, values, origins  arrays of slots.size(); `origins` may be null
 void set_up_spans_plain(const TriangleClusters& clusters, std::span<const std::uint32_t> slots, const CutPlane& plane,
                         EpiSpan* spans, SpanValues* values, SpanOrigin* origins);
-void set_up_spans(const TriangleClusters& clusters, std::span<const std::uint32_t> slots, const CutPlane& plane,
-                  EpiSpan* spans, SpanValues* values, SpanOrigin* origins);
+extern decltype(set_up_spans_plain)& set_up_spans;
 
 }  // namespace hogel::render::epi

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twin of setup.cpp, one triangle per lane, compiled for every SIMD target and chosen when first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/render/epi/setup_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include <algorithm>
 #include <cstring>
 
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/render/epi/lane_bits.h"
 #include "hogel/render/epi/setup.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::render::epi {
-namespace HWY_NAMESPACE {
+namespace hogel::render::epi::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
@@ -206,19 +200,9 @@ void SetUpSpans(const TriangleClusters& clusters, std::span<const std::uint32_t>
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::render::epi
+}  // namespace hogel::render::epi::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::render::epi {
-
-HWY_EXPORT(SetUpSpans);
-
-void set_up_spans(const TriangleClusters& clusters, std::span<const std::uint32_t> slots, const CutPlane& plane,
-                  EpiSpan* spans, SpanValues* values, SpanOrigin* origins) {
-    HWY_DYNAMIC_DISPATCH(SetUpSpans)(clusters, slots, plane, spans, values, origins);
-}
-
+HOGEL_DISPATCH(set_up_spans, SetUpSpans);
 }  // namespace hogel::render::epi
-#endif

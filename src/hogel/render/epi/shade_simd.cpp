@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twin of shade_between_ends_plain in kernels.cpp, compiled for every SIMD target and chosen when first
 // called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/render/epi/shade_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include <bit>
 #include <cstddef>
 
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/render/epi/kernels.h"
 #include "hogel/render/epi/shading_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::render::epi {
-namespace HWY_NAMESPACE {
+namespace hogel::render::epi::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
@@ -160,18 +154,9 @@ void ShadeBetweenEnds(const EpipolarPlane& plane, std::span<const SpanValues> sp
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::render::epi
+}  // namespace hogel::render::epi::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::render::epi {
-
-HWY_EXPORT(ShadeBetweenEnds);
-
-void shade_between_ends(const EpipolarPlane& plane, std::span<const SpanValues> spans, const PlaneOutput& out) {
-    HWY_DYNAMIC_DISPATCH(ShadeBetweenEnds)(plane, spans, out);
-}
-
+HOGEL_DISPATCH(shade_between_ends, ShadeBetweenEnds);
 }  // namespace hogel::render::epi
-#endif

@@ -126,8 +126,8 @@ class ShadedSpans {
 
 /// Gives knots to all pending spans in these words. Knots are filled if the cache has all their points; others, and
 /// those of spans with very many knots, of which few may be visible, stay pending until a sample needs them.
-void fill_visible_knots(std::span<const std::uint64_t> words, std::span<const SpanValues> values, ShadedSpans& spans,
-                        const RadianceSource& source, bool colour);
+extern void (&fill_visible_knots)(std::span<const std::uint64_t> words, std::span<const SpanValues> values,
+                                  ShadedSpans& spans, const RadianceSource& source, bool colour);
 
 /// Fills the two knots around a position on span `number`, RadianceFrom::cache, if they are pending.
 void fill_knots_around(float position, std::size_t number, const SpanValues& values, ShadedSpans& spans,
@@ -137,7 +137,6 @@ void fill_knots_around(float position, std::size_t number, const SpanValues& val
 /// @param spans  as many as `values`
 void shade_between_knots_plain(const EpipolarPlane& plane, std::span<const SpanValues> values, ShadedSpans& spans,
                                const RadianceSource& source, const PlaneOutput& out);
-void shade_between_knots(const EpipolarPlane& plane, std::span<const SpanValues> values, ShadedSpans& spans,
-                         const RadianceSource& source, const PlaneOutput& out);
+extern decltype(shade_between_knots_plain)& shade_between_knots;
 
 }  // namespace hogel::render::epi

@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector twin of shade_between_knots_plain in shaded_spans.cpp, compiled for every SIMD target and chosen when
 // first called.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "hogel/render/epi/shaded_spans_simd.cpp"
-#include <hwy/foreach_target.h>
-// Must be included after foreach_target.h:
-#include <hwy/highway.h>
-
 #include <bit>
 #include <cmath>
 
+#include "hogel/core/simd_targets-inl.h"
 #include "hogel/render/epi/shaded_spans.h"
 #include "hogel/render/epi/shading_lanes.h"
 #include "hogel/render/sample_store.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::render::epi {
-namespace HWY_NAMESPACE {
+namespace hogel::render::epi::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
@@ -192,19 +186,9 @@ void ShadeBetweenKnots(const EpipolarPlane& plane, std::span<const SpanValues> v
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::render::epi
+}  // namespace hogel::render::epi::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
 namespace hogel::render::epi {
-
-HWY_EXPORT(ShadeBetweenKnots);
-
-void shade_between_knots(const EpipolarPlane& plane, std::span<const SpanValues> values, ShadedSpans& spans,
-                         const RadianceSource& source, const PlaneOutput& out) {
-    HWY_DYNAMIC_DISPATCH(ShadeBetweenKnots)(plane, values, spans, source, out);
-}
-
+HOGEL_DISPATCH(shade_between_knots, ShadeBetweenKnots);
 }  // namespace hogel::render::epi
-#endif

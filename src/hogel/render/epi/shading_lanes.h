@@ -18,8 +18,7 @@
 #include "hogel/render/epi/lane_bits.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::render::epi {
-namespace HWY_NAMESPACE {
+namespace hogel::render::epi::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // A vector of one lane cannot hold four values.
@@ -144,7 +143,6 @@ HWY_INLINE void shade_vectors(const EpipolarPlane& plane, const PlaneOutput& out
 }
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::render::epi
+}  // namespace hogel::render::epi::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

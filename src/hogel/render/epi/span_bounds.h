@@ -16,8 +16,7 @@
 #include "hogel/render/epi/hits.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace hogel::render::epi {
-namespace HWY_NAMESPACE {
+namespace hogel::render::epi::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Approximate costs in processor cycles: of a vector of directions or columns, of the candidates in it, of a queued
@@ -149,7 +148,6 @@ HWY_NOINLINE inline void bound_spans(const float* ends, const PlaneExtent& plane
     hn::Store(ordered_bits_of(min_depth), di, to.min_depth);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hogel::render::epi
+}  // namespace hogel::render::epi::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

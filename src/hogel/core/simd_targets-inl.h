@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compiles the source that includes this header once for every SIMD target: Highway includes the source again for each
+// of them, by the name HWY_TARGET_INCLUDE, which cmake/HogelModule.cmake defines for all *_simd.cpp. This header has no
+// guard, because each target reads it.
+#include <hwy/foreach_target.h>
+// Must be included after foreach_target.h:
+#include <hwy/highway.h>
+
+// HOGEL_DISPATCH(name, Target) defines the function reference `name`, which a header declares, so that each call goes
+// to Target of the SIMD target in use. Both have the same type. The macro belongs after HWY_AFTER_NAMESPACE(), in the
+// namespace of `name`:
+//     float sum_plain(const float* values, std::size_t count);    // in sum.h
+//     extern decltype(sum_plain)& sum;
+//     HOGEL_DISPATCH(sum, Sum);                                   // in sum_simd.cpp
+#undef HOGEL_DISPATCH
+#if HWY_ONCE
+#include <utility>
+
+namespace hogel::core {
+
+/// Calls the function to which Choose()() points.
+template <class Choose, class Result, class... Arguments>
+Result call_chosen(Arguments... arguments) {
+    Result (*const function)(Arguments...) = Choose()();
+    return function(std::forward<Arguments>(arguments)...);
+}
+
+}  // namespace hogel::core
+
+// NOLINTBEGIN(bugprone-macro-parentheses): a name is declared.
+#define HOGEL_DISPATCH(name, Target) \
+    HWY_EXPORT(Target);              \
+    constinit decltype(name) name = ::hogel::core::call_chosen<decltype([] { return &HWY_DYNAMIC_DISPATCH(Target); })>
+// NOLINTEND(bugprone-macro-parentheses)
+#else
+#define HOGEL_DISPATCH(name, Target) static_assert(true)
+#endif
