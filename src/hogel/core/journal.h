@@ -6,29 +6,28 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "hogel/core/checkpoint_file.h"
+
 namespace hogel::core {
 
-/// A record of long work that can be interrupted and resumed: which work it is, and which parts are done. It is a small
-/// text file. Every line but the first has a checksum, so that a damaged or truncated journal never lists a part that
-/// is not done.
+/// Which parts of a file of samples are written, in a CheckpointFile beside it. A part is listed only after its samples
+/// are on the disk.
 class Journal {
   public:
     /// Numbers that identify a part, such as the index of the output, its corner and its size.
     using Part = std::vector<std::uint64_t>;
 
-    /// Opens the journal at `path`, or creates it.
+    /// Opens or creates the journal. Throws as CheckpointFile does.
     /// @param work   lines that identify the work by its options and inputs
-    /// @param flush  writes the results of all parts so far to the disk; called before parts are recorded as done
-    ///               Throws Error(usage), with the first difference, if the journal belongs to other work;
-    ///               Error(bad_input) if it is not a journal; Error(cannot_write) if it cannot be opened or another
-    ///               process is writing to it.
-    Journal(const std::filesystem::path& path, std::vector<std::string> work, std::function<void()> flush);
+    /// @param flush  writes the samples of all parts so far to the disk; called before parts are recorded as done
+    Journal(const std::filesystem::path& path, const std::vector<std::string>& work, std::function<void()> flush);
     /// The records of another process, which has the journal and knows that the parts `before` were done.
-    /// @param send  sends it lines to append(), after `flush`
+    /// @param send  sends it records for take(), after `flush`
     Journal(std::set<Part> before, std::function<void()> flush, std::function<void(const std::string&)> send);
     /// Writes pending records to the disk.
     ~Journal();
@@ -47,27 +46,22 @@ class Journal {
     void note(const Part& part);
     /// Writes pending records to the disk now.
     void write();
-    /// Appends the lines of another process.
-    void take(const std::string& lines);
+    /// Appends the records of another process.
+    void take(const std::string& records);
     /// Removes the file, when the work is complete.
     void remove();
 
   private:
-    void read(const std::string& text);
-    void append(const std::string& text);
     void write_pending();
-    [[noreturn]] void fail(int error) const;
 
-    std::filesystem::path path_;
-    std::vector<std::string> work_;
+    std::optional<CheckpointFile> file_;  // none: another process has it
     std::function<void()> flush_;
     std::function<void(const std::string&)> send_;  // of records that another process keeps
-    int file_ = -1;
     bool begun_ = false;
     std::set<Part> before_;
     std::mutex mutex_;
-    std::string pending_;  // lines of parts that are done but not yet on the disk
-    std::chrono::steady_clock::time_point written_;
+    std::string pending_;  // records of parts that are done but not yet on the disk
+    std::chrono::steady_clock::time_point written_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace hogel::core

@@ -9,19 +9,17 @@
 #include <string_view>
 #include <vector>
 
+#include "hogel/core/checkpoint_file.h"
+
 namespace hogel::core {
 
-/// The results of loops that merge in order (shared_ordered()), in the order in which they were merged, in a file. Each
-/// record has a checksum; one that is damaged or incomplete ends the file, whose results from there on are computed
-/// again.
-///
-/// The file: a line `hogel results 1`, the lines of the work, each after `work `, a line `results`, and for each result
-/// the checksum of what follows, the number of the loop, its number of results, the number of the result and of its
-/// bytes (8 bytes each, of this machine), and the bytes.
+/// The results of loops that merge in order (shared_ordered()), in the order in which they were merged, in a file. The
+/// key of a result is the number of its loop, the loop's number of results, and its own number.
 class ResultLog {
   public:
-    /// Opens or creates the file. Without a path it keeps nothing: of a process that is not the first of a team.
-    ResultLog(const std::filesystem::path& path, const std::vector<std::string>& work);
+    /// Without a path it keeps nothing: of a process that is not the first of a team. Throws as CheckpointFile does.
+    ResultLog(const std::filesystem::path& path, const std::vector<std::string>& work) : file_(path, work) {}
+    /// The file stays if it holds results.
     ~ResultLog();
     ResultLog(const ResultLog&) = delete;
     ResultLog& operator=(const ResultLog&) = delete;
@@ -30,28 +28,15 @@ class ResultLog {
     /// @return how many results there were, the first ones of the loop
     std::size_t begin(std::size_t n, const std::function<void(std::size_t i, std::string_view bytes)>& take);
     /// Keeps the next result of the loop that was begun.
-    void keep(std::string_view bytes);
+    void keep(std::string bytes);
     /// Removes the file.
-    void remove();
+    void remove() { file_.remove(); }
 
   private:
-    struct Head {
-        std::uint64_t loop = 0, results = 0, result = 0, bytes = 0;
-    };
-    [[noreturn]] void fail(int error) const;
-    void read_work(const std::vector<std::string>& work);
-    bool read(void* to, std::size_t bytes);
-    bool read_record(Head& head, std::string& bytes);
-    void write(std::string_view bytes);
-    void forget_the_rest();
-
-    std::filesystem::path path_;
-    int file_ = -1;
-    std::uint64_t place_ = 0;  // of the next record
-    bool at_end_ = false;      // nothing kept is left to be taken
-    Head next_;                // of the result that is kept next
+    CheckpointFile file_;
     std::uint64_t loops_ = 0;
-    std::uint64_t results_ = 0;  // in the file
+    std::uint64_t results_ = 0;        // in the file
+    std::vector<std::uint64_t> next_;  // key of the result that is kept next
 };
 
 /// That of the ResumeScope which exists, or null.

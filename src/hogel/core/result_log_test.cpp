@@ -87,7 +87,7 @@ TEST_F(ResultLogs, take_nothing_from_a_damaged_record_on) {
     EXPECT_EQ(fs::file_size(file_), whole);
     {
         std::fstream bytes(file_, std::ios::in | std::ios::out | std::ios::binary);
-        bytes.seekp(-50 * 48 + 44, std::ios::end);  // in the bytes of the 50th result from the end
+        bytes.seekp(-50 * 56 + 52, std::ios::end);  // in the bytes of the 50th result from the end
         bytes.put('!');
     }
     EXPECT_EQ(squares(100).computed, 50u);
@@ -108,7 +108,7 @@ TEST_F(ResultLogs, of_other_work_are_refused) {
     });
     expect_error(ErrorCode::usage, "begun with 'option n 100'", [&] { ResumeScope(file_, {"squares"}); });
     std::ofstream(file_) << "something else";
-    expect_error(ErrorCode::bad_input, "does not hold results", [&] { ResumeScope(file_, work); });
+    expect_error(ErrorCode::bad_input, "no checkpoint of hogel", [&] { ResumeScope(file_, work); });
     EXPECT_TRUE(fs::exists(file_));
 }
 

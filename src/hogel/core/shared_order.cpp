@@ -175,7 +175,7 @@ void ordered_by_bytes(std::size_t n, std::size_t in_flight, const std::function<
     const auto rest = [&](std::size_t i) { return body(kept + i); };
     const auto merge_rest = [&](std::size_t i, std::string_view bytes) {
         merge(kept + i, bytes);
-        if (log != nullptr) log->keep(bytes);
+        if (log != nullptr) log->keep(std::string(bytes));
     };
     if (all != nullptr) return ordered_in_team(*all, n - kept, in_flight, rest, merge_rest);
     parallel_ordered<std::string>(n - kept, in_flight, rest,
