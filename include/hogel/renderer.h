@@ -24,6 +24,13 @@ class HOGEL_API Renderer : public LightFieldSource {
     virtual void set_scene(std::shared_ptr<const ShadedScene> scene) = 0;
 };
 
+/// What rendering a region of hogels at once takes.
+struct RenderCost {
+    double bytes = 0;             ///< beside the tile that receives the values, such as depth buffers
+    double bytes_a_triangle = 0;  ///< for each triangle of the scene; all regions that are in progress share them
+    double rays = 0;              ///< processor time beside that of its rays, in rays of `epi` and a small scene
+};
+
 /// A rendering algorithm.
 struct RendererInfo {
     std::string name;  ///< by which make_renderer() finds it
@@ -35,9 +42,10 @@ struct RendererInfo {
                                                     const LightFieldGrid& grid)>
         make;
     bool crosses_plane = true;  ///< can render scenes that are not wholly behind the hologram plane
-    /// Bytes of depth buffers for rendering a region of hogels at once, in addition to the tile that receives the
-    /// values; null if memory does not grow with the region.
-    std::function<double(const LightFieldGrid& grid, const HogelRange& region)> depth_buffer_bytes = nullptr;
+    double time_of_a_ray = 10;  ///< an estimate of the processor time, in that of a ray of `epi`
+    /// What a region takes; null: RenderCost().
+    std::function<RenderCost(const LightFieldGrid& grid, const HogelRange& region, std::size_t triangles)> cost =
+        nullptr;
     bool casts_rays = false;         ///< needs Embree; in a build without it make() throws Error(not_built_in)
     bool takes_frequencies = false;  ///< can render light fields whose directions are uniform in sines
     /// Can render light fields with a fixed focal plane, wherever the scene is. Other renderers are given the

@@ -138,8 +138,8 @@ RendererInfo info(const char* name, const char* text, bool strips) {
                     return std::make_unique<SimplexRenderer>(std::move(scene), grid, strips);
                 },
             .crosses_plane = false,
-            .depth_buffer_bytes = [](const LightFieldGrid& grid,
-                                     const HogelRange& region) { return buffer_bytes(simplex_buffer(grid, region)); }};
+            .cost = [](const LightFieldGrid& grid, const HogelRange& region,
+                       std::size_t) { return RenderCost{buffer_bytes(simplex_buffer(grid, region))}; }};
 }
 
 }  // namespace

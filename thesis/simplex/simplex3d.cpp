@@ -110,8 +110,8 @@ RendererInfo simplex3d_renderer() {
         .make = [](std::shared_ptr<const ShadedScene> scene,
                    const LightFieldGrid& grid) { return std::make_unique<Simplex3dRenderer>(std::move(scene), grid); },
         .crosses_plane = false,
-        .depth_buffer_bytes = [](const LightFieldGrid& grid,
-                                 const HogelRange& region) { return buffer_bytes(simplex3d_buffer(grid, region)); }};
+        .cost = [](const LightFieldGrid& grid, const HogelRange& region,
+                   std::size_t) { return RenderCost{buffer_bytes(simplex3d_buffer(grid, region))}; }};
 }
 
 }  // namespace hogel::simplex

@@ -309,6 +309,10 @@ class SimploidRenderer final : public Renderer, public CountsVisits {
     SlabTriangles triangles_;
 };
 
+// The copy of corners and radiance, and, for each region in work, the rows of those that the region may see
+// (TriangleBlock).
+constexpr double bytes_a_slab_triangle = 128, bytes_a_block_triangle = 28;
+
 }  // namespace
 
 RendererInfo simploid_renderer() {
@@ -317,9 +321,11 @@ RendererInfo simploid_renderer() {
         .text = "as simplex, but in slices of whole simploids, one row of directions after the other",
         .make = [](std::shared_ptr<const ShadedScene> scene,
                    const LightFieldGrid& grid) { return std::make_unique<SimploidRenderer>(std::move(scene), grid); },
-        .depth_buffer_bytes =
-            [](const LightFieldGrid& grid, const HogelRange& region) {
-                return buffer_bytes(simploid_buffer(RowAxes(grid), region));
+        .cost =
+            [](const LightFieldGrid& grid, const HogelRange& region, std::size_t triangles) {
+                const double rows = bytes_a_block_triangle * static_cast<double>(triangles);
+                return RenderCost{.bytes = buffer_bytes(simploid_buffer(RowAxes(grid), region)) + rows,
+                                  .bytes_a_triangle = bytes_a_slab_triangle};
             }};
 }
 

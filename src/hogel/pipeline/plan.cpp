@@ -19,9 +19,8 @@ namespace hogel {
 namespace {
 
 // Processor seconds, measured on two cores of an AMD EPYC (Zen 5) with g++ 12, 2026-11-22 (docs/performance.md).
-// Seconds per ray with epi: a constant, and an addition per million triangles; other renderers take about ten times as
-// long.
-constexpr double seconds_a_ray = 1.9e-9, seconds_a_ray_and_million_triangles = 2.0e-9, other_renderers = 10;
+// Seconds per ray with epi: a constant, and an addition per million triangles.
+constexpr double seconds_a_ray = 1.9e-9, seconds_a_ray_and_million_triangles = 2.0e-9;
 // Seconds per sample to compress a light field with the coder hogel to 40 dB, including the search for the step: 126e-9
 // for the pumpkin and 251e-9 for the church, at 48 x 48 directions. Other coders were not measured.
 constexpr double seconds_a_coded_sample = 190e-9;
@@ -32,35 +31,27 @@ constexpr double seconds_a_propagation_operation = 0.35e-9;
 // colours; of 200 x 200 hogels and pictures of 16 x 16 to 800 x 800 pixels, by one thread of an EPYC (Zen 5) with
 // nothing else on it. Bytes per point of the pupil.
 constexpr double seconds_a_seen_hogel = 13e-9, seconds_a_seen_pixel = 2.7e-9, bytes_a_lens_point = 32;
-// Seconds per triangle for each parallel projection of the renderer oblique, which draws one for each direction of each
-// region however few hogels it has.
-constexpr double seconds_a_projected_triangle = 40e-9;
-
-// Bytes per triangle of the renderer simploid: its copy of corners and radiance, and, for each region in work, the rows
-// of those that the region may see (TriangleBlock).
-constexpr double bytes_a_slab_triangle = 128, bytes_a_block_triangle = 28;
-
 // Seconds per ray that gathers reflected light (440e-9 for the pumpkin, 490e-9 for the church), and bytes per triangle
 // of the result, while it is computed and in a file.
 constexpr double seconds_a_gathered_ray = 450e-9, bytes_a_baked_triangle = 310, file_bytes_a_baked_triangle = 31;
 
-// Bytes for one region of a renderer: its values, its depth buffer and, with several samples per ray, a block of the
+// What a region of a face takes: its values, what the renderer needs and, with several samples per ray, a block of the
 // finer light field.
-double region_bytes(const LightFieldSource& face, const LightFieldRequest& request, std::size_t values) {
-    const LightFieldGrid& grid = face.grid();
-    const HogelRange region = face.preferred_tile();
-    const double tile =
-        static_cast<double>(values * grid.directions()) * static_cast<double>(region.hogels()) * sizeof(float);
-    const RendererInfo& renderer = renderers().find(request.renderer);
-    const auto buffer_bytes = [&](const LightFieldGrid& rendered, const HogelRange& hogels) {
-        const double bytes = renderer.depth_buffer_bytes ? renderer.depth_buffer_bytes(rendered, hogels) : 0.0;
-        return request.interpolate > 0 ? 2 * bytes : bytes;  // colours beside depths
+RenderCost cost_of_region(const LightFieldSource& face, const LightFieldRequest& request, std::size_t values,
+                          std::size_t triangles) {
+    const auto tile_bytes = [&](const LightFieldGrid& grid, const HogelRange& region) {
+        return static_cast<double>(values * grid.directions()) * static_cast<double>(region.hogels()) * sizeof(float);
     };
-    if (request.samples.count() == 1) return tile + buffer_bytes(grid, region);
-    const LightFieldGrid fine = finer(grid, request.samples);
-    const HogelRange part{0, 0, request.samples.hogel * region.ns, request.samples.hogel * region.nt};
-    return tile + buffer_bytes(fine, part) +
-           static_cast<double>(values * fine.directions()) * static_cast<double>(part.hogels()) * sizeof(float);
+    const HogelRange region = face.preferred_tile();
+    const bool finely = request.samples.count() > 1;
+    const LightFieldGrid grid = finely ? finer(face.grid(), request.samples) : face.grid();
+    const HogelRange part =
+        finely ? HogelRange{0, 0, request.samples.hogel * region.ns, request.samples.hogel * region.nt} : region;
+    const RendererInfo& renderer = renderers().find(request.renderer);
+    RenderCost cost = renderer.cost ? renderer.cost(grid, part, triangles) : RenderCost();
+    if (request.interpolate > 0) cost.bytes *= 2;  // colours beside depths
+    cost.bytes += tile_bytes(face.grid(), region) + (finely ? tile_bytes(grid, part) : 0);
+    return cost;
 }
 
 // Whether a model of shading computes light where rays hit. How long that takes depends on lamps, textures and how many
@@ -78,23 +69,17 @@ Plan plan_light_field(const LightField& rendered, const LightFieldRequest& reque
         const HogelRange region = face->preferred_tile();
         const std::size_t regions =
             ((grid.hogels_s + region.ns - 1) / region.ns) * ((grid.hogels_t + region.nt - 1) / region.nt);
-        const auto at_once = static_cast<double>(std::min(thread_count(), regions));
-        plan.memory = std::max(plan.memory, at_once * region_bytes(*face, request, values));
-        if (request.renderer == "simploid") {
-            const auto count = static_cast<double>(triangles);
-            plan.memory = std::max(plan.memory,
-                                   at_once * (region_bytes(*face, request, values) + count * bytes_a_block_triangle) +
-                                       count * bytes_a_slab_triangle);
-        }
+        const auto at_once = static_cast<double>(std::min(thread_count(), regions)),
+                   count = static_cast<double>(triangles);
+        const RenderCost cost = cost_of_region(*face, request, values, triangles);
+        plan.memory = std::max(plan.memory, at_once * cost.bytes + count * cost.bytes_a_triangle);
         const double rays = static_cast<double>(grid.directions()) * static_cast<double>(grid.hogels());
         const std::size_t sample = file.type == SampleType::half ? 2 : 4;
         plan.disk += rays * static_cast<double>(grid.channels * sample + (file.with_depth ? sizeof(float) : 0));
-        const double each = seconds_a_ray + seconds_a_ray_and_million_triangles * 1e-6 * static_cast<double>(triangles);
+        const double each = seconds_a_ray + seconds_a_ray_and_million_triangles * 1e-6 * count;
         plan.seconds += on_all_threads(rays * static_cast<double>(request.samples.count()) * each *
-                                       (request.renderer == defaults.renderer ? 1 : other_renderers));
-        if (request.renderer == "oblique")
-            plan.seconds += static_cast<double>(grid.directions()) * static_cast<double>(request.samples.count()) *
-                            static_cast<double>(regions * triangles) * seconds_a_projected_triangle / at_once;
+                                       renderers().find(request.renderer).time_of_a_ray) +
+                        cost.rays * static_cast<double>(regions) * seconds_a_ray / at_once;
     }
     if (is_shaded_at_samples(request.shading.model)) plan.seconds = 0;
     return plan;

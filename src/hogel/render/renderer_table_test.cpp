@@ -24,20 +24,23 @@ LightFieldGrid grid_of(Face face) {
 TEST(RendererTable, depth_buffers_take_8_or_32_bytes_a_ray) {
     const LightFieldGrid grid = grid_of(Face::front);
     const HogelRange region{7, 3, 20, 10};
-    EXPECT_EQ(renderers().find("simplex").depth_buffer_bytes(grid, region), 8.0 * 20 * 10 * 16 * 6);
-    EXPECT_EQ(renderers().find("simploid").depth_buffer_bytes(grid, region), 8.0 * 20 * 10 * 16);
-    EXPECT_EQ(renderers().find("simploid").depth_buffer_bytes(grid_of(Face::left), region), 8.0 * 20 * 10 * 6);
-    EXPECT_EQ(renderers().find("simplex3d").depth_buffer_bytes(grid, region), 8.0 * 20 * 16 * 6);
-    EXPECT_EQ(renderers().find("oblique").depth_buffer_bytes(grid, region), 8.0 * 20 * 10);
-    EXPECT_EQ(renderers().find("zbuffer").depth_buffer_bytes(grid, region), 32.0 * 16 * 6);
-    for (const char* name : {"raytrace", "mvr", "epi"}) EXPECT_FALSE(renderers().find(name).depth_buffer_bytes) << name;
+    const auto bytes = [](const char* name, const LightFieldGrid& of, const HogelRange& hogels) {
+        return renderers().find(name).cost(of, hogels, 0).bytes;
+    };
+    EXPECT_EQ(bytes("simplex", grid, region), 8.0 * 20 * 10 * 16 * 6);
+    EXPECT_EQ(bytes("simploid", grid, region), 8.0 * 20 * 10 * 16);
+    EXPECT_EQ(bytes("simploid", grid_of(Face::left), region), 8.0 * 20 * 10 * 6);
+    EXPECT_EQ(bytes("simplex3d", grid, region), 8.0 * 20 * 16 * 6);
+    EXPECT_EQ(bytes("oblique", grid, region), 8.0 * 20 * 10);
+    EXPECT_EQ(bytes("zbuffer", grid, region), 32.0 * 16 * 6);
+    for (const char* name : {"raytrace", "mvr", "epi"}) EXPECT_FALSE(renderers().find(name).cost) << name;
 }
 
 TEST(RendererTable, depth_buffers_larger_than_any_memory_have_a_size) {
     LightFieldGrid grid = grid_of(Face::front);
     grid.hogels_s = grid.hogels_t = 1 << 20;
     grid.directions_u = grid.directions_v = 1 << 14;
-    EXPECT_EQ(renderers().find("simplex").depth_buffer_bytes(grid, {0, 0, 1 << 20, 1 << 20}), 0x1p71);
+    EXPECT_EQ(renderers().find("simplex").cost(grid, {0, 0, 1 << 20, 1 << 20}, 0).bytes, 0x1p71);
 }
 
 // The code and the message of the error when making a renderer.

@@ -109,6 +109,9 @@ class ObliqueRenderer final : public Renderer, public CountsVisits {
     std::vector<std::uint32_t> triangles_;
 };
 
+// What drawing a triangle takes, in rays of `epi`: 40 ns (docs/performance.md).
+constexpr double rays_a_drawn_triangle = 21;
+
 }  // namespace
 
 RendererInfo oblique_renderer() {
@@ -117,8 +120,12 @@ RendererInfo oblique_renderer() {
         .text = "for each direction a parallel projection over all hogels of a tile",
         .make = [](std::shared_ptr<const ShadedScene> scene,
                    const LightFieldGrid& grid) { return std::make_unique<ObliqueRenderer>(std::move(scene), grid); },
-        .depth_buffer_bytes = [](const LightFieldGrid&,
-                                 const HogelRange& region) { return buffer_bytes(oblique_buffer(region)); },
+        .cost =
+            [](const LightFieldGrid& grid, const HogelRange& region, std::size_t triangles) {
+                // Each direction draws all triangles, however few hogels there are.
+                const double drawn = static_cast<double>(grid.directions()) * static_cast<double>(triangles);
+                return RenderCost{.bytes = buffer_bytes(oblique_buffer(region)), .rays = rays_a_drawn_triangle * drawn};
+            },
         .takes_frequencies = true};
 }
 

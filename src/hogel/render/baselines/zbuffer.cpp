@@ -223,10 +223,8 @@ RendererInfo zbuffer_renderer() {
         .text = "an ordinary depth buffer for each hogel in turn",
         .make = [](std::shared_ptr<const ShadedScene> scene,
                    const LightFieldGrid& grid) { return std::make_unique<ZbufferRenderer>(std::move(scene), grid); },
-        .depth_buffer_bytes =
-            [](const LightFieldGrid& grid, const HogelRange&) {
-                return static_cast<double>(sizeof(VisiblePoint)) * static_cast<double>(grid.directions());
-            },
+        .cost = [](const LightFieldGrid& grid, const HogelRange&,
+                   std::size_t) { return RenderCost{sizeof(VisiblePoint) * static_cast<double>(grid.directions())}; },
         .takes_frequencies = true,
         .takes_focal_plane = true};
 }

@@ -119,9 +119,9 @@ class EpiRenderer final : public LightFieldSource {
 RendererInfo epi_renderer() {
     return {.name = "epi",
             .text = "epipolar planes: each triangle is set up once for a whole row of hogels",
-            .make = [](std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid) {
-                return std::make_unique<EpiRenderer>(std::move(scene), grid);
-            }};
+            .make = [](std::shared_ptr<const ShadedScene> scene,
+                       const LightFieldGrid& grid) { return std::make_unique<EpiRenderer>(std::move(scene), grid); },
+            .time_of_a_ray = 1};
 }
 
 }  // namespace hogel::render::epi
