@@ -28,6 +28,8 @@ FORBIDDEN_IN = {  # folder -> folders that it may not include
     "render/epi": ("render/baselines",),
     "render/baselines": ("render/epi",),
     "thesis/simplex": ("render/epi", "render/baselines"),
+    "optics/film": ("optics/distributed",), "optics/expected": ("optics/distributed",), "optics/focus": ("optics/distributed",),
+    "optics/narrow_band": ("optics/distributed",),
     "io/hdf5": ("io/arrays",), "io/arrays": ("io/hdf5",),
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')

@@ -10,7 +10,7 @@
 
 #include "hogel/core/pieces.h"
 #include "hogel/core/shared_order.h"
-#include "hogel/core/shared_plane.h"
+#include "hogel/optics/distributed/shared_plane.h"
 #include "mpi/test_ranks.h"
 
 namespace hogel::mpi {
@@ -130,23 +130,23 @@ TEST_P(SharedWorkTest, PlanesTurn) {
     for (const auto& [rows, later_rows, columns] :
          {std::array<std::size_t, 3>{100, 60, 75}, {33, 90, 16}, {5, 2, 3}, {900, 1100, 1200}})
         run_ranks(GetParam(), [&, rows = rows, later_rows = later_rows, columns = columns](RankTeam& team) {
-            core::SharedPlane plane(std::max(rows, later_rows), columns, 6, 16, ScratchOptions(), &team);
+            optics::distributed::SharedPlane plane(std::max(rows, later_rows), columns, 6, 16, ScratchOptions(), &team);
             plane.begin_rows(rows);
-            const core::LineRange own = plane.own_rows(rows);
+            const optics::distributed::LineRange own = plane.own_rows(rows);
             std::vector<std::complex<float>> row(columns);
             for (std::size_t y = own.first; y < own.end(); ++y) {
                 for (std::size_t x = 0; x < columns; ++x) row[x] = value(y, x);
                 plane.put_row(y, row.data());
             }
             plane.to_columns(rows);
-            const core::LineRange across = plane.own_columns();
-            const core::OwnColumns later_places = plane.in_columns(later_rows);
+            const optics::distributed::LineRange across = plane.own_columns();
+            const optics::distributed::OwnColumns later_places = plane.in_columns(later_rows);
             for (std::size_t x = across.first; x < across.end(); ++x) {
                 for (std::size_t y = 0; y < rows; ++y) ASSERT_EQ(plane.at(y, x), value(y, x));
                 for (std::size_t y = 0; y < later_rows; ++y) later_places(y, x) = 2.0F * value(y, x);
             }
             plane.to_rows(later_rows);
-            const core::LineRange later = plane.own_rows(later_rows);
+            const optics::distributed::LineRange later = plane.own_rows(later_rows);
             for (std::size_t y = later.first; y < later.end(); ++y) {
                 plane.get_row(y, row.data());
                 for (std::size_t x = 0; x < columns; ++x) ASSERT_EQ(row[x], 2.0F * value(y, x));
@@ -160,12 +160,13 @@ TEST_P(SharedWorkTest, RowsGoToAllThatWantThem) {
     constexpr std::size_t rows = 900, columns = 1500;
     run_ranks(GetParam(), [&](RankTeam& team) {
         const auto wanted = [&](std::size_t process) {
-            const core::LineRange own = core::lines_of(process, team.size(), rows, 4);
-            return core::common_lines({own.first - std::min<std::size_t>(own.first, 50), own.count + 100}, {0, rows});
+            const optics::distributed::LineRange own = optics::distributed::lines_of(process, team.size(), rows, 4);
+            return optics::distributed::common_lines(
+                {own.first - std::min<std::size_t>(own.first, 50), own.count + 100}, {0, rows});
         };
-        const core::LineRange mine = wanted(team.rank());
+        const optics::distributed::LineRange mine = wanted(team.rank());
         std::vector<std::complex<float>> got(mine.count * columns);
-        core::send_rows(
+        optics::distributed::send_rows(
             team, {rows, columns}, 16, wanted,
             [&](std::size_t y, std::complex<float>* row) {
                 for (std::size_t x = 0; x < columns; ++x) row[x] = value(y, x);
@@ -195,7 +196,8 @@ TEST(SharedPlane, LinesAreDividedEvenlyInGroups) {
             for (const std::size_t together : {1, 10, 16}) {
                 std::size_t next = 0, most = 0;
                 for (std::size_t process = 0; process < processes; ++process) {
-                    const core::LineRange own = core::lines_of(process, processes, lines, together);
+                    const optics::distributed::LineRange own =
+                        optics::distributed::lines_of(process, processes, lines, together);
                     EXPECT_EQ(own.first, next);
                     EXPECT_EQ(own.first % together == 0 || own.count == 0, true);
                     most = std::max(most, own.count);

@@ -182,13 +182,4 @@ void ordered_by_bytes(std::size_t n, std::size_t in_flight, const std::function<
                                   [&](std::size_t i, const std::string& bytes) { merge_rest(i, bytes); });
 }
 
-std::vector<std::string> all_of(Team& team, const std::string& own) {
-    for (std::size_t other = 0; other < team.size(); ++other)
-        if (other != team.rank()) team.send_to(other, own);
-    std::vector<std::string> all;
-    for (std::size_t other = 0; other < team.size(); ++other)
-        all.push_back(other == team.rank() ? own : team.receive_from(other));
-    return all;
-}
-
 }  // namespace hogel::core

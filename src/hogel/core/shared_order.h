@@ -163,7 +163,4 @@ void share_result(Result& result, const Sent<Result>& sent) {
     if (!all->is_first()) result = sent.read(reader);
 }
 
-/// What all processes have given, in the order of their numbers, in each of them.
-std::vector<std::string> all_of(Team& team, const std::string& own);
-
 }  // namespace hogel::core

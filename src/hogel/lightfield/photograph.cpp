@@ -8,7 +8,6 @@
 
 #include "hogel/core/pieces.h"
 #include "hogel/core/shared_order.h"
-#include "hogel/core/shared_plane.h"
 #include "hogel/lightfield/exposure.h"
 #include "hogel/lightfield/ray_blocks.h"
 
@@ -39,13 +38,18 @@ void expose(std::span<const LightField::Source> faces, std::span<const FaceBlock
         });
 }
 
+struct CameraRange {
+    std::size_t first = 0, count = 0;
+};
+
 // Groups of the cameras, each of which one process photographs: one for each process of a team, because all cameras of
 // a group share the reading of hogels; but one where pictures are kept, for any number of processes.
-std::vector<core::LineRange> groups_of(std::size_t cameras) {
+std::vector<CameraRange> groups_of(std::size_t cameras) {
     const Team* const all = core::team_of_several();
     const std::size_t groups = all == nullptr || core::result_log() != nullptr ? 1 : std::min(all->size(), cameras);
-    std::vector<core::LineRange> list;
-    for (std::size_t i = 0; i < groups; ++i) list.push_back(core::lines_of(i, groups, cameras, 1));
+    std::vector<CameraRange> list;
+    for (std::size_t i = 0; i < groups; ++i)
+        list.push_back({i * cameras / groups, (i + 1) * cameras / groups - i * cameras / groups});
     return list;
 }
 
@@ -70,7 +74,7 @@ void photograph_into(const LightField& light_field, std::span<const Camera> came
     for (std::size_t face = 0; face < faces.size(); ++face)
         for (const Block& block : lightfield::blocks(grids[face])) list.push_back({face, block});
     const std::size_t lens_points = std::max<std::size_t>(options.pupil_samples, 1);
-    const std::vector<core::LineRange> groups = groups_of(cameras.size());
+    const std::vector<CameraRange> groups = groups_of(cameras.size());
     core::shared_jobs<std::vector<Image>>(
         groups.size(), image::sent_pictures(),
         [&](std::size_t i) {

@@ -117,13 +117,13 @@ Spectrum wave_at_lens(const Chain& chain, std::span<const Camera> cameras, const
 }
 
 // The rows of a picture that a process of a team makes. Of a plane that is tilted the first one has all.
-core::LineRange rows_of(std::size_t process, const Camera& camera, const Team* team) {
+distributed::LineRange rows_of(std::size_t process, const Camera& camera, const Team* team) {
     if (team == nullptr) return {0, camera.picture.height};
     if (is_tilted(camera)) return {0, process == 0 ? camera.picture.height : 0};
-    return core::lines_of(process, team->size(), camera.picture.height, 1);
+    return distributed::lines_of(process, team->size(), camera.picture.height, 1);
 }
 
-core::LineRange own_rows(const Camera& camera, const Team* team) {
+distributed::LineRange own_rows(const Camera& camera, const Team* team) {
     return rows_of(team != nullptr ? team->rank() : 0, camera, team);
 }
 
@@ -181,8 +181,8 @@ Wave on_tilted_plane(const Spectrum& waves, const Camera& camera, const Rectangl
 }
 
 // The rows of a film, which is parallel to the hologram, that some rows of a picture show, with those around.
-core::LineRange film_rows(const Grid& plane, double scale, Vec3 origin, const Camera& camera,
-                          const core::LineRange& picture) {
+distributed::LineRange film_rows(const Grid& plane, double scale, Vec3 origin, const Camera& camera,
+                                 const distributed::LineRange& picture) {
     if (picture.count == 0) return {};
     constexpr double around = 8;
     const auto row = [&](double of_picture) {
@@ -279,7 +279,7 @@ std::optional<Focused> wave_in_focus(const Spectrum& at_lens, const Camera& came
 }
 
 // Adds rows of the picture, as radiance: see docs/notation.md, section 4.
-void expose(const Focused& focused, const Camera& camera, const core::LineRange& rows, const Rectangle& shown,
+void expose(const Focused& focused, const Camera& camera, const distributed::LineRange& rows, const Rectangle& shown,
             double weight, Image& image) {
     const Grid& picture = camera.picture;
     const Grid& plane = focused.wave.grid().plane;
@@ -321,8 +321,8 @@ std::complex<float> phasor(double cycles) {
 }
 
 // The wave at the points in focus that the pixels' centres show, of rows of the picture, see waves_in_focus().
-Array<std::complex<float>, 2> wave_at_pixels(const Focused& focused, const Camera& camera, const core::LineRange& rows,
-                                             const Rectangle& shown) {
+Array<std::complex<float>, 2> wave_at_pixels(const Focused& focused, const Camera& camera,
+                                             const distributed::LineRange& rows, const Rectangle& shown) {
     const Grid& picture = camera.picture;
     const Wave& wave = focused.wave;
     const Grid& plane = wave.grid().plane;
@@ -372,7 +372,8 @@ void require_photographable(const FieldSource& hologram, std::span<const Camera>
 // Gives all processes of a team the rows of a picture that each has made.
 template <class Value>
 void share_rows(Team& team, const Camera& camera, Value* picture, std::size_t width) {
-    core::share_lines(team, picture, width, [&](std::size_t process) { return rows_of(process, camera, &team); });
+    distributed::share_lines(team, picture, width,
+                             [&](std::size_t process) { return rows_of(process, camera, &team); });
 }
 
 // Calls visit(i, wave) with the wave that makes each camera's picture.

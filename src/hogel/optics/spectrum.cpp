@@ -60,7 +60,7 @@ Wave::Wave(const FieldGrid& grid, const ScratchOptions& scratch) : grid_(grid) {
     rows = {0, grid.plane.height};
 }
 
-Wave::Wave(const FieldGrid& grid, core::PagedArray samples_of_rows, const core::LineRange& own)
+Wave::Wave(const FieldGrid& grid, core::PagedArray samples_of_rows, const distributed::LineRange& own)
     : samples(std::move(samples_of_rows)), rows(own), grid_(grid) {}
 
 void Wave::read(const Region& region, std::size_t look, View<Complex, 2> out) const {
@@ -107,7 +107,7 @@ Spectrum empty_spectrum(const Grid& window, double wavelength, const Band& band,
                         const ScratchOptions& scratch) {
     Shape<2> shape{};
     Spectrum result = frame_of(window, wavelength, band, carrier_x, carrier_y, shape);
-    result.samples = core::SharedPlane(shape[0], shape[1], 1, 1, scratch, nullptr);
+    result.samples = distributed::SharedPlane(shape[0], shape[1], 1, 1, scratch, nullptr);
     core::parallel_for(shape[0],
                        [&](std::size_t row) { std::fill_n(&result.samples.at(row, 0), shape[1], Complex(0)); });
     return result;
@@ -133,11 +133,11 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
 
     // Transforms the rows and keeps the band's columns.
     const std::size_t together = source.alignment() * std::max<std::size_t>(lines_together / source.alignment(), 1);
-    result.samples =
-        core::SharedPlane(std::max(plane.height, rows), columns, together, columns_of_waves_together, scratch, team);
-    core::SharedPlane& kept = result.samples;
+    result.samples = distributed::SharedPlane(std::max(plane.height, rows), columns, together,
+                                              columns_of_waves_together, scratch, team);
+    distributed::SharedPlane& kept = result.samples;
     kept.begin_rows(plane.height);
-    const core::LineRange own = kept.own_rows(plane.height), across = kept.own_columns();
+    const distributed::LineRange own = kept.own_rows(plane.height), across = kept.own_columns();
     const math::Fft1 along(window.width), down(window.height);
     const std::vector<Complex> centre_x =
         centring(first_column, columns, window.width, -1, window.pitch_x * window.pitch_y);
@@ -164,7 +164,7 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
     // Transforms the columns and keeps the band's rows.
     kept.to_columns(plane.height);
     const std::vector<Complex> centre_y = centring(first_row, rows, window.height, -1, 1);
-    const core::OwnColumns before = kept.in_columns(plane.height), after = kept.in_columns(rows);
+    const distributed::OwnColumns before = kept.in_columns(plane.height), after = kept.in_columns(rows);
     core::parallel_for(blocks_of(across.count), [&](std::size_t block) {
         const std::size_t x0 = across.first + block * lines_together,
                           width = std::min(lines_together, across.end() - x0);
@@ -224,7 +224,7 @@ class ToWave {
     std::size_t columns() const { return columns_; }
 
     // The wave without samples, of which a process will have some rows.
-    Wave frame(const core::LineRange& rows) const {
+    Wave frame(const distributed::LineRange& rows) const {
         Wave wave({grid_of(spectrum_, width_, height_), spectrum_.wavelength}, core::PagedArray(), rows);
         wave.carrier_x = spectrum_.frequency_x(static_cast<double>(columns_ / 2));
         wave.carrier_y = spectrum_.frequency_y(static_cast<double>(centre_y_.size() / 2));
@@ -234,7 +234,7 @@ class ToWave {
     // Transforms some columns.
     // @param place  where the numbers of a row go from a column on
     template <class Place>
-    void along_columns(const core::LineRange& across, const Place& place) const {
+    void along_columns(const distributed::LineRange& across, const Place& place) const {
         const math::Fft1 down(height_);
         core::parallel_for(blocks_of(across.count), [&](std::size_t block) {
             const std::size_t x0 = across.first + block * lines_together,
@@ -255,8 +255,8 @@ class ToWave {
     }
 
     // Transforms the columns with those of the other processes of a team, and gives each of them some rows.
-    core::SharedPlane to_rows(const ScratchOptions& scratch, Team* team) const {
-        core::SharedPlane plane(height_, columns_, lines_together, columns_of_waves_together, scratch, team);
+    distributed::SharedPlane to_rows(const ScratchOptions& scratch, Team* team) const {
+        distributed::SharedPlane plane(height_, columns_, lines_together, columns_of_waves_together, scratch, team);
         along_columns(plane.own_columns(), [&](std::size_t y, std::size_t x) { return &plane.at(y, x); });
         plane.to_rows(height_);
         return plane;
@@ -265,7 +265,7 @@ class ToWave {
     // Transforms some rows, in place.
     // @param row  the place of a row, which begins with what along_columns() has made of it
     template <class Row>
-    void along_rows(const core::LineRange& rows, const Row& row) const {
+    void along_rows(const distributed::LineRange& rows, const Row& row) const {
         const math::Fft1 along(width_);
         core::parallel_for(blocks_of(rows.count), [&](std::size_t block) {
             Array<Complex, 1> line({width_});
@@ -293,13 +293,13 @@ core::PagedArray samples_of(std::size_t rows, std::size_t width, const ScratchOp
 class RowsForOthers {
   public:
     // As few as hold all of some rows that others want.
-    RowsForOthers(const core::LineRange& some, const Team& team,
-                  const std::function<core::LineRange(std::size_t)>& wanted, std::size_t width,
+    RowsForOthers(const distributed::LineRange& some, const Team& team,
+                  const std::function<distributed::LineRange(std::size_t)>& wanted, std::size_t width,
                   const ScratchOptions& scratch)
         : rows_{some.end(), 0} {
         std::size_t end = some.first;
         for (std::size_t process = 0; process < team.size(); ++process)
-            if (const core::LineRange rows = common_lines(some, wanted(process)); rows.count > 0) {
+            if (const distributed::LineRange rows = common_lines(some, wanted(process)); rows.count > 0) {
                 rows_.first = std::min(rows_.first, rows.first);
                 end = std::max(end, rows.end());
             }
@@ -307,12 +307,12 @@ class RowsForOthers {
         samples_ = samples_of(rows_.count, width, scratch);
     }
 
-    const core::LineRange& rows() const { return rows_; }
+    const distributed::LineRange& rows() const { return rows_; }
     bool has(std::size_t y) const { return y >= rows_.first && y < rows_.end(); }
     Complex* at(std::size_t y) { return &samples_.view()(y - rows_.first, 0); }
 
   private:
-    core::LineRange rows_;
+    distributed::LineRange rows_;
     core::PagedArray samples_;
 };
 
@@ -330,7 +330,7 @@ Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, co
         to_wave.along_rows(wave.rows, row);
         return wave;
     }
-    const core::SharedPlane kept = to_wave.to_rows(scratch, team);
+    const distributed::SharedPlane kept = to_wave.to_rows(scratch, team);
     wave.rows = kept.own_rows(height);
     wave.samples = samples_of(wave.rows.count, width, scratch);
     to_wave.along_rows(wave.rows, [&](std::size_t y) {
@@ -341,14 +341,14 @@ Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, co
 }
 
 Wave wave_of(Spectrum spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch, Team& team,
-             const std::function<core::LineRange(std::size_t)>& wanted) {
+             const std::function<distributed::LineRange(std::size_t)>& wanted) {
     const ToWave to_wave(spectrum, width, height);
-    const core::SharedPlane kept = to_wave.to_rows(scratch, &team);
+    const distributed::SharedPlane kept = to_wave.to_rows(scratch, &team);
     Wave wave = to_wave.frame(wanted(team.rank()));
-    spectrum.samples = core::SharedPlane();
+    spectrum.samples = distributed::SharedPlane();
     // Own rows before and after those that this process wants itself.
-    const core::LineRange own = kept.own_rows(height);
-    const auto for_others = [&](const core::LineRange& some) {
+    const distributed::LineRange own = kept.own_rows(height);
+    const auto for_others = [&](const distributed::LineRange& some) {
         return RowsForOthers(common_lines(own, some), team, wanted, width, scratch);
     };
     std::array<RowsForOthers, 2> aside{for_others({0, wave.rows.first}),
@@ -359,12 +359,12 @@ Wave wave_of(Spectrum spectrum, std::size_t width, std::size_t height, const Scr
             if (rows.has(y)) return rows.at(y);
         return &wave.samples.view()(y - wave.rows.first, 0);
     };
-    for (const core::LineRange& rows : {aside[0].rows(), common_lines(own, wave.rows), aside[1].rows()})
+    for (const distributed::LineRange& rows : {aside[0].rows(), common_lines(own, wave.rows), aside[1].rows()})
         to_wave.along_rows(rows, [&](std::size_t y) {
             kept.get_row(y, row(y));
             return row(y);
         });
-    core::send_rows(
+    distributed::send_rows(
         team, {height, width}, lines_together, wanted,
         [&](std::size_t y, Complex* to) {
             if (row(y) != to) std::copy_n(row(y), width, to);
@@ -374,14 +374,14 @@ Wave wave_of(Spectrum spectrum, std::size_t width, std::size_t height, const Scr
 }
 
 Spectrum gathered(Spectrum spectrum, Team& team, const ScratchOptions& scratch) {
-    core::SharedPlane shared = std::move(spectrum.samples);
+    distributed::SharedPlane shared = std::move(spectrum.samples);
     const std::size_t rows = shared.rows(), columns = shared.columns();
     shared.to_rows(rows);
-    if (team.is_first()) spectrum.samples = core::SharedPlane(rows, columns, 1, 1, scratch, nullptr);
-    core::send_rows(
+    if (team.is_first()) spectrum.samples = distributed::SharedPlane(rows, columns, 1, 1, scratch, nullptr);
+    distributed::send_rows(
         team, {rows, columns}, lines_together,
         [&](std::size_t process) {
-            return core::LineRange{0, process == 0 ? rows : 0};
+            return distributed::LineRange{0, process == 0 ? rows : 0};
         },
         [&](std::size_t y, Complex* row) { shared.get_row(y, row); },
         [&](std::size_t y) { return &spectrum.samples.at(y, 0); });

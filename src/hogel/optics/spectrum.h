@@ -3,8 +3,8 @@
 
 #include <functional>
 
-#include "hogel/core/shared_plane.h"
 #include "hogel/field.h"
+#include "hogel/optics/distributed/shared_plane.h"
 
 namespace hogel::optics {
 
@@ -29,7 +29,7 @@ struct Spectrum {
     std::ptrdiff_t first_column = 0,
                    first_row = 0;  ///< frequency of the first sample, in steps; rows are counted downwards
     /// [row][column] of S, row 0 the highest f_y, in columns. The processes of a team may share it.
-    core::SharedPlane samples;
+    distributed::SharedPlane samples;
 
     double frequency_x(double column) const { return (static_cast<double>(first_column) + column) / window.size_x(); }
     double frequency_y(double row) const { return -(static_cast<double>(first_row) + row) / window.size_y(); }
@@ -43,12 +43,12 @@ class Wave final : public FieldSource {
   public:
     Wave(const FieldGrid& grid, const ScratchOptions& scratch);
     /// A wave that the processes of a team share: the samples are those rows that this one has.
-    Wave(const FieldGrid& grid, core::PagedArray samples, const core::LineRange& rows);
+    Wave(const FieldGrid& grid, core::PagedArray samples, const distributed::LineRange& rows);
     const FieldGrid& grid() const override { return grid_; }
     void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override;
 
     core::PagedArray samples;             ///< [y][x]
-    core::LineRange rows;                 ///< those in `samples`: all, unless the processes of a team share the wave
+    distributed::LineRange rows;          ///< those in `samples`: all, unless the processes of a team share the wave
     double carrier_x = 0, carrier_y = 0;  ///< cycles per metre
 
   private:
@@ -84,7 +84,7 @@ Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, co
 /// wants.
 /// @param wanted  the rows that a process wants, for any of them
 Wave wave_of(Spectrum spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch, Team& team,
-             const std::function<core::LineRange(std::size_t process)>& wanted);
+             const std::function<distributed::LineRange(std::size_t process)>& wanted);
 
 /// The whole of what the processes of a team have in parts, in the first one; in others something without samples.
 Spectrum gathered(Spectrum spectrum, Team& team, const ScratchOptions& scratch);

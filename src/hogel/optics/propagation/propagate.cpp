@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "hogel/core/shared_order.h"
-#include "hogel/core/shared_plane.h"
+#include "hogel/optics/distributed/shared_plane.h"
 #include "hogel/optics/lines.h"
 #include "hogel/optics/propagation/tile_plan.h"
 #include "hogel/optics/propagation/transfer.h"
@@ -52,7 +52,7 @@ class TileWork {
 
     // Writes what the sink does not have already of the tile at `region`.
     void run(FieldSink& sink, const Region& region) {
-        const std::vector<core::LineRange> missing = missing_rows(sink, region);
+        const std::vector<distributed::LineRange> missing = missing_rows(sink, region);
         Team* const all = core::team_of_several();
         if ((all != nullptr ? all->sum(missing.size()) : missing.size()) == 0) return;
         blocks_ = blocks_of(field_rows_.count, together_) + blocks_of(columns_.count) + missing.size();
@@ -67,19 +67,19 @@ class TileWork {
   private:
     // The own rows of the tile that are to be written, in blocks that are the same for any number of processes, because
     // each process has whole groups of rows.
-    std::vector<core::LineRange> missing_rows(FieldSink& sink, const Region& region) const {
-        std::vector<core::LineRange> missing;
+    std::vector<distributed::LineRange> missing_rows(FieldSink& sink, const Region& region) const {
+        std::vector<distributed::LineRange> missing;
         for (std::size_t group = output_rows_.first; group < output_rows_.end(); group += together_) {
             const std::size_t end = std::min(group + together_, output_rows_.end());
             for (std::size_t y = group; y < end; y += lines_together) {
-                const core::LineRange rows{y, std::min(lines_together, end - y)};
+                const distributed::LineRange rows{y, std::min(lines_together, end - y)};
                 if (!sink.has_already(part(region, rows))) missing.push_back(rows);
             }
         }
         return missing;
     }
 
-    static Region part(const Region& region, const core::LineRange& rows) {
+    static Region part(const Region& region, const distributed::LineRange& rows) {
         return {region.x0, region.y0 + rows.first, region.width, rows.count};
     }
 
@@ -111,7 +111,8 @@ class TileWork {
         const AxisPlan& y = plan_.y;
         const LineTransform inward(y.field, y.frequencies, -1, y.field.step, y.inward);
         const LineTransform outward(y.frequencies, y.output, 1, 1 / (plan_.x.period * y.period), y.outward);
-        const core::OwnColumns before = kept_.in_columns(y.field.count), after = kept_.in_columns(y.output.count);
+        const distributed::OwnColumns before = kept_.in_columns(y.field.count),
+                                      after = kept_.in_columns(y.output.count);
         const std::size_t blocks = blocks_of(columns_.count);
         std::vector<Transfer::Energy> energies(blocks);
         core::parallel_for(blocks, [&](std::size_t block) {
@@ -145,7 +146,7 @@ class TileWork {
             core::MessageWriter own;
             own.put(energies);
             energies.clear();
-            for (const std::string& bytes : core::all_of(*others, own.take())) {
+            for (const std::string& bytes : distributed::all_of(*others, own.take())) {
                 core::MessageReader message(bytes);
                 std::ranges::copy(message.get_vector<Transfer::Energy>(), std::back_inserter(energies));
             }
@@ -162,10 +163,10 @@ class TileWork {
                                 options_.max_error));
     }
 
-    void frequencies_to_rows(FieldSink& sink, const Region& region, std::span<const core::LineRange> blocks) {
+    void frequencies_to_rows(FieldSink& sink, const Region& region, std::span<const distributed::LineRange> blocks) {
         const LineTransform outward(plan_.x.frequencies, plan_.x.output, 1, 1, plan_.x.outward);
         core::parallel_for(blocks.size(), [&](std::size_t block) {
-            const core::LineRange& rows = blocks[block];
+            const distributed::LineRange& rows = blocks[block];
             Lines line(1, outward.buffer());
             Array<Complex, 2> samples({rows.count, region.width});
             for (std::size_t y = 0; y < rows.count; ++y) {
@@ -183,7 +184,7 @@ class TileWork {
         const View<Complex, 2> output = sink.in_memory();
         if (output.size() == 0) return;
         for (std::size_t process = 0; process < all.size(); ++process) {
-            const core::LineRange rows = core::lines_of(process, all.size(), region.height, together_);
+            const distributed::LineRange rows = distributed::lines_of(process, all.size(), region.height, together_);
             for (std::size_t y = rows.first; y < rows.end(); ++y) {
                 Complex* const samples = &output(region.y0 + y, region.x0);
                 const std::size_t bytes = region.width * sizeof(Complex);
@@ -200,9 +201,9 @@ class TileWork {
     const PropagateOptions& options_;
     const Progress& progress_;
     Transfer transfer_;
-    std::size_t together_;    // rows that are read together
-    core::SharedPlane kept_;  // [row][frequency], first rows of the field, then of the output
-    core::LineRange field_rows_, columns_, output_rows_;  // of this process
+    std::size_t together_;           // rows that are read together
+    distributed::SharedPlane kept_;  // [row][frequency], first rows of the field, then of the output
+    distributed::LineRange field_rows_, columns_, output_rows_;  // of this process
     std::size_t blocks_ = 0, done_ = 0;
     std::mutex reporting_;
 };

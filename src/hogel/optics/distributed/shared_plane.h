@@ -14,7 +14,7 @@
 #include "hogel/core/shared_order.h"
 #include "hogel/team.h"
 
-namespace hogel::core {
+namespace hogel::optics::distributed {
 
 /// Lines [first, first + count) of a plane.
 struct LineRange {
@@ -43,9 +43,9 @@ void share_lines(Team& team, Value* lines, std::size_t length, const Made& made)
         return std::span<Value>(lines + some.first * length, some.count * length);
     };
     for (std::size_t process = 0; process < team.size(); ++process)
-        if (process != team.rank()) send_in_pieces<Value>(team, process, lines_of_process(team.rank()));
+        if (process != team.rank()) core::send_in_pieces<Value>(team, process, lines_of_process(team.rank()));
     for (std::size_t process = 0; process < team.size(); ++process)
-        if (process != team.rank()) receive_in_pieces(team, process, lines_of_process(process));
+        if (process != team.rank()) core::receive_in_pieces(team, process, lines_of_process(process));
 }
 
 /// Places in the own columns of a plane, [row][column].
@@ -109,7 +109,7 @@ class SharedPlane {
     std::size_t rank_ = 0, size_ = 1;
     std::size_t rows_ = 0, columns_ = 0, rows_together_ = 1, columns_together_ = 1;
     // A block for each process: in rows the own rows' places in its columns, in columns its rows' in the own columns.
-    PagedArray samples_;
+    core::PagedArray samples_;
     std::vector<std::size_t> block_starts_;
     OwnColumns places_;
 };
@@ -124,4 +124,7 @@ void send_rows(Team& team, const Shape<2>& shape, std::size_t rows_together,
                const std::function<void(std::size_t y, std::complex<float>* to)>& get_row,
                const std::function<std::complex<float>*(std::size_t y)>& place);
 
-}  // namespace hogel::core
+/// What all processes have given, in the order of their numbers, in each of them.
+std::vector<std::string> all_of(Team& team, const std::string& own);
+
+}  // namespace hogel::optics::distributed

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/core/shared_plane.h"
+#include "hogel/optics/distributed/shared_plane.h"
 
 #include <algorithm>
 #include <cstring>
@@ -8,7 +8,7 @@
 
 #include "hogel/error.h"
 
-namespace hogel::core {
+namespace hogel::optics::distributed {
 namespace {
 
 using Complex = std::complex<float>;
@@ -68,8 +68,8 @@ SharedPlane::SharedPlane(std::size_t rows, std::size_t columns, std::size_t rows
         block_starts_.push_back(samples);
         samples += max_rows * std::max(lines_of(process, size_, columns, columns_together).count, own_columns().count);
     }
-    samples_ = size_ == 1 ? PagedArray({rows, columns}, scratch, Contents::unset)
-                          : PagedArray({1, std::max<std::size_t>(samples, 1)}, scratch, Contents::unset);
+    samples_ = size_ == 1 ? core::PagedArray({rows, columns}, scratch, core::Contents::unset)
+                          : core::PagedArray({1, std::max<std::size_t>(samples, 1)}, scratch, core::Contents::unset);
     begin_columns(rows);
 }
 
@@ -187,4 +187,13 @@ void send_rows(Team& team, const Shape<2>& shape, std::size_t rows_together,
     }
 }
 
-}  // namespace hogel::core
+std::vector<std::string> all_of(Team& team, const std::string& own) {
+    for (std::size_t other = 0; other < team.size(); ++other)
+        if (other != team.rank()) team.send_to(other, own);
+    std::vector<std::string> all;
+    for (std::size_t other = 0; other < team.size(); ++other)
+        all.push_back(other == team.rank() ? own : team.receive_from(other));
+    return all;
+}
+
+}  // namespace hogel::optics::distributed
