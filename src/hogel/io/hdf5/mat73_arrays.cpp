@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The child process tells of one array after the other: 'a', its head and its name; after the answer 'y' its elements
-// in blocks of rows, each after a 'b' and its size; 'e' after the last array; instead of any of these 'n' and a reason.
+// The child process tells of one array after the other: 'a', its head and its name; if its elements are wanted, these in
+// blocks of rows, each after a 'b' and its size; 'e' after the last array; instead of any of these 'n' and a reason.
 #include "hogel/io/mat73_arrays.h"
 
 #include <fmt/format.h>
