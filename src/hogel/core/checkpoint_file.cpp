@@ -153,7 +153,7 @@ std::optional<CheckpointRecord> CheckpointFile::read() {
     }
     const std::size_t key_bytes = head.numbers * sizeof(std::uint64_t);
     CheckpointRecord record{std::vector<std::uint64_t>(head.numbers), {}};
-    std::memcpy(record.key.data(), body.data(), key_bytes);
+    if (key_bytes > 0) std::memcpy(record.key.data(), body.data(), key_bytes);
     record.bytes = std::move(body.erase(0, key_bytes));
     last_ = next_;
     next_ += sizeof head + head.body_bytes();

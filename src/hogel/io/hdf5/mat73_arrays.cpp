@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The child process tells of one array after the other: 'a', its head and its name; if its elements are wanted, these in
-// blocks of rows, each after a 'b' and its size; 'e' after the last array; instead of any of these 'n' and a reason.
+// The child process tells of one array after the other: 'a', its head and its name; if its elements are wanted, these
+// in blocks of rows, each after a 'b' and its size; 'e' after the last array; instead of any of these 'n' and a reason.
 #include "hogel/io/mat73_arrays.h"
 
 #include <fmt/format.h>
@@ -28,7 +28,6 @@ constexpr std::uint64_t bytes_a_second = std::uint64_t{1} << 20, copies_of_chunk
 
 constexpr std::uint64_t block_bytes = std::uint64_t{4} << 20;  // of rows that are not in chunks
 constexpr std::size_t max_reason = 1000, max_name = 65536, max_axes = 32;
-constexpr std::uint64_t max_samples = std::uint64_t{1} << 48;
 constexpr std::uint64_t max_expansion = 1040;  // deflate expands by at most 1032
 
 using WantsElements = std::function<bool(const Mat73Array&)>;
@@ -272,21 +271,6 @@ class ArrayReceiver {
 };
 
 }  // namespace
-
-std::uint64_t Mat73Array::samples() const {
-    std::uint64_t n = 1;
-    for (const std::uint64_t extent : shape) {
-        if (n > max_samples / extent) return max_samples;
-        n *= extent;
-    }
-    return n;
-}
-
-std::size_t Mat73Array::element_bytes() const {
-    std::size_t bytes = 0;
-    for (const Number number : numbers) bytes += bytes_of(number);
-    return bytes;
-}
 
 std::vector<Mat73Array> read_mat73_arrays(const std::filesystem::path& path,
                                           const std::function<bool(const Mat73Array&)>& wants_elements) {
