@@ -14,10 +14,9 @@ namespace hogel {
 /// functions with the same arguments. The light fields and holograms that they write to HDF5 files are then one file,
 /// whose tiles are handed out to whoever is free, and so are whole photographs and patterns; sums over tiles
 /// (compression, the narrow camera) are made by the first process of what all send it, in the order of the tiles; large
-/// fields are transformed in parts that the processes exchange; and everything else is computed by each of them. Results
-/// have the same bytes as those of a single process.
-/// Files of other kinds are written by the first process alone: see is_first_process(). All processes must see the
-/// folders of the files.
+/// fields are transformed in parts that the processes exchange; and everything else is computed by each of them.
+/// Results have the same bytes as those of a single process. Files of other kinds are written by the first process
+/// alone: see is_first_process(). All processes must see the folders of the files.
 ///
 /// A program derives the messages of its processes from this class, and a TeamScope makes the library use them.
 class HOGEL_API Team {

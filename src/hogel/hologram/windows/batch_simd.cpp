@@ -269,7 +269,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "hogel/hologram/lobes.h"
