@@ -14,4 +14,12 @@ inline std::uint64_t tiles_at_once(std::uint64_t left, std::uint64_t processes) 
     return std::min(left, std::clamp<std::uint64_t>(left / (of_fair_share * processes), 1, max_tiles_at_once));
 }
 
+/// Whether a process that begins the last tile that it has asks for more at once, so that they are under way meanwhile.
+/// Not towards the end, where a process that is at work would hold a tile that an idle one could take.
+/// @param left  tiles that are not handed out, as far as the process knows
+inline bool asks_ahead(std::uint64_t left, std::uint64_t processes) {
+    constexpr std::uint64_t few_for_each = 4;
+    return left > few_for_each * processes;
+}
+
 }  // namespace hogel::mpi

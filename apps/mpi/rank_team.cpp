@@ -260,15 +260,9 @@ std::uint64_t RankTeam::sum(std::uint64_t number) {
     return agree(std::move(own)).number;
 }
 
-std::string RankTeam::share(const std::string& of_first) {
-    Report own;
-    own.text = of_first;
-    return agree(std::move(own)).text;
-}
-
 // Called with the lock. No tiles are handed out any more when work is to stop; nothing is returned where none may be
 // handed out yet.
-std::optional<Team::Tiles> RankTeam::take_tiles(const Request& request) {
+std::optional<RankTeam::Tiles> RankTeam::take_tiles(const Request& request) {
     Queue& of = queues_.try_emplace(request.queue, Queue{0, request.tiles}).first->second;
     if (stopping_ || of.tiles != request.tiles || of.next == of.tiles) return Tiles{of.tiles, 0};
     const std::uint64_t left = of.tiles - of.next;
@@ -302,33 +296,38 @@ void RankTeam::ask(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead
     if (asked_.insert(queue).second) link_.send(0, Kind::ask, pack(queue, tiles, ahead));
 }
 
-void RankTeam::expect_tiles(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead) {
-    if (link_.rank() == 0) return;
-    const std::lock_guard asking(asking_);
-    ask(queue, tiles, ahead);
-}
-
-Team::Tiles RankTeam::next_tiles(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead) {
-    Tiles given;
+// Called with the same lock.
+RankTeam::Tiles RankTeam::next_tiles(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead) {
     if (link_.rank() == 0) {
         std::unique_lock lock(mutex_);
         std::optional<Tiles> some;
         passed_.wait(lock, [&] { return (some = take_tiles({0, queue, tiles, ahead})).has_value(); });
-        given = *some;
-    } else {
-        const std::lock_guard asking(asking_);
-        ask(queue, tiles, ahead);
-        while (!answers_.contains(queue)) {
-            if (const auto message = link_.receive(Kind::answer))
-                answers_[number_at(message->bytes, 0)] = {number_at(message->bytes, 1), number_at(message->bytes, 2)};
-            else
-                std::this_thread::sleep_for(between_answers);
-        }
-        given = answers_.extract(queue).mapped();
-        asked_.erase(queue);
+        return *some;
     }
-    if (stopping_) throw Error(ErrorCode::cancelled, "stopped on request");
-    return given;
+    ask(queue, tiles, ahead);
+    while (!answers_.contains(queue)) {
+        if (const auto message = link_.receive(Kind::answer))
+            answers_[number_at(message->bytes, 0)] = {number_at(message->bytes, 1), number_at(message->bytes, 2)};
+        else
+            std::this_thread::sleep_for(between_answers);
+    }
+    asked_.erase(queue);
+    return answers_.extract(queue).mapped();
+}
+
+std::optional<std::uint64_t> RankTeam::next_tile(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead) {
+    const std::lock_guard asking(asking_);
+    OwnTiles& own = own_[queue];
+    if (own.here.count == 0 && !own.over) {
+        own.here = next_tiles(queue, tiles, ahead);
+        if (stopping_) throw Error(ErrorCode::cancelled, "stopped on request");
+        own.over = own.here.count == 0;
+    }
+    if (own.over) return std::nullopt;
+    const std::uint64_t tile = own.here.first++;
+    if (--own.here.count == 0 && link_.rank() != 0 && asks_ahead(tiles - own.here.first, link_.size()))
+        ask(queue, tiles, ahead);
+    return tile;
 }
 
 // The channel is at the end, because messages may be large, and have room there.

@@ -27,7 +27,7 @@ struct Report {
     int status = 0;  ///< exit status
     ErrorCode code = ErrorCode::cancelled;
     std::uint64_t number = 0;  ///< their sum in the answer
-    std::string text;          ///< of a failure: what is printed; otherwise what is shared
+    std::string text;          ///< what is printed
 };
 
 /// A team over a link. A thread of the first process has the queues and answers; a thread of each other one hears when
@@ -42,11 +42,10 @@ class RankTeam final : public Team {
 
     std::size_t rank() const override { return link_.rank(); }
     std::size_t size() const override { return link_.size(); }
-    Tiles next_tiles(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead = UINT64_MAX) override;
-    void expect_tiles(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead) override;
+    std::optional<std::uint64_t> next_tile(std::uint64_t queue, std::uint64_t tiles,
+                                           std::uint64_t ahead = UINT64_MAX) override;
     void pass(std::uint64_t queue, std::uint64_t done) override;
     std::uint64_t sum(std::uint64_t number) override;
-    std::string share(const std::string& of_first) override;
     void send(std::uint64_t channel, std::string bytes) override;
     void listen(std::uint64_t channel, std::function<void(std::string bytes)> take) override;
     void send_to(std::size_t process, std::string bytes) override;
@@ -62,6 +61,15 @@ class RankTeam final : public Team {
                                  const std::function<void(const std::vector<std::size_t>&)>& silent = {});
 
   private:
+    // Consecutive tiles; none if `count` is 0.
+    struct Tiles {
+        std::uint64_t first = 0, count = 0;
+    };
+    // Those of a queue that this process has not begun.
+    struct OwnTiles {
+        Tiles here;
+        bool over = false;  // no more will come
+    };
     struct Queue {
         std::uint64_t next = 0, tiles = 0, done = 0;
     };
@@ -82,6 +90,7 @@ class RankTeam final : public Team {
     std::optional<Tiles> take_tiles(const Request& request);
     void answer_requests();
     void ask(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead);
+    Tiles next_tiles(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead);
 
     Link& link_;
     std::mutex mutex_;  // of the members up to the listeners
@@ -94,9 +103,10 @@ class RankTeam final : public Team {
     std::stop_source stop_;
     bool stop_sent_ = false;
     std::atomic<bool> stopping_ = false;
-    std::optional<Report> failure_;           // once known
-    bool has_reported_ = false;               // and did not wait for the answer
-    std::mutex asking_;                       // of the next two
+    std::optional<Report> failure_;  // once known
+    bool has_reported_ = false;      // and did not wait for the answer
+    std::mutex asking_;              // of the next three
+    std::map<std::uint64_t, OwnTiles> own_;
     std::set<std::uint64_t> asked_;           // queues of whose tiles the first process was asked
     std::map<std::uint64_t, Tiles> answers_;  // that came and were not waited for
     std::mutex listening_;

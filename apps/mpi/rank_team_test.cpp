@@ -21,9 +21,8 @@ TEST_P(RanksTest, EveryTileIsHandedOutOnce) {
         run_ranks(GetParam(), [&](RankTeam& team) {
             std::mt19937 random(static_cast<unsigned>(team.rank()));
             for (const std::uint64_t queue : {0, 1}) {
-                for (Team::Tiles some = team.next_tiles(queue, tiles); some.count > 0;
-                     some = team.next_tiles(queue, tiles)) {
-                    for (std::uint64_t i = 0; i < some.count; ++i) ++taken[queue * tiles + some.first + i];
+                while (const std::optional<std::uint64_t> tile = team.next_tile(queue, tiles)) {
+                    ++taken[queue * tiles + *tile];
                     if (random() % 8 == 0) std::this_thread::sleep_for(std::chrono::microseconds(100));
                 }
                 team.meet();
@@ -55,7 +54,7 @@ TEST_P(RanksTest, AFailureOfOneIsThatOfAll) {
             try {
                 if (team.rank() == failing) throw Error(ErrorCode::bad_input, "the file is damaged");
                 if (team.rank() % 2 == 0) team.meet();
-                while (team.next_tiles(7, std::uint64_t{1} << 40).count > 0)
+                while (team.next_tile(7, std::uint64_t{1} << 40))
                     std::this_thread::sleep_for(std::chrono::milliseconds(1));
                 team.meet();
             } catch (const Error& error) {

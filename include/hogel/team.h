@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "hogel/export.h"
@@ -27,26 +28,21 @@ class HOGEL_API Team {
     virtual std::size_t size() const = 0;
     bool is_first() const { return rank() == 0; }
 
-    /// Consecutive tiles; none if `count` is 0.
-    struct Tiles {
-        std::uint64_t first = 0, count = 0;
-    };
     /// The next of the `tiles` tiles of a queue, which no process has been given yet; none at its end. Queues begin
     /// with the first call for their number. Called from any thread. Throws Error(cancelled) if a process has failed.
     /// @param ahead  how many tiles beyond those that pass() has been told of are handed out; the call waits for more
-    virtual Tiles next_tiles(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead = UINT64_MAX) = 0;
-    /// Says that next_tiles() of the same arguments will be called soon, so that its answer may be under way by then.
-    virtual void expect_tiles(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead) = 0;
+    virtual std::optional<std::uint64_t> next_tile(std::uint64_t queue, std::uint64_t tiles,
+                                                   std::uint64_t ahead = UINT64_MAX) = 0;
     /// In the first process: the first `done` tiles of a queue need no more memory.
     virtual void pass(std::uint64_t queue, std::uint64_t done) = 0;
 
     /// The sum of the numbers of all processes, which call it in the same order and wait for each other. If one of them
-    /// has failed instead, it throws that process's error in all others; share() does so too.
+    /// has failed instead, it throws that process's error in all others.
     virtual std::uint64_t sum(std::uint64_t number) = 0;
-    /// What the first process has given, in all processes.
-    virtual std::string share(const std::string& of_first) = 0;
-    /// Waits until all processes have come here.
+    /// Waits until all processes have come here, as sum() does.
     void meet() { sum(0); }
+    /// meet(), and then what the first process has given, in all processes.
+    std::string share(const std::string& of_first);
 
     /// Sends bytes to the first process, in order, without waiting. Called from any thread of the others.
     virtual void send(std::uint64_t channel, std::string bytes) = 0;

@@ -6,10 +6,9 @@
 #include <exception>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
-
-#include "hogel/core/shared_tiles.h"
 
 namespace hogel::core {
 namespace {
@@ -144,12 +143,12 @@ void ordered_in_team(Team& team, std::size_t n, std::size_t in_flight,
                      const std::function<void(std::size_t, std::string_view)>& merge, std::size_t max_message) {
     const bool one_by_one = in_flight == 1;
     const std::uint64_t number = team.next_number();
-    TileQueue queue(team, number, n, one_by_one ? n : tiles_in_flight(in_flight) * team.size());
+    const std::uint64_t ahead = one_by_one ? n : tiles_in_flight(in_flight) * team.size();
     std::optional<Merger> merger;
     if (team.is_first()) merger.emplace(team, number, n, merge);
     const auto turn = [&](std::size_t) {
         if (merger) merger->check();
-        const std::optional<std::size_t> i = queue.next();
+        const std::optional<std::uint64_t> i = team.next_tile(number, n, ahead);
         if (!i) return;
         try {
             std::string bytes = body(*i);

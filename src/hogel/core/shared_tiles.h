@@ -17,9 +17,7 @@ namespace hogel::core {
 /// The tiles that a team's queue hands out to this process. Thread-safe.
 class TileQueue {
   public:
-    /// @param ahead  as in Team::next_tiles()
-    TileQueue(Team& team, std::uint64_t queue, std::size_t tiles, std::size_t ahead = SIZE_MAX)
-        : team_(team), queue_(queue), tiles_(tiles), ahead_(ahead) {}
+    TileQueue(Team& team, std::uint64_t queue, std::size_t tiles) : team_(team), queue_(queue), tiles_(tiles) {}
     /// The next tile, or nothing if all are handed out. Throws Error(cancelled) if another process has failed.
     std::optional<std::size_t> next();
     /// The fraction of all tiles that some process has been given, as far as this one knows.
@@ -28,10 +26,8 @@ class TileQueue {
   private:
     Team& team_;
     std::uint64_t queue_;
-    std::size_t tiles_, ahead_;
+    std::size_t tiles_;
     std::mutex mutex_;
-    Team::Tiles here_;  // handed to this process and not begun
-    bool over_ = false;
     std::atomic<std::size_t> last_{0};
 };
 

@@ -13,6 +13,13 @@ std::atomic<Team*> current = nullptr;
 
 }  // namespace
 
+std::string Team::share(const std::string& of_first) {
+    meet();
+    if (!is_first()) return receive_from(0);
+    for (std::size_t process = 1; process < size(); ++process) send_to(process, of_first);
+    return of_first;
+}
+
 TeamScope::TeamScope(Team& team) {
     Team* none = nullptr;
     if (!current.compare_exchange_strong(none, &team))
