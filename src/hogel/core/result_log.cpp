@@ -60,13 +60,13 @@ ResumeScope::ResumeScope(const std::filesystem::path& file, const std::vector<st
 ResumeScope::~ResumeScope() { core::set_result_log(nullptr); }
 
 void ResumeScope::once(const std::function<void()>& work) {
-    core::kept_one_by_one<std::uint8_t>(
+    core::shared_jobs<std::uint8_t>(
         1, {},
         [&](std::size_t) {
             work();
             return std::uint8_t{1};
         },
-        [](std::size_t, std::uint8_t&) {});
+        [](std::size_t, std::uint8_t&) {}, core::DoneBy::whole_team);
 }
 
 void ResumeScope::complete() { log_->remove(); }

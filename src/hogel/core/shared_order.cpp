@@ -166,7 +166,7 @@ void ordered_in_team(Team& team, std::size_t n, std::size_t in_flight,
 }
 
 void ordered_by_bytes(std::size_t n, std::size_t in_flight, const std::function<std::string(std::size_t)>& body,
-                      const std::function<void(std::size_t, std::string_view)>& merge) {
+                      const std::function<void(std::size_t, std::string_view)>& merge, DoneBy by) {
     Team* const all = team_of_several();
     ResultLog* const log = result_log();
     std::size_t kept = log != nullptr ? log->begin(n, merge) : 0;
@@ -176,9 +176,15 @@ void ordered_by_bytes(std::size_t n, std::size_t in_flight, const std::function<
         merge(kept + i, bytes);
         if (log != nullptr) log->keep(std::string(bytes));
     };
-    if (all != nullptr) return ordered_in_team(*all, n - kept, in_flight, rest, merge_rest);
-    parallel_ordered<std::string>(n - kept, in_flight, rest,
-                                  [&](std::size_t i, const std::string& bytes) { merge_rest(i, bytes); });
+    if (all != nullptr && by == DoneBy::one_process)
+        return ordered_in_team(*all, n - kept, in_flight, rest, merge_rest);
+    if (in_flight > 1)
+        return parallel_ordered<std::string>(n - kept, in_flight, rest,
+                                             [&](std::size_t i, const std::string& bytes) { merge_rest(i, bytes); });
+    for (std::size_t i = 0; i < n - kept; ++i) {
+        throw_if_stopped();
+        merge_rest(i, rest(i));
+    }
 }
 
 }  // namespace hogel::core

@@ -3,12 +3,11 @@
 
 #include <cstddef>
 #include <functional>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "hogel/core/alone.h"
+#include "hogel/core/job_scope.h"
 #include "hogel/core/message.h"
 #include "hogel/core/parallel.h"
 #include "hogel/core/result_log.h"
@@ -23,7 +22,9 @@ inline Team* team_of_several() {
 }
 
 /// Whether loops send their results to other processes, or keep them in a file.
-inline bool is_shared_or_kept() { return team_of_several() != nullptr || result_log() != nullptr; }
+inline bool is_shared_or_kept(DoneBy by = DoneBy::one_process) {
+    return (by == DoneBy::one_process && team_of_several() != nullptr) || result_log() != nullptr;
+}
 
 /// How results travel between the processes of a team.
 template <class Result>
@@ -56,7 +57,7 @@ void ordered_in_team(Team& team, std::size_t n, std::size_t in_flight,
 
 /// shared_ordered() for results as bytes, alone or in a team: those that are kept in a file are taken from it.
 void ordered_by_bytes(std::size_t n, std::size_t in_flight, const std::function<std::string(std::size_t)>& body,
-                      const std::function<void(std::size_t, std::string_view)>& merge);
+                      const std::function<void(std::size_t, std::string_view)>& merge, DoneBy by);
 
 /// How many tiles of each process of a team are alive on the average.
 /// @param in_flight  as of parallel_ordered()
@@ -67,11 +68,12 @@ std::size_t tiles_in_flight(std::size_t in_flight);
 /// any number of processes. All call it in the same order, never from bodies of loops; those that are not the first
 /// return without having merged anything, and may be ahead of it. Within a ResumeScope what is merged is kept in a
 /// file, and not computed again the next time.
+/// @param by  as for shared_jobs()
 template <class Result>
 void shared_ordered(std::size_t n, std::size_t in_flight, const Sent<Result>& sent,
                     const std::function<Result(std::size_t)>& body,
-                    const std::function<void(std::size_t, Result&)>& merge) {
-    if (!is_shared_or_kept()) return parallel_ordered<Result>(n, in_flight, body, merge);
+                    const std::function<void(std::size_t, Result&)>& merge, DoneBy by = DoneBy::one_process) {
+    if (!is_shared_or_kept(by)) return parallel_ordered<Result>(n, in_flight, body, merge);
     ordered_by_bytes(
         n, in_flight,
         [&](std::size_t i) {
@@ -83,71 +85,25 @@ void shared_ordered(std::size_t n, std::size_t in_flight, const Sent<Result>& se
             MessageReader message(bytes);
             Result result = sent.read(message);
             merge(i, result);
-        });
+        },
+        by);
 }
 
-/// While this object exists, loops keep nothing, although there is a ResumeScope: those inside of what is kept whole.
-class NothingKept {
-  public:
-    NothingKept() : log_(result_log()) { set_result_log(nullptr); }
-    ~NothingKept() { set_result_log(log_); }
-    NothingKept(const NothingKept&) = delete;
-    NothingKept& operator=(const NothingKept&) = delete;
-
-  private:
-    ResultLog* log_;
-};
-
-/// While this object exists, this process works without its team and keeps nothing.
-class JobScope {
-    AloneScope alone_;
-    NothingKept nothing_;
-};
-
-/// As shared_ordered(), for jobs that use all threads of a process: a process works on one job at a time, within a
+/// As shared_ordered(), for jobs that use all threads of a process, which works on one job at a time, within a
 /// JobScope. Within a ResumeScope jobs are kept as a whole.
+/// @param by  one_process: jobs are handed to processes, and the first one takes all results. whole_team: all processes
+///            make each job together and take its result; results that were kept are taken by the first one alone
 template <class Result>
 void shared_jobs(std::size_t n, const Sent<Result>& sent, const std::function<Result(std::size_t)>& job,
-                 const std::function<void(std::size_t, Result&)>& take) {
+                 const std::function<void(std::size_t, Result&)>& take, DoneBy by = DoneBy::one_process) {
     const std::function<Result(std::size_t)> body = [&](std::size_t i) {
-        const JobScope scope;
+        const JobScope scope(by);
         return job(i);
     };
-    if (is_shared_or_kept()) return shared_ordered<Result>(n, 1, sent, body, take);
+    if (is_shared_or_kept(by)) return shared_ordered<Result>(n, 1, sent, body, take, by);
     for (std::size_t i = 0; i < n; ++i) {
         Result result = job(i);
         take(i, result);
-    }
-}
-
-/// For large results that all processes of a team make together, one after the other: calls make(i) for every i in
-/// [0, n) and take(i, result) after each. Within a ResumeScope the results of the first process are kept in a file, and
-/// not made again the next time; that process alone then takes them from there.
-template <class Result>
-void kept_one_by_one(std::size_t n, const Sent<Result>& sent, const std::function<Result(std::size_t)>& make,
-                     const std::function<void(std::size_t, Result&)>& take) {
-    ResultLog* const log = result_log();
-    std::size_t kept = 0;
-    if (log != nullptr) {
-        kept = log->begin(n, [&](std::size_t i, std::string_view bytes) {
-            MessageReader message(bytes);
-            Result result = sent.read(message);
-            take(i, result);
-        });
-        if (Team* const all = team_of_several()) kept = all->sum(kept);  // which only the first one knows
-    }
-    for (std::size_t i = kept; i < n; ++i) {
-        std::optional<Result> result;
-        {
-            const NothingKept nothing;
-            result = make(i);
-        }
-        if (log != nullptr) {
-            MessageWriter message;
-            sent.write(message, *result);
-            log->keep(message.take());
-        }
-        take(i, *result);
     }
 }
 

@@ -3,7 +3,8 @@
 
 #include <atomic>
 
-#include "hogel/core/alone.h"
+#include "hogel/core/job_scope.h"
+#include "hogel/core/result_log.h"
 #include "hogel/error.h"
 
 namespace hogel {
@@ -28,9 +29,15 @@ TeamScope::TeamScope(Team& team) {
 
 TeamScope::~TeamScope() { current = nullptr; }
 
-core::AloneScope::AloneScope() : team_(current.exchange(nullptr)) {}
+core::JobScope::JobScope(DoneBy by) : team_(current), log_(result_log()) {
+    if (by == DoneBy::one_process) current = nullptr;
+    set_result_log(nullptr);
+}
 
-core::AloneScope::~AloneScope() { current = team_; }
+core::JobScope::~JobScope() {
+    current = team_;
+    set_result_log(log_);
+}
 
 Team* team() { return current; }
 

@@ -1,10 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "hogel/core/shared_order.h"
-#include "hogel/core/shared_tiles.h"
 #include "hogel/error.h"
 #include "hogel/scene_hologram.h"
 
 namespace hogel {
+namespace {
+
+void write_rows(const Field& field, FieldSink& sink) {
+    const Grid& plane = field.grid().plane;
+    constexpr std::size_t rows = 64;
+    core::parallel_for((plane.height - 1) / rows + 1, [&](std::size_t i) {
+        const Region region{0, i * rows, plane.width, std::min(rows, plane.height - i * rows)};
+        if (!sink.has_already(region))
+            sink.write(region, {&field.samples(region.y0, 0), {region.height, region.width}});
+    });
+}
+
+}  // namespace
 
 void write_scene_holograms(const SceneHologramMethod& method, const ShadedScene& scene,
                            std::span<const FieldGrid> grids, std::span<const SceneHologramOptions> options,
@@ -12,26 +26,14 @@ void write_scene_holograms(const SceneHologramMethod& method, const ShadedScene&
     const core::StopScope scope(progress);
     if (options.size() != grids.size() || sinks.size() != grids.size())
         throw Error(ErrorCode::usage, "holograms of a scene need options and a sink for each wavelength");
-    const auto make = [&](std::size_t i) {
-        return method.make(scene, grids[i], options[i], progress.part(i, grids.size()));
-    };
-    Team* const all = core::team_of_several();
-    if (all == nullptr) {
-        for (std::size_t i = 0; i < grids.size(); ++i) copy(make(i), *sinks[i]);
-        return;
-    }
-    // A method makes a field as a whole, with all threads of a process.
-    core::TileQueue queue(*all, all->next_number(), grids.size());
-    while (const std::optional<std::size_t> i = queue.next()) {
-        const Field field = make(*i);
-        const Grid& plane = grids[*i].plane;
-        constexpr std::size_t rows = 256;
-        for (std::size_t y = 0; y < plane.height; y += rows) {
-            const std::size_t height = std::min(rows, plane.height - y);
-            sinks[*i]->write({0, y, plane.width, height},
-                             View<const std::complex<float>, 2>(&field.samples(y, 0), {height, plane.width}));
-        }
-    }
+    const core::JobScope kept_by_sinks(core::DoneBy::whole_team);
+    core::shared_jobs<std::uint8_t>(
+        grids.size(), {},
+        [&](std::size_t i) {
+            write_rows(method.make(scene, grids[i], options[i], progress.part(i, grids.size())), *sinks[i]);
+            return std::uint8_t{1};
+        },
+        [](std::size_t, std::uint8_t&) {});
     for (const auto& sink : sinks) sink->finish();
 }
 

@@ -119,7 +119,8 @@ void photograph_one_by_one(const Fields& holograms, std::span<const Camera> came
         pipeline::put(job, made, pictures);
     };
     if (options == nullptr || options->vertical_diffuser)
-        return core::kept_one_by_one<std::vector<Image>>(order.size(), image::sent_pictures(), photograph, put);
+        return core::shared_jobs<std::vector<Image>>(order.size(), image::sent_pictures(), photograph, put,
+                                                     core::DoneBy::whole_team);
     for (std::size_t k = 0; k < order.size(); ++k) {
         std::vector<Image> made = photograph(k);
         put(k, made);

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace hogel {
+class Team;
+}
+
+namespace hogel::core {
+
+class ResultLog;
+
+/// Who does a job: one process of a team, or all of them together.
+enum class DoneBy { one_process, whole_team };
+
+/// While this object exists, a job is done: it sees no team, unless the whole team does it, and keeps nothing itself.
+class JobScope {
+  public:
+    explicit JobScope(DoneBy by = DoneBy::one_process);
+    ~JobScope();
+    JobScope(const JobScope&) = delete;
+    JobScope& operator=(const JobScope&) = delete;
+
+  private:
+    Team* team_;
+    ResultLog* log_;
+};
+
+}  // namespace hogel::core
