@@ -109,9 +109,4 @@ std::optional<std::vector<std::vector<Image>>> photograph_together(
     return pictures;
 }
 
-bool are_photographed_together(std::span<const std::shared_ptr<const FieldSource>> colours,
-                               std::span<const Camera> cameras, const PhotographOptions& options) {
-    return light_of_colours(colours, cameras, options).has_value();
-}
-
 }  // namespace hogel::optics

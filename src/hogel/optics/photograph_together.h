@@ -16,8 +16,4 @@ std::optional<std::vector<std::vector<Image>>> photograph_together(
     std::span<const std::shared_ptr<const FieldSource>> colours, std::span<const Camera> cameras,
     const PhotographOptions& options, const Progress& progress);
 
-/// Whether there are such photographs.
-bool are_photographed_together(std::span<const std::shared_ptr<const FieldSource>> colours,
-                               std::span<const Camera> cameras, const PhotographOptions& options);
-
 }  // namespace hogel::optics

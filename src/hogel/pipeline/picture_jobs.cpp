@@ -25,7 +25,7 @@ std::vector<std::size_t> numbers_below(std::size_t count) {
 std::vector<std::vector<std::size_t>> cameras_of_jobs(std::span<const Camera> cameras,
                                                       const PhotographOptions& options) {
     const std::vector<std::size_t> all = numbers_below(cameras.size());
-    if (!options.expected || !core::is_shared_or_kept()) return {all};
+    if (!options.expected) return {all};
     std::vector<std::vector<std::size_t>> groups;
     for (const optics::SharedEye& eye : optics::group_by_eye(cameras, all)) groups.push_back(eye.members);
     return groups;
@@ -47,8 +47,8 @@ std::vector<PictureJob> picture_jobs(const Fields& holograms, std::span<const st
     for (std::size_t way = 0; way < ways.size(); ++way) {
         if (!is_made_in_jobs(holograms, ways[way])) continue;
         const auto& options = std::get<PhotographOptions>(ways[way]);
-        if (core::result_log() == nullptr && optics::are_photographed_together(holograms, cameras, options)) {
-            jobs.push_back({way, numbers_below(holograms.size()), numbers_below(cameras.size())});
+        if (!core::is_shared_or_kept()) {
+            jobs.push_back({way, {order.begin(), order.end()}, numbers_below(cameras.size())});
             continue;
         }
         for (const std::size_t colour : order)
@@ -63,14 +63,17 @@ std::vector<Image> photograph(const PictureJob& job, const Fields& holograms, st
     const auto& options = std::get<PhotographOptions>(ways[job.way]);
     std::vector<Camera> some;
     for (const std::size_t camera : job.cameras) some.push_back(cameras[camera]);
+    auto together = job.colours.size() == holograms.size()
+                        ? optics::photograph_together(holograms, some, options, progress)
+                        : std::nullopt;
     std::vector<Image> made;
-    if (job.colours.size() > 1)
-        if (auto together = optics::photograph_together(holograms, some, options, progress)) {
-            for (std::vector<Image>& of_colour : *together) std::ranges::move(of_colour, std::back_inserter(made));
-            return made;
-        }
-    for (const std::size_t colour : job.colours)
-        std::ranges::move(hogel::photograph(*holograms[colour], some, options, progress), std::back_inserter(made));
+    for (std::size_t k = 0; k < job.colours.size(); ++k) {
+        const std::size_t colour = job.colours[k];
+        const Progress part = progress.part(k, job.colours.size());
+        std::ranges::move(
+            together ? std::move((*together)[colour]) : hogel::photograph(*holograms[colour], some, options, part),
+            std::back_inserter(made));
+    }
     return made;
 }
 

@@ -24,9 +24,8 @@ struct PictureJob {
 /// The processes of a team make the others together.
 bool is_made_in_jobs(const Fields& holograms, const WaveCamera& with);
 
-/// All pictures that are made in jobs: a colour by all cameras, or by those of one eye where that changes no picture
-/// and pictures are shared or kept. All colours of a light field whose rays are made for each of them are one job,
-/// unless pictures are kept.
+/// All pictures that are made in jobs. Where pictures are shared or kept, a job is a colour by all cameras, or by those
+/// of one eye where that changes no picture; otherwise all colours by all cameras, which may share rays.
 /// @param order  in which colours are photographed, those that take longest first
 std::vector<PictureJob> picture_jobs(const Fields& holograms, std::span<const std::size_t> order,
                                      std::span<const Camera> cameras, std::span<const WaveCamera> ways);

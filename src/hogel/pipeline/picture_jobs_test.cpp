@@ -48,12 +48,10 @@ class PictureJobsTest : public testing::Test {
     std::vector<std::size_t> order_{2, 1, 0};
 };
 
-TEST_F(PictureJobsTest, are_whole_colours_in_order_where_pictures_are_neither_shared_nor_kept) {
+TEST_F(PictureJobsTest, are_all_colours_in_order_where_pictures_are_neither_shared_nor_kept) {
     const std::vector<std::size_t> cameras{0, 1, 2, 3, 4, 5};
-    const std::vector<PictureJob> expected_jobs{{0, {2}, cameras}, {0, {1}, cameras}, {0, {0}, cameras}};
-    EXPECT_EQ(jobs({expected}), expected_jobs);
-    EXPECT_EQ(jobs({looks}).size(), 3u);
-    EXPECT_EQ(jobs({looks, expected}).size(), 6u);
+    const std::vector<PictureJob> all{{0, {2, 1, 0}, cameras}, {1, {2, 1, 0}, cameras}};
+    EXPECT_EQ(jobs({looks, expected}), all);
 }
 
 TEST_F(PictureJobsTest, are_those_of_an_eye_where_pictures_without_speckle_are_kept) {
