@@ -186,6 +186,10 @@ def make(hogel, corpus):
             for storage in CHUNKS if h5py else ():
                 rewrite_in_chunks(made / name, made / "c.h5", storage)
                 put("hdf5_fuzz", f"{storage}-{name}", (made / "c.h5").read_bytes())
+        run("render", "sphere", "-o", made / "l.h5", "--fov", "1deg", "--size", "0.3mm", "--depth", "--part", "1/1", *SMALL)
+        run("hologram", made / "a.h5", "-o", made / "f.h5", "--wavelength", "532nm", "-q", "--pitch", "20um", "--part", "1/1")
+        for name in ("l", "f"):
+            put("part_fuzz", name, (made / f"{name}.part-1-of-1").read_bytes())
         for coder in ("hogel", "threepass", "jpeg4d"):
             run("compress", made / "a.h5", "-o", made / "a.hgl", "--coder", coder, "-q")
             put("stream_fuzz", coder, (made / "a.hgl").read_bytes())

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/core/checkpoint_file.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <span>
 #include <sstream>
@@ -21,165 +16,166 @@
 namespace hogel::core {
 namespace {
 
-constexpr std::string_view first_line = "hogel checkpoint 1\n", last_line = "records\n";
-constexpr std::uint64_t max_key = 64;  // numbers
+constexpr std::string_view first_line = "hogel checkpoint 1\n", last_line = "records\n", work_word = "work ";
+constexpr std::uint64_t max_header = std::uint64_t{16} << 20;  // kilobytes, unless options are long
+constexpr std::uint64_t max_key = 4096;                        // numbers
+
+std::uint32_t checksum_of(const void* data, std::size_t size) {
+    return checksum(std::span(static_cast<const std::uint8_t*>(data), size));
+}
 
 // What precedes the key and the bytes of a record.
 struct RecordHead {
     std::uint64_t checksum = 0, numbers = 0, bytes = 0;
 
-    std::uint64_t body_bytes() const { return numbers * sizeof(std::uint64_t) + bytes; }
     // Of the lengths and of what follows the head.
-    std::uint64_t checksum_of(std::string_view body) const {
-        const auto octets = [](const void* data, std::size_t size) {
-            return std::span(static_cast<const std::uint8_t*>(data), size);
-        };
-        const std::uint64_t all[] = {numbers, bytes, core::checksum(octets(body.data(), body.size()))};
-        return core::checksum(octets(all, sizeof all));
+    std::uint64_t checksum_with(const std::vector<std::uint64_t>& key, std::string_view data) const {
+        const std::uint64_t all[] = {numbers, bytes, checksum_of(key.data(), key.size() * sizeof(key[0])),
+                                     checksum_of(data.data(), data.size())};
+        return checksum_of(all, sizeof all);
     }
 };
+static_assert(sizeof(RecordHead) == checkpoint_record_head_bytes(0));
 
-std::uint64_t size_of(int file) {
-    struct stat status {};
-    return ::fstat(file, &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
+std::string line_of(std::string text) {
+    std::ranges::replace(text, '\n', ' ');
+    return text;
+}
+
+// The lines of the work in a file, and where they end; nothing if it is no file of records.
+std::optional<std::vector<std::string>> read_work(const RawFile& file, std::uint64_t& end) {
+    const std::uint64_t most = std::min(max_header, file.size());
+    std::string text;
+    do {
+        const std::size_t had = text.size();
+        text.resize(std::min<std::uint64_t>(most, 2 * had + 4096));
+        file.read(had, text.data() + had, text.size() - had);
+        if (!text.starts_with(first_line)) return std::nullopt;
+    } while (text.size() < most && text.find(fmt::format("\n{}", last_line)) == std::string::npos);
+    std::vector<std::string> work;
+    for (end = first_line.size(); text.compare(end, work_word.size(), work_word) == 0;) {
+        const std::size_t line = end + work_word.size(), newline = text.find('\n', line);
+        if (newline == std::string::npos) return std::nullopt;
+        work.push_back(text.substr(line, newline - line));
+        end = newline + 1;
+    }
+    if (text.compare(end, last_line.size(), last_line) != 0) return std::nullopt;
+    end += last_line.size();
+    return work;
+}
+
+// The record at a place, which is moved to its end; nothing if it is damaged or incomplete.
+std::optional<CheckpointRecord> read_record(const RawFile& file, std::uint64_t& place, std::uint64_t max_bytes) {
+    RecordHead head;
+    std::uint64_t left = file.size() - place;
+    if (left < sizeof head) return std::nullopt;
+    file.read(place, &head, sizeof head);
+    left -= sizeof head;
+    if (head.numbers > max_key || head.numbers * sizeof(std::uint64_t) > left || head.bytes > max_bytes ||
+        head.bytes > left - head.numbers * sizeof(std::uint64_t))
+        return std::nullopt;
+    CheckpointRecord record{std::vector<std::uint64_t>(head.numbers), std::string(head.bytes, '\0')};
+    const std::uint64_t of_bytes = place + checkpoint_record_head_bytes(head.numbers);
+    file.read(place + sizeof head, record.key.data(), head.numbers * sizeof(std::uint64_t));
+    file.read(of_bytes, record.bytes.data(), head.bytes);
+    if (head.checksum != head.checksum_with(record.key, record.bytes)) return std::nullopt;
+    place = of_bytes + head.bytes;
+    return record;
 }
 
 }  // namespace
 
-std::string CheckpointRecord::encoded() const {
+std::string checkpoint_record_head(const std::vector<std::uint64_t>& key, std::string_view bytes) {
     RecordHead head{0, key.size(), bytes.size()};
-    std::string record(sizeof head, '\0');
-    record.reserve(sizeof head + head.body_bytes());
-    record.append(reinterpret_cast<const char*>(key.data()), key.size() * sizeof(std::uint64_t));
-    record += bytes;
-    head.checksum = head.checksum_of(std::string_view(record).substr(sizeof head));
-    std::memcpy(record.data(), &head, sizeof head);
-    return record;
+    head.checksum = head.checksum_with(key, bytes);
+    std::string text(checkpoint_record_head_bytes(key.size()), '\0');
+    std::memcpy(text.data(), &head, sizeof head);
+    if (!key.empty()) std::memcpy(text.data() + sizeof head, key.data(), text.size() - sizeof head);
+    return text;
 }
 
-CheckpointFile::CheckpointFile(const std::filesystem::path& path, const std::vector<std::string>& work) : path_(path) {
-    if (path.empty()) return;
+std::string CheckpointRecord::encoded() const { return checkpoint_record_head(key, bytes) + bytes; }
+
+std::string checkpoint_header(const std::vector<std::string>& work) {
     std::string header(first_line);
-    for (std::string line : work) {
-        std::ranges::replace(line, '\n', ' ');
-        header += fmt::format("work {}\n", line);
-    }
-    header += last_line;
-    file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (file_ < 0) fail(errno);
-    try {
-        if (::flock(file_, LOCK_EX | LOCK_NB) != 0)
-            throw Error(ErrorCode::cannot_write, fmt::format("cannot write '{}': another process is", path_.string()));
-        at_end_ = size_of(file_) == 0;
-        at_end_ ? write(header) : check_work(header);
-        first_ = last_ = next_ = header.size();
-    } catch (...) {
-        ::close(file_);
-        throw;
-    }
+    for (const std::string& line : work) header += fmt::format("{}{}\n", work_word, line_of(line));
+    return header.append(last_line);
 }
 
-CheckpointFile::~CheckpointFile() {
-    if (file_ >= 0) ::close(file_);
+CheckpointReader::CheckpointReader(const std::filesystem::path& path, std::string_view kind)
+    : file_(path, RawFile::Mode::read, path) {
+    std::optional<std::vector<std::string>> work = read_work(file_, next_);
+    if (!work) throw Error(ErrorCode::bad_input, fmt::format("cannot read '{}': it is no {}", path.string(), kind));
+    work_ = std::move(*work);
 }
 
-void CheckpointFile::fail(int error) const {
-    throw Error(ErrorCode::cannot_write,
-                fmt::format("cannot write '{}': {}", path_.string(), std::generic_category().message(error)));
+std::optional<CheckpointRecord> CheckpointReader::read(std::uint64_t max_bytes) {
+    if (next_ == file_.size()) return std::nullopt;
+    std::optional<CheckpointRecord> record = read_record(file_, next_, max_bytes);
+    if (record) return record;
+    throw Error(ErrorCode::bad_input,
+                fmt::format("cannot read '{}': it is damaged from byte {} on", file_.name().string(), next_));
 }
 
-// Reads the header, and compares it with that of this work.
-void CheckpointFile::check_work(const std::string& header) {
-    constexpr std::uint64_t longest = 1 << 20;
-    std::string start(std::min(longest, size_of(file_)), '\0');
-    if (read(start.data(), start.size()) && start.starts_with(header)) {
-        if (::lseek(file_, static_cast<off_t>(header.size()), SEEK_SET) < 0) fail(errno);
-        return;
-    }
-    std::istringstream has(start), needs(header);
-    const auto of_work = [](const std::string& line) { return line.starts_with("work ") ? line.substr(5) : ""; };
-    for (std::string was, is; start.starts_with(first_line) && std::getline(needs, is);) {
-        if (!std::getline(has, was)) was.clear();
-        if (of_work(was) == of_work(is)) continue;
-        throw Error(ErrorCode::usage, fmt::format("cannot resume '{}': it was begun with '{}', not '{}'; remove it to "
-                                                  "begin again",
-                                                  path_.string(), of_work(was), of_work(is)));
-    }
-    throw Error(ErrorCode::bad_input, fmt::format("cannot resume '{}': it is no checkpoint of hogel; remove it to "
-                                                  "begin again",
-                                                  path_.string()));
+CheckpointFile::CheckpointFile(const std::filesystem::path& path, const std::vector<std::string>& work) {
+    if (path.empty()) return;
+    file_.emplace(path, RawFile::Mode::kept, path);
+    if (!file_->lock())
+        throw Error(ErrorCode::cannot_write, fmt::format("cannot write '{}': another process is", path.string()));
+    at_end_ = file_->size() == 0;
+    const std::string header = checkpoint_header(work);
+    at_end_ ? file_->write(0, header.data(), header.size()) : check_work(work);
+    first_ = next_ = header.size();
 }
 
-bool CheckpointFile::read(void* to, std::size_t bytes) {
-    for (std::size_t got = 0; got < bytes;) {
-        const ssize_t more = ::read(file_, static_cast<char*>(to) + got, bytes - got);
-        if (more == 0) return false;
-        if (more > 0)
-            got += static_cast<std::size_t>(more);
-        else if (errno != EINTR)
-            fail(errno);
-    }
-    return true;
-}
-
-void CheckpointFile::write(std::string_view bytes) {
-    for (std::string_view rest = bytes; !rest.empty();) {
-        const ssize_t put = ::write(file_, rest.data(), rest.size());
-        if (put > 0)
-            rest.remove_prefix(static_cast<std::size_t>(put));
-        else if (errno != EINTR)
-            fail(errno);
+// Compares the lines of the file with those of this work.
+void CheckpointFile::check_work(const std::vector<std::string>& work) {
+    std::uint64_t end = 0;
+    const auto begun = read_work(*file_, end);
+    if (!begun)
+        throw Error(ErrorCode::bad_input, fmt::format("cannot resume '{}': it is no checkpoint of hogel; remove it to "
+                                                      "begin again",
+                                                      file_->name().string()));
+    for (std::size_t i = 0; i < std::max(begun->size(), work.size()); ++i) {
+        const std::string was = i < begun->size() ? (*begun)[i] : "", is = i < work.size() ? line_of(work[i]) : "";
+        if (was != is)
+            throw Error(ErrorCode::usage, fmt::format("cannot resume '{}': it was begun with '{}', not '{}'; remove it "
+                                                      "to begin again",
+                                                      file_->name().string(), was, is));
     }
 }
 
 void CheckpointFile::end_at(std::uint64_t place) {
-    if (::ftruncate(file_, static_cast<off_t>(place)) != 0 || ::lseek(file_, 0, SEEK_END) < 0) fail(errno);
-    last_ = next_ = place;
+    file_->resize(place);
+    next_ = place;
     at_end_ = true;
 }
 
-std::optional<CheckpointRecord> CheckpointFile::read() {
+std::optional<CheckpointRecord> CheckpointFile::read(const std::vector<std::uint64_t>* key) {
     if (at_end_) return std::nullopt;
-    RecordHead head;
-    std::string body;
-    bool is_whole = read(&head, sizeof head) && head.numbers <= max_key && head.bytes <= size_of(file_);
-    if (is_whole) {
-        body.resize(head.body_bytes());
-        is_whole = read(body.data(), body.size()) && head.checksum == head.checksum_of(body);
-    }
-    if (!is_whole) {
-        end_at(next_);
-        return std::nullopt;
-    }
-    const std::size_t key_bytes = head.numbers * sizeof(std::uint64_t);
-    CheckpointRecord record{std::vector<std::uint64_t>(head.numbers), {}};
-    if (key_bytes > 0) std::memcpy(record.key.data(), body.data(), key_bytes);
-    record.bytes = std::move(body.erase(0, key_bytes));
-    last_ = next_;
-    next_ += sizeof head + head.body_bytes();
-    return record;
-}
-
-void CheckpointFile::reject() {
-    if (file_ >= 0) end_at(last_);
+    const std::uint64_t place = next_;
+    std::optional<CheckpointRecord> record = read_record(*file_, next_, file_->size());
+    if (record && (key == nullptr || record->key == *key)) return record;
+    end_at(place);
+    return std::nullopt;
 }
 
 void CheckpointFile::append(std::string_view records) {
-    if (file_ < 0) return;
+    if (!file_) return;
     if (!at_end_) end_at(next_);
-    write(records);
+    file_->write(next_, records.data(), records.size());
     next_ += records.size();
 }
 
 void CheckpointFile::clear() {
-    if (file_ >= 0) end_at(first_);
+    if (file_) end_at(first_);
 }
 
 void CheckpointFile::remove() {
-    if (file_ < 0) return;
+    if (!file_) return;
     std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-    ::close(std::exchange(file_, -1));
+    std::filesystem::remove(file_->name(), ignored);
+    file_.reset();
 }
 
 }  // namespace hogel::core

@@ -48,6 +48,12 @@ TEST_F(JournalTest, lists_the_parts_done_in_earlier_runs) {
     EXPECT_FALSE(std::filesystem::exists(path_));
 }
 
+TEST_F(JournalTest, belongs_to_work_of_long_lines) {
+    const std::vector<std::string> work{std::string(50'000, 'a'), "", std::string(300'000, 'b')};
+    open(work).begin();
+    EXPECT_TRUE(open(work).begun());
+}
+
 TEST_F(JournalTest, flushes_results_before_recording_them_as_done) {
     std::string seen = "never";
     {

@@ -2,6 +2,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <stdlib.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -27,6 +28,8 @@ int flags(RawFile::Mode mode) {
             return O_RDONLY | O_CLOEXEC;
         case RawFile::Mode::write:
             return O_RDWR | O_CLOEXEC;
+        case RawFile::Mode::kept:
+            return O_RDWR | O_CREAT | O_CLOEXEC;
         case RawFile::Mode::create:
         case RawFile::Mode::unnamed:
             break;
@@ -103,6 +106,8 @@ void RawFile::resize(std::uint64_t bytes) {
     if (bytes > max_bytes) fail(EFBIG);
     if (::ftruncate(file_, static_cast<off_t>(bytes)) != 0) fail(errno);
 }
+
+bool RawFile::lock() { return ::flock(file_, LOCK_EX | LOCK_NB) == 0; }
 
 void RawFile::flush() {
     if (::fdatasync(file_) != 0) fail(errno);

@@ -10,8 +10,9 @@ namespace hogel::core {
 /// A file that is read and written at offsets. Thread-safe.
 class RawFile {
   public:
-    /// An unnamed file is a new one in the folder that `path` names. It is gone when it is closed or the process ends.
-    enum class Mode { read, write, create, unnamed };
+    /// `create` begins with an empty file, `kept` with what is there, if anything. An unnamed file is a new one in the
+    /// folder that `path` names. It is gone when it is closed or the process ends.
+    enum class Mode { read, write, create, kept, unnamed };
     /// Throws Error(bad_input) when reading, Error(cannot_write) otherwise.
     /// @param name  the file's name in error messages
     RawFile(const std::filesystem::path& path, Mode mode, const std::filesystem::path& name);
@@ -30,6 +31,8 @@ class RawFile {
     void reserve(std::uint64_t bytes);
     /// Sets the length of the file; added bytes are a hole. Throws Error(cannot_write).
     void resize(std::uint64_t bytes);
+    /// Takes the lock of the file until it is closed. Returns false if another RawFile has it, of any process.
+    bool lock();
     /// Waits until all data has reached the disk. Throws Error(cannot_write).
     void flush();
     /// Throws Error(cannot_write) if the system reports a delayed failure.

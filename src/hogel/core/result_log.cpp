@@ -2,7 +2,6 @@
 #include "hogel/core/result_log.h"
 
 #include <atomic>
-#include <utility>
 
 #include "hogel/core/shared_order.h"
 #include "hogel/error.h"
@@ -28,21 +27,18 @@ std::size_t ResultLog::begin(std::size_t n, const std::function<void(std::size_t
     next_ = {loops_++, n, 0};
     std::uint64_t& result = next_.back();
     while (result < n) {
-        const std::optional<CheckpointRecord> record = file_.read();
+        const std::optional<CheckpointRecord> record = file_.read(&next_);
         if (!record) break;
-        if (record->key != next_) {
-            file_.reject();
-            break;
-        }
         take(result++, record->bytes);
         ++results_;
     }
     return result;
 }
 
-void ResultLog::keep(std::string bytes) {
+void ResultLog::keep(std::string_view bytes) {
     if (!file_.is_open()) return;
-    file_.append(CheckpointRecord{next_, std::move(bytes)}.encoded());
+    file_.append(checkpoint_record_head(next_, bytes));
+    file_.append(bytes);
     ++next_.back();
     ++results_;
 }

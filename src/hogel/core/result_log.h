@@ -28,7 +28,7 @@ class ResultLog {
     /// @return how many results there were, the first ones of the loop
     std::size_t begin(std::size_t n, const std::function<void(std::size_t i, std::string_view bytes)>& take);
     /// Keeps the next result of the loop that was begun.
-    void keep(std::string bytes);
+    void keep(std::string_view bytes);
     /// Removes the file.
     void remove() { file_.remove(); }
 

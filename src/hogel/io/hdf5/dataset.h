@@ -99,6 +99,7 @@ class DatasetFile {
     void lay_out_together(const Contents& contents, const std::optional<std::string>& resume);
     void take(const std::string& lines);
     void write_bytes(std::size_t dataset, const Box& box, const void* from);
+    void put(std::size_t dataset, std::size_t sample, const void* from, std::size_t samples);
 
     std::filesystem::path path_;
     Team* team_;
@@ -107,7 +108,8 @@ class DatasetFile {
     bool finished_ = false;
     std::optional<core::OutputFile> output_;  // of the first process
     std::vector<NewDataset> datasets_;        // with the shapes that are written here
-    std::vector<std::uint64_t> offsets_;
+    bool is_part_ = false;
+    std::vector<std::uint64_t> offsets_;  // of the samples, or of a part's records
     std::optional<core::RawFile> raw_;
     std::mutex writing_;
     core::ObjectPool<std::vector<std::uint16_t, CacheLineAllocator<std::uint16_t>>> halves_;

@@ -97,7 +97,7 @@ SharedLayout from_text(const std::string& text) {
 }  // namespace
 
 DatasetFile::DatasetFile(const std::filesystem::path& path, Contents contents, const std::optional<std::string>& resume)
-    : path_(path), team_(hogel::team()), datasets_(contents.datasets) {
+    : path_(path), team_(hogel::team()), datasets_(contents.datasets), is_part_(contents.part.has_value()) {
     if (contents.part)
         for (std::size_t i = 0; i < datasets_.size(); ++i)
             datasets_[i].shape.at(contents.part->bands[i].axis) = contents.part->bands[i].count;
@@ -138,7 +138,7 @@ void DatasetFile::lay_out(const Contents& contents, const std::optional<std::str
             work.insert(work.begin(), fmt::format("part {} of {}", contents.part->number, contents.part->count));
         journal_.emplace(part.string() + ".journal", work, [&] { raw_->flush(); });
         if (journal_->begun() && std::filesystem::exists(part)) {
-            offsets_ = contents.part ? read_part_header(part).offsets : offsets_in(part, datasets_);
+            offsets_ = is_part_ ? PartReader(part).records() : offsets_in(part, datasets_);
             raw_.emplace(part, core::RawFile::Mode::write, path_);
             return;
         }
@@ -193,6 +193,14 @@ std::unique_ptr<core::TileQueue> DatasetFile::share_tiles(std::size_t dataset, s
 
 std::uint64_t DatasetFile::total(std::uint64_t here) { return team_ != nullptr ? team_->sum(here) : here; }
 
+void DatasetFile::put(std::size_t dataset, std::size_t sample, const void* from, std::size_t samples) {
+    const std::uint64_t element = bytes_of(datasets_[dataset].element), at = element * sample;
+    if (is_part_)
+        write_to_records(*raw_, offsets_[dataset], at, from, element * samples);
+    else
+        raw_->write(offsets_[dataset] + at, from, element * samples);
+}
+
 // The system lets only one thread at a time write to a file. A lock per box makes threads wait once, instead of at each
 // of the thousands of system calls for a box.
 void DatasetFile::write_bytes(std::size_t dataset, const Box& box, const void* from) {
@@ -203,8 +211,7 @@ void DatasetFile::write_bytes(std::size_t dataset, const Box& box, const void* f
         for (std::size_t done = 0, some = 0; done < n; done += some) {
             core::throw_if_stopped();
             some = std::min(samples_written, n - done);
-            raw_->write(offsets_[dataset] + bytes * (there + done),
-                        static_cast<const char*>(from) + bytes * (here + done), bytes * some);
+            put(dataset, there + done, static_cast<const char*>(from) + bytes * (here + done), some);
         }
     });
 }
@@ -226,7 +233,7 @@ void DatasetFile::write(std::size_t dataset, const Box& box, const float* from) 
             core::throw_if_stopped();
             some = std::min(at_once, n - done);
             core::to_half(from + here + done, halves->data(), some);
-            raw_->write(offsets_[dataset] + 2 * (there + done), halves->data(), 2 * some);
+            put(dataset, there + done, halves->data(), some);
         }
     });
 }
@@ -238,6 +245,7 @@ void DatasetFile::write(std::size_t dataset, const Box& box, const std::complex<
 void DatasetFile::finish() {
     raw_->close();
     if (team_ != nullptr) team_->meet();  // all have written
+    if (output_ && is_part_) complete_part(output_->temporary(), path_);
     if (output_) output_->commit();
     if (journal_) journal_->remove();
     finished_ = true;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 
 #include "hogel/core/output_file.h"
 #include "hogel/core/parallel.h"
@@ -17,12 +18,16 @@ namespace {
 
 using hdf5::PartHeader;
 
-constexpr std::uint64_t bytes_at_once = std::uint64_t{8} << 20;
-
 struct Part {
     std::filesystem::path path;
     PartHeader header;
+    std::vector<std::string> work;
 };
+
+Part open_part(const std::filesystem::path& path) {
+    const hdf5::PartReader reader(path);
+    return {path, reader.header(), reader.work()};
+}
 
 [[noreturn]] void fail(const std::string& why) {
     throw Error(ErrorCode::bad_input, fmt::format("cannot join parts: {}", why));
@@ -33,10 +38,10 @@ void require_same_file(const Part& a, const Part& b) {
     if (a.header.count != b.header.count)
         fail(fmt::format("'{}' is one of {} parts, '{}' one of {}", a.path.string(), a.header.count, b.path.string(),
                          b.header.count));
-    const std::size_t lines = std::max(a.header.work.size(), b.header.work.size());
+    const std::size_t lines = std::max(a.work.size(), b.work.size());
     for (std::size_t i = 0; i < lines; ++i) {
         const auto line = [i](const Part& part) {
-            return i < part.header.work.size() ? part.header.work[i] : std::string("nothing more");
+            return i < part.work.size() ? part.work[i] : std::string("nothing more");
         };
         if (line(a) != line(b))
             fail(fmt::format("they belong to different files: '{}' was made with '{}', '{}' with '{}'", a.path.string(),
@@ -51,7 +56,7 @@ std::vector<Part> open_parts(std::span<const std::filesystem::path> paths) {
     if (paths.empty()) fail("none was named");
     std::vector<std::optional<Part>> slots;
     for (const std::filesystem::path& path : paths) {
-        Part part{path, hdf5::read_part_header(path)};
+        Part part = open_part(path);
         if (slots.empty()) {
             if (part.header.count > 1'000'000) fail(fmt::format("'{}' is one of too many", path.string()));
             slots.resize(part.header.count);
@@ -104,36 +109,36 @@ class Joiner {
 
     // Copies the bands of a part: one run for each index of the axes before theirs.
     void copy(const Part& part) {
-        const core::RawFile in(part.path, core::RawFile::Mode::read, part.path);
-        for (std::size_t d = 0; d < part.header.datasets.size(); ++d) {
-            const PartHeader::Samples& s = part.header.datasets[d];
-            std::uint64_t row = s.element_bytes, outer = 1;
-            for (std::size_t axis = 0; axis < s.shape.size(); ++axis)
-                if (axis != s.band.axis) (axis > s.band.axis ? row : outer) *= s.shape[axis];
-            const std::uint64_t run = row * s.band.count;
-            for (std::uint64_t i = 0; i < outer; ++i)
-                copy(in, part.header.offsets[d] + i * run, s.offset + row * (i * s.shape[s.band.axis] + s.band.first),
-                     run);
+        hdf5::PartReader in(part.path);
+        for (std::size_t d = 0; d < in.header().datasets.size(); ++d) {
+            const PartHeader::Samples& dataset = in.header().datasets[d];
+            for (std::uint64_t at = 0; at < dataset.bytes();) {
+                core::throw_if_stopped();
+                const std::string samples = in.read(d, at);
+                write(dataset, at, samples);
+                at += samples.size();
+                done_ += samples.size();
+                progress_.report(static_cast<double>(done_) / static_cast<double>(all_));
+            }
         }
     }
 
   private:
-    void copy(const core::RawFile& in, std::uint64_t from, std::uint64_t to, std::uint64_t bytes) {
-        buffer_.resize(std::min(bytes_at_once, std::max<std::uint64_t>(bytes, buffer_.size())));
-        for (std::uint64_t some = 0; bytes > 0; bytes -= some, from += some, to += some) {
-            core::throw_if_stopped();
-            some = std::min<std::uint64_t>(bytes, buffer_.size());
-            in.read(from, buffer_.data(), some);
-            out_.write(to, buffer_.data(), some);
-            done_ += some;
-            progress_.report(static_cast<double>(done_) / static_cast<double>(all_));
+    // Writes bytes of a band, `at` bytes from its begin.
+    void write(const PartHeader::Samples& s, std::uint64_t at, std::string_view bytes) {
+        std::uint64_t row = s.element_bytes;
+        for (std::size_t axis = s.band.axis + 1; axis < s.shape.size(); ++axis) row *= s.shape[axis];
+        const std::uint64_t run = row * s.band.count;
+        for (std::uint64_t some = 0; !bytes.empty(); bytes.remove_prefix(some), at += some) {
+            some = std::min<std::uint64_t>(bytes.size(), run - at % run);
+            const std::uint64_t rows = at / run * s.shape[s.band.axis] + s.band.first;
+            out_.write(s.offset + rows * row + at % run, bytes.data(), some);
         }
     }
 
     core::RawFile& out_;
     const Progress& progress_;
     std::uint64_t all_ = 0, done_ = 0;
-    std::vector<char> buffer_;
 };
 
 }  // namespace

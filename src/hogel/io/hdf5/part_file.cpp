@@ -2,98 +2,53 @@
 #include "hogel/io/hdf5/part_file.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
-#include <sstream>
-#include <string_view>
+#include <span>
 #include <utility>
 
-#include "hogel/core/checksum.h"
 #include "hogel/core/output_file.h"
-#include "hogel/core/raw_file.h"
+#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 
 namespace hogel::io::hdf5 {
 namespace {
 
-constexpr std::string_view first_words = "hogel part 1 ";
-constexpr std::uint64_t chunk_alignment = 4096;
-// The text of the header and the image of a file are kilobytes, unless options are long.
-constexpr std::uint64_t max_text = std::uint64_t{16} << 20, max_image = std::uint64_t{64} << 20;
-constexpr std::size_t max_datasets = 256, max_axes = 8, first_line_bytes = 64;
+constexpr std::string_view former_words = "hogel part 1 ";
+constexpr std::uint64_t max_image = std::uint64_t{64} << 20;  // kilobytes, unless options are long
+constexpr std::size_t max_datasets = 256, max_axes = 8;
 
-std::string line_of(const std::string& text) {
-    std::string line = text;
-    std::ranges::replace(line, '\n', ' ');
-    return line;
+// Of a band's records: so many bytes of samples each, after a head whose key is the dataset and the first byte.
+constexpr std::uint64_t record_bytes = std::uint64_t{1} << 20, head_bytes = core::checkpoint_record_head_bytes(2);
+
+// Where byte `at` of a band is in a part file.
+std::uint64_t place_of(std::uint64_t records, std::uint64_t at) {
+    return records + at + (at / record_bytes + 1) * head_bytes;
 }
 
-std::string text_of(const PartHeader& header) {
-    std::string text = fmt::format("part {} of {}\nwhole {}\n", header.number, header.count, header.whole_bytes);
-    for (const std::string& line : header.work) text += fmt::format("work {}\n", line_of(line));
-    for (const PartHeader::Samples& s : header.datasets)
-        text += fmt::format("dataset {} {} {} {} {} {}\n", s.offset, s.element_bytes, s.band.axis, s.band.first,
-                            s.band.count, fmt::join(s.shape, " "));
-    return text + fmt::format("image {}\n", header.image.size());
+// The places of the datasets' records, and that of the end.
+std::vector<std::uint64_t> places_of(const PartHeader& header, std::uint64_t first) {
+    std::vector<std::uint64_t> places{first};
+    for (const PartHeader::Samples& dataset : header.datasets)
+        places.push_back(place_of(places.back(), dataset.bytes() - 1) + 1);
+    return places;
 }
 
-std::uint64_t aligned(std::uint64_t offset) {
-    return (offset + chunk_alignment - 1) / chunk_alignment * chunk_alignment;
-}
-
-// Where the bands lie, after first line, text and image.
-void place_bands(PartHeader& header, std::uint64_t text_bytes) {
-    header.offsets.clear();
-    std::uint64_t at = first_line_bytes + text_bytes + header.image.size();
-    for (const PartHeader::Samples& dataset : header.datasets) {
-        header.offsets.push_back(aligned(at));
-        at = header.offsets.back() + dataset.bytes();
+core::CheckpointRecord record_of(const PartHeader& header) {
+    std::vector<std::uint64_t> key{header.number, header.count, header.whole_bytes};
+    for (const PartHeader::Samples& s : header.datasets) {
+        key.insert(key.end(), {s.offset, s.element_bytes, s.band.axis, s.band.first, s.band.count, s.shape.size()});
+        key.insert(key.end(), s.shape.begin(), s.shape.end());
     }
-}
-
-std::span<const std::uint8_t> bytes_of_text(const std::string& text) {
-    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
-
-[[noreturn]] void fail_damaged(const std::filesystem::path& path) {
-    throw Error(ErrorCode::bad_input, fmt::format("cannot read '{}': its header is damaged", path.string()));
-}
-
-// Reads the lines of a header. Returns false if one is not as it should be.
-bool read_lines(const std::string& text, PartHeader& header, std::uint64_t& image_bytes) {
-    std::istringstream lines(text);
-    bool numbered = false, sized = false, imaged = false;
-    for (std::string line; std::getline(lines, line);) {
-        std::istringstream words(line);
-        std::string word, of;
-        words >> word;
-        if (word == "part") {
-            numbered = static_cast<bool>(words >> header.number >> of >> header.count);
-        } else if (word == "whole") {
-            sized = static_cast<bool>(words >> header.whole_bytes);
-        } else if (word == "work") {
-            header.work.push_back(line.size() > 5 ? line.substr(5) : "");
-        } else if (word == "image") {
-            imaged = static_cast<bool>(words >> image_bytes);
-        } else if (word == "dataset") {
-            PartHeader::Samples s;
-            if (!(words >> s.offset >> s.element_bytes >> s.band.axis >> s.band.first >> s.band.count)) return false;
-            for (std::size_t extent = 0; words >> extent;) s.shape.push_back(extent);
-            header.datasets.push_back(std::move(s));
-        } else {
-            return false;
-        }
-    }
-    return numbered && sized && imaged;
+    return {std::move(key), header.image};
 }
 
 // Whether the numbers fit together: bands inside of datasets, and these one after the other inside of the file.
-bool is_sound(const PartHeader& header, std::uint64_t image_bytes) {
+bool is_sound(const PartHeader& header) {
     constexpr std::uint64_t max_bytes = std::numeric_limits<std::int64_t>::max();
     if (header.number == 0 || header.number > header.count || header.datasets.empty() ||
-        header.datasets.size() > max_datasets || header.whole_bytes > max_bytes || image_bytes > max_image)
+        header.datasets.size() > max_datasets || header.whole_bytes > max_bytes)
         return false;
     std::uint64_t at = 0, samples = 0;
     for (const PartHeader::Samples& s : header.datasets) {
@@ -111,7 +66,34 @@ bool is_sound(const PartHeader& header, std::uint64_t image_bytes) {
         at = s.offset + s.whole_bytes();
         samples += s.whole_bytes();
     }
-    return header.whole_bytes - samples == image_bytes;
+    return header.whole_bytes - samples == header.image.size();
+}
+
+// Nothing if the record is no header.
+std::optional<PartHeader> header_of(core::CheckpointRecord record) {
+    constexpr std::size_t of_file = 3, of_dataset = 6;
+    if (record.key.size() < of_file) return std::nullopt;
+    PartHeader header{record.key[0], record.key[1], record.key[2], {}, std::move(record.bytes)};
+    for (std::span numbers = std::span(record.key).subspan(of_file); !numbers.empty();) {
+        if (numbers.size() < of_dataset || numbers[5] > numbers.size() - of_dataset) return std::nullopt;
+        const std::span shape = numbers.subspan(of_dataset, numbers[5]);
+        header.datasets.push_back(
+            {numbers[0], numbers[1], {shape.begin(), shape.end()}, {numbers[2], numbers[3], numbers[4]}});
+        numbers = numbers.subspan(of_dataset + shape.size());
+    }
+    if (!is_sound(header)) return std::nullopt;
+    return header;
+}
+
+// Earlier versions had a format for part files alone.
+const std::filesystem::path& require_current(const std::filesystem::path& path) {
+    const core::RawFile file(path, core::RawFile::Mode::read, path);
+    std::string start(std::min<std::uint64_t>(file.size(), former_words.size()), ' ');
+    file.read(0, start.data(), start.size());
+    if (start != former_words) return path;
+    throw Error(
+        ErrorCode::bad_input,
+        fmt::format("cannot read '{}': an earlier version of hogel wrote this part; write it again", path.string()));
 }
 
 }  // namespace
@@ -138,16 +120,12 @@ std::vector<std::pair<std::uint64_t, std::uint64_t>> PartHeader::image_runs() co
     return runs;
 }
 
-std::uint64_t PartHeader::bytes() const { return offsets.back() + datasets.back().bytes(); }
-
 std::vector<std::uint64_t> lay_out_part(const std::filesystem::path& path, const std::filesystem::path& target,
                                         const std::vector<std::string>& work, const Attributes& attributes,
                                         const std::vector<NewDataset>& datasets, const PartOf& part) {
     PartHeader header;
     header.number = part.number;
     header.count = part.count;
-    header.work = work;
-    header.work.insert(header.work.begin(), part.input);
     {
         // The whole file without samples, all holes but for what HDF5 writes.
         const core::OutputFile whole(target);
@@ -162,53 +140,62 @@ std::vector<std::uint64_t> lay_out_part(const std::filesystem::path& path, const
             raw.read(first, header.image.data() + at, end - first);
         }
     }
-    const std::string text = text_of(header);
-    place_bands(header, text.size());
-    std::vector<std::uint8_t> checked(bytes_of_text(text).begin(), bytes_of_text(text).end());
-    checked.insert(checked.end(), header.image.begin(), header.image.end());
-    const std::string first_line = fmt::format("{}{} {:08x}", first_words, text.size(), core::checksum(checked));
-    const std::string padded = fmt::format("{:<{}}\n", first_line, first_line_bytes - 1);
+    std::vector<std::string> lines{part.input};
+    lines.insert(lines.end(), work.begin(), work.end());
+    const std::string start = core::checkpoint_header(lines) + record_of(header).encoded();
+    std::vector<std::uint64_t> places = places_of(header, start.size());
     core::RawFile file(path, core::RawFile::Mode::create, target);
-    file.reserve(header.bytes());
-    file.resize(header.bytes());
-    file.write(0, padded.data(), padded.size());
-    file.write(padded.size(), checked.data(), checked.size());
+    file.reserve(places.back());
+    file.resize(places.back());
+    file.write(0, start.data(), start.size());
     file.close();
-    return header.offsets;
+    places.pop_back();
+    return places;
 }
 
-PartHeader read_part_header(const std::filesystem::path& path) {
-    const core::RawFile file(path, core::RawFile::Mode::read, path);
-    std::string first_line(first_line_bytes, ' ');
-    if (file.size() < first_line.size())
-        throw Error(ErrorCode::bad_input,
-                    fmt::format("cannot read '{}': it is no part of a file of hogel's", path.string()));
-    file.read(0, first_line.data(), first_line.size());
-    if (!first_line.starts_with(first_words))
-        throw Error(ErrorCode::bad_input,
-                    fmt::format("cannot read '{}': it is no part of a file of hogel's", path.string()));
-    std::istringstream words(first_line.substr(first_words.size()));
-    std::uint64_t text_bytes = 0, image_bytes = 0;
-    std::uint32_t sum = 0;
-    if (!(words >> text_bytes >> std::hex >> sum) || text_bytes > max_text ||
-        text_bytes > file.size() - first_line.size())
-        fail_damaged(path);
-    std::string text(text_bytes, ' ');
-    file.read(first_line.size(), text.data(), text.size());
-    PartHeader header;
-    if (!read_lines(text, header, image_bytes) || !is_sound(header, image_bytes) ||
-        image_bytes > file.size() - first_line.size() - text.size())
-        fail_damaged(path);
-    header.image.resize(image_bytes);
-    file.read(first_line.size() + text.size(), header.image.data(), image_bytes);
-    std::vector<std::uint8_t> checked(bytes_of_text(text).begin(), bytes_of_text(text).end());
-    checked.insert(checked.end(), header.image.begin(), header.image.end());
-    if (core::checksum(checked) != sum) fail_damaged(path);
-    place_bands(header, text.size());
-    if (file.size() != header.bytes())
-        throw Error(ErrorCode::bad_input, fmt::format("cannot read '{}': it has {} bytes, but its header tells of {}",
-                                                      path.string(), file.size(), header.bytes()));
-    return header;
+void write_to_records(core::RawFile& file, std::uint64_t records, std::uint64_t at, const void* from,
+                      std::uint64_t bytes) {
+    const auto* rest = static_cast<const char*>(from);
+    for (std::uint64_t some = 0; bytes > 0; bytes -= some, at += some, rest += some) {
+        some = std::min(bytes, record_bytes - at % record_bytes);
+        file.write(place_of(records, at), rest, some);
+    }
+}
+
+void complete_part(const std::filesystem::path& path, const std::filesystem::path& target) {
+    const PartReader part(path);
+    core::RawFile file(path, core::RawFile::Mode::write, target);
+    for (std::size_t d = 0; d < part.records().size(); ++d) {
+        const std::uint64_t bytes = part.header().datasets[d].bytes();
+        core::parallel_for((bytes + record_bytes - 1) / record_bytes, [&](std::size_t i) {
+            const std::uint64_t at = i * record_bytes, place = place_of(part.records()[d], at);
+            std::string samples(std::min(record_bytes, bytes - at), '\0');
+            file.read(place, samples.data(), samples.size());
+            const std::string head = core::checkpoint_record_head({d, at}, samples);
+            file.write(place - head.size(), head.data(), head.size());
+        });
+    }
+    file.close();
+}
+
+PartReader::PartReader(const std::filesystem::path& path) : file_(require_current(path), "part of a file of hogel's") {
+    std::optional<core::CheckpointRecord> record = file_.read(max_image);
+    std::optional<PartHeader> header = record ? header_of(std::move(*record)) : std::nullopt;
+    if (!header) fail(path, "it is no part of a file of hogel's");
+    header_ = std::move(*header);
+    records_ = places_of(header_, file_.place());
+    if (records_.back() != file_.size())
+        fail(path, fmt::format("it has {} bytes, but its header tells of {}", file_.size(), records_.back()));
+    records_.pop_back();
+}
+
+std::string PartReader::read(std::size_t dataset, std::uint64_t at) {
+    std::optional<core::CheckpointRecord> record = file_.read(record_bytes);
+    const std::uint64_t rest = header_.datasets[dataset].bytes() - at;
+    if (!record || record->key != std::vector<std::uint64_t>{dataset, at} ||
+        record->bytes.size() != std::min(record_bytes, rest))
+        fail(file_.name(), fmt::format("its samples are damaged, at byte {} of dataset {}", at, dataset));
+    return std::move(record->bytes);
 }
 
 }  // namespace hogel::io::hdf5

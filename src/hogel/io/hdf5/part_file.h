@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "hogel/core/checkpoint_file.h"
+#include "hogel/core/raw_file.h"
 #include "hogel/io/hdf5/hdf5.h"
 
 namespace hogel::io::hdf5 {
@@ -23,7 +25,7 @@ struct PartOf {
     std::string input;  ///< what the parts must have in common beside attributes and datasets: the input
 };
 
-/// What the header of a part file says (docs/cluster.md). The image holds the bytes of the whole file that are no
+/// What the first record of a part file says (docs/cluster.md). The image holds the bytes of the whole file that are no
 /// samples: HDF5's own structures, with all attributes, so that a file is joined without HDF5 and has the same bytes as
 /// one that was written whole.
 struct PartHeader {
@@ -37,25 +39,50 @@ struct PartHeader {
         std::uint64_t bytes() const;  ///< of the band
     };
     std::size_t number = 1, count = 1;
-    std::vector<std::string> work;  ///< lines that the parts of a file have in common
     std::uint64_t whole_bytes = 0;  ///< of the whole file
     std::vector<Samples> datasets;
-    std::vector<std::uint8_t> image;
-    std::vector<std::uint64_t> offsets;  ///< of the datasets' bands in the part file
+    std::string image;
 
-    std::uint64_t bytes() const;  ///< of the part file
     /// Where the image lies in the whole file, between and around the datasets: runs of [first, end), in order.
     std::vector<std::pair<std::uint64_t, std::uint64_t>> image_runs() const;
 };
 
-/// Creates a part file with space for its samples and returns their offsets.
+/// Creates a part file with space for its samples and returns the places of the datasets' records.
 /// @param work    lines that the parts of a file have in common
 /// @param target  the file's name in error messages. Throws Error(cannot_write).
 std::vector<std::uint64_t> lay_out_part(const std::filesystem::path& path, const std::filesystem::path& target,
                                         const std::vector<std::string>& work, const Attributes& attributes,
                                         const std::vector<NewDataset>& datasets, const PartOf& part);
 
-/// Throws Error(bad_input) if the file is no part file, or its header is damaged.
-PartHeader read_part_header(const std::filesystem::path& path);
+/// Writes bytes of a band, `at` bytes from its begin, into its records.
+/// @param records  where the first of them begins
+void write_to_records(core::RawFile& file, std::uint64_t records, std::uint64_t at, const void* from,
+                      std::uint64_t bytes);
+
+/// Gives the records of a part file whose samples are all written their keys and checksums. It reads all samples.
+/// @param target  the file's name in error messages. Throws Error(cannot_write).
+void complete_part(const std::filesystem::path& path, const std::filesystem::path& target);
+
+/// Reads a part file: a CheckpointFile of one record that is the header, and for each dataset records of a mebibyte of
+/// the band, the last of which may be shorter.
+class PartReader {
+  public:
+    /// Throws Error(bad_input) if the file is no part file of this version, its header is damaged, or it has another
+    /// length.
+    explicit PartReader(const std::filesystem::path& path);
+
+    const PartHeader& header() const { return header_; }
+    const std::vector<std::string>& work() const { return file_.work(); }
+    /// The places of the datasets' records.
+    const std::vector<std::uint64_t>& records() const { return records_; }
+    /// The next bytes of a band, from the first dataset's to the last one's. Throws Error(bad_input) if they are
+    /// damaged.
+    std::string read(std::size_t dataset, std::uint64_t at);
+
+  private:
+    core::CheckpointReader file_;
+    PartHeader header_;
+    std::vector<std::uint64_t> records_;
+};
 
 }  // namespace hogel::io::hdf5

@@ -79,32 +79,84 @@ TEST_F(PartFileTest, rows_that_overlap_or_are_missing_are_refused) {
     }
 }
 
-// Lengths and bits all over the file; each trial writes a file, so that not every one is tried.
+// Damage of any byte is refused, or has no effect: the text of the work is for messages. Each trial writes a file, so
+// that not every byte is tried.
 TEST_F(PartFileTest, damaged_parts_are_refused) {
-    const fs::path whole = part(1, 1, {0, 5}), damaged = folder_ / "damaged";
-    const std::string bytes = bytes_of(whole);
-    const std::uint64_t samples = hdf5::read_part_header(whole).offsets.front();
+    write(create_light_field(folder_ / "whole.h5", {&grid_, 1}, options_), {0, 5});
+    const std::string whole = bytes_of(folder_ / "whole.h5");
+    const fs::path damaged = folder_ / "damaged";
+    const std::string bytes = bytes_of(part(1, 1, {0, 5}));
+    const std::size_t records = bytes.find("\nrecords\n") + 9;
     const auto refused = [&](const std::string& text) {
         write_bytes(damaged, text);
         try {
             join_parts(folder_ / "joined.h5", {&damaged, 1}, {});
         } catch (const Error& error) {
-            return error.code() == ErrorCode::bad_input;
+            return error.code() == ErrorCode::bad_input && !fs::exists(folder_ / "joined.h5");
         }
         return false;
     };
     for (std::size_t length = 0; length < bytes.size(); length += length < 300 ? 7 : 211)
         ASSERT_TRUE(refused(bytes.substr(0, length))) << length << " bytes";
     ASSERT_TRUE(refused(bytes + '\0'));
-    for (std::size_t at = 0; at < samples; at += at < 100 ? 3 : 61) {
+    for (std::size_t at = 0; at < bytes.size(); at += at < 100 ? 3 : 61) {
         std::string flipped = bytes;
         flipped[at] = static_cast<char>(flipped[at] ^ (1 << at % 8));
         if (refused(flipped)) continue;
-        // Blanks after the first line and between header and samples have no meaning.
-        EXPECT_EQ(bytes[at] == ' ' || bytes[at] == '\n' || bytes[at] == '\0', true) << "byte " << at;
-        EXPECT_TRUE(at < 64 || at + 4096 > samples) << "byte " << at;
+        EXPECT_LT(at, records);
+        EXPECT_EQ(bytes_of(folder_ / "joined.h5"), whole) << "byte " << at;
         fs::remove(folder_ / "joined.h5");
     }
+}
+
+// Bands of several records, which end inside of rows.
+TEST_F(PartFileTest, bands_of_several_records_are_joined) {
+    grid_.hogels_s = 23;
+    grid_.directions_u = grid_.directions_v = 81;
+    write(create_light_field(folder_ / "whole.h5", {&grid_, 1}, options_), {0, 5});
+    const std::vector<fs::path> parts{part(1, 2, {0, 2}), part(2, 2, {2, 3})};
+    join_parts(folder_ / "joined.h5", parts, {});
+    EXPECT_EQ(bytes_of(folder_ / "joined.h5"), bytes_of(folder_ / "whole.h5"));
+    EXPECT_GT(fs::file_size(parts[0]), std::size_t{2} << 20);
+}
+
+void expect_refused(const fs::path& part, const std::string& words) {
+    try {
+        hdf5::PartReader reader(part);
+        ADD_FAILURE() << "read";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::bad_input);
+        EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+}
+
+TEST_F(PartFileTest, other_files_are_refused_by_name) {
+    const fs::path file = folder_ / "other";
+    write_bytes(file, "hogel part 1 123 0123abcd\npart 1 of 2\n");
+    expect_refused(file, "an earlier version of hogel wrote this part; write it again");
+    const std::string header = core::checkpoint_header({"input"});
+    write_bytes(file, header + core::CheckpointRecord{{1, 2, 3}, "result"}.encoded());
+    expect_refused(file, "it is no part of a file of hogel's");
+    write_bytes(file, header);
+    expect_refused(file, "it is no part of a file of hogel's");
+    write_bytes(file, "");
+    expect_refused(file, "it is no part of a file of hogel's");
+}
+
+// The file of a program that was killed before it had written all samples.
+TEST_F(PartFileTest, parts_that_are_not_completed_are_refused) {
+    const fs::path path = folder_ / "part", unfinished = folder_ / "unfinished";
+    options_.resume = "input";
+    {
+        const auto sinks = create_light_field_part(path, {&grid_, 1}, options_, {1, 1, "input"}, {0, 5});
+        LightFieldTile tile(grid_, {0, 0, 4, 1}, true);
+        sinks.front()->write(tile);
+    }
+    fs::copy_file(path.string() + ".part", unfinished);
+    EXPECT_THROW(join_parts(folder_ / "joined.h5", {&unfinished, 1}, {}), Error);
+    const auto sinks = create_light_field_part(path, {&grid_, 1}, options_, {1, 1, "input"}, {0, 5});
+    EXPECT_TRUE(sinks.front()->has_already({0, 0, 4, 1}));
+    EXPECT_FALSE(sinks.front()->has_already({0, 1, 4, 1}));
 }
 
 }  // namespace
