@@ -5,6 +5,7 @@
 
 #include "hogel/export.h"
 #include "hogel/progress.h"
+#include "hogel/resources.h"
 #include "hogel/scene.h"
 
 namespace hogel {
@@ -30,5 +31,8 @@ struct BakeOptions {
 /// shadow ray per light for each vertex of the cut triangles. Throws what shade_scene() throws, and Error(usage) for
 /// zero rays or a tessellation of zero.
 HOGEL_API Scene bake_scene(const Scene& scene, const BakeOptions& options = {}, const Progress& progress = {});
+
+/// Resources to light a scene for good and write it as a mesh.
+HOGEL_API Plan plan_bake(const Scene& scene, const BakeOptions& options = {});
 
 }  // namespace hogel

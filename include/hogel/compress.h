@@ -17,6 +17,7 @@
 #include "hogel/image.h"
 #include "hogel/light_field.h"
 #include "hogel/progress.h"
+#include "hogel/resources.h"
 #include "hogel/table.h"
 
 namespace hogel {
@@ -127,6 +128,10 @@ struct CompressionResult {
 /// radiance that is not finite (unless the target is MaxError or Lossless), Error(cannot_write).
 HOGEL_API CompressionResult compress(const LightField& light_field, const std::filesystem::path& path,
                                      const CompressionOptions& options, const Progress& progress = {});
+
+/// Resources to compress a light field, without the cost of reading it. For an SQNR, the disk space is an upper
+/// bound: the size without any prediction. Throws Error(usage) for an invalid method.
+HOGEL_API Plan plan_compression(const LightField& light_field, const CompressionOptions& options);
 
 /// The contents of a stream's header.
 struct HOGEL_API StreamInfo {

@@ -11,8 +11,10 @@
 #include <vector>
 
 #include "hogel/export.h"
+#include "hogel/files.h"
 #include "hogel/light_field.h"
 #include "hogel/progress.h"
+#include "hogel/resources.h"
 #include "hogel/table.h"
 
 namespace hogel {
@@ -91,6 +93,10 @@ HOGEL_API bool is_view_set(const std::filesystem::path& source);
 HOGEL_API ImportedViews import_views(const std::filesystem::path& source, const ViewOptions& options,
                                      const Progress& progress = {});
 
+/// Resources to import a set of views and write it to an uncompressed file.
+HOGEL_API Plan plan_import(const ImportedViews& views, const ViewOptions& options,
+                           const LightFieldFileOptions& file = {});
+
 /// Copies an imported light field to a sink, band by band, with all threads. Memory: one band, and a row of hogels for
 /// each thread.
 HOGEL_API void write_views(const LightField& light_field, LightFieldSink& sink, const Progress& progress = {});
@@ -122,6 +128,10 @@ struct ExportedViews {
 HOGEL_API ExportedViews export_views(const LightField& light_field, const std::filesystem::path& target,
                                      const ViewExportOptions& options, const Progress& progress = {});
 
+/// Resources to write a light field as a set of views, without the cost of reading it. The disk space is an upper
+/// bound.
+HOGEL_API Plan plan_export(const LightField& light_field, const ViewExportOptions& options);
+
 /// Writes the cameras whose pictures make a light field of this grid, as transforms.json of nerfstudio and instant-ngp,
 /// for another program to render: pinholes on the fixed focal plane, with axes that are perpendicular to the hologram,
 /// and a pixel for each hogel. The frame is that of docs/notation.md, in metres, with its origin in the middle of the
@@ -138,11 +148,12 @@ struct ViewTarget;
 
 /// One way to store a set of views.
 struct ViewLayout {
-    std::string name;                                              ///< "hci"
-    std::string text;                                              ///< what it is, one line
-    bool is_folder = true;                                         ///< whether a set is a folder rather than a file
-    bool cameras_only = true;                                      ///< whether it cannot hold orthographic views
-    bool has_pictures = true;                                      ///< whether views are pictures of some format
+    std::string name;              ///< "hci"
+    std::string text;              ///< what it is, one line
+    bool is_folder = true;         ///< whether a set is a folder rather than a file
+    bool cameras_only = true;      ///< whether it cannot hold orthographic views
+    bool has_pictures = true;      ///< whether views are pictures of some format
+    bool written_at_once = false;  ///< whether all views are held in memory until the last is there
     bool (*probe)(const std::filesystem::path& source) = nullptr;  ///< whether a source is such a set
     exchange::ViewSet (*open)(const std::filesystem::path& source, const ViewOptions& options) = nullptr;
     /// Null where such sets are only read.

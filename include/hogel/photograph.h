@@ -75,6 +75,12 @@ HOGEL_API void photograph_into(const FieldSource& hologram, std::span<const Came
 HOGEL_API void require_photographs(const FieldGrid& hologram, std::span<const Camera> cameras,
                                    const PhotographOptions& options = {});
 
+/// Resources to photograph holograms that exist already, without the cost of reading them; behind a vertical diffuser
+/// too (PhotographOptions), where the time grows with the number of lines within 32 resolution cells and the blur.
+/// Throws Error(usage) as require_photographs() does.
+HOGEL_API Plan plan_photographs(std::span<const FieldGrid> holograms, std::size_t looks,
+                                std::span<const Camera> cameras, const PhotographOptions& options = {});
+
 /// Throws Error(usage) for an invalid camera, and for one in directions beyond those to which the pitch of the samples
 /// diffracts. In such directions photograph() shows what a modulator with these samples shows, copies (higher orders)
 /// of pictures from other directions, which is correct only for a field that is known to have just these directions.

@@ -25,6 +25,7 @@
 #include "hogel/propagate.h"
 #include "hogel/ray_photograph.h"
 #include "hogel/renderer.h"
+#include "hogel/resources.h"
 #include "hogel/scenes.h"
 #include "hogel/shading.h"
 
@@ -244,13 +245,6 @@ HOGEL_API void write_text(const std::filesystem::path& file, const std::string& 
 HOGEL_API std::string describe_input(const std::string& name);
 HOGEL_API std::string describe_input(const std::string& name, const Scene& scene);
 
-/// Estimated resources of work.
-struct Plan {
-    double memory = 0;   ///< maximum of bytes held at any time
-    double disk = 0;     ///< bytes of the output files
-    double seconds = 0;  ///< wall time on thread_count() threads; 0 where there is no estimate
-};
-
 /// Resources to render a light field and write it to an uncompressed file. There is no estimate of the time of the
 /// shading models shadowed and direct; shading_model() says what `auto` stands for.
 /// @param rendered   from render_light_field(), not yet read
@@ -274,32 +268,6 @@ HOGEL_API LightChoice choose_light(std::span<const LightFieldGrid> faces, const 
 /// Resources to photograph holograms that are computed on demand, from what choose_light() says.
 HOGEL_API Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                                 std::span<const Camera> cameras, const PhotographOptions& options = {});
-
-/// Resources to photograph holograms that exist already, without the cost of reading them; behind a vertical diffuser
-/// too (PhotographOptions), where the time grows with the number of lines within 32 resolution cells and the blur.
-/// Throws Error(usage) as require_photographs() does.
-HOGEL_API Plan plan_photographs(std::span<const FieldGrid> holograms, std::size_t looks,
-                                std::span<const Camera> cameras, const PhotographOptions& options = {});
-
-/// Resources to photograph a light field by rays, without the cost of reading it.
-HOGEL_API Plan plan_ray_photographs(std::span<const LightFieldGrid> faces, std::span<const Camera> cameras,
-                                    const RayPhotographOptions& options = {});
-/// Resources to compress a light field, without the cost of reading it. For an SQNR, the disk space is an upper
-/// bound: the size without any prediction.
-HOGEL_API Plan plan_compression(const LightField& light_field, const CompressionOptions& options);
-/// Resources to import a set of views and write it to an uncompressed file.
-HOGEL_API Plan plan_import(const ImportedViews& views, const ViewOptions& options,
-                           const LightFieldFileOptions& file = {});
-/// Resources to write a light field as a set of views, without the cost of reading it. The disk space is an upper
-/// bound.
-HOGEL_API Plan plan_export(const LightField& light_field, const ViewExportOptions& options);
-/// Resources to propagate fields one after the other and write them to a file. Throws Error(usage) as
-/// propagation_method() does.
-HOGEL_API Plan plan_propagation(std::span<const FieldGrid> fields, double distance,
-                                const PropagateOptions& options = {});
-
-/// Resources to light a scene for good and write it as a mesh.
-HOGEL_API Plan plan_bake(const Scene& scene, const BakeOptions& options = {});
 
 /// Throws Error(usage), with the numbers, if `what` needs more memory than the machine has left or more disk space than
 /// is free at `file`.

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "hogel/export.h"
@@ -59,5 +60,10 @@ HOGEL_API Field propagate(const FieldSource& field, double distance, const Propa
 /// finish(). What the sink has already of an interrupted run is not computed again.
 HOGEL_API void propagate(const FieldSource& field, double distance, FieldSink& sink,
                          const PropagateOptions& options = {}, const Progress& progress = {});
+
+/// Resources to propagate fields one after the other and write them to a file. Throws Error(usage) as
+/// propagation_method() does.
+HOGEL_API Plan plan_propagation(std::span<const FieldGrid> fields, double distance,
+                                const PropagateOptions& options = {});
 
 }  // namespace hogel

@@ -10,6 +10,7 @@
 #include "hogel/export.h"
 #include "hogel/image.h"
 #include "hogel/light_field.h"
+#include "hogel/resources.h"
 
 namespace hogel {
 
@@ -32,6 +33,10 @@ HOGEL_API std::vector<Image> photograph(const LightField& light_field, std::span
 HOGEL_API void photograph_into(const LightField& light_field, std::span<const Camera> cameras,
                                const RayPhotographOptions& options, std::span<Image> pictures,
                                const Progress& progress = {});
+
+/// Resources to photograph a light field by rays, without the cost of reading it.
+HOGEL_API Plan plan_ray_photographs(std::span<const LightFieldGrid> faces, std::span<const Camera> cameras,
+                                    const RayPhotographOptions& options = {});
 
 /// Options of RayPhotographer.
 struct RayPhotographerOptions {

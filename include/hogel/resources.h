@@ -36,4 +36,11 @@ struct ScratchOptions {
     std::filesystem::path folder;  ///< of that file; if empty, an array that needs a file throws Error(usage)
 };
 
+/// Estimated resources of work.
+struct Plan {
+    double memory = 0;   ///< maximum of bytes held at any time
+    double disk = 0;     ///< bytes of the output files
+    double seconds = 0;  ///< wall time on thread_count() threads; 0 where there is no estimate
+};
+
 }  // namespace hogel

@@ -7,6 +7,7 @@
 
 #include "hogel/core/output_file.h"
 #include "hogel/core/parallel.h"
+#include "hogel/core/rates.h"
 #include "hogel/error.h"
 #include "hogel/exchange/transfer.h"
 #include "hogel/exchange/view_set.h"
@@ -232,6 +233,16 @@ ExportedViews export_views(const LightField& light_field, const std::filesystem:
     });
     for (std::filesystem::path& file : exported.files) file = path / file.filename();
     return exported;
+}
+
+Plan plan_export(const LightField& light_field, const ViewExportOptions& options) {
+    const double samples = light_field.grid().samples();
+    Plan plan;
+    plan.memory = std::min(samples * sizeof(float), options.memory) * 1.5;
+    if (view_layouts().find(options.layout).written_at_once) plan.memory += samples * 4;
+    plan.disk = samples * (options.bits <= 8 ? 1 : 2);
+    plan.seconds = core::rates::on_all_threads(samples * core::rates::exported_sample);
+    return plan;
 }
 
 }  // namespace hogel

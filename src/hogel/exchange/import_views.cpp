@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "hogel/core/parallel.h"
+#include "hogel/core/rates.h"
 #include "hogel/error.h"
 #include "hogel/exchange/densify.h"
 #include "hogel/exchange/geometry.h"
@@ -132,6 +133,28 @@ ImportedViews import_views(const std::filesystem::path& source, const ViewOption
             std::move(summary),
             placement.assumed,
             std::move(notes)};
+}
+
+Plan plan_import(const ImportedViews& views, const ViewOptions& options, const LightFieldFileOptions& file) {
+    namespace rates = core::rates;
+    const LightFieldGrid& grid = views.light_field.grid();
+    const double samples = grid.samples(), stored = views.bits <= 8 ? 1 : views.bits <= 16 ? 2 : 4;
+    const HogelRange tile = views.light_field.front().preferred_tile();
+    const double tile_bytes = static_cast<double>(tile.hogels() * grid.directions() * grid.channels) * sizeof(float);
+    const double picture = static_cast<double>(grid.hogels() * grid.channels) * stored;
+    // Without a spool file each band decodes all pictures again.
+    const double bands = views.spool_bytes > 0 ? 1 : std::max(1.0, samples * stored / options.memory);
+    Plan plan;
+    plan.memory =
+        std::min(samples * stored, options.memory) + static_cast<double>(thread_count()) * (2 * picture + tile_bytes);
+    plan.disk = samples * (file.type == SampleType::half ? 2 : 4) + views.spool_bytes;
+    const auto densified = static_cast<double>(options.densify * options.densify);
+    if (options.densify > 1 || options.with_depth)  // maps of disparity, and pictures of the set
+        plan.memory += std::min(samples / static_cast<double>(grid.channels) * sizeof(float), options.memory) +
+                       std::min(samples / densified * stored, options.memory);
+    plan.seconds = rates::on_all_threads(samples * bands *
+                                         (rates::imported_sample + rates::interpolated_sample * (1 - 1 / densified)));
+    return plan;
 }
 
 void write_views(const LightField& light_field, LightFieldSink& sink, const Progress& progress) {

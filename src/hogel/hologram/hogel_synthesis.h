@@ -18,6 +18,9 @@ struct HogelPlace {
     std::size_t look = 0;
 };
 
+/// Bytes of the synthesis of a hologram of so many hogels, of which all threads compute parts.
+double synthesis_bytes(const FieldGrid& hologram, std::size_t hogels);
+
 /// The step from the rays of a hogel that all looks share.
 class HogelPreparation {
   public:

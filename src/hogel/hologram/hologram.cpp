@@ -373,6 +373,16 @@ class Stereogram final : public FieldSource, public optics::EyeLight, public opt
 
 }  // namespace
 
+double hologram::synthesis_bytes(const FieldGrid& hologram, std::size_t hogels) {
+    // Tiles of complex samples that are in progress, with their rays; for each frequency of a hogel its directions and
+    // their weights; and on every thread a hogel's moduli, its transform and its samples.
+    constexpr double tiles = 4 * double{1 << 24}, table = 52, transform = 28;
+    const auto count = static_cast<double>(std::max<std::size_t>(hogels, 1)),
+               threads = static_cast<double>(thread_count());
+    return threads * tiles +
+           static_cast<double>(hologram.plane.samples()) / count * (table + std::min(threads, count) * transform);
+}
+
 std::shared_ptr<const FieldSource> make_hologram(const LightField& light_field, const HologramOptions& options) {
     const FieldGrid grid = hologram_grid(light_field.grids(), options);
     if (needs_depth(options.method) && !light_field.has_depth())

@@ -75,11 +75,12 @@ class Exposure {
     /// The mean over the lens points.
     void develop(Image& image) const;
 
-  private:
-    // A point of the lens, metres from its centre, and the place of its ray within each pixel, −½..½.
+    /// A point of the lens, metres from its centre, and the place of its ray within each pixel, −½..½.
     struct LensPoint {
         double x, y, pixel_x, pixel_y;
     };
+
+  private:
     // Places between samples, of which those from `begin` to before `end` lie inside.
     struct Run {
         std::size_t begin = 0, end = 0;

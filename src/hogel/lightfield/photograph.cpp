@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hogel/core/pieces.h"
+#include "hogel/core/rates.h"
 #include "hogel/core/shared_order.h"
 #include "hogel/lightfield/exposure.h"
 #include "hogel/lightfield/ray_blocks.h"
@@ -101,6 +102,25 @@ void photograph_into(const LightField& light_field, std::span<const Camera> came
         if (!all->is_first()) pixels = Array<float, 3>({picture.height, picture.width, light_field.grid().channels});
         core::share_in_pieces<float>(*all, pixels.elements());
     }
+}
+
+Plan plan_ray_photographs(std::span<const LightFieldGrid> faces, std::span<const Camera> cameras,
+                          const RayPhotographOptions& options) {
+    namespace rates = core::rates;
+    double hogels = 0;
+    for (const LightFieldGrid& face : faces) hogels += static_cast<double>(face.hogels());
+    const auto points = static_cast<double>(std::max<std::size_t>(options.pupil_samples, 1));
+    Plan plan;
+    plan.memory = static_cast<double>(thread_count() + 1) * lightfield::max_block_bytes;  // hogels that are being read
+    for (const Camera& camera : cameras) {
+        const auto pixels = static_cast<double>(camera.picture.samples());
+        const double rays = points * static_cast<double>(lightfield::bytes_of_rays(faces.front(), camera));
+        const bool are_kept = rays <= static_cast<double>(lightfield::max_kept_rays / cameras.size());
+        plan.memory += points * sizeof(Exposure::LensPoint) +
+                       pixels * static_cast<double>(faces.front().channels) * sizeof(float) + (are_kept ? rays : 0);
+        plan.seconds += rates::on_all_threads(points * (hogels * rates::seen_hogel + pixels * rates::seen_pixel));
+    }
+    return plan;
 }
 
 }  // namespace hogel

@@ -11,9 +11,9 @@ namespace {
 // Rows of hogels as long as possible, which suits the fastest renderer and files, and enough rows for the hogels shared
 // by neighbouring blocks to be a small part.
 HogelRange block_size(const LightFieldGrid& grid) {
-    constexpr std::size_t rows = 16, max_bytes = std::size_t{64} << 20;
+    constexpr std::size_t rows = 16;
     const std::size_t hogel_bytes = grid.channels * grid.directions() * sizeof(float);
-    const std::size_t max_hogels = std::max<std::size_t>(1, max_bytes / hogel_bytes);
+    const std::size_t max_hogels = std::max<std::size_t>(1, max_block_bytes / hogel_bytes);
     const std::size_t nt = std::min({rows, grid.hogels_t, max_hogels});
     return {0, 0, std::min(grid.hogels_s, max_hogels / nt), nt};
 }

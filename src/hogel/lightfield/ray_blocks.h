@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "hogel/camera.h"
@@ -12,6 +13,9 @@ namespace hogel::lightfield {
 struct Block {
     HogelRange cells, hogels;
 };
+
+/// Bytes of the hogels of a block, unless a single one takes more.
+constexpr std::size_t max_block_bytes = std::size_t{64} << 20;
 
 /// The blocks in which photographs by rays take a face. They depend on the sampling alone, so that sums have the same
 /// order for every source.

@@ -6,7 +6,10 @@
 #include <vector>
 
 #include "hogel/core/parallel.h"
+#include "hogel/core/rates.h"
 #include "hogel/image/film.h"
+#include "hogel/optics/film/film.h"
+#include "hogel/optics/narrow_band/narrow_band.h"
 #include "hogel/optics/photograph_plan.h"
 #include "hogel/optics/view_geometry.h"
 
@@ -149,6 +152,21 @@ void require_lines(const PhotographOptions& options) {
         throw Error(ErrorCode::usage, "behind a diffuser the light of samples is photographed, not that of hogels");
 }
 
+// The films of one set of lines.
+double seconds_of_films(const FieldGrid& rows, std::span<const Camera> cameras) {
+    double seconds = 0;
+    for (const SharedEye& eye : group_by_eye(cameras)) {
+        const Vec3& position = cameras[eye.members.front()].eye;
+        const narrow_band::NarrowBand band(rows, position, eye.pupil);
+        const Rectangle lit = lit_area(rows, position, eye.pupil, eye.blur);
+        const film::FilmSize film(band, rows, film_area(rows.plane, eye.pictures, lit), eye.pupil, eye.blur);
+        seconds +=
+            static_cast<double>(film.sines.size_x * film.sines.size_y) * core::rates::sine_of_lines +
+            static_cast<double>(eye.members.size() * film.x.size * film.y.size) * core::rates::film_sample_of_lines;
+    }
+    return seconds;
+}
+
 }  // namespace
 
 void require_photographs_of_lines(const FieldGrid& hologram, std::span<const Camera> cameras,
@@ -179,17 +197,20 @@ void photograph_lines(const FieldSource& hologram, std::span<const Camera> camer
     for (std::size_t i = 0; i < cameras.size(); ++i) fine[i].spread(fine_pictures[i], line_height, factor, pictures[i]);
 }
 
-LinesWork work_of_lines(const FieldGrid& hologram, std::span<const Camera> cameras, const PhotographOptions& options) {
+Plan plan_lines(const FieldGrid& hologram, std::size_t looks, std::span<const Camera> cameras,
+                const PhotographOptions& options) {
     require_photographs_of_lines(hologram, cameras, options);
-    LinesWork work;
-    if (cameras.empty()) return work;
-    work.sets = lines_between(hologram, cameras, lines_apart);
-    work.rows = thin_rows(hologram, rows_in_line(hologram, cameras));
-    for (const Camera& camera : cameras) {
-        work.cameras.push_back(FineRows(camera, hologram.plane.pitch_y).camera);
-        work.picture_bytes += static_cast<double>(work.cameras.back().picture.samples()) * sizeof(float);
-    }
-    return work;
+    if (cameras.empty()) return {};
+    const std::size_t photographs = looks * lines_between(hologram, cameras, lines_apart);
+    const FieldGrid rows = thin_rows(hologram, rows_in_line(hologram, cameras));
+    std::vector<Camera> fine_cameras;
+    for (const Camera& camera : cameras) fine_cameras.push_back(FineRows(camera, hologram.plane.pitch_y).camera);
+    Plan plan = hogel::plan_photographs(std::span(&rows, 1), photographs, fine_cameras, without_diffuser(options));
+    for (const Camera& camera : fine_cameras)
+        plan.memory += static_cast<double>(camera.picture.samples()) * sizeof(float);
+    plan.seconds +=
+        core::rates::on_all_threads(static_cast<double>(photographs) * seconds_of_films(rows, fine_cameras));
+    return plan;
 }
 
 }  // namespace hogel::optics

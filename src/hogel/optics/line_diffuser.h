@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "hogel/photograph.h"
 
@@ -17,16 +16,9 @@ inline constexpr double lines_apart = 32;
 void photograph_lines(const FieldSource& hologram, std::span<const Camera> cameras, const PhotographOptions& options,
                       std::span<Image> pictures, const Progress& progress, double apart = lines_apart);
 
-/// What photograph_lines() photographs: one look of `rows` for each of `sets` sets of lines, by `cameras`.
-struct LinesWork {
-    FieldGrid rows;
-    std::size_t sets = 1;
-    std::vector<Camera> cameras;  ///< with rows of pixels so fine that they can be spread to the height of lines
-    double picture_bytes = 0;     ///< of their pictures
-};
-
-/// Throws what require_photographs_of_lines() throws.
-LinesWork work_of_lines(const FieldGrid& hologram, std::span<const Camera> cameras, const PhotographOptions& options);
+/// Resources of photograph_lines() of so many looks. Throws what require_photographs_of_lines() throws.
+Plan plan_lines(const FieldGrid& hologram, std::size_t looks, std::span<const Camera> cameras,
+                const PhotographOptions& options);
 
 /// Throws what photograph_lines() throws before it begins.
 void require_photographs_of_lines(const FieldGrid& hologram, std::span<const Camera> cameras,

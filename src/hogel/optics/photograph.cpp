@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "hogel/core/parallel.h"
+#include "hogel/core/rates.h"
 #include "hogel/image/film.h"
 #include "hogel/optics/expected/expected.h"
 #include "hogel/optics/eye_drawings.h"
@@ -137,6 +138,23 @@ double resolution_cell(const Camera& camera, double wavelength) { return wavelen
 void require_photographs(const FieldGrid& hologram, std::span<const Camera> cameras, const PhotographOptions& options) {
     if (options.vertical_diffuser) return require_photographs_of_lines(hologram, cameras, options);
     plan_photographs(hologram, cameras, static_cast<double>(options.memory));
+}
+
+Plan plan_photographs(std::span<const FieldGrid> holograms, std::size_t looks, std::span<const Camera> cameras,
+                      const PhotographOptions& options) {
+    const auto memory = static_cast<double>(options.memory),
+               photographs = static_cast<double>(looks * group_by_eye(cameras).size());
+    Plan sum;
+    for (const FieldGrid& hologram : holograms) {
+        const double samples = static_cast<double>(hologram.plane.samples()) * photographs;
+        const Plan plan = options.vertical_diffuser
+                              ? plan_lines(hologram, looks, cameras, options)
+                              : Plan{photograph_bytes(hologram, cameras, memory, looks), 0,
+                                     core::rates::on_all_threads(samples * core::rates::sample_and_eye)};
+        sum.memory = std::max(sum.memory, plan.memory);
+        sum.seconds += plan.seconds;
+    }
+    return sum;
 }
 
 void require_light_towards(const FieldGrid& hologram, const Camera& camera, bool vertical_diffuser) {

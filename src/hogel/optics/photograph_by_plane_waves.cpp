@@ -6,7 +6,6 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -379,9 +378,7 @@ void share_rows(Team& team, const Camera& camera, Value* picture, std::size_t wi
 // Calls visit(i, wave) with the wave that makes each camera's picture.
 template <class Visit>
 void focus_all(const Chain& chain, std::span<const Camera> cameras, const Progress& progress, const Visit& visit) {
-    std::vector<std::size_t> all(cameras.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    const std::vector<SharedEye> eyes = group_by_eye(cameras, all);
+    const std::vector<SharedEye> eyes = group_by_eye(cameras);
     for (std::size_t e = 0; e < eyes.size(); ++e) {
         const auto part = [&](double fraction) {
             return (static_cast<double>(e) + fraction) / static_cast<double>(eyes.size());

@@ -175,6 +175,12 @@ std::vector<SharedEye> group_by_eye(std::span<const Camera> cameras, std::span<c
     return eyes;
 }
 
+std::vector<SharedEye> group_by_eye(std::span<const Camera> cameras) {
+    std::vector<std::size_t> all(cameras.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return group_by_eye(cameras, all);
+}
+
 std::size_t PhotographPlan::looks_at_once(double memory, std::size_t looks, double share) const {
     // No more than is kept when it is freed (core::FreedBlocks): the system would clear it each time, a second for each
     // gigabyte.
@@ -223,6 +229,13 @@ PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camer
                             format_length(widest), format_bytes(memory),
                             fits > 0 ? fmt::format("a pupil of {} would do", format_length(widest * fits))
                                      : "no pupil is small enough"));
+}
+
+double photograph_bytes(const FieldGrid& hologram, std::span<const Camera> cameras, double memory, std::size_t looks,
+                        double share) {
+    const PhotographPlan plan = plan_photographs(hologram, cameras, memory);
+    const auto more = static_cast<double>(plan.looks_at_once(memory, looks, share) - 1);
+    return plan.bytes + std::min(more * share * plan.bytes_a_look, memory);
 }
 
 }  // namespace hogel::optics

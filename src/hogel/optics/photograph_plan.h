@@ -49,6 +49,11 @@ void require_resolution(const FieldGrid& hologram, const Camera& camera, double 
 PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camera> cameras, double memory,
                                 PhotographPlan::Windows windows = PhotographPlan::Windows::many);
 
+/// Bytes of photographs of which as many looks are computed together as there is memory for.
+/// @param share  of the memory of narrow bands that bands take
+double photograph_bytes(const FieldGrid& hologram, std::span<const Camera> cameras, double memory, std::size_t looks,
+                        double share = 1);
+
 /// Whether colours are drawn together, from rays that are made once, with the bands of all colours in memory; otherwise
 /// one is drawn after the other, which makes the rays again and needs a third of the memory. New memory is not free:
 /// the system clears it at one to three nanoseconds a byte, and a ray, of which a hologram has about as many as
@@ -65,5 +70,7 @@ struct SharedEye {
     Rectangle pictures;                ///< around all
 };
 std::vector<SharedEye> group_by_eye(std::span<const Camera> cameras, std::span<const std::size_t> members);
+/// All cameras.
+std::vector<SharedEye> group_by_eye(std::span<const Camera> cameras);
 
 }  // namespace hogel::optics

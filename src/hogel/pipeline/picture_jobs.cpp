@@ -24,10 +24,9 @@ std::vector<std::size_t> numbers_below(std::size_t count) {
 // pictures show the hologram's surroundings.
 std::vector<std::vector<std::size_t>> cameras_of_jobs(std::span<const Camera> cameras,
                                                       const PhotographOptions& options) {
-    const std::vector<std::size_t> all = numbers_below(cameras.size());
-    if (!options.expected) return {all};
+    if (!options.expected) return {numbers_below(cameras.size())};
     std::vector<std::vector<std::size_t>> groups;
-    for (const optics::SharedEye& eye : optics::group_by_eye(cameras, all)) groups.push_back(eye.members);
+    for (const optics::SharedEye& eye : optics::group_by_eye(cameras)) groups.push_back(eye.members);
     return groups;
 }
 

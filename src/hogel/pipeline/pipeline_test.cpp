@@ -357,6 +357,28 @@ TEST(Plan, has_no_time_for_shading_at_samples) {
     }
 }
 
+TEST(Plan, of_exports_holds_all_views_that_are_written_at_once) {
+    const LightFieldBuffer black(LightFieldGrid{30, 20, 1e-3, 4, 4, Perspective{0.1, 0.1}, 3});
+    const LightField light_field = borrow(black);
+    const auto memory = [&](const char* layout) { return plan_export(light_field, {.layout = layout}).memory; };
+    EXPECT_EQ(memory("mat"), memory("npy") + 4 * light_field.samples());
+    EXPECT_EQ(memory("quilt"), memory("mat"));
+    EXPECT_EQ(memory("rows-columns"), memory("npy"));
+}
+
+TEST(Plan, of_compression_refuses_what_compression_refuses) {
+    const LightFieldBuffer black(LightFieldGrid{30, 20, 1e-3, 4, 4, Perspective{0.1, 0.1}, 3});
+    const LightField light_field = borrow(black);
+    CompressionOptions options;
+    const double memory = plan_compression(light_field, options).memory;
+    for (const CompressionTarget& exact : std::vector<CompressionTarget>{Lossless{}, MaxError{1e-3}}) {
+        options.target = exact;
+        EXPECT_EQ(plan_compression(light_field, options).memory, memory);
+    }
+    options.method.coder = "ezw";
+    EXPECT_THROW(plan_compression(light_field, options), Error);
+}
+
 TEST(Plan, of_lines_behind_a_diffuser_grows_with_the_lines_that_overlap) {
     const Camera camera = camera_for(1e-3, 1e-3, 32);
     const auto plan = [&](std::size_t lines, bool diffuser) {

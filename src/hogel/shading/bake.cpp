@@ -10,6 +10,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/core/part.h"
 #include "hogel/core/random.h"
+#include "hogel/core/rates.h"
 #include "hogel/core/steps.h"
 #include "hogel/scene/shapes.h"
 #include "hogel/scene/tessellate.h"
@@ -208,6 +209,19 @@ Scene bake_scene(const Scene& scene, const BakeOptions& options, const Progress&
         base += mesh.positions.size();
     }
     return baked;
+}
+
+Plan plan_bake(const Scene& scene, const BakeOptions& options) {
+    // Bytes per triangle of the result, while it is computed and in a file.
+    constexpr double triangle = 310, file_triangle = 31;
+    const double triangles = static_cast<double>(triangle_count(scene)) * static_cast<double>(options.tessellation) *
+                             static_cast<double>(options.tessellation);
+    double vertices = 0;
+    for (const Mesh& mesh : scene.meshes) vertices += static_cast<double>(mesh.positions.size());
+    const double rays = vertices * static_cast<double>(options.rays) *
+                        (1 + static_cast<double>(options.bounces) / static_cast<double>(fewer_rays));
+    return {triangles * triangle, triangles * file_triangle,
+            core::rates::on_all_threads(rays * core::rates::gathered_ray)};
 }
 
 }  // namespace hogel

@@ -17,6 +17,7 @@
 #include "hogel/codec/format/stream_file.h"
 #include "hogel/codec/format/unfolded.h"
 #include "hogel/core/parallel.h"
+#include "hogel/core/rates.h"
 #include "hogel/error.h"
 #include "hogel/team.h"
 
@@ -218,6 +219,26 @@ StreamInfo::Depth code_depth(core::RawFile* into, const LightField& light_field,
     });
 }
 
+HogelRange tile_for(const CompressionOptions& options, const TileCoder& coder, const LightFieldGrid& part,
+                    const LightFieldGrid& grid) {
+    HogelRange tile = options.tile.value_or(coder.preferred_tile(part));
+    tile.ns = std::min(tile.ns, grid.hogels_s);
+    tile.nt = std::min(tile.nt, grid.hogels_t);
+    return tile;
+}
+
+// Maximum bytes of the file: a quantiser alone needs one bit per 6.02 dB.
+double max_file_bytes(const LightField& light_field, const CompressionTarget& target) {
+    const double samples = light_field.samples();
+    if (const auto* rate = std::get_if<PixelsPerBit>(&target)) {
+        // Rules meet the rate approximately; that of whole bit planes misses it by up to a factor of two.
+        const double may_exceed = rate->rule == RateRule::search ? 1 : 2;
+        return may_exceed * samples / static_cast<double>(light_field.grid().channels) / 8 / rate->rate;
+    }
+    if (const auto* sqnr = std::get_if<Sqnr>(&target)) return samples * (sqnr->decibels / 6.02 + 0.5) / 8;
+    return samples * sizeof(float);
+}
+
 // Writes the stream to `into`, or if that is null to the file of the name.
 CompressionResult compress_into(core::RawFile* into, const LightField& light_field, const std::filesystem::path& path,
                                 const CompressionOptions& options, const Progress& progress) {
@@ -241,9 +262,7 @@ CompressionResult compress_into(core::RawFile* into, const LightField& light_fie
     std::vector<CodedPart> parts;
     for (std::size_t i = 0; i < grids.size(); ++i)
         parts.push_back({unfolded ? unfold(coded) : coded.faces()[i], coder_of(header, grids[i])});
-    header.tile = options.tile.value_or(parts.front().coder->preferred_tile(grids.front()));
-    header.tile.ns = std::min(header.tile.ns, grid.hogels_s);
-    header.tile.nt = std::min(header.tile.nt, grid.hogels_t);
+    header.tile = tile_for(options, *parts.front().coder, grids.front(), grid);
     header.layer_ends.resize(parts.front().coder->layers(header.tile));
     std::optional<core::RawFile> depth;
     if (options.with_depth && is_first_process())
@@ -274,6 +293,25 @@ double default_overhead(ZerotreeSymbols symbols) {
 CompressionResult compress(const LightField& light_field, const std::filesystem::path& path,
                            const CompressionOptions& options, const Progress& progress) {
     return compress_into(nullptr, light_field, path, options, progress);
+}
+
+Plan plan_compression(const LightField& light_field, const CompressionOptions& options) {
+    const LightFieldGrid& grid = light_field.grid();
+    StreamInfo stream;
+    stream.method = method_for(options);
+    const auto coder = coder_for(stream, grid, options.target);
+    const HogelRange tile = tile_for(options, *coder, grid, grid);
+    const double tiles = std::ceil(static_cast<double>(grid.hogels()) / static_cast<double>(tile.hogels()));
+    const double at_once = std::min(tiles, static_cast<double>(std::min(coder->max_at_once(), thread_count())));
+    // A tile, its prediction, its residual and its coefficients, for each of the tiles in progress.
+    constexpr double arrays = 4;
+    const double tile_samples = static_cast<double>(tile.hogels() * grid.directions() * grid.channels);
+    Plan plan;
+    plan.memory = arrays * at_once * tile_samples * sizeof(float);
+    plan.disk = max_file_bytes(light_field, options.target);
+    if (options.with_depth) plan.disk += light_field.samples() / static_cast<double>(grid.channels) * sizeof(float);
+    plan.seconds = core::rates::on_all_threads(light_field.samples() * core::rates::coded_sample);
+    return plan;
 }
 
 }  // namespace hogel

@@ -284,6 +284,7 @@ ViewLayout mat_layout() {
             .is_folder = false,
             .cameras_only = false,
             .has_pictures = false,
+            .written_at_once = true,
             .probe = probe,
             .open = open,
             .create = [](const ViewTarget& target) -> std::unique_ptr<ViewWriter> {

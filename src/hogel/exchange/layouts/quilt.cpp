@@ -215,6 +215,7 @@ ViewLayout quilt_layout() {
     return {.name = "quilt",
             .text = "NAME_qs8x6a0.75.png: one row of cameras as tiles from the bottom left (Looking Glass)",
             .is_folder = false,
+            .written_at_once = true,
             .probe = probe,
             .open = open,
             .create = create};

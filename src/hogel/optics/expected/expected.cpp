@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "hogel/core/object_pool.h"
 #include "hogel/core/parallel.h"
+#include "hogel/core/rates.h"
 #include "hogel/core/steps.h"
 #include "hogel/optics/expected/kernels.h"
 #include "hogel/optics/expected/spots.h"
@@ -402,36 +402,30 @@ HogelGrid hogel_grid(const FieldGrid& hologram, const WavePowers::Counts& counts
             hologram.wavelength};
 }
 
-std::vector<SharedEye> eyes_of(std::span<const Camera> cameras) {
-    std::vector<std::size_t> all(cameras.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    return group_by_eye(cameras, all);
-}
-
 }  // namespace
 
-Work work(const FieldGrid& hologram, const WavePowers::Counts& counts, std::span<const Camera> cameras,
+Plan plan(const FieldGrid& hologram, const WavePowers::Counts& counts, std::span<const Camera> cameras,
           const PhotographOptions& options) {
     const HogelGrid hogels = hogel_grid(hologram, counts);
-    const std::vector<SharedEye> eyes = eyes_of(cameras);
-    Work work{products_of_reading(hogels, eyes.size()), 0};
+    const std::vector<SharedEye> eyes = group_by_eye(cameras);
+    double products = products_of_reading(hogels, eyes.size()), bytes = 0;
     for (const SharedEye& eye : eyes) {
         const double band = half_band(hogels, cameras[eye.members.front()].eye, eye.pupil);
         const SpotNodes nodes(counts.samples, band * (1 + guard));
         const Pairs list(nodes, band);
-        work.products += nodes.products();
+        products += nodes.products();
         const auto pairs = static_cast<double>(list.padded_count());
-        work.bytes += pairs * static_cast<double>(hogels.plane.samples()) * sizeof(float);
+        bytes += pairs * static_cast<double>(hogels.plane.samples()) * sizeof(float);
         for (const std::size_t member : eye.members) {
             const Camera& camera = cameras[member];
-            work.products += products_of_pixels(list, Spots::reach(hogels, camera, band), camera);
+            products += products_of_pixels(list, Spots::reach(hogels, camera, band), camera);
             const auto [columns, rows] = places_of(hogels, camera, list, band);
-            work.products += static_cast<double>(parts(hogels, camera, true) * parts(hogels, camera, false)) *
-                             Spots::products(hogels, camera, list, band, columns, rows);
+            products += static_cast<double>(parts(hogels, camera, true) * parts(hogels, camera, false)) *
+                        Spots::products(hogels, camera, list, band, columns, rows);
         }
     }
-    work.bytes = std::min(work.bytes, static_cast<double>(options.memory));
-    return work;
+    return {std::min(bytes, static_cast<double>(options.memory)), 0,
+            core::rates::on_all_threads(products * core::rates::product)};
 }
 
 void photograph(const FieldSource& hologram, const WavePowers& waves, std::span<const Camera> cameras,
@@ -444,7 +438,7 @@ void photograph(const FieldSource& hologram, const WavePowers& waves, std::span<
     }
     const WavePowers::Counts counts = waves.counts();
     const HogelGrid hogels = hogel_grid(field, counts);
-    const std::vector<SharedEye> eyes = eyes_of(cameras);
+    const std::vector<SharedEye> eyes = group_by_eye(cameras);
     // As many eyes at a time as fit into memory with enough rows of hogels.
     std::size_t at_once = eyes.size();
     for (std::size_t done = 0; done < eyes.size();) {

@@ -19,12 +19,8 @@ namespace hogel::optics::expected {
 void photograph(const FieldSource& hologram, const WavePowers& waves, std::span<const Camera> cameras,
                 const PhotographOptions& options, std::span<Image> pictures, const Progress& progress);
 
-/// What photograph() takes.
-struct Work {
-    double products = 0;  ///< of numbers of hogels and spots, and what takes as long
-    double bytes = 0;     ///< of the numbers
-};
-Work work(const FieldGrid& hologram, const WavePowers::Counts& counts, std::span<const Camera> cameras,
+/// Resources of photograph(): the numbers, and products of numbers and spots.
+Plan plan(const FieldGrid& hologram, const WavePowers::Counts& counts, std::span<const Camera> cameras,
           const PhotographOptions& options);
 
 }  // namespace hogel::optics::expected

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "hogel/core/rates.h"
 #include "hogel/core/shared_order.h"
 #include "hogel/optics/distributed/shared_plane.h"
 #include "hogel/optics/lines.h"
@@ -330,6 +331,25 @@ PropagationMethod propagation_method(const FieldGrid& field, double distance, co
     method.operations *= static_cast<double>(tiling.across * tiling.down);
     require_accuracy(method.error, options.max_error);
     return method;
+}
+
+Plan plan_propagation(std::span<const FieldGrid> fields, double distance, const PropagateOptions& options) {
+    Plan plan;
+    for (const FieldGrid& field : fields) {
+        const PropagationMethod method = propagation_method(field, distance, options);
+        const auto in_memory = static_cast<double>(options.scratch.memory);
+        const double result =
+            static_cast<double>(options.output.value_or(field.plane).samples()) * sizeof(std::complex<float>);
+        // Besides the work array every thread transforms lines, padded to about three times their frequencies. Pages of
+        // a file stay in memory where there is room, but the system may take that back.
+        const double lines = 3 * static_cast<double>(lines_together * thread_count()) *
+                             static_cast<double>(std::max(method.frequencies_x, method.frequencies_y)) *
+                             sizeof(std::complex<float>);
+        plan.memory = std::max(plan.memory, std::min(method.bytes, in_memory) + lines);
+        plan.disk += result + (method.bytes > in_memory ? method.bytes : 0);
+        plan.seconds += core::rates::on_all_threads(method.operations * core::rates::propagation_operation);
+    }
+    return plan;
 }
 
 void propagate(const FieldSource& source, double distance, FieldSink& sink, const PropagateOptions& options,
