@@ -23,7 +23,7 @@ function(hogel_module name)
   list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
   # Highway includes a source with SIMD code again for each target. The others have names of their own for the same things.
   set(alone ${sources} ${tests})
-  list(FILTER alone INCLUDE REGEX "(_simd|/simd_test|/stb|/layouts/[a-z_]+|/showpieces/[a-z_]+|/(render|hologram|exchange|simplex)/[a-z_/]*_test)\\.cpp$")
+  list(FILTER alone INCLUDE REGEX "(_simd|/simd_test|/stb|/layouts/[a-z_]+|/showpieces/[a-z_]+|/(render|stereogram|hogel_spectra|exchange|simplex)/[a-z_/]*_test)\\.cpp$")
   set_source_files_properties(${alone} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   # With a precompiled header g++ 12 takes the immediates of AVX-512 for variables where nothing is optimised; and with the
   # address sanitizer it needs minutes to see where each of a hundred vectors ends.

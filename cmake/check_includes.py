@@ -17,8 +17,8 @@ import sys
 THIRD_PARTY = {  # first part of the include path -> the modules or folders that may name it; None: any
     "tbb": {"core"}, "fftw3.h": {"math"}, "OpenEXR": {"image/formats"}, "Imath": {"image/formats"}, "png.h": {"image/formats"},
     "jpeglib.h": {"image/formats"}, "stb": {"image/formats"}, "tiffio.h": {"image/formats"}, "webp": {"image/formats"}, "assimp": {"scene"}, "draco": {"scene"}, "meshoptimizer.h": {"scene"}, "embree3": {"trace"},
-    "hdf5.h": {"io/hdf5"}, "hwy": {"codec", "core", "direct", "fringes", "hologram", "lightfield", "math", "optics", "render",
-            "shading", "simplex"}, "fmt": None,
+    "hdf5.h": {"io/hdf5"}, "hwy": {"camera", "codec", "core", "direct", "fringes", "lightfield", "math", "optics",
+            "render", "shading", "simplex", "stereogram"}, "fmt": None,
     "nlohmann": {"core", "scene", "exchange"}, "gtest": None, "boost": set(),
 }
 FORBIDDEN_IN = {  # folder -> folders that it may not include
@@ -28,8 +28,9 @@ FORBIDDEN_IN = {  # folder -> folders that it may not include
     "render/epi": ("render/baselines",),
     "render/baselines": ("render/epi",),
     "thesis/simplex": ("render/epi", "render/baselines"),
-    "optics/film": ("optics/distributed",), "optics/expected": ("optics/distributed",), "optics/focus": ("optics/distributed",),
-    "optics/narrow_band": ("optics/distributed",),
+    "optics/focus": ("optics/distributed",),
+    **{folder: ("optics/distributed",) for folder in ("camera", "camera/film", "camera/hogel_spectra", "camera/narrow_band",
+                                                      "camera/rays", "camera/speckle_free")},
     "io/hdf5": ("io/arrays",), "io/arrays": ("io/hdf5",),
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')

@@ -140,17 +140,17 @@ std::vector<Verb> field_verbs() {
         {"photograph_of_a_field",
          [](const Progress& progress) {
              const Camera camera = camera_of(grid.plane);
-             photograph(waves, {&camera, 1}, {}, progress);
+             photograph(waves, {&camera, 1}, BandCamera(), progress);
          }},
         {"photograph_behind_a_diffuser",
          [](const Progress& progress) {
              const Camera camera = camera_of(grid.plane);
-             photograph(waves, {&camera, 1}, {.vertical_diffuser = true}, progress);
+             photograph(waves, {&camera, 1}, BandCamera{.vertical_diffuser = true}, progress);
          }},
         {"photograph_by_plane_waves",
          [](const Progress& progress) {
              const Camera camera = camera_of(grid.plane);
-             photograph_by_plane_waves(waves, {&camera, 1}, {}, progress);
+             photograph(waves, {&camera, 1}, PlaneWaveCamera(), progress);
          }},
         {"propagate",
          [](const Progress& progress) {

@@ -96,31 +96,37 @@ std::vector<Camera> make_cameras(const CameraOptions& options, double width, dou
 
 void add_wave_camera_option(Command& command, std::string& camera, const std::vector<std::string>& names) {
     const bool full = std::ranges::count(names, "full") > 0;
-    std::string type;
-    for (const std::string& name : names) type += (type.empty() ? "" : "|") + name;
-    command.choice("--camera", camera, names, type,
+    std::vector<std::string> words = names;
+    words.insert(words.end(), {"hogel-spectra", "samples"});
+    if (full) words.emplace_back("plane-waves");
+    command.choice("--camera", camera, words, fmt::format("{}", fmt::join(names, "|")),
                    std::string("How waves are photographed:"
                                "\nauto: eye where the hogels are known and that is cheaper, otherwise narrow"
-                               "\neye: the few numbers of each hogel that enter the lens"
-                               "\nnarrow: the band that enters the lens, from all samples, tile by tile") +
-                       (full ? "\nfull: plane waves to the lens and back, exact and slow" : ""));
+                               "\neye, hogel-spectra: the few numbers of each hogel that enter the lens"
+                               "\nnarrow, samples: the band that enters the lens, from all samples, tile by tile") +
+                       (full ? "\nfull, plane-waves: plane waves to the lens and back, exact and slow" : ""));
 }
 
-PhotographOptions photograph_options(const std::string& camera, bool expected) {
-    return {.from = camera == "eye"      ? LightFrom::hogels
-                    : camera == "narrow" ? LightFrom::samples
-                                         : LightFrom::cheaper,
-            .expected = expected};
+std::string camera_name(const std::string& word) {
+    return word == "hogel-spectra" ? "eye" : word == "samples" ? "narrow" : word == "plane-waves" ? "full" : word;
+}
+
+CameraModel camera_model(const std::string& camera, bool expected) {
+    if (expected) return SpeckleFreeCamera();
+    return BandCamera{.source = camera == "eye"      ? BandSource::hogel_spectra
+                                : camera == "narrow" ? BandSource::samples
+                                                     : BandSource::automatic};
 }
 
 std::string say_camera(const Session& session, std::span<const LightFieldGrid> faces, const HologramRequest& request,
-                       std::span<const Camera> cameras, const PhotographOptions& options) {
-    const LightChoice choice = choose_light(faces, request, cameras, options);
-    if (options.preview && choice.from != LightFrom::hogels)
+                       std::span<const Camera> cameras, const CameraModel& model) {
+    const BandSourceChoice choice = choose_band_source(faces, request, cameras, model);
+    const auto* const band = std::get_if<BandCamera>(&model);
+    if (band != nullptr && band->preview && choice.source != BandSource::hogel_spectra)
         throw Error(ErrorCode::usage, fmt::format("--preview: {}; leave it out", choice.reason));
-    if (options.from == LightFrom::hogels && choice.from != LightFrom::hogels)
+    if (band != nullptr && band->source == BandSource::hogel_spectra && choice.source != BandSource::hogel_spectra)
         throw Error(ErrorCode::usage, fmt::format("--camera eye: {}; --camera narrow would do", choice.reason));
-    std::string name = choice.from == LightFrom::hogels ? "eye" : "narrow";
+    std::string name = choice.source == BandSource::hogel_spectra ? "eye" : "narrow";
     session.detail(fmt::format("camera: {}, because {}", name, choice.reason));
     return name;
 }

@@ -35,12 +35,14 @@ std::vector<Camera> make_cameras(const CameraOptions& options, double width, dou
 
 /// --camera, the way in which waves are photographed.
 void add_wave_camera_option(Command& command, std::string& camera, const std::vector<std::string>& names);
-/// What photograph() is asked for by --camera auto, eye or narrow, and --looks.
-PhotographOptions photograph_options(const std::string& camera, bool expected);
+/// A word of --camera as auto, eye, narrow or full: the library's words are hogel-spectra, samples and plane-waves.
+std::string camera_name(const std::string& word);
+/// The model that --camera auto, eye or narrow, and --looks ask for.
+CameraModel camera_model(const std::string& camera, bool expected);
 /// Says with -v from what photographs are computed, and why; returns its name, eye or narrow. Throws Error(usage) for
 /// --camera eye where there are no waves of hogels, or so many of them enter the eye that samples are cheaper.
 std::string say_camera(const Session& session, std::span<const LightFieldGrid> faces, const HologramRequest& request,
-                       std::span<const Camera> cameras, const PhotographOptions& options);
+                       std::span<const Camera> cameras, const CameraModel& model);
 
 /// --looks: a number of looks, or the mean of infinitely many.
 struct Looks {

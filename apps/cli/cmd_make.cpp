@@ -140,20 +140,20 @@ void write_pictures(const Session& session, const std::filesystem::path& folder,
 
 // Prints the resources that the work needs, and returns the camera that is chosen. Throws if they are not available.
 std::string state_plan(const LightFieldGrid& grid, const HologramRequest& request, std::span<const Camera> cameras,
-                       const PhotographOptions& options, const Session& session) {
+                       const CameraModel& model, const Session& session) {
     const std::span<const LightFieldGrid> faces(&grid, 1);
-    std::string camera = say_camera(session, faces, request, cameras, options);
-    state_plan(session, plan_photographs(faces, request, cameras, options), "photographing the hologram");
+    std::string camera = say_camera(session, faces, request, cameras, model);
+    state_plan(session, plan_photographs(faces, request, cameras, model), "photographing the hologram");
     return camera;
 }
 
 // Whether pictures of infinitely many looks take no longer than those of the looks, or no more than ten seconds. They
 // take long where many waves of a hogel enter the lens: where hogels are large.
 bool is_expected_cheap(const LightFieldGrid& grid, const HologramRequest& request, std::span<const Camera> cameras,
-                       const PhotographOptions& options, const Session& session) {
+                       const CameraModel& model, const Session& session) {
     const std::span<const LightFieldGrid> faces(&grid, 1);
-    const double looks = plan_photographs(faces, request, cameras, options).seconds,
-                 expected = plan_photographs(faces, request, cameras, {.expected = true}).seconds;
+    const double looks = plan_photographs(faces, request, cameras, model).seconds,
+                 expected = plan_photographs(faces, request, cameras, SpeckleFreeCamera()).seconds;
     if (expected <= std::max(10.0, looks)) return true;
     session.detail(
         fmt::format("without pictures of infinitely many looks, which take about {:.0f} s; --looks expected "
@@ -206,19 +206,18 @@ class PassingFile {
 // Photographs the holograms by waves.
 // @param with  the camera of the pictures of some looks; null: there are none
 void photograph_waves(const Session& session, Report& report, const Fields& holograms, std::span<const Camera> cameras,
-                      const PhotographOptions* with) {
+                      const CameraModel* with) {
     struct Way {
         std::string name;
-        WaveCamera camera;
+        CameraModel camera;
         Image PhotographPair::*picture;
     };
     std::vector<Way> ways;
     if (with != nullptr) ways.push_back({"photographs by waves", *with, &PhotographPair::wave});
-    if (report.expected)
-        ways.push_back({"expected photographs", PhotographOptions{.expected = true}, &PhotographPair::expected});
+    if (report.expected) ways.push_back({"expected photographs", SpeckleFreeCamera(), &PhotographPair::expected});
     const auto photograph = [&](const std::string& name, std::span<const Way> some) {
         timed(session, report, name, [&](Stage& stage) {
-            std::vector<WaveCamera> by;
+            std::vector<CameraModel> by;
             for (const Way& way : some) by.push_back(way.camera);
             std::vector<std::vector<Image>> seen = photograph_colours(holograms, cameras, by, stage.progress());
             for (std::size_t way = 0; way < some.size(); ++way)
@@ -291,7 +290,7 @@ int make(const Options& options, const Session& session) {
     say_pitch(request, options.hologram, session);
     with_options({{"pupil", "--pupil, --pitch"}, {"the eye", "--eye-distance, --pitch"}, {"", "--fov, --pitch"}},
                  [&] { require_holograms(std::span(&report.light_field, 1), request, cameras); });
-    const PhotographOptions with = photograph_options(options.camera, looks.expected);
+    const CameraModel with = camera_model(options.camera, looks.expected);
     const std::string camera = state_plan(report.light_field, request, cameras, with, session);
     report.expected = looks.expected || is_expected_cheap(report.light_field, request, cameras, with, session);
 
@@ -396,7 +395,10 @@ void add_make(Command& command, Session& session) {
     command.count("--pupil-samples", options->pupil_samples, "Points of the pupil in a photograph by rays");
     add_render_options(command, options->render);
     add_json_flag(command, session);
-    command.work([options, &session] { return make(*options, session); });
+    command.work([options, &session] {
+        options->camera = camera_name(options->camera);
+        return make(*options, session);
+    });
 }
 
 }  // namespace hogel::cli

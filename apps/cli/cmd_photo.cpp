@@ -35,15 +35,17 @@ struct Options {
     double film_distance = 0;
 
     // The full camera's scratch files are in the picture's folder.
-    WaveCamera wave_camera() const {
+    CameraModel camera_model() const {
         if (camera == "full")
-            return PlaneWaveCameraOptions{
+            return PlaneWaveCamera{
                 {.memory = ScratchOptions().memory, .folder = std::filesystem::absolute(output).parent_path()},
                 film_distance};
-        PhotographOptions options = photograph_options(camera, parse_looks(looks).expected);
-        options.vertical_diffuser = has_diffuser();
-        options.preview = preview;
-        return options;
+        CameraModel model = cli::camera_model(camera, parse_looks(looks).expected);
+        if (auto* const band = std::get_if<BandCamera>(&model)) {
+            band->vertical_diffuser = has_diffuser();
+            band->preview = preview;
+        }
+        return model;
     }
     bool has_diffuser() const { return diffuser == "vertical"; }
 };
@@ -65,13 +67,13 @@ std::vector<Image> develop(Stage& stage, const Fields& fields, std::span<const C
              {"pupil", "--pupil"},
              {"infinitely", "--looks expected"},
              {"", "--camera"}},
-            [&] { return photograph_colours(fields, cameras, options.wave_camera(), stage.progress()); });
+            [&] { return photograph_colours(fields, cameras, options.camera_model(), stage.progress()); });
     if (fields.size() != 1)
         throw Error(ErrorCode::usage,
                     fmt::format("--display phase: a phase is that of one wavelength, but there are {}", fields.size()));
     std::vector<Image> pictures;
     for (const auto& wave : waves_in_focus(*fields.front(), 0, cameras,
-                                           std::get<PlaneWaveCameraOptions>(options.wave_camera()), stage.progress()))
+                                           std::get<PlaneWaveCamera>(options.camera_model()), stage.progress()))
         pictures.push_back(phases(wave));
     return pictures;
 }
@@ -88,12 +90,12 @@ std::vector<Image> photographs_of_hologram(const Options& options, RunRecord& re
         for (const Camera& camera : cameras)
             with_options({{"", "--eye"}},
                          [&] { require_light_towards(field->grid(), camera, options.has_diffuser()); });
-    const WaveCamera with = options.wave_camera();
-    if (const auto* const narrow = std::get_if<PhotographOptions>(&with)) {
+    const CameraModel model = options.camera_model();
+    if (std::holds_alternative<BandCamera>(model)) {
         std::vector<FieldGrid> grids;
         for (const auto& field : fields) grids.push_back(field->grid());
         with_options({{"pupil", "--pupil"}}, [&] {
-            state_plan(session, plan_photographs(grids, fields.front()->looks(), cameras, *narrow),
+            state_plan(session, plan_photographs(grids, fields.front()->looks(), cameras, model),
                        "photographing the hologram");
         });
     }
@@ -134,13 +136,10 @@ std::vector<Image> photographs_of_light_field(const Options& options, RunRecord&
         request_for(light_field.grids(), options.hologram, session, parse_looks(options.looks).count);
     say_pitch(request, options.hologram, session);
     check_holograms(light_field.grids(), request, kind == InputKind::scene, cameras);
-    const WaveCamera with = options.wave_camera();
-    const auto* const narrow = std::get_if<PhotographOptions>(&with);
-    if (narrow != nullptr) record.acted("camera", say_camera(session, light_field.grids(), request, cameras, *narrow));
-    state_plan(
-        session,
-        plan_photographs(light_field.grids(), request, cameras, narrow != nullptr ? *narrow : PhotographOptions()),
-        "photographing the hologram");
+    const CameraModel model = options.camera_model();
+    if (!std::holds_alternative<PlaneWaveCamera>(model))
+        record.acted("camera", say_camera(session, light_field.grids(), request, cameras, model));
+    state_plan(session, plan_photographs(light_field.grids(), request, cameras, model), "photographing the hologram");
     if (kind == InputKind::scene)
         light_field = prepare_for_reading(session, light_field, request.channels.size(), needs_depth(request.method));
     if (options.hologram.record(record, request, light_field.grid())) record.acted({"looks"});
@@ -317,7 +316,10 @@ void add_photo(Command& command, Session& session) {
     add_field_options(command, options->field, false);
     add_reconstruction_options(command, options->field);
     add_json_flag(command, session);
-    command.work([options, &session] { return photo(*options, session); });
+    command.work([options, &session] {
+        options->camera = camera_name(options->camera);
+        return photo(*options, session);
+    });
 }
 
 }  // namespace hogel::cli

@@ -16,7 +16,7 @@ void Waves::photograph(const Camera& camera, std::size_t looks, bool preview, co
                        const Progress& progress) {
     if (fields_.empty()) fields_ = make_();
     std::optional<EyePhotographer>& photographer = photographers_[preview ? 1 : 0];
-    if (!photographer) photographer.emplace(fields_, PhotographOptions{.memory = memory_, .preview = preview}, making_);
+    if (!photographer) photographer.emplace(fields_, BandCamera{.memory = memory_, .preview = preview}, making_);
     const std::size_t wanted = looks == 0 ? looks_ : std::min(looks, looks_);
     // The photographer has one number of looks, and stops on request: here after the last one that is wanted.
     std::stop_source enough;

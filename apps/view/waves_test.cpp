@@ -54,7 +54,7 @@ View view_by(By by) {
     return view;
 }
 
-Image expected(const Camera& camera, std::size_t looks, const PhotographOptions& options = {}) {
+Image expected(const Camera& camera, std::size_t looks, const BandCamera& options = {}) {
     return photograph_colours(holograms(looks), {&camera, 1}, options).front();
 }
 

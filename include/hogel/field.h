@@ -14,6 +14,10 @@
 
 namespace hogel {
 
+namespace stereogram {
+class Stereogram;
+}
+
 /// The sampling and the wavelength of a monochromatic complex field F on the plane z = 0. The time factor is e^{-iωt}:
 /// a wave that travels in direction n is e^{+ik n·x}. |F|² is normalised to the radiance of the light field
 /// (docs/notation.md, section 3).
@@ -47,6 +51,8 @@ class HOGEL_API FieldSource {
     virtual std::size_t overlap() const { return 0; }
     /// Fills out[y][x] (shape: height × width of the region) with the region's samples in look number `look`.
     virtual void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const = 0;
+    /// This field as a stereogram that is made on demand, whose hogels photograph() uses; null for other fields.
+    virtual const stereogram::Stereogram* stereogram() const { return nullptr; }
 };
 
 /// The fields of a hologram, one for each wavelength. Ownership is shared, so copies are cheap.

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "hogel/array.h"
@@ -17,40 +18,22 @@
 
 namespace hogel {
 
-/// What photograph() computes the light towards an eye from.
-enum class LightFrom {
-    cheaper,  ///< hogels where they are known and that costs less, otherwise samples
-    hogels,   ///< the waves of a stereogram's hogels, of which few numbers matter to an eye; no sample is computed
-    samples,  ///< the samples of the field
+/// Source of the light in the band of a pupil.
+enum class BandSource {
+    automatic,      ///< hogel_spectra where they are known and that costs less, otherwise samples
+    hogel_spectra,  ///< the spectra of a stereogram's hogels, without computing samples
+    samples,        ///< the samples of the field
 };
 
-/// Options of photograph() of holograms.
-struct PhotographOptions {
-    std::size_t memory = std::size_t{4} << 30;  ///< bytes that a photograph may use, without the pictures
-    LightFrom from = LightFrom::cheaper;
-    /// The mean of infinitely many looks, without speckle, instead of that of the source's looks: the sum of the
-    /// intensities of all waves, what ideal time multiplexing shows. For stereograms that are made on demand and whose
-    /// waves have independent random phases, Fourier with Phases::random; photograph() throws Error(usage) for others.
-    bool expected = false;
-    /// Whether the hologram stands behind a diffuser that spreads the light of each of its lines, a row of samples, to
-    /// all heights, as displays with horizontal parallax only do ([K] 3.9): see photograph(). Not with `expected`, nor
-    /// from hogels.
-    bool vertical_diffuser = false;
-    /// A quick look: of stereograms whose light is computed from hogels, waves that pass far from the pupil are left
-    /// out, of which it receives only what a hogel's edges diffract, and films are coarser. No effect on other light,
-    /// nor with `expected`.
-    bool preview = false;
-};
-
-/// Photographs a hologram by wave optics with the narrow-band camera (docs/notation.md, section 4): the field is
-/// demodulated towards the eye, low-passed to the band that enters the pupil, and decimated. This works tile by tile,
-/// so that holograms of any size can be streamed, and one pass over the hologram serves all cameras. Intensities are
-/// averaged over the source's looks and over each pixel's area; the images have one channel, in the field's units of
-/// radiance, and the order of `cameras`. Memory: the decimated arrays, (4.4 D A/λR)² samples of 8 bytes for each eye
-/// and look, and about as much again for one eye's film that is 192 resolution cells λR/A wider, with D the side of the
-/// hologram, A the pupil, R the eye's distance; the film has what pictures show beside the hologram, too. If that
-/// exceeds the options, cameras are processed fewer at a time and the hologram in windows; then the thousandth of the
-/// light that falls more than 256 resolution cells from its point is lost at the seams of windows.
+/// The band camera (docs/notation.md, section 4): the field is demodulated towards the eye, low-passed to the band that
+/// enters the pupil, and decimated. It works tile by tile, so that holograms of any size can be streamed, and one pass
+/// over the hologram serves all cameras.
+///
+/// Memory: the decimated arrays, (4.4 D A/λR)² samples of 8 bytes for each eye and look, and about as much again for
+/// one eye's film that is 192 resolution cells λR/A wider, with D the side of the hologram, A the pupil, R the eye's
+/// distance; the film has what pictures show beside the hologram, too. If that exceeds `memory`, cameras are processed
+/// fewer at a time and the hologram in windows; then the thousandth of the light that falls more than 256 resolution
+/// cells from its point is lost at the seams of windows.
 ///
 /// Behind a vertical diffuser a line of samples is coherent along x, and its light of any two heights within the line
 /// is incoherent, as is that of two lines: the picture is the sum of the intensities of all heights, which are seen
@@ -58,73 +41,91 @@ struct PhotographOptions {
 /// diffract up and down is seen from all heights. Cost: a photograph for each of so many lines, the light of which
 /// overlaps, of a hologram with thin rows, 12 to a resolution cell.
 ///
-/// Throws Error(usage) for a pupil that receives more directions than the field's pitch
-/// supports, for one that does not resolve two points on opposite edges of the hologram, and for a photograph that
-/// needs more memory than allowed.
-HOGEL_API std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camera> cameras,
-                                        const PhotographOptions& options = {}, const Progress& progress = {});
+/// photograph() throws Error(usage) for a pupil that receives more directions than the field's pitch supports, for one
+/// that does not resolve two points on opposite edges of the hologram, and for a photograph that needs more memory than
+/// allowed.
+struct BandCamera {
+    std::size_t memory = std::size_t{4} << 30;  ///< bytes that a photograph may use, without the pictures
+    BandSource source = BandSource::automatic;
+    /// Whether the hologram stands behind a diffuser that spreads the light of each of its lines, a row of samples, to
+    /// all heights, as displays with horizontal parallax only do ([K] 3.9). Not from hogel spectra.
+    bool vertical_diffuser = false;
+    /// A quick look from hogel spectra: it skips waves outside the pupil, which contribute only through edge
+    /// diffraction, and films are coarser. No effect on samples.
+    bool preview = false;
+};
 
-/// As photograph() into `pictures`, one per camera, whose memory is reused if they have the cameras' shapes. Also
-/// throws Error(usage) for another number of pictures.
-HOGEL_API void photograph_into(const FieldSource& hologram, std::span<const Camera> cameras,
-                               const PhotographOptions& options, std::span<Image> pictures,
-                               const Progress& progress = {});
+/// Photographs the mean of infinitely many looks, without speckle: the sum of the intensities of all waves, which ideal
+/// time multiplexing shows. For stereograms that are made on demand and whose waves have independent random phases,
+/// Fourier with Phases::random; photograph() throws Error(usage) for others.
+struct SpeckleFreeCamera {
+    std::size_t memory = std::size_t{4} << 30;  ///< bytes that a photograph may use, without the pictures
+};
 
-/// Throws the errors that photograph() throws before it begins, given only the grid of the hologram, which need not
-/// exist yet.
-HOGEL_API void require_photographs(const FieldGrid& hologram, std::span<const Camera> cameras,
-                                   const PhotographOptions& options = {});
-
-/// Resources to photograph holograms that exist already, without the cost of reading them; behind a vertical diffuser
-/// too (PhotographOptions), where the time grows with the number of lines within 32 resolution cells and the blur.
-/// Throws Error(usage) as require_photographs() does.
-HOGEL_API Plan plan_photographs(std::span<const FieldGrid> holograms, std::size_t looks,
-                                std::span<const Camera> cameras, const PhotographOptions& options = {});
-
-/// Throws Error(usage) for an invalid camera, and for one in directions beyond those to which the pitch of the samples
-/// diffracts. In such directions photograph() shows what a modulator with these samples shows, copies (higher orders)
-/// of pictures from other directions, which is correct only for a field that is known to have just these directions.
-/// @param vertical_diffuser  whether the field is seen from all heights, see PhotographOptions
-HOGEL_API void require_light_towards(const FieldGrid& hologram, const Camera& camera, bool vertical_diffuser = false);
-
-/// Options of photograph_by_plane_waves().
-struct PlaneWaveCameraOptions {
+/// Propagates the plane waves of a hologram through the camera, the full chain of [K] 6: to the lens, restricted to the
+/// directions between the hologram and the pupil, which removes the copies due to sampling; through the opening; then
+/// either back to the plane in focus, which a perfect lens images on its film, or through a thin lens to the film. The
+/// only approximation is that the field is zero beside the hologram. Cost: Fourier transforms of the hologram padded by
+/// the pupil, and twice that area for a tilted plane in focus. Memory: as `scratch` allows, the rest in a file.
+/// photograph() throws Error(usage) for an eye in directions beyond those to which the hologram's pitch diffracts, for
+/// a pupil that resolves fewer than four points side by side on the hologram, and for a tilted plane in focus with a
+/// thin lens.
+struct PlaneWaveCamera {
     ScratchOptions scratch;
     /// Metres from a thin lens ([K] 6.12) to a film parallel to it; the lens equation gives the focal length. The
     /// picture then shows the lens's spherical aberration, coma and astigmatism. 0: a perfect lens.
     double film_distance = 0;
 };
 
-/// Photographs a hologram by propagating its plane waves through the camera, the full chain of [K] 6: to the lens,
-/// restricted to the directions between the hologram and the pupil, which removes the copies due to sampling; through
-/// the opening; then either back to the plane in focus, which a perfect lens images on its film, or through a thin lens
-/// to the film. The only approximation is that the field is zero beside the hologram. Units and order of the images are
-/// those of photograph(). Cost: Fourier transforms of the hologram padded by the pupil, and twice that area for a
-/// tilted plane in focus. Memory: as `scratch` allows, the rest in a file. Throws Error(usage) for an eye in directions
-/// beyond those to which the hologram's pitch diffracts, for a pupil that resolves fewer than four points side by side
-/// on the hologram, and for a tilted plane in focus with a thin lens.
-HOGEL_API std::vector<Image> photograph_by_plane_waves(const FieldSource& hologram, std::span<const Camera> cameras,
-                                                       const PlaneWaveCameraOptions& options = {},
-                                                       const Progress& progress = {});
+/// Sums directly, from every sample of the hologram to every point of the pupil and from there to every pixel, with no
+/// approximation but scalar waves. Cost: hologram samples × pupil points. For tests and small holograms.
+struct DirectCamera {
+    /// Points along a diameter of the pupil, on rings; they must be closer together than half a cycle of the light of
+    /// any two points of the hologram.
+    std::size_t pupil_points = 64;
+    std::size_t subpixels = 1;  ///< points across a pixel, by Gauss' quadrature
+};
 
-/// The complex waves whose intensities photograph_by_plane_waves() shows, for one look and a perfect lens: one array
+/// How the light of a hologram is followed to the film. Light fields have RayCamera.
+using CameraModel = std::variant<BandCamera, SpeckleFreeCamera, PlaneWaveCamera, DirectCamera>;
+
+/// Photographs a hologram by wave optics. Intensities are averaged over the source's looks and over each pixel's area.
+/// The images have one channel, in the field's units of radiance,
+/// and the order of `cameras`. Throws Error(usage) as the model says.
+HOGEL_API std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camera> cameras,
+                                        const CameraModel& model = BandCamera(), const Progress& progress = {});
+
+/// As photograph() into `pictures`, one per camera, whose memory is reused if they have the cameras' shapes. Also
+/// throws Error(usage) for another number of pictures.
+HOGEL_API void photograph_into(const FieldSource& hologram, std::span<const Camera> cameras, const CameraModel& model,
+                               std::span<Image> pictures, const Progress& progress = {});
+
+/// Throws the errors that photograph() throws before it begins, given only the grid of the hologram, which need not
+/// exist yet.
+HOGEL_API void require_photographs(const FieldGrid& hologram, std::span<const Camera> cameras,
+                                   const CameraModel& model = BandCamera());
+
+/// Resources to photograph holograms that exist already, without the cost of reading them; behind a vertical diffuser
+/// too, where the time grows with the number of lines within 32 resolution cells and the blur. Other models than
+/// BandCamera are planned as if by that one. Throws Error(usage) as require_photographs() does.
+HOGEL_API Plan plan_photographs(std::span<const FieldGrid> holograms, std::size_t looks,
+                                std::span<const Camera> cameras, const CameraModel& model = BandCamera());
+
+/// Throws Error(usage) for an invalid camera, and for one in directions beyond those to which the pitch of the samples
+/// diffracts. In such directions photograph() shows what a modulator with these samples shows, copies (higher orders)
+/// of pictures from other directions, which is correct only for a field that is known to have just these directions.
+/// @param vertical_diffuser  whether the field is seen from all heights, see BandCamera
+HOGEL_API void require_light_towards(const FieldGrid& hologram, const Camera& camera, bool vertical_diffuser = false);
+
+/// The complex waves whose intensities a PlaneWaveCamera shows, for one look and a perfect lens: one array
 /// [y][x] per camera, at the points of the plane in focus that the pixels' centres show, zero far beside the hologram.
 /// Phases are relative to spherical waves from those points to the centre of the pupil, so light through the centre
-/// alone has a constant phase. Values are not scaled to radiance. Throws as photograph_by_plane_waves() does, and
-/// Error(usage) for a film distance.
+/// alone has a constant phase. Values are not scaled to radiance. Throws as photograph() does with a PlaneWaveCamera,
+/// and Error(usage) for a film distance.
 HOGEL_API std::vector<Array<std::complex<float>, 2>> waves_in_focus(const FieldSource& hologram, std::size_t look,
                                                                     std::span<const Camera> cameras,
-                                                                    const PlaneWaveCameraOptions& options = {},
+                                                                    const PlaneWaveCamera& model = {},
                                                                     const Progress& progress = {});
-
-/// Photographs a hologram by direct summation, from every sample of the hologram to every point of the pupil and from
-/// there to every pixel, with no approximation but scalar waves. Cost: hologram samples × pupil points. For tests and
-/// small holograms.
-/// @param pupil_points_across  points along a diameter of the pupil, on rings; they must be closer together than half a
-///                             cycle of the light of any two points of the hologram
-/// @param subpixels            points across a pixel, by Gauss' quadrature
-HOGEL_API Image photograph_directly(const FieldSource& hologram, const Camera& camera, std::size_t pupil_points_across,
-                                    std::size_t subpixels = 1);
 
 /// Photographs of holograms of one or three wavelengths from one eye after the other, for interactive use. It keeps
 /// what all eyes share, the amplitudes of the waves of a stereogram and the waves of the first look, and the light in
@@ -135,10 +136,11 @@ HOGEL_API Image photograph_directly(const FieldSource& hologram, const Camera& c
 /// same eye again continues with the others. For one thread at a time.
 class HOGEL_API EyePhotographer {
   public:
-    /// Computes what all eyes share, as far as options.memory allows; half of that is for the light of the last eye.
-    /// Throws Error(usage) for other numbers of holograms, and as photograph() does if options.expected.
+    /// Computes what all eyes share, as far as the model's memory allows; half of that is for the light of the last
+    /// eye. A model other than BandCamera shares nothing but amplitudes. Throws Error(usage) for other numbers of
+    /// holograms.
     explicit EyePhotographer(std::vector<std::shared_ptr<const FieldSource>> holograms,
-                             const PhotographOptions& options = {}, const Progress& progress = {});
+                             const CameraModel& model = BandCamera(), const Progress& progress = {});
     ~EyePhotographer();
     EyePhotographer(EyePhotographer&&) noexcept;
     EyePhotographer& operator=(EyePhotographer&&) noexcept;

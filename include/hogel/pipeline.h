@@ -183,18 +183,13 @@ HOGEL_API std::string warning_about(const LightField& light_field, const Hologra
 /// One hologram per channel, computed from the light field when it is read.
 HOGEL_API Fields make_holograms(const LightField& light_field, const HologramRequest& request);
 
-/// How waves are photographed: with the narrow-band camera, photograph(), or with the full one,
-/// photograph_by_plane_waves().
-using WaveCamera = std::variant<PhotographOptions, PlaneWaveCameraOptions>;
-
 /// Photographs holograms of one or three wavelengths by wave optics and combines the colours.
 HOGEL_API std::vector<Image> photograph_colours(const Fields& holograms, std::span<const Camera> cameras,
-                                                const WaveCamera& with = PhotographOptions(),
-                                                const Progress& progress = {});
+                                                const CameraModel& model = BandCamera(), const Progress& progress = {});
 
 /// The same in several ways, [way][camera]. Processes of a team then share all of them together.
 HOGEL_API std::vector<std::vector<Image>> photograph_colours(const Fields& holograms, std::span<const Camera> cameras,
-                                                             std::span<const WaveCamera> ways,
+                                                             std::span<const CameraModel> ways,
                                                              const Progress& progress = {});
 
 /// A camera on the axis that frames a hologram of this size (metres) with `resolution` pixels across.
@@ -254,20 +249,20 @@ HOGEL_API Plan plan_light_field(const LightField& rendered, const LightFieldRequ
 /// Resources to make holograms of an existing light field and write them to a file.
 HOGEL_API Plan plan_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                               const HologramFileOptions& file = {});
-/// From what photograph() computes the light towards eyes, and a clause that says why.
-struct LightChoice {
-    LightFrom from = LightFrom::samples;  ///< hogels or samples
+/// The selected band source, and the reason.
+struct BandSourceChoice {
+    BandSource source = BandSource::samples;  ///< hogel_spectra or samples
     std::string reason;
 };
 /// The choice of photograph() for holograms of a light field with these faces. From hogels, whose waves all methods but
 /// the exact PhaseAdded and OwnMethod know, if an eye's band has at most a quarter as many samples as a hogel, half
 /// along either axis, for the widest band of all cameras and colours; otherwise from samples.
-HOGEL_API LightChoice choose_light(std::span<const LightFieldGrid> faces, const HologramRequest& request,
-                                   std::span<const Camera> cameras, const PhotographOptions& options = {});
+HOGEL_API BandSourceChoice choose_band_source(std::span<const LightFieldGrid> faces, const HologramRequest& request,
+                                              std::span<const Camera> cameras, const CameraModel& model = BandCamera());
 
-/// Resources to photograph holograms that are computed on demand, from what choose_light() says.
+/// Resources to photograph holograms that are computed on demand, from what choose_band_source() says.
 HOGEL_API Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramRequest& request,
-                                std::span<const Camera> cameras, const PhotographOptions& options = {});
+                                std::span<const Camera> cameras, const CameraModel& model = BandCamera());
 
 /// Throws Error(usage), with the numbers, if `what` needs more memory than the machine has left or more disk space than
 /// is free at `file`.

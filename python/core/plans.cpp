@@ -45,10 +45,8 @@ void add_plans(py::module_& module) {
     module.def(
         "plan_photographs",
         [](const LightField& light_field, const HologramRequest& request, const std::vector<Camera>& cameras,
-           const PhotographOptions& options) {
-            return plan_photographs(light_field.grids(), request, cameras, options);
-        },
-        arg("light_field"), arg("request"), arg("cameras"), arg("options"));
+           const CameraModel& model) { return plan_photographs(light_field.grids(), request, cameras, model); },
+        arg("light_field"), arg("request"), arg("cameras"), arg("model"));
     module.def(
         "plan_ray_photographs",
         [](const LightField& light_field, const std::vector<Camera>& cameras, std::size_t pupil_samples) {

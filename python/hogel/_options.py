@@ -8,9 +8,9 @@ from . import _core
 
 #: Values that are what their members are.
 OPTIONS = (
-    "Basis BakeOptions CodingMethod CompressionOptions ExternalField FilePart Fourier HologramRequest Light LightFieldRequest Lines "
-    "Lossless Material MaxError Modulator OrderSelection OverlapAdd PatternOptions PhaseAdded PhaseCode PhotographOptions "
-    "PixelsPerBit PlaneWaveCameraOptions ScenePose ShadingOptions Sqnr Step TextureSampling ViewExportOptions ViewOptions"
+    "BandCamera Basis BakeOptions CodingMethod CompressionOptions DirectCamera ExternalField FilePart Fourier HologramRequest Light "
+    "LightFieldRequest Lines Lossless Material MaxError Modulator OrderSelection OverlapAdd PatternOptions PhaseAdded PhaseCode "
+    "PixelsPerBit PlaneWaveCamera ScenePose ShadingOptions SpeckleFreeCamera Sqnr Step TextureSampling ViewExportOptions ViewOptions"
 ).split()
 #: What is given when one is made; the other members are set after that.
 _MADE_OF = {

@@ -256,7 +256,8 @@ class Hologram:
         """A picture by waves, through the camera that the options describe (hogel.camera()): eye, gaze, focus, pupil,
         resolution and so on. With `cameras` a list of pictures, one for each.
 
-        camera        how waves are photographed: auto, eye, narrow or full
+        camera        how waves are photographed: auto, eye, narrow or full; or, in the words of the library,
+                      hogel-spectra, samples or plane-waves
         expected      the mean of infinitely many looks, of a hologram that is computed when it is read
         diffuser      "vertical": a diffuser before a hologram with horizontal parallax only
         preview       without waves that pass far from the lens: a quick look at a hologram that is computed when it is read
@@ -270,6 +271,7 @@ class Hologram:
         if len(self) not in (1, 3):
             raise UsageError(f"photograph: a photograph takes one or three wavelengths, not {len(self)}")
         views = [camera_of(self.grid.size_x, self.grid.size_y, **options)] if cameras is None else list(cameras)
+        camera = _CAMERA_MODELS.get(camera, camera)
         how = _wave_camera(camera, expected, diffuser, units.length(film_distance, "film_distance"), preview)
         if preview and self._known is None:
             raise UsageError("preview: leaves out waves of hogels; of a hologram in a file or memory only samples are known")
@@ -302,8 +304,8 @@ class Hologram:
         acted["wave"] = "yes"
         if camera != "full":
             how = _wave_camera(camera, expected, diffuser, 0)
-            chosen, _ = _core.choose_light(light_field, wanted, views, how)
-            acted["camera"] = "eye" if chosen == _core.LightFrom.hogels else "narrow"
+            chosen, _ = _core.choose_band_source(light_field, wanted, views, how)
+            acted["camera"] = "eye" if chosen == _core.BandSource.hogel_spectra else "narrow"
         if "seed" in (self._made or {}):
             acted["looks"] = "expected" if expected else str(wanted.looks)
         if expected:
@@ -360,6 +362,10 @@ class Hologram:
         return text.replace("Field(", "Hologram(", 1).replace(units.say_length(self.wavelengths[0]), waves, 1)
 
 
+#: The names of the library's camera models, beside the shorter ones.
+_CAMERA_MODELS = {"hogel-spectra": "eye", "samples": "narrow", "plane-waves": "full"}
+
+
 def _wave_camera(name: str, expected: bool, diffuser: str, film_distance: float, preview: bool = False) -> Any:
     if name not in ("auto", "eye", "narrow", "full"):
         raise UsageError(f"camera: auto, eye, narrow or full were expected, not '{name}'")
@@ -370,12 +376,16 @@ def _wave_camera(name: str, expected: bool, diffuser: str, film_distance: float,
     if name == "full":
         if expected or preview or diffuser != "none":
             raise UsageError("expected, preview, diffuser: are not for the full camera")
-        return _core.PlaneWaveCameraOptions(film_distance=film_distance)
+        return _core.PlaneWaveCamera(film_distance=film_distance)
     if preview and (expected or name == "narrow"):
         raise UsageError("preview: is for a number of looks and the eye camera")
-    options = _core.PhotographOptions()
-    options.preview = preview
-    options.from_ = {"eye": _core.LightFrom.hogels, "narrow": _core.LightFrom.samples}.get(name, _core.LightFrom.cheaper)
-    options.expected = expected
-    options.vertical_diffuser = diffuser == "vertical"
-    return options
+    if expected:
+        if diffuser != "none":
+            raise UsageError("expected: the mean of infinitely many looks is not known behind a diffuser")
+        return _core.SpeckleFreeCamera()
+    model = _core.BandCamera()
+    model.preview = preview
+    sources = {"eye": _core.BandSource.hogel_spectra, "narrow": _core.BandSource.samples}
+    model.source = sources.get(name, _core.BandSource.automatic)
+    model.vertical_diffuser = diffuser == "vertical"
+    return model

@@ -9,16 +9,16 @@
 #include <deque>
 
 #include "hogel/error.h"
-#include "hogel/hologram/direction_phases.h"
-#include "hogel/hologram/fourier_synthesis.h"
-#include "hogel/hologram/hogel_synthesis.h"
+#include "hogel/stereogram/direction_phases.h"
+#include "hogel/stereogram/fourier_synthesis.h"
+#include "hogel/stereogram/hogel_synthesis.h"
 #include "hogel/units.h"
 #include "thesis/fringes/fringe_table.h"
 #include "thesis/wavelets/transform.h"
 
 namespace hogel::fringes {
 
-using namespace hologram;
+using namespace stereogram;
 
 namespace {
 
@@ -209,7 +209,7 @@ class BasisSynthesis final : public HogelSynthesis {
 }  // namespace
 }  // namespace hogel::fringes
 
-namespace hogel::hologram {
+namespace hogel::stereogram {
 
 std::unique_ptr<HogelSynthesis> make_basis_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
                                                      std::size_t rows, const HologramOptions& options,
@@ -229,4 +229,4 @@ std::unique_ptr<HogelSynthesis> make_basis_synthesis(std::span<const LightFieldG
                                             0, options, method, values);
 }
 
-}  // namespace hogel::hologram
+}  // namespace hogel::stereogram

@@ -7,16 +7,16 @@
 #include "hogel/core/test_targets.h"
 #include "hogel/error.h"
 #include "hogel/hologram.h"
-#include "hogel/hologram/frequency_grid.h"
-#include "hogel/hologram/test_light_fields.h"
 #include "hogel/math/fft.h"
+#include "hogel/stereogram/frequency_grid.h"
+#include "hogel/stereogram/test_light_fields.h"
 #include "hogel/units.h"
 #include "thesis/fringes/fringe_table.h"
 #include "thesis/wavelets/transform.h"
 
 namespace hogel::fringes {
 
-using namespace hologram;
+using namespace stereogram;
 
 namespace {
 

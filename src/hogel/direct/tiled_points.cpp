@@ -7,7 +7,7 @@
 #include "hogel/core/parallel.h"
 #include "hogel/direct/exact_sums.h"
 #include "hogel/direct/scene_points.h"
-#include "hogel/hologram/unit_roots.h"
+#include "hogel/stereogram/unit_roots.h"
 
 namespace hogel::direct {
 namespace {
@@ -22,7 +22,7 @@ enum class Zone { dark, edge, lit };
 struct Chirp {
     std::array<float, side> real{}, imaginary{};
 
-    Chirp(const hologram::UnitRoots& roots, double first_order, double second_order, std::size_t n, double pitch) {
+    Chirp(const stereogram::UnitRoots& roots, double first_order, double second_order, std::size_t n, double pitch) {
         for (std::size_t i = 0; i < n; ++i) {
             const double t = (static_cast<double>(i) - 0.5 * static_cast<double>(n - 1)) * pitch;
             const std::complex<float> root = roots(t * (first_order + second_order * t));
@@ -36,7 +36,7 @@ struct Chirp {
 // mixed term. The wave is then a function of the column times one of the row, both from a table of roots of unity.
 class Tile {
   public:
-    Tile(const hologram::UnitRoots& roots, const FieldGrid& grid, const Region& region)
+    Tile(const stereogram::UnitRoots& roots, const FieldGrid& grid, const Region& region)
         : roots_(roots),
           grid_(grid),
           region_(region),
@@ -91,7 +91,7 @@ class Tile {
     void add_exactly(const ScenePoint& point) { exact_.add(point); }
 
   private:
-    const hologram::UnitRoots& roots_;
+    const stereogram::UnitRoots& roots_;
     const FieldGrid& grid_;
     Region region_;
     ExactSums exact_;
@@ -108,7 +108,7 @@ Field tiled_points(const ShadedScene& scene, const FieldGrid& grid, const SceneH
     const core::StopScope scope(progress);
     const Visibility visibility(scene);
     const std::vector<ScenePoint> points = surface_points(scene, grid, options);
-    const hologram::UnitRoots roots;
+    const stereogram::UnitRoots roots;
     return sum_over_tiles(grid, progress, [&](const Region& region, View<std::complex<float>, 2> values) {
         Tile tile(roots, grid, region);
         for (const ScenePoint& point : points) {

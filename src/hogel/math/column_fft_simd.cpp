@@ -9,6 +9,7 @@
 
 #include "hogel/array.h"
 #include "hogel/core/simd_targets-inl.h"
+#include "hogel/core/thread_buffer.h"
 #include "hogel/math/numbers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -110,36 +111,31 @@ void TransformBlock(const ColumnFft::Plan& plan, const float* from, std::size_t 
         }
 }
 
-float* ScratchFor(const ColumnFft::Plan& plan) {
-    thread_local Array<float, 1> scratch;
-    if (scratch.size() < plan.length * scratch_row) scratch = Array<float, 1>({plan.length * scratch_row});
-    return scratch.data();
-}
-
 void TransformColumns(const ColumnFft::Plan& plan, bool forward, const float* from, std::size_t from_row, float* to,
                       std::size_t to_row, std::size_t floats) {
-    float* scratch = ScratchFor(plan);
+    const core::ThreadBuffer<float> scratch(plan.length * scratch_row);
     for (std::size_t i = 0; i < floats; i += scratch_row)
         if (forward)
-            TransformBlock<true, Interleaved, Interleaved>(plan, from + i, from_row, to + i, to_row, scratch);
+            TransformBlock<true, Interleaved, Interleaved>(plan, from + i, from_row, to + i, to_row, scratch.data());
         else
-            TransformBlock<false, Interleaved, Interleaved>(plan, from + i, from_row, to + i, to_row, scratch);
+            TransformBlock<false, Interleaved, Interleaved>(plan, from + i, from_row, to + i, to_row, scratch.data());
 }
 
 void TransformSplit(const ColumnFft::Plan& plan, float* columns) {
-    TransformBlock<false, InSplit, InSplit>(plan, columns, scratch_row, columns, scratch_row, ScratchFor(plan));
+    TransformBlock<false, InSplit, InSplit>(plan, columns, scratch_row, columns, scratch_row,
+                                            core::ThreadBuffer<float>(plan.length * scratch_row).data());
 }
 
 void TransformSplitToInterleaved(const ColumnFft::Plan& plan, const float* from, float* to, std::size_t to_row,
                                  std::size_t floats) {
-    float* scratch = ScratchFor(plan);
+    const core::ThreadBuffer<float> scratch(plan.length * scratch_row);
     const bool lines = (reinterpret_cast<std::uintptr_t>(to) | to_row * sizeof(float)) % 64 == 0;
     const bool streamed = lines && to_row > floats;
     for (std::size_t i = 0; i < floats; i += scratch_row, from += plan.length * scratch_row)
         if (streamed)
-            TransformBlock<false, InSplit, Streamed>(plan, from, scratch_row, to + i, to_row, scratch);
+            TransformBlock<false, InSplit, Streamed>(plan, from, scratch_row, to + i, to_row, scratch.data());
         else
-            TransformBlock<false, InSplit, Interleaved>(plan, from, scratch_row, to + i, to_row, scratch);
+            TransformBlock<false, InSplit, Interleaved>(plan, from, scratch_row, to + i, to_row, scratch.data());
     if (streamed) hwy::FlushStream();
 }
 #endif

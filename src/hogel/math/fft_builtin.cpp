@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "hogel/array.h"
+#include "hogel/core/thread_buffer.h"
 #include "hogel/math/fft_engine.h"
 #include "hogel/math/fourier/plain.h"
 #include "hogel/math/fourier/plan.h"
@@ -23,12 +24,6 @@ constexpr std::size_t min_split = 24;
 
 float* floats(std::complex<float>* p) { return reinterpret_cast<float*>(p); }
 
-std::complex<float>* buffer(std::size_t values) {
-    thread_local Array<std::complex<float>, 1> memory;
-    if (memory.size() < values) memory = Array<std::complex<float>, 1>({values});
-    return memory.data();
-}
-
 }  // namespace
 
 struct LineEngine::Plans {
@@ -41,12 +36,12 @@ struct LineEngine::Plans {
     }
 
     void plain(bool forward, std::complex<float>* line, std::size_t stride) const {
-        std::complex<float>* copy = buffer(size);
+        const core::ThreadBuffer<std::complex<float>> copy(size);
         const auto exchanged = [&](std::complex<float> x) {
             return forward ? x : std::complex<float>(x.imag(), x.real());
         };
         for (std::size_t i = 0; i < size; ++i) copy[i] = exchanged(line[i * stride]);
-        fourier::transform_plain({copy, size});
+        fourier::transform_plain({copy.data(), size});
         for (std::size_t i = 0; i < size; ++i) line[i * stride] = exchanged(copy[i]);
     }
 
@@ -54,7 +49,8 @@ struct LineEngine::Plans {
     void line(bool forward, std::complex<float>* values, bool in_memory) const {
         if (!fourier::has_vectors()) return plain(forward, values, 1);
         if (!split) return fourier::transform_lines(together(), chirp_or_none(), !forward, floats(values), 0, 1, size);
-        std::complex<float>* copy = in_memory || chirp ? buffer(convolved) : values;
+        const core::ThreadBuffer<std::complex<float>> buffer(in_memory || chirp ? convolved : 0);
+        std::complex<float>* const copy = in_memory || chirp ? buffer.data() : values;
         if (!chirp) {
             if (in_memory) std::copy_n(values, size, copy);
             return fourier::transform_split(*split, !forward, floats(copy), floats(values));

@@ -12,7 +12,7 @@
 #include "hogel/core/steps.h"
 #include "hogel/math/fft.h"
 #include "hogel/optics/lines.h"
-#include "hogel/optics/narrow_band/kernels.h"
+#include "hogel/optics/multiply.h"
 #include "hogel/optics/phase_walk.h"
 #include "hogel/optics/spectrum_steps.h"
 #include "hogel/units.h"
@@ -155,7 +155,7 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
             std::copy_n(&lines(y, 0), plane.width, &line(left));
             along.forward(line.data());
             take_frequencies(line.data(), window.width, first_column, columns, row.data());
-            narrow_band::multiply(row.data(), centre_x.data(), row);
+            multiply(row.data(), centre_x.data(), row);
             kept.put_row(y0 + y, row.data());
         }
         steps.report_one();

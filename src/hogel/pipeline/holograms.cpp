@@ -11,10 +11,10 @@
 #include "hogel/core/pieces.h"
 #include "hogel/core/shared_order.h"
 #include "hogel/error.h"
-#include "hogel/hologram/parallax.h"
 #include "hogel/image/film.h"
 #include "hogel/pipeline.h"
 #include "hogel/pipeline/picture_jobs.h"
+#include "hogel/stereogram/parallax.h"
 
 namespace hogel {
 
@@ -50,26 +50,26 @@ std::string warning_about(const LightField& light_field, const HologramRequest& 
     const auto* overlap_add = std::get_if<OverlapAdd>(&request.method);
     if (overlap_add == nullptr) return {};
     const bool smooth = overlap_add->phases == PointPhases::fixed;
-    if (smooth && hologram::has_picture_at_infinity(light_field.front()))
+    if (smooth && stereogram::has_picture_at_infinity(light_field.front()))
         return "rays that meet nothing show a picture at infinity, and smooth surfaces keep only its mean; random "
                "phases "
                "would show it";
     const LightFieldGrid& grid = light_field.grid();
     const double samples = std::round(grid.pitch / request.pitch);
-    if (smooth && samples > hologram::max_smooth_hogel)
+    if (smooth && samples > stereogram::max_smooth_hogel)
         return fmt::format(
             "hogels are {:.0f} samples wide, and smooth surfaces show them as a grid with colours of its own; hogels "
             "of up to {:.0f} samples, or random phases, would do",
-            samples, hologram::max_smooth_hogel);
-    const double parallax = hologram::neighbouring_parallax(light_field.front(), request.pitch);
-    if (parallax <= hologram::max_parallax) return {};
+            samples, stereogram::max_smooth_hogel);
+    const double parallax = stereogram::neighbouring_parallax(light_field.front(), request.pitch);
+    if (parallax <= stereogram::max_parallax) return {};
     const auto enough = [&](std::size_t count) {
-        return std::ceil(static_cast<double>(count) * parallax / hologram::max_parallax);
+        return std::ceil(static_cast<double>(count) * parallax / stereogram::max_parallax);
     };
     return fmt::format(
         "neighbouring directions see the deepest things {:.1f} samples apart, and windows overlap well up "
         "to {:.0f}{}; {}x{} directions would do",
-        parallax, hologram::max_parallax, smooth ? ", beyond which smooth surfaces lose brightness and colour" : "",
+        parallax, stereogram::max_parallax, smooth ? ", beyond which smooth surfaces lose brightness and colour" : "",
         enough(grid.directions_u), enough(grid.directions_v));
 }
 
@@ -102,23 +102,20 @@ std::vector<Image> unexposed(const Fields& holograms, std::span<const Camera> ca
 
 // Photographs by one camera or several of all colours, which the processes of a team make together, one colour after
 // the other. The narrow camera keeps the light of each tile; but not behind a diffuser, where that is gigabytes.
-void photograph_one_by_one(const Fields& holograms, std::span<const Camera> cameras, const WaveCamera& with,
+void photograph_one_by_one(const Fields& holograms, std::span<const Camera> cameras, const CameraModel& model,
                            std::span<Image> pictures, const Progress& progress) {
-    const auto* const options = std::get_if<PhotographOptions>(&with);  // null: the full camera's
+    const auto* const band = std::get_if<BandCamera>(&model);
     const std::vector<std::size_t> order = in_order(holograms);
     pipeline::PictureJob job{0, {}, std::vector<std::size_t>(cameras.size())};
     std::iota(job.cameras.begin(), job.cameras.end(), std::size_t{0});
     const auto photograph = [&](std::size_t k) {
-        const FieldSource& hologram = *holograms[order[k]];
-        const Progress part = progress.part(k, order.size());
-        if (options != nullptr) return hogel::photograph(hologram, cameras, *options, part);
-        return photograph_by_plane_waves(hologram, cameras, std::get<PlaneWaveCameraOptions>(with), part);
+        return hogel::photograph(*holograms[order[k]], cameras, model, progress.part(k, order.size()));
     };
     const auto put = [&](std::size_t k, std::vector<Image>& made) {
         job.colours = {order[k]};
         pipeline::put(job, made, pictures);
     };
-    if (options == nullptr || options->vertical_diffuser)
+    if (band == nullptr || band->vertical_diffuser)
         return core::shared_jobs<std::vector<Image>>(order.size(), image::sent_pictures(), photograph, put,
                                                      core::DoneBy::whole_team);
     for (std::size_t k = 0; k < order.size(); ++k) {
@@ -130,7 +127,7 @@ void photograph_one_by_one(const Fields& holograms, std::span<const Camera> came
 }  // namespace
 
 std::vector<std::vector<Image>> photograph_colours(const Fields& holograms, std::span<const Camera> cameras,
-                                                   std::span<const WaveCamera> ways, const Progress& progress) {
+                                                   std::span<const CameraModel> ways, const Progress& progress) {
     const core::StopScope scope(progress);
     if (holograms.empty()) throw Error(ErrorCode::usage, "a photograph needs a hologram; there is none");
     std::vector<std::vector<Image>> pictures;
@@ -138,7 +135,7 @@ std::vector<std::vector<Image>> photograph_colours(const Fields& holograms, std:
     const std::vector<pipeline::PictureJob> jobs =
         pipeline::picture_jobs(holograms, in_order(holograms), cameras, ways);
     std::size_t others = 0, done = 0;
-    for (const WaveCamera& with : ways) others += pipeline::is_made_in_jobs(holograms, with) ? 0 : 1;
+    for (const CameraModel& with : ways) others += pipeline::is_made_in_jobs(holograms, with) ? 0 : 1;
     const std::size_t parts = jobs.size() + others;
     core::shared_jobs<std::vector<Image>>(
         jobs.size(), image::sent_pictures(),
@@ -154,9 +151,9 @@ std::vector<std::vector<Image>> photograph_colours(const Fields& holograms, std:
     return pictures;
 }
 
-std::vector<Image> photograph_colours(const Fields& holograms, std::span<const Camera> cameras, const WaveCamera& with,
-                                      const Progress& progress) {
-    return std::move(photograph_colours(holograms, cameras, std::span(&with, 1), progress).front());
+std::vector<Image> photograph_colours(const Fields& holograms, std::span<const Camera> cameras,
+                                      const CameraModel& model, const Progress& progress) {
+    return std::move(photograph_colours(holograms, cameras, std::span(&model, 1), progress).front());
 }
 
 void write_holograms(const std::filesystem::path& path, const Fields& holograms, const HologramFileOptions& options,

@@ -6,10 +6,9 @@
 #include <optional>
 #include <utility>
 
+#include "hogel/camera/photograph_plan.h"
+#include "hogel/camera/photograph_together.h"
 #include "hogel/core/shared_order.h"
-#include "hogel/optics/eye_light.h"
-#include "hogel/optics/photograph_plan.h"
-#include "hogel/optics/photograph_together.h"
 
 namespace hogel::pipeline {
 namespace {
@@ -22,55 +21,55 @@ std::vector<std::size_t> numbers_below(std::size_t count) {
 
 // Pictures without speckle by one eye do not depend on those by others. Those of looks do, where memory is short or
 // pictures show the hologram's surroundings.
-std::vector<std::vector<std::size_t>> cameras_of_jobs(std::span<const Camera> cameras,
-                                                      const PhotographOptions& options) {
-    if (!options.expected) return {numbers_below(cameras.size())};
+std::vector<std::vector<std::size_t>> cameras_of_jobs(std::span<const Camera> cameras, const CameraModel& model) {
+    if (!std::holds_alternative<SpeckleFreeCamera>(model)) return {numbers_below(cameras.size())};
     std::vector<std::vector<std::size_t>> groups;
-    for (const optics::SharedEye& eye : optics::group_by_eye(cameras)) groups.push_back(eye.members);
+    for (const camera::SharedEye& eye : camera::group_by_eye(cameras)) groups.push_back(eye.members);
     return groups;
 }
 
 }  // namespace
 
-bool is_made_in_jobs(const Fields& holograms, const WaveCamera& with) {
-    const auto* const options = std::get_if<PhotographOptions>(&with);
-    return options != nullptr && options->from != LightFrom::samples && !options->vertical_diffuser &&
-           std::ranges::all_of(holograms, [](const std::shared_ptr<const FieldSource>& hologram) {
-               return dynamic_cast<const optics::EyeLight*>(hologram.get()) != nullptr;
+bool is_made_in_jobs(const Fields& holograms, const CameraModel& model) {
+    const auto* const band = std::get_if<BandCamera>(&model);
+    const bool from_hogels = band != nullptr ? band->source != BandSource::samples && !band->vertical_diffuser
+                                             : std::holds_alternative<SpeckleFreeCamera>(model);
+    return from_hogels && std::ranges::all_of(holograms, [](const std::shared_ptr<const FieldSource>& hologram) {
+               return hologram->stereogram() != nullptr;
            });
 }
 
 std::vector<PictureJob> picture_jobs(const Fields& holograms, std::span<const std::size_t> order,
-                                     std::span<const Camera> cameras, std::span<const WaveCamera> ways) {
+                                     std::span<const Camera> cameras, std::span<const CameraModel> ways) {
     std::vector<PictureJob> jobs;
     for (std::size_t way = 0; way < ways.size(); ++way) {
         if (!is_made_in_jobs(holograms, ways[way])) continue;
-        const auto& options = std::get<PhotographOptions>(ways[way]);
         if (!core::is_shared_or_kept()) {
             jobs.push_back({way, {order.begin(), order.end()}, numbers_below(cameras.size())});
             continue;
         }
         for (const std::size_t colour : order)
-            for (const std::vector<std::size_t>& some : cameras_of_jobs(cameras, options))
+            for (const std::vector<std::size_t>& some : cameras_of_jobs(cameras, ways[way]))
                 jobs.push_back({way, {colour}, some});
     }
     return jobs;
 }
 
 std::vector<Image> photograph(const PictureJob& job, const Fields& holograms, std::span<const Camera> cameras,
-                              std::span<const WaveCamera> ways, const Progress& progress) {
-    const auto& options = std::get<PhotographOptions>(ways[job.way]);
+                              std::span<const CameraModel> ways, const Progress& progress) {
+    const CameraModel& model = ways[job.way];
     std::vector<Camera> some;
     for (const std::size_t camera : job.cameras) some.push_back(cameras[camera]);
-    auto together = job.colours.size() == holograms.size()
-                        ? optics::photograph_together(holograms, some, options, progress)
+    const auto* const band = std::get_if<BandCamera>(&model);
+    auto together = band != nullptr && job.colours.size() == holograms.size()
+                        ? camera::photograph_together(holograms, some, *band, progress)
                         : std::nullopt;
     std::vector<Image> made;
     for (std::size_t k = 0; k < job.colours.size(); ++k) {
         const std::size_t colour = job.colours[k];
         const Progress part = progress.part(k, job.colours.size());
         std::ranges::move(
-            together ? std::move((*together)[colour]) : hogel::photograph(*holograms[colour], some, options, part),
+            together ? std::move((*together)[colour]) : hogel::photograph(*holograms[colour], some, model, part),
             std::back_inserter(made));
     }
     return made;

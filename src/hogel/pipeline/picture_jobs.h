@@ -22,17 +22,17 @@ struct PictureJob {
 
 /// Whether each picture is one job: of holograms whose hogels' waves are known, by the eye camera or without speckle.
 /// The processes of a team make the others together.
-bool is_made_in_jobs(const Fields& holograms, const WaveCamera& with);
+bool is_made_in_jobs(const Fields& holograms, const CameraModel& model);
 
 /// All pictures that are made in jobs. Where pictures are shared or kept, a job is a colour by all cameras, or by those
 /// of one eye where that changes no picture; otherwise all colours by all cameras, which may share rays.
 /// @param order  in which colours are photographed, those that take longest first
 std::vector<PictureJob> picture_jobs(const Fields& holograms, std::span<const std::size_t> order,
-                                     std::span<const Camera> cameras, std::span<const WaveCamera> ways);
+                                     std::span<const Camera> cameras, std::span<const CameraModel> ways);
 
 /// Makes the pictures of a job, [colour][camera] of the job, one after the other.
 std::vector<Image> photograph(const PictureJob& job, const Fields& holograms, std::span<const Camera> cameras,
-                              std::span<const WaveCamera> ways, const Progress& progress);
+                              std::span<const CameraModel> ways, const Progress& progress);
 
 /// Puts pictures of a job into those of all colours.
 void put(const PictureJob& job, std::span<const Image> made, std::span<Image> pictures);

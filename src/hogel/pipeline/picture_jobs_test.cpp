@@ -14,7 +14,7 @@ namespace {
 
 using namespace hogel::literals;
 
-const WaveCamera looks = PhotographOptions(), expected = PhotographOptions{.expected = true};
+const CameraModel looks = BandCamera(), expected = SpeckleFreeCamera();
 
 // Three eyes with two focuses each, of a hologram in three colours.
 class PictureJobsTest : public testing::Test {
@@ -32,7 +32,7 @@ class PictureJobsTest : public testing::Test {
                 cameras_.back().focus_depth = depth;
             }
     }
-    std::vector<PictureJob> jobs(const std::vector<WaveCamera>& ways) const {
+    std::vector<PictureJob> jobs(const std::vector<CameraModel>& ways) const {
         return picture_jobs(holograms_, order_, cameras_, ways);
     }
 
@@ -66,14 +66,14 @@ TEST_F(PictureJobsTest, are_those_of_an_eye_where_pictures_without_speckle_are_k
 }
 
 TEST_F(PictureJobsTest, are_none_of_cameras_that_need_samples) {
-    EXPECT_TRUE(jobs({PlaneWaveCameraOptions()}).empty());
-    EXPECT_TRUE(jobs({PhotographOptions{.from = LightFrom::samples}}).empty());
-    EXPECT_TRUE(jobs({PhotographOptions{.vertical_diffuser = true}}).empty());
+    EXPECT_TRUE(jobs({PlaneWaveCamera()}).empty());
+    EXPECT_TRUE(jobs({BandCamera{.source = BandSource::samples}}).empty());
+    EXPECT_TRUE(jobs({BandCamera{.vertical_diffuser = true}}).empty());
 }
 
 // Pictures are the same, whatever the jobs.
 TEST_F(PictureJobsTest, do_not_change_pictures) {
-    const std::vector<WaveCamera> ways{looks, expected};
+    const std::vector<CameraModel> ways{looks, expected};
     const auto all = photograph_colours(holograms_, cameras_, ways);
     const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "picture_jobs.part";
     ResumeScope kept(file, {});

@@ -219,7 +219,7 @@ TEST_F(Pipeline, a_light_field_with_a_fixed_focal_plane_becomes_a_hologram) {
     const LightField direct = render_light_field(scene, request_);
     std::vector<Camera> cameras(2, camera_for(8_mm, 8_mm, 48));
     cameras[1].eye = {-8_mm, 4_mm, 250_mm};
-    const PhotographOptions expected{.expected = true};
+    const SpeckleFreeCamera expected;
     const std::vector<Image> waves = photograph_colours(make_holograms(opened, holograms_), cameras, expected);
     const std::vector<Image> direct_waves = photograph_colours(make_holograms(direct, holograms_), cameras, expected);
     const std::vector<Image> rays = photograph(through_plane, cameras, {256});
@@ -383,7 +383,7 @@ TEST(Plan, of_lines_behind_a_diffuser_grows_with_the_lines_that_overlap) {
     const Camera camera = camera_for(1e-3, 1e-3, 32);
     const auto plan = [&](std::size_t lines, bool diffuser) {
         const FieldGrid grid{{640, lines, 1.5625e-6, 1e-3 / static_cast<double>(lines), 0, 0}, 633e-9};
-        return plan_photographs(std::span(&grid, 1), 1, {&camera, 1}, {.vertical_diffuser = diffuser});
+        return plan_photographs(std::span(&grid, 1), 1, {&camera, 1}, BandCamera{.vertical_diffuser = diffuser});
     };
     EXPECT_GT(plan(640, true).seconds, 5 * plan(64, true).seconds);
     EXPECT_GT(plan(640, true).seconds, 20 * plan(640, false).seconds);
@@ -396,27 +396,27 @@ TEST(Plan, of_photographs_counts_what_they_are_computed_from) {
     HologramRequest request;
     request.looks = 16;
     Camera camera = camera_for(5e-3, 5e-3, 100);
-    const auto from = [&](const PhotographOptions& options) {
-        return choose_light(faces, request, {&camera, 1}, options).from;
+    const auto from = [&](const CameraModel& model) {
+        return choose_band_source(faces, request, {&camera, 1}, model).source;
     };
-    const auto seconds = [&](const PhotographOptions& options) {
-        return plan_photographs(faces, request, {&camera, 1}, options).seconds;
+    const auto seconds = [&](const CameraModel& model) {
+        return plan_photographs(faces, request, {&camera, 1}, model).seconds;
     };
-    EXPECT_EQ(from({}), LightFrom::hogels);
-    EXPECT_EQ(from({.from = LightFrom::samples}), LightFrom::samples);
-    EXPECT_LT(1.5 * seconds({}), seconds({.from = LightFrom::samples}));
-    EXPECT_LT(4 * seconds({.expected = true}), seconds({}));
+    EXPECT_EQ(from(BandCamera()), BandSource::hogel_spectra);
+    EXPECT_EQ(from(BandCamera{.source = BandSource::samples}), BandSource::samples);
+    EXPECT_LT(1.5 * seconds(BandCamera()), seconds(BandCamera{.source = BandSource::samples}));
+    EXPECT_LT(4 * seconds(SpeckleFreeCamera()), seconds(BandCamera()));
     // Seen from so near, an eye takes in more than half of a hogel's samples.
     camera.eye.z = 60e-3;
-    EXPECT_EQ(from({}), LightFrom::samples);
-    EXPECT_EQ(from({.expected = true}), LightFrom::hogels);
+    EXPECT_EQ(from(BandCamera()), BandSource::samples);
+    EXPECT_EQ(from(SpeckleFreeCamera()), BandSource::hogel_spectra);
     camera.eye.z = 300e-3;
     for (const HologramMethod& known : std::vector<HologramMethod>{PhaseAdded{}, Basis{}, OverlapAdd{}}) {
         request.method = known;
-        EXPECT_EQ(from({}), LightFrom::hogels);
+        EXPECT_EQ(from(BandCamera()), BandSource::hogel_spectra);
     }
     request.method = PhaseAdded{true};
-    EXPECT_EQ(from({}), LightFrom::samples);
+    EXPECT_EQ(from(BandCamera()), BandSource::samples);
 }
 
 }  // namespace

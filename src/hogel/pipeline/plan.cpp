@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "hogel/camera/hogel_spectra/eye_cost.h"
+#include "hogel/camera/photograph_plan.h"
+#include "hogel/camera/speckle_free/speckle_free.h"
 #include "hogel/core/available_memory.h"
 #include "hogel/core/rates.h"
 #include "hogel/error.h"
-#include "hogel/hologram/eye/eye_cost.h"
-#include "hogel/hologram/hogel_synthesis.h"
-#include "hogel/optics/expected/expected.h"
-#include "hogel/optics/photograph_plan.h"
 #include "hogel/pipeline.h"
+#include "hogel/stereogram/hogel_synthesis.h"
 #include "hogel/units.h"
 
 namespace hogel {
@@ -57,13 +57,13 @@ double seconds_of_synthesis(std::span<const FieldGrid> holograms) {
 }
 
 // Resources of the mean of infinitely many looks, which needs no synthesis.
-Plan plan_expected(std::span<const FieldGrid> holograms, const LightFieldGrid& light_field,
-                   std::span<const Camera> cameras, const PhotographOptions& options) {
+Plan plan_speckle_free(std::span<const FieldGrid> holograms, const LightFieldGrid& light_field,
+                       std::span<const Camera> cameras, const SpeckleFreeCamera& model) {
     Plan sum;
     for (const FieldGrid& hologram : holograms) {
         const std::size_t samples = hologram.plane.width / light_field.hogels_s;
         const Plan plan =
-            optics::expected::plan(hologram, {light_field.hogels_s, light_field.hogels_t, samples}, cameras, options);
+            camera::speckle_free::plan(hologram, {light_field.hogels_s, light_field.hogels_t, samples}, cameras, model);
         sum.memory = std::max(sum.memory, plan.memory);
         sum.seconds += plan.seconds;
     }
@@ -104,43 +104,49 @@ Plan plan_holograms(std::span<const LightFieldGrid> faces, const HologramRequest
     const std::vector<FieldGrid> holograms = grids_of(faces, request);
     double samples = 0;
     for (const FieldGrid& hologram : holograms) samples += static_cast<double>(hologram.plane.samples());
-    return {hologram::synthesis_bytes(holograms.front(), faces.front().hogels()),
+    return {stereogram::synthesis_bytes(holograms.front(), faces.front().hogels()),
             samples * (file.type == SampleType::half ? 4 : 8), seconds_of_synthesis(holograms)};
 }
 
-LightChoice choose_light(std::span<const LightFieldGrid> faces, const HologramRequest& request,
-                         std::span<const Camera> cameras, const PhotographOptions& options) {
-    if (options.expected) return {LightFrom::hogels, "the mean of infinitely many looks is a sum over hogels"};
-    if (options.from == LightFrom::samples) return {LightFrom::samples, "that was requested"};
-    const std::vector<hologram::eye::HogelLayout> colours =
-        hologram::eye::layouts_of(request.method, faces.front(), grids_of(faces, request));
+BandSourceChoice choose_band_source(std::span<const LightFieldGrid> faces, const HologramRequest& request,
+                                    std::span<const Camera> cameras, const CameraModel& model) {
+    if (std::holds_alternative<SpeckleFreeCamera>(model))
+        return {BandSource::hogel_spectra, "the mean of infinitely many looks is a sum over hogels"};
+    const auto* const band = std::get_if<BandCamera>(&model);
+    if (band == nullptr) return {BandSource::samples, "this camera model follows samples"};
+    if (band->source == BandSource::samples) return {BandSource::samples, "that was requested"};
+    const std::vector<stereogram::HogelLayout> colours =
+        camera::hogel_spectra::layouts_of(request.method, faces.front(), grids_of(faces, request));
     if (colours.empty())
-        return {LightFrom::samples, "this method has no hogels that are sums of as many waves as they have samples"};
+        return {BandSource::samples, "this method has no hogels that are sums of as many waves as they have samples"};
     std::size_t per_hogel = 0;
-    for (const hologram::eye::HogelLayout& layout : colours)
-        for (const optics::SharedEye& eye : optics::group_by_eye(cameras))
-            per_hogel = std::max(per_hogel, hologram::eye::band_samples_per_hogel(
+    for (const stereogram::HogelLayout& layout : colours)
+        for (const camera::SharedEye& eye : camera::group_by_eye(cameras))
+            per_hogel = std::max(per_hogel, camera::hogel_spectra::band_samples_per_hogel(
                                                 layout, {cameras[eye.members.front()].eye, eye.pupil}));
-    const bool cheaper = hologram::eye::band_is_cheaper(per_hogel, colours.back());
-    return {cheaper ? LightFrom::hogels : LightFrom::samples,
+    const bool cheaper = camera::hogel_spectra::band_is_cheaper(per_hogel, colours.back());
+    return {cheaper ? BandSource::hogel_spectra : BandSource::samples,
             fmt::format("an eye takes in {0}x{0} of {1}x{2} samples of a hogel, {3} than a quarter", per_hogel,
                         colours.back().across(), colours.back().down(), cheaper ? "no more" : "more")};
 }
 
 Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramRequest& request,
-                      std::span<const Camera> cameras, const PhotographOptions& options) {
+                      std::span<const Camera> cameras, const CameraModel& model) {
     const std::vector<FieldGrid> holograms = grids_of(faces, request);
+    const auto* const speckle_free = std::get_if<SpeckleFreeCamera>(&model);
+    const auto* const band = std::get_if<BandCamera>(&model);
+    const BandCamera own = band != nullptr ? *band : BandCamera();
     Plan plan;
-    if (options.expected) {
-        plan = plan_expected(holograms, faces.front(), cameras, options);
-    } else if (choose_light(faces, request, cameras, options).from == LightFrom::hogels) {
-        plan = hologram::eye::plan_from_hogels(hologram::eye::layouts_of(request.method, faces.front(), holograms),
-                                               request.looks, cameras, options);
+    if (speckle_free != nullptr) {
+        plan = plan_speckle_free(holograms, faces.front(), cameras, *speckle_free);
+    } else if (choose_band_source(faces, request, cameras, own).source == BandSource::hogel_spectra) {
+        plan = camera::hogel_spectra::plan_from_hogels(
+            camera::hogel_spectra::layouts_of(request.method, faces.front(), holograms), request.looks, cameras, own);
     } else {
-        plan = plan_photographs(holograms, request.looks, cameras, options);
+        plan = plan_photographs(holograms, request.looks, cameras, own);
         plan.seconds += static_cast<double>(request.looks) * seconds_of_synthesis(holograms);
     }
-    plan.memory += hologram::synthesis_bytes(holograms.front(), faces.front().hogels());
+    plan.memory += stereogram::synthesis_bytes(holograms.front(), faces.front().hogels());
     return plan;
 }
 

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "hogel/core/parallel.h"
-#include "hogel/hologram/diffraction.h"
 #include "hogel/pipeline/scene_placing.h"
+#include "hogel/stereogram/diffraction.h"
 #include "hogel/units.h"
 
 namespace hogel {
@@ -30,8 +30,8 @@ double greatest_depth(const Bounds& scene) { return std::max(std::abs(scene.low.
 
 void advise_pitch(const LightFieldGrid& grid, const HologramRequest& hologram, std::vector<Advice>& all) {
     const double shortest = std::ranges::min_element(hologram.channels, {}, &Channel::wavelength)->wavelength;
-    const double possible = hologram::max_pitch(grid, shortest);
-    const std::size_t samples = hologram::samples_per_hogel(grid, hologram.pitch);
+    const double possible = stereogram::max_pitch(grid, shortest);
+    const std::size_t samples = stereogram::samples_per_hogel(grid, hologram.pitch);
     const double pitch = grid.pitch / static_cast<double>(samples);
     // A pitch beyond two hogels leaves the hogel without a sample.
     if (pitch <= possible && hologram.pitch <= 2 * grid.pitch) return;
@@ -41,7 +41,7 @@ void advise_pitch(const LightFieldGrid& grid, const HologramRequest& hologram, s
          fmt::format("a pitch of {} aliases: it diffracts {} no farther than {:.2f} degrees, but the light "
                      "field reaches {:.2f}; {} would do",
                      about(pitch), format_length(shortest), std::asin(std::min(shortest / (2 * pitch), 1.0)) / 1_deg,
-                     std::asin(hologram::steepest_sine(grid)) / 1_deg, about(enough, true)),
+                     std::asin(stereogram::steepest_sine(grid)) / 1_deg, about(enough, true)),
          enough, true});
 }
 

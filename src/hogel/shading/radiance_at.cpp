@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/shading/radiance_at.h"
+#include "hogel/core/thread_buffer.h"
 
 #include <algorithm>
 #include <array>
@@ -21,9 +22,8 @@ SurfaceTexture texture_of(const ShadedScene& scene, const ShadedScene::Triangle&
 Rgb lit_radiance(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights, Rgb texture,
                  const ViewSample& view) {
     const std::size_t size = scene.lighting->size_of_light(scene.triangles[index].mesh).sum();
-    thread_local std::vector<float> scratch;
-    if (scratch.size() < size) scratch.resize(size);
-    const std::span<float> light(scratch.data(), size);
+    const core::ThreadBuffer<float> buffer(size);
+    const std::span<float> light(buffer.data(), size);
     if (!scene.radiance_cache || !scene.radiance_cache->read(scene, index, weights, light))
         scene.lighting->light_on(scene, index, weights, light);
     return scene.lighting->radiance(scene, index, weights, light, texture, view);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "hogel/core/simd_targets-inl.h"
+#include "hogel/core/thread_buffer.h"
 #include "hogel/render/epi/shaded_spans.h"
 #include "hogel/render/epi/shading_lanes.h"
 #include "hogel/render/sample_store.h"
@@ -229,8 +230,7 @@ class KnotBatch {
 void FillVisibleKnots(std::span<const std::uint64_t> words, std::span<const SpanValues> values, ShadedSpans& spans,
                       const RadianceSource& source, bool colour) {
     if (!spans.has_cached()) return;
-    thread_local std::vector<std::uint32_t> found;
-    found.resize(values.size() + 1);
+    const core::ThreadBuffer<std::uint32_t> found(values.size() + 1);
     const std::size_t count = find_pending(words, spans.pending(), found.data());
     if (count == 0) return;
     const RadianceSource::Grids grids = source.grids();

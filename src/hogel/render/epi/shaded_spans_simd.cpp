@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hogel/core/simd_targets-inl.h"
+#include "hogel/core/thread_buffer.h"
 #include "hogel/render/epi/shaded_spans.h"
 #include "hogel/render/epi/shading_lanes.h"
 #include "hogel/render/sample_store.h"
@@ -177,11 +178,9 @@ void ShadeBetweenKnots(const EpipolarPlane& plane, std::span<const SpanValues> v
                        const RadianceSource& source, const PlaneOutput& out) {
     fill_visible_knots({plane.words, plane.columns * plane.directions}, values, spans, source,
                        out.values[1] != nullptr);
-    thread_local std::vector<std::uint32_t, CacheLineAllocator<std::uint32_t> > offsets;
-    thread_local std::vector<float, CacheLineAllocator<float> > fractions;
     constexpr std::size_t lanes = hn::MaxLanes(FloatTag());
-    offsets.resize(plane.directions + lanes);
-    fractions.resize(plane.directions + lanes);
+    const core::ThreadBuffer<std::uint32_t> offsets(plane.directions + lanes);
+    const core::ThreadBuffer<float> fractions(plane.directions + lanes);
     shade_vectors(plane, out, KnotShading(plane, values, spans, source, out, offsets.data(), fractions.data()));
 }
 #endif

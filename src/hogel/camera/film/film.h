@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <complex>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "hogel/array.h"
+#include "hogel/camera.h"
+#include "hogel/camera/narrow_band/band_grid.h"
+#include "hogel/camera/packed_band.h"
+#include "hogel/camera/sine_grid.h"
+#include "hogel/core/object_pool.h"
+#include "hogel/image.h"
+#include "hogel/math/split_fft.h"
+#include "hogel/optics/lines.h"
+
+namespace hogel::camera::film {
+
+/// Samples of a film per resolution cell. The intensity of a pupil's wave varies no faster than once in a cell, so two
+/// hold it all; TwelvePoint interpolates between a few more.
+inline constexpr double samples_a_cell = 2.4;
+/// As many for a picture, fewer for a preview: means over pixels that are wider than a cell hardly see the finest
+/// speckle.
+constexpr double film_samples(bool preview) { return preview ? 1.6 : samples_a_cell; }
+
+/// One axis of the film that is exposed: samples of a transform of `size` over the period of the sines, of which those
+/// that are shown are kept.
+struct FilmAxis {
+    std::size_t size = 0;  ///< of the transform
+    std::size_t first = 0, count = 0;
+    double low = 0, step = 0;  ///< sine of the first that is kept, and between samples
+};
+
+/// The size of one eye's film.
+struct FilmSize {
+    SineGrid sines;                           ///< at which the band is resampled
+    std::ptrdiff_t reach_x = 0, reach_y = 0;  ///< of the pupil, in steps of the transform's frequencies
+    FilmAxis x, y;
+    /// The columns and the rows of the sines that the band lights, [begin, end).
+    std::size_t lit_left = 0, lit_right = 0, lit_low = 0, lit_high = 0;
+    std::size_t band_rows = 0;
+
+    /// @param shown  film_area()
+    FilmSize(const narrow_band::BandGrid& band, const FieldGrid& hologram, const Rectangle& shown, double pupil,
+             double blur, double samples = samples_a_cell);
+    /// Bytes of a pupil's wave, and the maximum that Film::pupil_wave() and expose() need in addition to their results.
+    double pupil_bytes() const;
+    double work_bytes() const;
+    /// Bytes of a camera's intensities.
+    double intensity_bytes() const;
+};
+
+/// The wave over a pupil, see Film::pupil_wave().
+using PupilWave = Array<math::PackedComplex, 2>;
+
+/// From one eye's narrow band to photographs: a resampling to direction sines and one transform to the pupil; then for
+/// each focus and size of the pupil a mask with a defocus phase, and a transform back to the film (docs/notation.md
+/// section 4). The pupil covers a quarter of the band in x and in y, so its wave is small, and both transforms are
+/// limited to it. The period of the sines is so wide that no light that a camera follows wraps around (SpreadWindow);
+/// of the sines only those that the band lights are computed, and of the film only what is shown. Each step
+/// works on all threads.
+class Film {
+  public:
+    /// @param shown  film_area() of these cameras: the hologram and what their pictures show beside it
+    /// @param pupil  the widest of the cameras that will be used, at most that of the band
+    /// @param blur   the widest defocus_blur() of these cameras
+    /// @param samples  of the film per resolution cell
+    Film(const narrow_band::BandGrid& band, const FieldGrid& hologram, const Rectangle& shown, double pupil,
+         double blur, double samples = samples_a_cell);
+
+    /// A film that is not exposed yet: blocks of sixteen columns, [column / 16][row · 16 + column mod 16].
+    Array<float, 2> unexposed() const {
+        return Array<float, 2>({optics::blocks_of(size_.x.count), size_.y.count * optics::lines_together});
+    }
+
+    /// The wave over the pupil, at frequencies −reach … reach of a transform of the sines: blocks of sixteen rows,
+    /// [row / 16][column][row mod 16], zero beyond the last row.
+    PupilWave pupil_wave(const PackedBand& band) const;
+
+    /// Adds the intensities of several looks, each given by its pupil wave, on a camera's film, of the shape of
+    /// unexposed(). The lens is computed once for all of them.
+    void expose(std::span<const PupilWave> pupil_waves, const Camera& camera, View<float, 2> intensity) const;
+
+    /// Adds a camera's picture, in radiance, of the part `shown` of the hologram plane, as far as the film shows it.
+    /// @param weight  factor of the intensities: the reciprocal of the number of looks that they sum
+    void develop(View<const float, 2> blocks, const Camera& camera, const Rectangle& shown, double weight,
+                 Image& picture) const;
+
+  private:
+    // Arrays that are used again for each look, because new ones would be cleared.
+    struct Scratch {
+        // [sine x that is lit / 16][row of the band / 16][sine x mod 16][part][row mod 16]
+        Array<float, 3> columns;
+        Array<float, 2> half;          // [frequency y / 16][sine x that is lit][part][frequency y mod 16]
+        Array<float, 2> film_columns;  // [column of the film / 16][frequency y][part][column mod 16]
+    };
+
+    // A camera's lens for light from the middle of a part of the film, and the share of the part in the film's light.
+    struct Node {
+        Array<float, 2> lens;  // [row / 16][column][part][row mod 16], of the rows and columns below
+        std::ptrdiff_t reach_x = 0;
+        std::size_t first_block = 0;  // of rows
+        Array<float, 1> share_x;      // filled up to a multiple of sixteen
+        std::vector<float> share_y;
+    };
+
+    void resample_rows(const PackedBand& band, std::vector<char>& is_lit, Scratch& scratch) const;
+    void transform_columns(const std::vector<char>& is_lit, Scratch& scratch) const;
+    void expose_node(const PupilWave& pupil_wave, const Node& node, View<float, 2> intensity) const;
+
+    narrow_band::BandGrid band_;
+    FieldGrid hologram_;
+    FilmSize size_;
+    math::SplitFft along_, down_;            // of the sines
+    math::SplitFft film_along_, film_down_;  // of the film
+    // Where transforms leave the frequencies and the film's samples that are kept.
+    std::vector<std::uint32_t> frequencies_x_, frequencies_y_, film_x_, film_y_;
+    std::unique_ptr<core::ObjectPool<Scratch>> scratch_;
+};
+
+}  // namespace hogel::camera::film

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include "hogel/optics/lines.h"
+#include "hogel/optics/pupil_edge.h"
+
+namespace hogel::camera::film {
+
+/// A stretch of columns of sixteen rows of a lens, over which the square of the distance from the middle of the pupil,
+/// the weight of what passes and the phase are parabolas.
+struct LensStretch {
+    std::size_t columns = 0;
+    double inner = 0;  ///< the distance from the middle of the pupil up to which all light passes, metres
+
+    /// a + b t + c t² of each row, for column t.
+    struct Parabolas {
+        alignas(64) float a[optics::lines_together], b[optics::lines_together], c[optics::lines_together];
+    };
+    Parabolas square, weight;
+    /// Phasors of each row: of the first column, from it to the next one, and by how much that turns from column to
+    /// column.
+    struct Phasors {
+        alignas(64) float re[optics::lines_together], im[optics::lines_together];
+    };
+    Phasors value, step, bend;
+
+    /// Sets a row by values at columns 0, length/2 and length; phases in cycles.
+    void set(std::size_t row, const double (&squares)[3], const double (&weights)[3], const double (&cycles)[3],
+             double length);
+};
+
+/// The lens, [column][part][row]. Plain and fast twins agree to 1e-4 of the weight.
+/// @param radius  of the pupil, metres
+void lens_stretch_plain(const LensStretch& stretch, const optics::PupilEdge& edge, double radius, float* out);
+extern decltype(lens_stretch_plain)& lens_stretch;
+
+}  // namespace hogel::camera::film

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The vector twin of lens_stretch.cpp, compiled for every SIMD target and chosen when first called.
+#include <cmath>
+
+#include "hogel/camera/film/lens_stretch.h"
+#include "hogel/core/simd_targets-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace hogel::camera::film::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<float, optics::lines_together>;
+using V = hn::Vec<D>;
+
+// Some of sixteen parabolas.
+struct Parabola {
+    V a, b, c;
+
+    Parabola(const LensStretch::Parabolas& all, std::size_t row)
+        : a(hn::Load(D(), all.a + row)), b(hn::Load(D(), all.b + row)), c(hn::Load(D(), all.c + row)) {}
+    HWY_INLINE V at(V t) const { return hn::MulAdd(hn::MulAdd(c, t, b), t, a); }
+};
+
+// Some of sixteen phasors.
+struct Phasor {
+    V re, im;
+
+    Phasor(const LensStretch::Phasors& all, std::size_t row)
+        : re(hn::Load(D(), all.re + row)), im(hn::Load(D(), all.im + row)) {}
+    HWY_INLINE void turn(const Phasor& by) {
+        const V turned = hn::NegMulAdd(im, by.im, hn::Mul(re, by.re));
+        im = hn::MulAdd(re, by.im, hn::Mul(im, by.re));
+        re = turned;
+    }
+};
+
+void LensStretchRows(const LensStretch& stretch, const optics::PupilEdge& edge, double radius, float* out) {
+    const D d;
+    const V inner = hn::Set(d, static_cast<float>(stretch.inner * stretch.inner)),
+            outer = hn::Set(d, static_cast<float>((radius + edge.reach()) * (radius + edge.reach())));
+    for (std::size_t row = 0; row < optics::lines_together; row += hn::Lanes(d)) {
+        const Parabola square(stretch.square, row), weight(stretch.weight, row);
+        Phasor value(stretch.value, row), step(stretch.step, row);
+        const Phasor bend(stretch.bend, row);
+        for (std::size_t column = 0; column < stretch.columns; ++column) {
+            const V t = hn::Set(d, static_cast<float>(column)), squared = square.at(t);
+            V passes = weight.at(t);
+            if (hn::AllTrue(d, hn::Ge(squared, outer))) {
+                passes = hn::Zero(d);
+            } else if (!hn::AllTrue(d, hn::Lt(squared, inner))) {
+                HWY_ALIGN float distances[optics::lines_together], shares[optics::lines_together];
+                hn::Store(hn::Sqrt(hn::Max(squared, hn::Zero(d))), d, distances);
+                for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+                    const double distance = distances[lane];
+                    shares[lane] =
+                        distance < stretch.inner ? 1.0f : static_cast<float>(edge.transmission(radius - distance));
+                }
+                passes = hn::Mul(passes, hn::Load(d, shares));
+            }
+            float* to = out + 2 * column * optics::lines_together + row;
+            hn::Store(hn::Mul(passes, value.re), d, to);
+            hn::Store(hn::Mul(passes, value.im), d, to + optics::lines_together);
+            value.turn(step);
+            step.turn(bend);
+        }
+    }
+}
+
+}  // namespace hogel::camera::film::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+namespace hogel::camera::film {
+HOGEL_DISPATCH(lens_stretch, LensStretchRows);
+}  // namespace hogel::camera::film

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/camera/film/resample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <vector>
+
+#include "hogel/camera/film/line_shares.h"
+
+namespace hogel::camera::film {
+namespace {
+
+static_assert(TangentNodes::max == max_line_nodes);
+
+double place(const TangentPlaces& places, double square, double scale, double i) {
+    const double s = places.first + i * places.step;
+    return places.offset + scale * (s / std::sqrt(square - s * s));
+}
+
+// Lines [begin, end), in halves if their places differ too much.
+void resample_some(const float* lines, std::size_t size, const TangentPlaces& places, const InterpolationTable& table,
+                   std::size_t count, std::size_t begin, std::size_t end, float* out) {
+    const auto some = [&](const auto& values) {
+        return std::ranges::minmax(std::span(values).subspan(begin, end - begin));
+    };
+    const auto [low_square, high_square] = some(places.squares);
+    const auto [low_scale, high_scale] = some(places.scales);
+    // Places differ most at an end.
+    double spread = 0;
+    for (const double i : {0.0, static_cast<double>(count) - 1})
+        spread = std::max(
+            spread, std::abs(place(places, high_square, high_scale, i) - place(places, low_square, low_scale, i)));
+    if (spread > max_line_spread && end - begin > 1) {
+        const std::size_t middle = (begin + end) / 2;
+        resample_some(lines, size, places, table, count, begin, middle, out);
+        resample_some(lines, size, places, table, count, middle, end, out);
+        return;
+    }
+    TangentNodes nodes{};
+    nodes.nodes = line_nodes(spread);
+    for (std::size_t node = 0; node < nodes.nodes; ++node) {
+        nodes.squares[node] = at_node(node, nodes.nodes, low_square, high_square);
+        nodes.scales[node] = at_node(node, nodes.nodes, low_scale, high_scale);
+    }
+    for (std::size_t line = begin; line < end; ++line) {
+        nodes.t[line] = high_square > low_square ? line_place(places.squares[line], low_square, high_square)
+                                                 : line_place(places.scales[line], low_scale, high_scale);
+        nodes.chosen[line] = 1;
+    }
+    resample_nodes(lines, size, places, nodes, table, count, out);
+}
+
+}  // namespace
+
+void resample_lines_plain(const float* lines, std::size_t size, const TangentPlaces& places,
+                          const InterpolationTable& table, std::size_t count, float* out) {
+    std::vector<std::complex<float>> own(size);
+    for (std::size_t line = 0; line < optics::lines_together; ++line) {
+        for (std::size_t i = 0; i < size; ++i) {
+            const float* re = lines + 2 * i * optics::lines_together + line;
+            own[i] = {re[0], re[optics::lines_together]};
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::complex<float> value = table.at(
+                own.data(), size, place(places, places.squares[line], places.scales[line], static_cast<double>(i)));
+            out[2 * i * optics::lines_together + line] = value.real();
+            out[(2 * i + 1) * optics::lines_together + line] = value.imag();
+        }
+    }
+}
+
+void resample_lines(const float* lines, std::size_t size, const TangentPlaces& places, const InterpolationTable& table,
+                    std::size_t count, float* out) {
+    if (count > 0) resample_some(lines, size, places, table, count, 0, optics::lines_together, out);
+}
+
+}  // namespace hogel::camera::film

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/camera/hogel_spectra/band_lines.h"
+
+#include <algorithm>
+
+namespace hogel::camera::hogel_spectra {
+
+void BandLines::begin(const EyeBand& eye, const LookBlocks& looks, std::size_t hogels) {
+    looks_ = looks;
+    hogels_ = hogels;
+    per_hogel_ = eye.per_hogel();
+    nodes_ = looks.together == 1 ? padded(eye.nodes()) : eye.nodes();
+    rows_ = 2 * eye.bases().down.functions();
+    row_ = looks.row(eye, hogels);
+    used_ = 0;
+}
+
+void BandLines::add(std::size_t row, std::size_t column, const HogelBasis::Weights& weights) {
+    const std::size_t begin = column * per_hogel_ * looks_.together, end = begin + nodes_ * looks_.together;
+    const auto used = lines_.begin() + static_cast<std::ptrdiff_t>(used_);
+    auto line = std::find_if(lines_.begin(), used, [&](const Line& other) {
+        return other.row == row && other.frequency == weights.frequency;
+    });
+    if (line == used) {
+        if (++used_ > lines_.size()) lines_.emplace_back();
+        line = lines_.begin() + static_cast<std::ptrdiff_t>(used_ - 1);
+        line->row = row;
+        line->frequency = weights.frequency;
+        line->carrier = weights.carrier;
+        line->begin = begin / lanes * lanes;
+        if (const std::size_t size = looks_.blocks() * rows_ * row_; line->numbers.size() != size)
+            line->numbers = Array<float, 1>({size});
+    }
+    line->end = padded(end);
+    if (of_hogel_.size() <= row * hogels_ + column) of_hogel_.resize(row * hogels_ + column + 1);
+    of_hogel_[row * hogels_ + column] = static_cast<std::size_t>(line - lines_.begin());
+}
+
+void BandLines::clear() {
+    for (std::size_t i = 0; i < used_; ++i) {
+        Line& line = lines_[i];
+        for (std::size_t row = 0; row < looks_.blocks() * rows_; ++row)
+            std::fill(&line.numbers(row * row_ + line.begin), &line.numbers(row * row_) + line.end, 0.0f);
+    }
+}
+
+LinePlace BandLines::place(std::size_t row, std::size_t column, std::size_t look) {
+    Line& line = lines_[of_hogel_[row * hogels_ + column]];
+    const std::size_t block = look / looks_.together;
+    return {&line.numbers(block * rows_ * row_ + column * per_hogel_ * looks_.together), row_};
+}
+
+void BandLines::spread(const HogelBasis& down, std::size_t first, std::span<Array<float, 3>> light) const {
+    for (std::size_t i = 0; i < used_; ++i) {
+        const Line& line = lines_[i];
+        for (std::size_t block = 0; block < light.size(); ++block)
+            spread_line(down, line.carrier, &line.numbers(block * rows_ * row_ + line.begin), row_,
+                        line.end - line.begin, &light[block]((first + line.row) * per_hogel_, 0, line.begin));
+    }
+}
+
+}  // namespace hogel::camera::hogel_spectra

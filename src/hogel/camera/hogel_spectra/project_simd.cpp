@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// The vector twin of project_plain, compiled for every SIMD target and chosen when first called.
+#include <algorithm>
+
+#include "hogel/camera/hogel_spectra/project.h"
+#include "hogel/core/simd_targets-inl.h"
+#include "hogel/core/thread_buffer.h"
+#include "hogel/core/with_count.h"
+#include "hogel/math/transpose-inl.h"
+
+// After simd_targets-inl.h:
+#include "hogel/camera/hogel_spectra/spread_pairs-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace hogel::camera::hogel_spectra::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using core::HWY_NAMESPACE::with_count;
+using math::HWY_NAMESPACE::transpose_sixteen;
+
+#if HWY_TARGET == HWY_SCALAR
+void Project(const HogelBases& bases, const HogelView& view, const float* waves, const LinePlace& line) {
+    project_plain(bases, view, waves, line);
+}
+
+void Multiply(const float* factors, std::size_t count, float* waves) {
+    for (std::size_t first = 0; first < count; first += 2 * lanes)
+        for (std::size_t i = first; i < first + lanes; ++i) {
+            const float a = waves[i], b = waves[i + lanes], c = factors[i], s = factors[i + lanes];
+            waves[i] = a * c - b * s;
+            waves[i + lanes] = a * s + b * c;
+        }
+}
+#else
+using D = hn::CappedTag<float, lanes>;
+using V = hn::Vec<D>;
+
+// Functions whose two parts fill a row of sixteen numbers.
+constexpr std::size_t together = lanes / 2;
+
+void Multiply(const float* factors, std::size_t count, float* waves) {
+    const D d;
+    for (std::size_t first = 0; first < count; first += 2 * lanes)
+        for (std::size_t i = first; i < first + lanes; i += hn::Lanes(d)) {
+            const V a = hn::Load(d, waves + i), b = hn::Load(d, waves + i + lanes);
+            const V c = hn::Load(d, factors + i), s = hn::Load(d, factors + i + lanes);
+            hn::Store(hn::NegMulAdd(b, s, hn::Mul(a, c)), d, waves + i);
+            hn::Store(hn::MulAdd(b, c, hn::Mul(a, s)), d, waves + i + lanes);
+        }
+}
+
+using WavePair = HogelBasis::WavePair;
+
+// lines[part][function][row] of sixteen rows: the sums over all columns of weights times waves, by pairs of columns.
+template <std::size_t functions>
+HWY_INLINE void sum_columns(const float* waves, const HogelBasis::Weights& weights, std::size_t first, float* lines) {
+    const D d;
+    for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
+        V re[functions], im[functions];
+        for (std::size_t k = 0; k < functions; ++k) re[k] = im[k] = hn::Zero(d);
+        const std::size_t two = weights.pairs.size() - weights.alone;
+        for (const WavePair& pair : weights.pairs.first(two)) {
+            const float *one = waves + 2 * lanes * pair.one + i, *other = waves + 2 * lanes * pair.other + i;
+            const V sign = hn::Set(d, pair.sign_one), sign_other = hn::Set(d, pair.sign_other);
+            const V a = hn::Xor(hn::Load(d, one), sign), b = hn::Xor(hn::Load(d, one + lanes), sign);
+            const V c = hn::Xor(hn::Load(d, other), sign_other), e = hn::Xor(hn::Load(d, other + lanes), sign_other);
+            const V sum_re = hn::Add(a, c), sum_im = hn::Add(b, e);
+            const V difference_re = hn::Sub(a, c), difference_im = hn::Sub(b, e);
+            const float* weight = pair.weights + first;
+            for (std::size_t k = 0; k < functions; ++k) {
+                const V w = hn::Set(d, weight[k]);
+                re[k] = hn::MulAdd(w, k % 2 == 0 ? sum_re : difference_re, re[k]);
+                im[k] = hn::MulAdd(w, k % 2 == 0 ? sum_im : difference_im, im[k]);
+            }
+        }
+        for (const WavePair& pair : weights.pairs.subspan(two)) {
+            const float* one = waves + 2 * lanes * pair.one + i;
+            const V sign = hn::Set(d, pair.sign_one);
+            const V a = hn::Xor(hn::Load(d, one), sign), b = hn::Xor(hn::Load(d, one + lanes), sign);
+            for (std::size_t k = 0; k < functions; ++k) {
+                const V w = hn::Set(d, pair.weights[first + k]);
+                re[k] = hn::MulAdd(w, a, re[k]);
+                im[k] = hn::MulAdd(w, b, im[k]);
+            }
+        }
+        for (std::size_t k = 0; k < functions; ++k) {
+            hn::Store(re[k], d, lines + k * lanes + i);
+            hn::Store(im[k], d, lines + (together + k) * lanes + i);
+        }
+    }
+}
+
+// out[l][…] = Σ_row D_l(row) in[row][…] for some functions l, sixteen numbers in a row, by pairs of rows.
+template <std::size_t functions>
+HWY_INLINE void sum_pairs_of_rows(const float* in, const HogelBasis::Weights& weights, std::size_t first, float* out) {
+    const D d;
+    for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
+        V sums[functions];
+        for (V& one : sums) one = hn::Zero(d);
+        const std::size_t two = weights.pairs.size() - weights.alone;
+        for (const WavePair& pair : weights.pairs.first(two)) {
+            const V a = hn::Xor(hn::Load(d, in + pair.one * lanes + i), hn::Set(d, pair.sign_one));
+            const V b = hn::Xor(hn::Load(d, in + pair.other * lanes + i), hn::Set(d, pair.sign_other));
+            const V sum = hn::Add(a, b), difference = hn::Sub(a, b);
+            for (std::size_t l = 0; l < functions; ++l)
+                sums[l] = hn::MulAdd(hn::Set(d, pair.weights[first + l]), l % 2 == 0 ? sum : difference, sums[l]);
+        }
+        for (const WavePair& pair : weights.pairs.subspan(two)) {
+            const V a = hn::Xor(hn::Load(d, in + pair.one * lanes + i), hn::Set(d, pair.sign_one));
+            for (std::size_t l = 0; l < functions; ++l)
+                sums[l] = hn::MulAdd(hn::Set(d, pair.weights[first + l]), a, sums[l]);
+        }
+        for (std::size_t l = 0; l < functions; ++l) hn::Store(sums[l], d, out + l * lanes + i);
+    }
+}
+
+// out[i][…] = Σ_j weights[i · stride + j · step] in[j][…], sixteen numbers in a row, in the order of j.
+template <std::size_t count>
+HWY_INLINE void sum_rows(const float* in, std::size_t rows, std::size_t in_row, const float* weights,
+                         std::size_t stride, float* out, std::size_t out_row) {
+    const D d;
+    for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
+        V sum[count];
+        for (V& one : sum) one = hn::Zero(d);
+        for (std::size_t j = 0; j < rows; ++j) {
+            const V value = hn::Load(d, in + j * in_row + i);
+            for (std::size_t r = 0; r < count; ++r)
+                sum[r] = hn::MulAdd(hn::Set(d, weights[r * stride + j]), value, sum[r]);
+        }
+        for (std::size_t r = 0; r < count; ++r) hn::Store(sum[r], d, out + r * out_row + i);
+    }
+}
+
+void sum_all_rows(const float* in, std::size_t rows, std::size_t in_row, const float* weights, std::size_t stride,
+                  std::size_t count, float* out, std::size_t out_row) {
+    for (std::size_t first = 0; first < count; first += together)
+        with_count<together>(std::min(together, count - first), [&](auto some) {
+            sum_rows<some()>(in, rows, in_row, weights + first * stride, stride, out + first * out_row, out_row);
+        });
+}
+
+void Project(const HogelBases& bases, const HogelView& view, const float* waves, const LinePlace& line) {
+    const std::size_t rows = bases.down.samples(), columns = bases.across.samples(), nodes = bases.across.nodes();
+    const std::size_t functions = bases.across.functions(), functions_down = bases.down.functions();
+    const auto groups_of = [](std::size_t count) { return (count + together - 1) / together; };
+    const std::size_t groups = groups_of(functions), all = groups * together;
+    const std::size_t groups_down = groups_of(functions_down), all_down = groups_down * together;
+    const std::size_t padded_rows = padded(rows), across = padded(nodes);
+    const core::ThreadBuffer<float> scratch(
+        lanes * (lanes + groups * (padded_rows + all_down) + groups_down * (all + across)) + 2 * across * all_down);
+    float* lines = scratch.data();                            // [part][function][row]
+    float* turned = lines + lanes * lanes;                    // [group][row][part, function across]
+    float* numbers = turned + lanes * groups * padded_rows;   // [group][function down][part, function across]
+    float* swapped = numbers + lanes * groups * all_down;     // [group down][function across][part, function down]
+    float* spread_x = swapped + lanes * groups_down * all;    // [group down][node across][part, function down]
+    float* rows_x = spread_x + lanes * groups_down * across;  // [function down][part][node across]
+    for (std::size_t group = 0; group < groups; ++group) {
+        const std::size_t first = group * together, count = std::min(together, functions - first);
+        for (std::size_t row = 0; row < rows; row += lanes) {
+            if (!view.near.has_any(row, lanes, rows)) {
+                std::fill_n(turned + (group * padded_rows + row) * lanes, lanes * lanes, 0.0f);
+                continue;
+            }
+            with_count<together>(
+                count, [&](auto some) { sum_columns<some()>(waves + 2 * row * columns, view.columns, first, lines); });
+            for (std::size_t k = count; k < together; ++k)
+                for (std::size_t part : {std::size_t{0}, together})
+                    std::fill_n(lines + (part + k) * lanes, lanes, 0.0f);
+            float* to = turned + (group * padded_rows + row) * lanes;
+            transpose_sixteen([&](std::size_t i) { return lines + i * lanes; }, lanes,
+                              [&](std::size_t j) { return to + j * lanes; });
+        }
+        for (std::size_t l = 0; l < functions_down; l += together)
+            with_count<together>(std::min(together, functions_down - l), [&](auto some) {
+                sum_pairs_of_rows<some()>(turned + group * padded_rows * lanes, view.rows, l,
+                                          numbers + (group * all_down + l) * lanes);
+            });
+    }
+    // Functions down become those that lie side by side; i for each odd function.
+    std::fill_n(swapped, lanes * groups_down * all, 0.0f);
+    const float sign = view.columns.sign * view.rows.sign;
+    for (std::size_t l = 0; l < functions_down; ++l)
+        for (std::size_t k = 0; k < functions; ++k) {
+            const float* from = numbers + (k / together * all_down + l) * lanes + k % together;
+            float* to = swapped + (l / together * all + k) * lanes + l % together;
+            const float re = sign * from[0], im = sign * from[together];
+            const std::size_t odd = k % 2 + l % 2;
+            to[0] = odd == 0 ? re : odd == 1 ? -im : -re;
+            to[together] = odd == 0 ? im : odd == 1 ? re : -im;
+        }
+    const float* spread = bases.across.spread().data();
+    for (std::size_t group = 0; group < groups_down; ++group) {
+        float* to = spread_x + group * across * lanes;
+        sum_all_rows(swapped + group * all * lanes, functions, lanes, spread, functions, nodes, to, lanes);
+        std::fill_n(to + nodes * lanes, (across - nodes) * lanes, 0.0f);
+        for (std::size_t node = 0; node < across; node += lanes)
+            transpose_sixteen([&](std::size_t i) { return to + (node + i) * lanes; }, lanes,
+                              [&](std::size_t j) {
+                                  const std::size_t part = j / together, l = group * together + j % together;
+                                  return rows_x + (2 * l + part) * across + node;
+                              });
+    }
+    const D d;
+    for (std::size_t x = 0; x < across; x += hn::Lanes(d)) {
+        const V c = hn::Load(d, view.columns.carrier + x), s = hn::Load(d, view.columns.carrier + across + x);
+        for (std::size_t l = 0; l < functions_down; ++l) {
+            const V re = hn::Load(d, rows_x + 2 * l * across + x), im = hn::Load(d, rows_x + (2 * l + 1) * across + x);
+            float* real = line.first + 2 * l * line.row + x;
+            add_product(re, im, c, s, real, real + line.row);
+        }
+    }
+}
+#endif
+
+}  // namespace hogel::camera::hogel_spectra::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hogel::camera::hogel_spectra {
+
+HWY_EXPORT(Multiply);
+
+void MiddlePhases::apply(float* waves, const stereogram::NearRows& rows) const {
+    const std::size_t block = 2 * lanes * columns_;
+    for (std::size_t row = 0; row < rows_; row += lanes)
+        if (rows.has_any(row, lanes, rows_))
+            HWY_DYNAMIC_DISPATCH(Multiply)(&factors_[row / lanes * block], block, waves + row / lanes * block);
+}
+
+HOGEL_DISPATCH(project, Project);
+
+}  // namespace hogel::camera::hogel_spectra
+#endif

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "hogel/array.h"
+
+namespace hogel::camera::hogel_spectra {
+
+/// Eigenvalues of a real symmetric matrix, largest first, and its eigenvectors of length 1, [number][row].
+struct Eigensystem {
+    std::vector<double> values;
+    Array<double, 2> vectors;
+};
+
+/// By Jacobi's rotations: for matrices of a hundred rows at most.
+Eigensystem eigensystem(Array<double, 2> matrix);
+
+}  // namespace hogel::camera::hogel_spectra

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/camera/packed_band.h"
+
+#include <algorithm>
+
+#include "hogel/core/parallel.h"
+
+namespace hogel::camera {
+namespace {
+
+// Numbers that are cleared together.
+constexpr std::size_t cleared_together = std::size_t{1} << 18;
+
+}  // namespace
+
+std::vector<PackedBand> PackedBand::dark(std::size_t count, std::size_t height, std::size_t width) {
+    const std::size_t each = size(height, width), all = count * each;
+    const std::shared_ptr<math::PackedComplex> memory(
+        static_cast<math::PackedComplex*>(allocate_lines(all * sizeof(math::PackedComplex))), free_lines);
+    core::parallel_for((all + cleared_together - 1) / cleared_together, [&](std::size_t i) {
+        const std::size_t first = i * cleared_together;
+        std::fill_n(memory.get() + first, std::min(cleared_together, all - first), math::PackedComplex());
+    });
+    std::vector<PackedBand> bands(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        bands[i].height_ = height;
+        bands[i].width_ = width;
+        bands[i].memory_ = memory;
+        bands[i].squares_ = memory.get() + i * each;
+    }
+    return bands;
+}
+
+PackedBand::PackedBand(View<const std::complex<float>, 2> band) : PackedBand(band.extent(0), band.extent(1)) {
+    for (std::size_t row = 0; row < height_; ++row)
+        for (std::size_t column = 0; column < width_; column += side)
+            math::pack(&band(row, column), at(row, column), std::min(side, width_ - column));
+}
+
+bool PackedBand::is_lit(std::size_t row) const {
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < squares_of(width_) && bits == 0; ++i)
+        for (const math::PackedComplex* number = at(row, i * side); number < at(row, i * side) + side; ++number)
+            bits |= number->bits;
+    return bits != 0;
+}
+
+}  // namespace hogel::camera

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/camera/photograph_plan.h"
+#include "hogel/camera/narrow_band/narrow_band.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <tuple>
+
+#include "hogel/core/parallel.h"
+#include "hogel/photograph.h"
+#include "hogel/units.h"
+
+namespace hogel::camera {
+namespace {
+
+// A window extends this number of resolution cells beyond the part that it shows. The image of a point falls off
+// slowly: 0.2/m of its light is beyond m cells.
+constexpr double margin_cells = 256;
+
+// The numbers of windows along the longer side of the hologram that are tried.
+constexpr std::size_t window_counts[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48};
+
+// The metres on the hologram that a sine has at most.
+double metres_a_sine(const FieldGrid& hologram, const Vec3& eye) {
+    const Grid& plane = hologram.plane;
+    const ViewGeometry geometry(eye, hologram.wavelength);
+    double max_distance = 0;
+    for (double x : {plane.center_x - plane.size_x() / 2, plane.center_x + plane.size_x() / 2})
+        for (double y : {plane.center_y - plane.size_y() / 2, plane.center_y + plane.size_y() / 2})
+            max_distance = std::max(max_distance, geometry.distance(x, y));
+    // A step of the sines is r/cos² θ wide on the plane.
+    const double cosine = eye.z / max_distance;
+    return max_distance / (cosine * cosine);
+}
+
+// The margin, metres, that a film needs around the part that a window shows: how far light travels from its point.
+double margin(const FieldGrid& hologram, const Vec3& eye, double pupil, double blur) {
+    return metres_a_sine(hologram, eye) * (margin_cells * hologram.wavelength / pupil + 0.5 * blur);
+}
+
+std::vector<PhotographPlan::Window> windows(const Grid& plane, std::size_t count, double margin) {
+    const std::size_t side = (std::max(plane.width, plane.height) + count - 1) / count;
+    const auto around = static_cast<std::size_t>(std::ceil(margin / std::min(plane.pitch_x, plane.pitch_y)));
+    std::vector<PhotographPlan::Window> list;
+    for (std::size_t y = 0; y < plane.height; y += side)
+        for (std::size_t x = 0; x < plane.width; x += side) {
+            const std::size_t right = std::min(x + side, plane.width), bottom = std::min(y + side, plane.height);
+            Region region;
+            region.x0 = x - std::min(x, around);
+            region.y0 = y - std::min(y, around);
+            region.width = std::min(right + around, plane.width) - region.x0;
+            region.height = std::min(bottom + around, plane.height) - region.y0;
+            Rectangle shown(part(plane, {x, y, right - x, bottom - y}));
+            if (x == 0) shown.left -= margin;
+            if (right == plane.width) shown.right += margin;
+            if (y == 0) shown.top += margin;
+            if (bottom == plane.height) shown.bottom -= margin;
+            list.push_back({region, shown});
+        }
+    return list;
+}
+
+struct Need {
+    double fixed = 0, a_look = 0;
+};
+
+// The memory of one pass over a window.
+Need need(const FieldGrid& hologram, const Rectangle& shown, std::span<const Camera> cameras,
+          const std::vector<SharedEye>& eyes) {
+    Need bytes;
+    double largest = 0;
+    for (const SharedEye& eye : eyes) {
+        const narrow_band::NarrowBand band(hologram, cameras[eye.members.front()].eye, eye.pupil);
+        const film::FilmSize film(band, hologram, film_area(hologram.plane, eye.pictures, shown), eye.pupil, eye.blur);
+        bytes.a_look += 8.0 * static_cast<double>(band.plane.samples());
+        // Tiles that are being processed.
+        const double tile = narrow_band::NarrowBand::tile_width / static_cast<double>(band.factor) +
+                            2 * narrow_band::NarrowBand::margin;
+        bytes.a_look += 8.0 * static_cast<double>(core::default_in_flight()) * tile * tile;
+        bytes.fixed += film.intensity_bytes() * static_cast<double>(eye.members.size());
+        largest = std::max(largest, film.pupil_bytes() + film.work_bytes());
+    }
+    bytes.fixed += largest;
+    return bytes;
+}
+
+// The plan with the least work that fits into memory; its `passes` are empty if none does.
+PhotographPlan find_plan(const FieldGrid& hologram, std::span<const Camera> cameras, double memory,
+                         std::span<const std::size_t> counts) {
+    std::vector<std::size_t> sorted(cameras.size());
+    std::iota(sorted.begin(), sorted.end(), std::size_t{0});
+    std::stable_sort(sorted.begin(), sorted.end(), [&](std::size_t a, std::size_t b) {
+        const Vec3 p = cameras[a].eye, q = cameras[b].eye;
+        return std::tie(p.z, p.y, p.x) < std::tie(q.z, q.y, q.x);
+    });
+    double around = 0;
+    for (const Camera& camera : cameras)
+        around = std::max(around, margin(hologram, camera.eye, camera.pupil, defocus_blur(camera)));
+
+    PhotographPlan best;
+    double min_work = std::numeric_limits<double>::infinity();
+    std::size_t cameras_a_pass = cameras.size();
+    while (true) {
+        std::vector<std::vector<std::size_t>> passes;
+        for (std::size_t first = 0; first < sorted.size(); first += cameras_a_pass)
+            passes.emplace_back(
+                sorted.begin() + static_cast<std::ptrdiff_t>(first),
+                sorted.begin() + static_cast<std::ptrdiff_t>(std::min(first + cameras_a_pass, sorted.size())));
+        for (std::size_t count : counts) {
+            const std::vector<PhotographPlan::Window> list = windows(hologram.plane, count, around);
+            double read = 0;
+            for (const PhotographPlan::Window& window : list) read += static_cast<double>(window.region.samples());
+            const double work =
+                static_cast<double>(passes.size()) * read / static_cast<double>(hologram.plane.samples());
+            if (work >= min_work) continue;
+            // Only windows at the ends, the quarters and in the middle are tested, because memory varies slowly from
+            // one to the next.
+            std::set<std::size_t> probes{0, list.size() / 2, list.size() - 1, list.size() / 4, 3 * list.size() / 4};
+            double fixed = 0, a_look = 0;
+            for (const auto& pass : passes)
+                for (std::size_t probe : probes) {
+                    const FieldGrid window{part(hologram.plane, list[probe].region), hologram.wavelength};
+                    const Need bytes = need(window, list[probe].shown, cameras, group_by_eye(cameras, pass));
+                    fixed = std::max(fixed, bytes.fixed);
+                    a_look = std::max(a_look, bytes.a_look);
+                }
+            if (fixed + a_look > memory) continue;
+            min_work = work;
+            best = {passes, list, fixed + a_look, a_look};
+        }
+        if (cameras_a_pass == 1) return best;
+        cameras_a_pass = (cameras_a_pass + 1) / 2;
+    }
+}
+
+}  // namespace
+
+Rectangle lit_area(const FieldGrid& hologram, const Vec3& eye, double pupil, double blur, double diffraction) {
+    const double around =
+        std::min(margin(hologram, eye, pupil, blur), diffraction + 0.5 * blur * metres_a_sine(hologram, eye));
+    Rectangle area(hologram.plane);
+    area.left -= around;
+    area.right += around;
+    area.bottom -= around;
+    area.top += around;
+    return area;
+}
+
+double narrow_band_bytes(const FieldGrid& hologram, const Vec3& eye, double pupil) {
+    return static_cast<double>(sizeof(std::complex<float>) *
+                               narrow_band::NarrowBand(hologram, eye, pupil).plane.samples());
+}
+
+std::vector<SharedEye> group_by_eye(std::span<const Camera> cameras, std::span<const std::size_t> members) {
+    std::vector<SharedEye> eyes;
+    for (std::size_t i : members) {
+        auto eye = std::find_if(eyes.begin(), eyes.end(),
+                                [&](const SharedEye& e) { return cameras[e.members.front()].eye == cameras[i].eye; });
+        const Rectangle picture(cameras[i].picture);
+        if (eye == eyes.end()) eye = eyes.insert(eyes.end(), SharedEye{.members = {}, .pictures = picture});
+        Rectangle& all = eye->pictures;
+        all.left = std::min(all.left, picture.left);
+        all.right = std::max(all.right, picture.right);
+        all.bottom = std::min(all.bottom, picture.bottom);
+        all.top = std::max(all.top, picture.top);
+        eye->members.push_back(i);
+        eye->pupil = std::max(eye->pupil, cameras[i].pupil);
+        eye->blur = std::max(eye->blur, defocus_blur(cameras[i]));
+    }
+    return eyes;
+}
+
+std::vector<SharedEye> group_by_eye(std::span<const Camera> cameras) {
+    std::vector<std::size_t> all(cameras.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return group_by_eye(cameras, all);
+}
+
+std::size_t PhotographPlan::looks_at_once(double memory, std::size_t looks, double share) const {
+    // No more than is kept when it is freed (core::FreedBlocks): the system would clear it each time, a second for each
+    // gigabyte.
+    const double spare = std::clamp(memory - bytes, 0.0, 1024.0 * 1024 * 1024);
+    const double most = 1 + std::floor(spare / (bytes_a_look * share)), all = static_cast<double>(looks);
+    // Equally many in each pass.
+    return static_cast<std::size_t>(std::ceil(all / std::max(1.0, std::ceil(all / most))));
+}
+
+void require_resolution(const FieldGrid& hologram, const Camera& camera, double cells) {
+    const double cell = resolution_cell(camera, hologram.wavelength);
+    const double side = std::max(hologram.plane.size_x(), hologram.plane.size_y());
+    if (cells * cell <= side) return;
+    throw Error(ErrorCode::usage,
+                fmt::format("a pupil of {} at {} resolves no more than {} in light of {}; expected at most {}, as the "
+                            "hologram is {} wide; a pupil of {} would do",
+                            format_length(camera.pupil), format_length(camera.eye.z), format_length(cell),
+                            format_length(hologram.wavelength), format_length(side / cells), format_length(side),
+                            format_length(camera.pupil * cells * cell / side)));
+}
+
+PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camera> cameras, double memory,
+                                PhotographPlan::Windows windows) {
+    for (const Camera& camera : cameras) {
+        validate(camera);
+        require_resolution(hologram, camera);
+        narrow_band::NarrowBand(hologram, camera.eye,
+                                camera.pupil);  // throws where the pupil is too wide for the pitch
+    }
+    if (cameras.empty()) return {};
+    const std::span<const std::size_t> counts =
+        windows == PhotographPlan::Windows::one ? std::span(window_counts).first(1) : std::span(window_counts);
+    PhotographPlan plan = find_plan(hologram, cameras, memory, counts);
+    if (!plan.passes.empty()) return plan;
+    double fits = 0, fails = 1;
+    for (int i = 0; i < 8; ++i) {
+        const double scale = 0.5 * (fits + fails);
+        std::vector<Camera> smaller(cameras.begin(), cameras.end());
+        for (Camera& camera : smaller) camera.pupil *= scale;
+        (find_plan(hologram, smaller, memory, counts).passes.empty() ? fails : fits) = scale;
+    }
+    double widest = 0;
+    for (const Camera& camera : cameras) widest = std::max(widest, camera.pupil);
+    throw Error(ErrorCode::usage,
+                fmt::format("a photograph through a pupil of {} takes more than the {} of memory that it may; {}",
+                            format_length(widest), format_bytes(memory),
+                            fits > 0 ? fmt::format("a pupil of {} would do", format_length(widest * fits))
+                                     : "no pupil is small enough"));
+}
+
+double photograph_bytes(const FieldGrid& hologram, std::span<const Camera> cameras, double memory, std::size_t looks,
+                        double share) {
+    const PhotographPlan plan = plan_photographs(hologram, cameras, memory);
+    const auto more = static_cast<double>(plan.looks_at_once(memory, looks, share) - 1);
+    return plan.bytes + std::min(more * share * plan.bytes_a_look, memory);
+}
+
+}  // namespace hogel::camera

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/camera/photograph_together.h"
+
+#include <algorithm>
+
+#include "hogel/camera/exposed_bands.h"
+#include "hogel/camera/hogel_spectra/stereogram_eyes.h"
+#include "hogel/camera/photograph_plan.h"
+#include "hogel/core/parallel.h"
+#include "hogel/image/film.h"
+
+namespace hogel::camera {
+namespace {
+
+// None where colours cannot share rays, or where their bands do not fit into memory together or take more time than
+// rays.
+std::optional<ColourBands> bands_of_colours(std::span<const std::shared_ptr<const FieldSource>> colours,
+                                            std::span<const Camera> cameras, const BandCamera& options) {
+    if (colours.size() < 2 || cameras.empty() || options.vertical_diffuser || options.source == BandSource::samples)
+        return {};
+    std::vector<const stereogram::Stereogram*> stereograms;
+    PhotographPlan plan;
+    const auto memory = static_cast<double>(options.memory);
+    for (const auto& colour : colours) {
+        stereograms.push_back(colour->stereogram());
+        if (stereograms.back() == nullptr || colour->looks() != colours.front()->looks()) return {};
+        PhotographPlan own = plan_photographs(colour->grid(), cameras, memory);
+        if (own.passes.size() != 1 || own.windows.size() != 1) return {};
+        if (own.bytes > plan.bytes) plan = std::move(own);
+    }
+    ColourBands bands{{},
+                      {},
+                      group_by_eye(cameras, plan.passes.front()),
+                      plan.windows.front().shown,
+                      colours.front()->looks(),
+                      1,
+                      options.preview};
+    for (const auto& colour : colours) bands.colours.push_back(colour->grid());
+    const Grid& plane = bands.colours.front().plane;
+    bands.drawing = hogel_spectra::draw_hogels_of_colours(stereograms, {0, 0, plane.width, plane.height},
+                                                          eyes_of(bands.eyes, cameras, options.preview));
+    if (!bands.drawing) return {};
+    double a_look = 0;
+    for (std::size_t band = 0; band < colours.size() * bands.eyes.size(); ++band)
+        a_look += bands.drawing->look_bytes(band);
+    const double a_colour = a_look * static_cast<double>(bands.looks) / static_cast<double>(colours.size());
+    if (!colours_together(a_colour, plane) || plan.bytes + a_look > memory) return {};
+    bands.looks_at_once = std::min(bands.looks, static_cast<std::size_t>((memory - plan.bytes) / a_look));
+    return bands;
+}
+
+}  // namespace
+
+std::optional<std::vector<std::vector<Image>>> photograph_together(
+    std::span<const std::shared_ptr<const FieldSource>> colours, std::span<const Camera> cameras,
+    const BandCamera& options, const Progress& progress) {
+    const core::StopScope scope(progress);
+    const std::optional<ColourBands> bands = bands_of_colours(colours, cameras, options);
+    if (!bands) return {};
+    std::vector<std::vector<Image>> pictures(colours.size(), std::vector<Image>(cameras.size()));
+    std::vector<std::span<Image>> films;
+    for (std::size_t c = 0; c < colours.size(); ++c) {
+        image::load_film(cameras, 1, colours[c]->provenance(), pictures[c]);
+        films.emplace_back(pictures[c]);
+    }
+    expose(*bands, cameras, films, progress);
+    return pictures;
+}
+
+}  // namespace hogel::camera

@@ -1,0 +1,441 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "hogel/camera/film/interpolation.h"
+#include "hogel/camera/models.h"
+#include "hogel/camera/photograph_plan.h"
+#include "hogel/camera/sine_grid.h"
+#include "hogel/core/shared_order.h"
+#include "hogel/error.h"
+#include "hogel/image/film.h"
+#include "hogel/math/fft.h"
+#include "hogel/optics/elements.h"
+#include "hogel/optics/spectrum.h"
+#include "hogel/optics/tilt.h"
+#include "hogel/photograph.h"
+#include "hogel/units.h"
+
+namespace hogel {
+
+using namespace camera;
+using namespace optics;
+
+namespace {
+
+// The factor by which the pupil is widened when directions are selected.
+constexpr double edge_margin = 1.1;
+
+// The distance over which directions beyond the widened pupil fade out: twice the width of Fresnel's fringes of a sharp
+// selection, which would reach into the pupil.
+double fade_width(double wavelength, double distance) { return 2 * std::sqrt(wavelength * distance); }
+
+// The resolution cells that the hologram must hold side by side. Where there are fewer, light that spreads from the
+// small opening returns on the other side of the window: root mean square errors against the direct sum of a hologram
+// of random phases are 9 % with 4.3 cells, 17 % with 3, 35 % with 2.
+constexpr double min_cells = 4;
+
+struct Chain {
+    const FieldSource& hologram;
+    std::size_t look;
+    const PlaneWaveCamera& options;
+    Team* team;  // whose processes share the transforms; null: none
+};
+
+bool is_tilted(const Camera& camera) { return camera.focus_slope_x != 0 || camera.focus_slope_y != 0; }
+
+std::array<Vec3, 4> corners(const Rectangle& all) {
+    return {{{all.left, all.bottom, 0}, {all.right, all.bottom, 0}, {all.left, all.top, 0}, {all.right, all.top, 0}}};
+}
+
+// A square around an eye's pupil.
+Rectangle around(Vec3 eye, double pupil) { return Rectangle(Grid{1, 1, pupil, pupil, eye.x, eye.y}); }
+
+// The number of samples across that represent the spectrum of a wave behind a pupil, with three per period of the
+// finest wave of its intensity, which is interpolated.
+std::size_t film_samples(std::size_t columns, double size, double pupil, double distance, double wavelength) {
+    const double intensity = 3 * edge_margin * pupil / (wavelength * distance) * size;
+    // The opening itself is sampled, too.
+    constexpr double samples_of_pupil = 16;
+    const double opening = samples_of_pupil * size / pupil;
+    return math::good_fft_size(static_cast<std::size_t>(std::ceil(
+                                   std::max({edge_margin * static_cast<double>(columns), intensity, opening}))) +
+                               16);
+}
+
+// What a camera sees: the hologram and what the picture shows of its surroundings that are lit. Work grows with the
+// square of its width, so diffraction is followed no farther beside the hologram than the hologram is wide.
+Rectangle seen_by(const Camera& camera, const FieldGrid& hologram) {
+    const Grid& plane = hologram.plane;
+    return film_area(
+        plane, Rectangle(camera.picture),
+        lit_area(hologram, camera.eye, camera.pupil, defocus_blur(camera), std::max(plane.size_x(), plane.size_y())));
+}
+
+// A plane with the middle of the hologram that holds all of this.
+Grid plane_around(const Rectangle& seen, const Grid& hologram) {
+    const Rectangle own(hologram);
+    return {1,
+            1,
+            hologram.size_x() + 2 * std::max(own.left - seen.left, seen.right - own.right),
+            hologram.size_y() + 2 * std::max(own.bottom - seen.bottom, seen.top - own.top),
+            hologram.center_x,
+            hologram.center_y};
+}
+
+// The wave at the lens of one eye, just before its opening, restricted to the directions between the hologram and the
+// pupil.
+Spectrum wave_at_lens(const Chain& chain, std::span<const Camera> cameras, const SharedEye& eye,
+                      const Progress& progress) {
+    const Grid& plane = chain.hologram.grid().plane;
+    const Vec3 lens = cameras[eye.members.front()].eye;
+    const double wavelength = chain.hologram.grid().wavelength, fade = fade_width(wavelength, lens.z);
+    const double inner = edge_margin * eye.pupil, pupil = inner + 2 * fade;
+    // The window is padded for a focus behind the hologram and for a picture larger than it, which would otherwise wrap
+    // around to the other side, and padded again for a plane that is tilted later.
+    double spread = std::max(1.0, chain.options.film_distance / lens.z);
+    double width = plane.size_x(), height = plane.size_y();
+    for (std::size_t i : eye.members) {
+        const Rectangle seen = seen_by(cameras[i], chain.hologram.grid());
+        width = std::max(width, plane_around(seen, plane).size_x());
+        height = std::max(height, plane_around(seen, plane).size_y());
+        for (const Vec3& corner : corners(seen))
+            spread = std::max(spread, (is_tilted(cameras[i]) ? 2 : 1) * focus_ratio(cameras[i], corner.x, corner.y));
+    }
+    const Grid window = padded(plane, spread * (width + pupil), spread * (height + pupil));
+    const Band band = band_between(Rectangle(plane), around(lens, pupil), lens.z, wavelength);
+    Spectrum waves = spectrum_of(chain.hologram, chain.look, window, band, chain.options.scratch, progress, chain.team);
+    propagate(waves, {lens.z, lens.x - plane.center_x, lens.y - plane.center_y, 0.5 * (plane.size_x() + inner),
+                      0.5 * (plane.size_y() + inner), fade, fade});
+    return waves;
+}
+
+// The rows of a picture that a process of a team makes. Of a plane that is tilted the first one has all.
+distributed::LineRange rows_of(std::size_t process, const Camera& camera, const Team* team) {
+    if (team == nullptr) return {0, camera.picture.height};
+    if (is_tilted(camera)) return {0, process == 0 ? camera.picture.height : 0};
+    return distributed::lines_of(process, team->size(), camera.picture.height, 1);
+}
+
+distributed::LineRange own_rows(const Camera& camera, const Team* team) {
+    return rows_of(team != nullptr ? team->rank() : 0, camera, team);
+}
+
+// The wave that makes the picture, and the mapping of points in focus to it: the window's centre plus `scale` times the
+// offset of the point from `origin` along the axes.
+struct Focused {
+    Wave wave;
+    double pupil_area;
+    Vec3 origin;
+    Orientation axes;
+    double scale = 1;
+};
+
+// The point in focus on the line of sight through a point of the hologram plane.
+Vec3 in_focus(const Camera& camera, double x, double y) {
+    return camera.eye + focus_ratio(camera, x, y) * (Vec3{x, y, 0} - camera.eye);
+}
+
+// The axes of the plane in focus, z = −focus_depth − slope_x x − slope_y y.
+Orientation stand(const Camera& camera) {
+    const Vec3 x = normalize(Vec3{1, 0, -camera.focus_slope_x}), up{0, 1, -camera.focus_slope_y};
+    return {x, normalize(up - dot(up, x) * x)};
+}
+
+// The wave on the tilted plane in focus, from that on a parallel plane which it crosses in the middle.
+// @param seen  seen_by()
+Wave on_tilted_plane(const Spectrum& waves, const Camera& camera, const Rectangle& seen, Vec3 origin,
+                     const Orientation& axes, const ScratchOptions& scratch) {
+    // The size of the picture on the plane, and the directions from there to the pupil.
+    double half_x = 0, half_y = 0, nearest = camera.eye.z - origin.z;
+    Band band{1e30, -1e30, 1e30, -1e30};
+    const double pupil = edge_margin * camera.pupil;
+    for (const Vec3& corner : corners(seen)) {
+        const Vec3 p = in_focus(camera, corner.x, corner.y);
+        nearest = std::min(nearest, camera.eye.z - p.z);
+        half_x = std::max(half_x, std::abs(dot(p - origin, axes.x)));
+        half_y = std::max(half_y, std::abs(dot(p - origin, axes.y)));
+        for (const Vec3& edge : corners(around(camera.eye, pupil))) {
+            const Vec3 direction = normalize(Vec3{edge.x, edge.y, camera.eye.z} - p) / waves.wavelength;
+            const double fx = dot(direction, axes.x), fy = dot(direction, axes.y);
+            band = {std::min(band.low_x, fx), std::max(band.high_x, fx), std::min(band.low_y, fy),
+                    std::max(band.high_y, fy)};
+        }
+    }
+    // Light that is out of focus spreads over a larger area.
+    const double size_x = 4 * half_x + pupil, size_y = 4 * half_y + pupil;
+    const auto samples = [&](double size, double low, double high) {
+        return film_samples(static_cast<std::size_t>(std::ceil(size * (high - low))), size, camera.pupil, nearest,
+                            waves.wavelength);
+    };
+    const std::size_t width = samples(size_x, band.low_x, band.high_x);
+    const std::size_t height = samples(size_y, band.low_y, band.high_y);
+    const Grid window{width, height, size_x / static_cast<double>(width), size_y / static_cast<double>(height), 0, 0};
+    return wave_of(tilt(waves, axes, window, band, scratch), width, height, scratch);
+}
+
+// The rows of a film, which is parallel to the hologram, that some rows of a picture show, with those around.
+distributed::LineRange film_rows(const Grid& plane, double scale, Vec3 origin, const Camera& camera,
+                                 const distributed::LineRange& picture) {
+    if (picture.count == 0) return {};
+    constexpr double around = 8;
+    const auto row = [&](double of_picture) {
+        const Vec3 p = in_focus(camera, camera.picture.center_x, camera.picture.y(of_picture));
+        return plane.row(plane.center_y + scale * (p.y - origin.y));
+    };
+    const auto [low, high] =
+        std::minmax({row(static_cast<double>(picture.first) - 1), row(static_cast<double>(picture.end()))});
+    const auto within = [&](double place) {
+        return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(plane.height)));
+    };
+    const std::size_t first = within(std::floor(low - around));
+    return {first, within(std::ceil(high + around)) - first};
+}
+
+// The width of the pupil in the directions between it and the plane in focus, of which the middle is `m` times as far
+// from the lens as the hologram. The whole pupil counts, however far out of focus the hologram is: a narrower cone
+// holds the hologram's light, but not what the rim diffracts. Parts of a tilted plane that are nearer are seen more
+// obliquely.
+double width_towards_focus(const Camera& camera, double m, const Rectangle& seen) {
+    double nearer = 1;
+    for (const Vec3& corner : corners(seen)) nearer = std::max(nearer, m / focus_ratio(camera, corner.x, corner.y));
+    return edge_margin * camera.pupil * nearer;
+}
+
+// All frequencies that the samples of a wave tell apart.
+Band band_of(const Wave& wave) {
+    const Grid& plane = wave.grid().plane;
+    return {wave.carrier_x - 0.5 / plane.pitch_x, wave.carrier_x + 0.5 / plane.pitch_x,
+            wave.carrier_y - 0.5 / plane.pitch_y, wave.carrier_y + 0.5 / plane.pitch_y};
+}
+
+// The wave on the film. A perfect lens images the plane in focus: the wave in the opening is propagated back to that
+// plane through empty space. A thin lens bends the light towards a film behind it, with aberrations. In a team
+// each process has the rows that own_rows() of the picture show.
+std::optional<Focused> wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid& hologram,
+                                     const PlaneWaveCamera& options, Team* team) {
+    const Rectangle seen = seen_by(camera, {hologram, at_lens.wavelength});
+    const Grid whole = plane_around(seen, hologram);
+    const double wavelength = at_lens.wavelength, R = camera.eye.z;
+    const double m = focus_ratio(camera, hologram.center_x, hologram.center_y), b = options.film_distance;
+    const double focal_length = b > 0 ? 1 / (1 / (m * R) + 1 / b) : 0;
+    const Grid& window = at_lens.window;
+    const auto samples = [&](std::size_t columns, double size) {
+        if (b == 0) return film_samples(columns, size, camera.pupil, R, wavelength);
+        // Additional columns for the frequencies that the lens adds to those of the wave.
+        const auto bent = static_cast<std::size_t>(size * edge_margin * camera.pupil / (wavelength * focal_length));
+        return film_samples(columns + bent, size, camera.pupil, b, wavelength);
+    };
+    // The wave repeats in the directions with a period of the wavelength by the pitch.
+    const ViewGeometry geometry(camera.eye, wavelength);
+    const SineRanges own = sines_of(geometry, hologram), shown = sines_of(geometry, whole);
+    const double blur = defocus_blur(camera), cell = wavelength / camera.pupil;
+    const SpreadWindow followed(own.x.span(), own.y.span(), blur, cell);
+    const auto enough = [&](std::size_t columns, double size, double farthest) {
+        const double period = farthest + followed.stop + 0.5 * blur;
+        const auto count = static_cast<std::size_t>(std::ceil(size * period / wavelength));
+        return std::max(samples(columns, size), math::good_fft_size(count));
+    };
+    const std::size_t width = enough(at_lens.width(), window.size_x(), SineGrid::farthest(own.x, shown.x));
+    const std::size_t height = enough(at_lens.height(), window.size_y(), SineGrid::farthest(own.y, shown.y));
+    const double area = 0.25 * std::numbers::pi * camera.pupil * camera.pupil *
+                        (1 - light_left_out(followed, own.x.span(), own.y.span(), cell));
+    Spectrum behind = [&] {
+        Wave lens = wave_of(at_lens, width, height, options.scratch, team);
+        circular_aperture(lens, camera.eye.x, camera.eye.y, camera.pupil, PupilEdge(followed, wavelength));
+        if (b > 0)
+            thin_lens(lens, camera.eye.x, camera.eye.y, edge_margin * camera.pupil, focal_length);
+        else
+            weigh_alike(lens, camera.eye.x, camera.eye.y,
+                        in_focus(camera, hologram.center_x, hologram.center_y) - camera.eye);
+        return spectrum_of(lens, lens.grid().plane, band_of(lens), options.scratch, {}, team);
+    }();
+    // The distance to propagate, and the magnification of the picture there.
+    const double distance = b > 0 ? b : -m * R, larger = std::abs(distance) / R;
+    const double pupil = width_towards_focus(camera, m, seen), fade = larger * fade_width(wavelength, R);
+    propagate(behind, {distance, distance / R * (camera.eye.x - hologram.center_x),
+                       distance / R * (camera.eye.y - hologram.center_y), 0.5 * (larger * whole.size_x() + pupil),
+                       0.5 * (larger * whole.size_y() + pupil), fade, fade});
+    const Vec3 origin = in_focus(camera, hologram.center_x, hologram.center_y);
+    if (is_tilted(camera)) {
+        const Orientation axes = stand(camera);
+        if (team != nullptr) behind = gathered(std::move(behind), *team, options.scratch);
+        if (!is_first_process()) return std::nullopt;
+        return Focused{on_tilted_plane(behind, camera, seen, origin, axes, options.scratch), area, origin, axes};
+    }
+    const double scale = b > 0 ? -b / (m * R) : 1;
+    if (team == nullptr) return Focused{wave_of(behind, width, height, options.scratch), area, origin, {}, scale};
+    const Grid plane = grid_of(behind, width, height);
+    const auto wanted = [&](std::size_t process) {
+        return film_rows(plane, scale, origin, camera, rows_of(process, camera, team));
+    };
+    return Focused{wave_of(std::move(behind), width, height, options.scratch, *team, wanted), area, origin, {}, scale};
+}
+
+// Adds rows of the picture, as radiance: see docs/notation.md, section 4.
+void expose(const Focused& focused, const Camera& camera, const distributed::LineRange& rows, const Rectangle& shown,
+            double weight, Image& image) {
+    const Grid& picture = camera.picture;
+    const Grid& plane = focused.wave.grid().plane;
+    const double R = camera.eye.z, m = focus_ratio(camera, picture.center_x, picture.center_y);
+    const double larger = m * std::abs(focused.scale);
+    const auto points = [&](double pixel, double sample) {
+        return 2 * static_cast<std::size_t>(std::max(1.0, std::ceil(0.5 * pixel * larger / sample)));
+    };
+    const std::size_t sub_x = points(picture.pitch_x, plane.pitch_x), sub_y = points(picture.pitch_y, plane.pitch_y);
+    const View<const std::complex<float>, 2> samples = focused.wave.samples.view();
+    const std::size_t first = focused.wave.rows.first;
+    const auto intensity = [&](std::size_t row, std::size_t column) { return std::norm(samples(row - first, column)); };
+    core::parallel_for(rows.count, [&](std::size_t i) {
+        const std::size_t row = rows.first + i;
+        for (std::size_t column = 0; column < picture.width; ++column) {
+            double sum = 0;
+            for (std::size_t b = 0; b < sub_y; ++b)
+                for (std::size_t a = 0; a < sub_x; ++a) {
+                    const double x = picture.x(static_cast<double>(column) + film::gauss_place(a, sub_x));
+                    const double y = picture.y(static_cast<double>(row) + film::gauss_place(b, sub_y));
+                    if (!shown.holds(x, y)) continue;
+                    const Vec3 p = in_focus(camera, x, y), aside = focused.scale * (p - focused.origin);
+                    // Interpolation may fall below zero between dark samples.
+                    const double value = std::max(
+                        0.0f, film::smooth_at<film::SixPoint>(
+                                  plane.height, plane.width, plane.row(plane.center_y + dot(aside, focused.axes.y)),
+                                  plane.column(plane.center_x + dot(aside, focused.axes.x)), intensity));
+                    const double r = length(p - camera.eye), along = R * focus_ratio(camera, x, y);
+                    sum += value * focused.scale * focused.scale * r * r * r / (along * focused.pupil_area);
+                }
+            image.pixels(row, column, 0) += static_cast<float>(weight * sum / static_cast<double>(sub_x * sub_y));
+        }
+    });
+}
+
+// e^{2πi cycles}.
+std::complex<float> phasor(double cycles) {
+    return std::polar(1.0f, static_cast<float>(2 * std::numbers::pi * (cycles - std::floor(cycles))));
+}
+
+// The wave at the points in focus that the pixels' centres show, of rows of the picture, see waves_in_focus().
+Array<std::complex<float>, 2> wave_at_pixels(const Focused& focused, const Camera& camera,
+                                             const distributed::LineRange& rows, const Rectangle& shown) {
+    const Grid& picture = camera.picture;
+    const Wave& wave = focused.wave;
+    const Grid& plane = wave.grid().plane;
+    const View<const std::complex<float>, 2> samples = wave.samples.view();
+    // Without its carrier the wave varies slowly enough to be interpolated.
+    std::vector<std::complex<float>> across(plane.width), up(plane.height);
+    for (std::size_t i = 0; i < plane.width; ++i)
+        across[i] = phasor(-wave.carrier_x * (plane.x(static_cast<double>(i)) - plane.center_x));
+    for (std::size_t j = 0; j < plane.height; ++j)
+        up[j] = phasor(-wave.carrier_y * (plane.y(static_cast<double>(j)) - plane.center_y));
+    Array<std::complex<float>, 2> result({picture.height, picture.width});
+    const std::size_t first = wave.rows.first;
+    core::parallel_for(rows.count, [&](std::size_t line) {
+        const std::size_t row = rows.first + line;
+        for (std::size_t column = 0; column < picture.width; ++column) {
+            const double x = picture.x(static_cast<double>(column)), y = picture.y(static_cast<double>(row));
+            if (!shown.holds(x, y)) continue;
+            const Vec3 p = in_focus(camera, x, y), aside = p - focused.origin;
+            const double right = dot(aside, focused.axes.x), above = dot(aside, focused.axes.y);
+            const std::complex<float> slow = film::smooth_at<film::SixPoint>(
+                plane.height, plane.width, plane.row(plane.center_y + above), plane.column(plane.center_x + right),
+                [&](std::size_t j, std::size_t i) { return up[j] * across[i] * samples(j - first, i); });
+            const double cycles =
+                wave.carrier_x * right + wave.carrier_y * above + length(p - camera.eye) / wave.grid().wavelength;
+            result(row, column) = slow * phasor(cycles);
+        }
+    });
+    return result;
+}
+
+// Gives all processes of a team the rows of a picture that each has made.
+template <class Value>
+void share_rows(Team& team, const Camera& camera, Value* picture, std::size_t width) {
+    distributed::share_lines(team, picture, width,
+                             [&](std::size_t process) { return rows_of(process, camera, &team); });
+}
+
+// Calls visit(i, wave) with the wave that makes each camera's picture.
+template <class Visit>
+void focus_all(const Chain& chain, std::span<const Camera> cameras, const Progress& progress, const Visit& visit) {
+    const std::vector<SharedEye> eyes = group_by_eye(cameras);
+    for (std::size_t e = 0; e < eyes.size(); ++e) {
+        const auto part = [&](double fraction) {
+            return (static_cast<double>(e) + fraction) / static_cast<double>(eyes.size());
+        };
+        const auto report = [&](double fraction) { return !progress || progress(part(0.5 * fraction)); };
+        const Spectrum waves = wave_at_lens(chain, cameras, eyes[e], report);
+        for (std::size_t i : eyes[e].members)
+            if (const std::optional<Focused> focused =
+                    wave_in_focus(waves, cameras[i], chain.hologram.grid().plane, chain.options, chain.team))
+                visit(i, *focused);
+        progress.report(part(1));
+    }
+}
+
+}  // namespace
+
+void camera::require_by_plane_waves(const FieldGrid& hologram, std::span<const Camera> cameras,
+                                    const PlaneWaveCamera& model) {
+    const double film = model.film_distance;
+    if (!std::isfinite(film) || film < 0)
+        throw Error(ErrorCode::usage, fmt::format("a film {} m behind its lens: it must be positive and finite", film));
+    for (const Camera& camera : cameras) {
+        require_light_towards(hologram, camera);
+        require_resolution(hologram, camera, min_cells);
+        if (film > 0 && film < camera.pupil)
+            throw Error(ErrorCode::usage,
+                        fmt::format("a film {} behind a thin lens of {}: nearer than the lens is wide",
+                                    format_length(film), format_length(camera.pupil)));
+        if (film > 0 && is_tilted(camera))
+            throw Error(ErrorCode::usage,
+                        "behind a thin lens the film is parallel to the hologram; it cannot be tilted");
+    }
+}
+
+void camera::add_light(const FieldSource& hologram, std::span<const Camera> cameras, const PlaneWaveCamera& model,
+                       std::span<Image> images, const Progress& progress) {
+    require_by_plane_waves(hologram.grid(), cameras, model);
+    const auto looks = static_cast<double>(hologram.looks());
+    Team* const team = core::team_of_several();
+    for (std::size_t look = 0; look < hologram.looks(); ++look) {
+        const auto report = [&](double fraction) {
+            return !progress || progress((static_cast<double>(look) + fraction) / looks);
+        };
+        focus_all({hologram, look, model, team}, cameras, report, [&](std::size_t i, const Focused& focused) {
+            expose(focused, cameras[i], own_rows(cameras[i], team), seen_by(cameras[i], hologram.grid()), 1 / looks,
+                   images[i]);
+        });
+    }
+    for (std::size_t i = 0; team != nullptr && i < images.size(); ++i)
+        share_rows(*team, cameras[i], images[i].pixels.data(), images[i].pixels.size() / cameras[i].picture.height);
+}
+
+std::vector<Array<std::complex<float>, 2>> waves_in_focus(const FieldSource& hologram, std::size_t look,
+                                                          std::span<const Camera> cameras, const PlaneWaveCamera& model,
+                                                          const Progress& progress) {
+    const core::StopScope scope(progress);
+    if (model.film_distance != 0)
+        throw Error(ErrorCode::usage, "waves in focus are those of a perfect lens, which has no film distance");
+    require_by_plane_waves(hologram.grid(), cameras, model);
+    std::vector<Array<std::complex<float>, 2>> waves(cameras.size());
+    Team* const team = core::team_of_several();
+    focus_all({hologram, look, model, team}, cameras, progress, [&](std::size_t i, const Focused& focused) {
+        waves[i] =
+            wave_at_pixels(focused, cameras[i], own_rows(cameras[i], team), seen_by(cameras[i], hologram.grid()));
+    });
+    for (std::size_t i = 0; team != nullptr && i < waves.size(); ++i) {
+        const Grid& picture = cameras[i].picture;
+        if (waves[i].size() == 0) waves[i] = Array<std::complex<float>, 2>({picture.height, picture.width});
+        share_rows(*team, cameras[i], waves[i].data(), picture.width);
+    }
+    return waves;
+}
+
+}  // namespace hogel

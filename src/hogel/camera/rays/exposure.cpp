@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/camera/rays/exposure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "hogel/camera/rays/ray_kernels.h"
+#include "hogel/core/parallel.h"
+#include "hogel/core/thread_buffer.h"
+#include "hogel/lightfield/interpolation.h"
+#include "hogel/resources.h"
+
+namespace hogel::camera::rays {
+namespace {
+
+// Number of values, for each thread, that points of the lens see of one block at a time: they stay in the second cache
+// until pixels are exposed to them. But so many points look at once, as long as they see no more than 64 MiB, because
+// every hogel is on a page of its own, to be found again for the next points.
+constexpr std::size_t seen_together = std::size_t{1} << 16, points_at_once = 64, max_seen = std::size_t{1} << 24;
+
+// Hogels of a row that all points of the lens look at before the next: what is read of them stays in the first cache.
+constexpr std::size_t hogels_together = 32;
+
+constexpr std::pair<std::size_t, std::size_t> nothing{0, 0};
+
+double van_der_corput(std::size_t i, std::size_t base) {
+    double value = 0, place = 1;
+    for (; i > 0; i /= base) {
+        place /= static_cast<double>(base);
+        value += place * static_cast<double>(i % base);
+    }
+    return value;
+}
+
+}  // namespace
+
+HogelBlock block_of(View<const float, 5> radiance, std::size_t s0, std::size_t t0, const HogelRange& range) {
+    HogelBlock block;
+    block.range = range;
+    block.hogel = radiance.extent(3) * radiance.extent(4);
+    block.row = radiance.extent(2) * block.hogel;
+    block.channel = radiance.extent(1) * block.row;
+    block.radiance = radiance.data() + (range.t0 - t0) * block.row + (range.s0 - s0) * block.hogel;
+    return block;
+}
+
+HeldHogels hold(const LightFieldSource& face, const HogelRange& range) {
+    HeldHogels held;
+    if (const View<const float, 5> all = face.in_memory(); all.size() > 0) {
+        held.block = block_of(all, 0, 0, range);
+        return held;
+    }
+    held.tile = LightFieldTile(face.grid(), range, false);
+    face.read(held.tile);
+    held.block = block_of(held.tile.radiance, range.s0, range.t0, range);
+    return held;
+}
+
+// Points spread evenly over the pupil's disc (Halton sequence, mapped by equal areas), each with its own position in
+// the pixel, so that one set of rays averages over both the pupil and the pixel's area.
+std::vector<Exposure::LensPoint> Exposure::lens_points(double pupil, std::size_t count) {
+    std::vector<LensPoint> points;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i % 65536 == 0) core::throw_if_stopped();
+        const double radius = 0.5 * pupil * std::sqrt((static_cast<double>(i) + 0.5) / static_cast<double>(count));
+        const double angle = 2 * std::numbers::pi * van_der_corput(i, 2);
+        points.push_back({radius * std::cos(angle), radius * std::sin(angle), van_der_corput(i + 1, 3) - 0.5,
+                          van_der_corput(i + 1, 5) - 0.5});
+    }
+    return points;
+}
+
+Exposure::Exposure(std::vector<LightFieldGrid> faces, const Camera& camera, std::size_t lens_count, Looking looking)
+    : faces_(std::move(faces)),
+      grid_(faces_.front()),
+      camera_(camera),
+      vectors_(looking == Looking::fast && is_separable(grid_)),
+      points_(lens_points(camera.pupil, lens_count)),
+      film_({grid_.channels, camera.picture.height, camera.picture.width}) {}
+
+std::pair<std::size_t, std::size_t> Exposure::Run::within(std::size_t first, std::size_t last) const {
+    const std::size_t from = std::clamp(begin, first, last);
+    return {from, std::clamp(end, from, last)};
+}
+
+std::pair<std::size_t, std::size_t> Exposure::Run::between(std::size_t first, std::size_t count) const {
+    const auto from = low.begin() + static_cast<std::ptrdiff_t>(begin),
+               to = low.begin() + static_cast<std::ptrdiff_t>(end);
+    const auto below = [](std::int32_t place, std::size_t bound) { return static_cast<std::size_t>(place) < bound; };
+    const auto left = std::lower_bound(from, to, first, below),
+               right = std::lower_bound(left, to, first + count, below);
+    return {static_cast<std::size_t>(left - low.begin()), static_cast<std::size_t>(right - low.begin())};
+}
+
+template <class Index>
+Exposure::Run Exposure::run(std::size_t places, std::size_t samples, const Index& index) {
+    Run run{places, 0, samples > 1 ? std::size_t{1} : 0, std::vector<std::int32_t>(places), std::vector<float>(places)};
+    for (std::size_t i = 0; i < places; ++i) {
+        const lightfield::Interpolation place(index(i), samples);
+        if (place.outside) continue;
+        run.begin = std::min(run.begin, i);
+        run.end = i + 1;
+        run.low[i] = static_cast<std::int32_t>(place.low);
+        run.high_weight[i] = place.high_weight;
+    }
+    return run;
+}
+
+Exposure::Rays Exposure::rays_of(const LensPoint& point) const {
+    const LightFieldGrid& grid = grid_;
+    const Grid& picture = camera_.picture;
+    const double lens_x = camera_.eye.x + point.x, lens_y = camera_.eye.y + point.y, R = camera_.eye.z;
+    // A ray from a lens point to the pixel's point of the plane in focus crosses the hologram plane at the pixel's
+    // position plus a fraction of the lens point's offset.
+    const double shift = 1 - R / (R + camera_.focus_depth);
+    Rays rays;
+    if (vectors_) {
+        rays.columns_of_directions = run(grid.hogels_s, grid.directions_u, [&](std::size_t i) {
+            const auto s = static_cast<double>(i);
+            return grid.of_hogel(s, 0).column((grid.s(s) - lens_x) / R);
+        });
+        rays.rows_of_directions = run(grid.hogels_t, grid.directions_v, [&](std::size_t j) {
+            const auto t = static_cast<double>(j);
+            return grid.of_hogel(0, t).row((grid.t(t) - lens_y) / R);
+        });
+    }
+    rays.columns_of_hogels = run(picture.width, grid.hogels_s, [&](std::size_t column) {
+        const double x = picture.x(static_cast<double>(column) + point.pixel_x) + shift * point.x;
+        return x / grid.pitch + 0.5 * static_cast<double>(grid.hogels_s) - 0.5;
+    });
+    rays.rows_of_hogels = run(picture.height, grid.hogels_t, [&](std::size_t row) {
+        const double y = picture.y(static_cast<double>(row) + point.pixel_y) + shift * point.y;
+        return 0.5 * static_cast<double>(grid.hogels_t) - 0.5 - y / grid.pitch;
+    });
+    return rays;
+}
+
+std::size_t bytes_of_rays(const LightFieldGrid& grid, const Camera& camera) {
+    const std::size_t places = camera.picture.width + camera.picture.height + grid.hogels_s + grid.hogels_t;
+    return places * (sizeof(std::int32_t) + sizeof(float));
+}
+
+void Exposure::prepare(std::size_t first, std::size_t count) {
+    const bool all = points_.size() * bytes_of_rays(grid_, camera_) <= max_kept_;
+    const std::size_t begin = all ? 0 : first, size = all ? points_.size() : count;
+    if (first_prepared_ != begin || prepared_.size() != size) {
+        first_prepared_ = begin;
+        prepared_.resize(size);
+        core::parallel_for(size, [&](std::size_t i) { prepared_[i] = rays_of(points_[begin + i]); });
+    }
+    first_ = first;
+    rays_ = std::span(prepared_).subspan(first - begin, count);
+}
+
+template <class Look>
+void Exposure::add_points(const HogelRange& range, const HogelRange& cells, const Look& look) {
+    const std::size_t seen_by_one = range.nt * grid_.channels * range.ns;
+    const std::size_t few = std::min(points_at_once, std::max<std::size_t>(max_seen / seen_by_one, 1)),
+                      together = std::min(std::max(thread_count() * seen_together / seen_by_one, few), points_.size());
+    for (std::size_t first = 0; first < points_.size(); first += together) {
+        const std::size_t count = std::min(together, points_.size() - first);
+        prepare(first, count);
+        if (seen_.size() < count * seen_by_one) seen_.resize(count * seen_by_one);
+        const View<float, 4> seen(seen_.data(), {count, range.nt, grid_.channels, range.ns});
+        look(seen);
+        std::size_t top = camera_.picture.height, bottom = 0;  // of the pixels that any ray reaches from these cells
+        for (const Rays& rays : rays_) {
+            const auto [begin, end] = rays.rows_of_hogels.between(cells.t0, cells.nt);
+            if (begin == end) continue;
+            top = std::min(top, begin);
+            bottom = std::max(bottom, end);
+        }
+        if (top < bottom)
+            core::parallel_for(bottom - top, [&](std::size_t row) { expose_row(top + row, range, cells, seen); });
+    }
+}
+
+void Exposure::add(std::size_t face, const HogelBlock& block, const HogelRange& cells) {
+    add_points(block.range, cells, [&](View<float, 4> seen) {
+        if (face == 0 && vectors_)
+            core::parallel_for(block.range.nt, [&](std::size_t t) { look_along_row(block, t, seen); });
+        else
+            core::parallel_for(rays_.size(), [&](std::size_t i) { look(face, block, points_[first_ + i], seen[i]); });
+    });
+}
+
+void Exposure::add(const Views<float>& views, const HogelRange& hogels, const HogelRange& cells) {
+    add_points(hogels, cells, [&](View<float, 4> seen) {
+        core::parallel_for(hogels.nt, [&](std::size_t t) { look_along_row(views, hogels, t, seen); });
+    });
+}
+
+void Exposure::add(const Views<std::uint16_t>& views, const HogelRange& hogels, const HogelRange& cells) {
+    add_points(hogels, cells, [&](View<float, 4> seen) {
+        core::parallel_for(hogels.nt, [&](std::size_t t) { look_along_row(views, hogels, t, seen); });
+    });
+}
+
+// Whether an earlier face has this direction: faces may overlap, and a direction belongs to the first one that has it.
+bool Exposure::shown_before(std::size_t face, Vec3 direction) const {
+    return std::any_of(faces_.begin(), faces_.begin() + static_cast<std::ptrdiff_t>(face),
+                       [&](const LightFieldGrid& earlier) { return earlier.covers(direction); });
+}
+
+void Exposure::look(std::size_t face, const HogelBlock& block, const LensPoint& point, View<float, 3> seen) const {
+    const LightFieldGrid& grid = faces_[face];
+    const HogelRange& range = block.range;
+    std::ranges::fill(seen.elements(), 0.0f);
+    const double lens_x = camera_.eye.x + point.x, lens_y = camera_.eye.y + point.y, distance = camera_.eye.z;
+    for (std::size_t t = 0; t < range.nt; ++t) {
+        const double V = (grid.t(static_cast<double>(range.t0 + t)) - lens_y) / distance;
+        for (std::size_t s = 0; s < range.ns; ++s) {
+            const auto i = static_cast<double>(range.s0 + s), j = static_cast<double>(range.t0 + t);
+            const double U = (grid.s(i) - lens_x) / distance;
+            const Vec3 direction = to_face(grid.face(), {U, V, 1});
+            if (!(direction.z > 0) || shown_before(face, {U, V, 1})) continue;
+            const double forward = grid.has_frequencies() ? length(direction) : direction.z;
+            const LightFieldGrid own = grid.of_hogel(i, j);  // with the directions of this hogel
+            const lightfield::Interpolation u(own.column(direction.x / forward), grid.directions_u);
+            const lightfield::Interpolation v(own.row(direction.y / forward), grid.directions_v);
+            if (u.outside || v.outside) continue;
+            const std::size_t u1 = u.high(grid.directions_u), v1 = v.high(grid.directions_v);
+            const float* hogel = block.radiance + t * block.row + s * block.hogel;
+            for (std::size_t c = 0; c < grid.channels; ++c) {
+                const View<const float, 2> directions(hogel + c * block.channel,
+                                                      {grid.directions_v, grid.directions_u});
+                const float top = lightfield::mix(directions(v.low, u.low), directions(v.low, u1), u.high_weight);
+                const float bottom = lightfield::mix(directions(v1, u.low), directions(v1, u1), u.high_weight);
+                seen(t, c, s) = lightfield::mix(top, bottom, v.high_weight);
+            }
+        }
+    }
+}
+
+void Exposure::look_along_row(const HogelBlock& block, std::size_t t, View<float, 4> seen) const {
+    const HogelRange& range = block.range;
+    const std::size_t row = range.t0 + t;
+    for (std::size_t from = 0; from < range.ns; from += hogels_together) {
+        const std::size_t to = std::min(from + hogels_together, range.ns);
+        for (std::size_t i = 0; i < rays_.size(); ++i) {
+            const Run& columns = rays_[i].columns_of_directions;
+            const Run& rows = rays_[i].rows_of_directions;
+            const auto [begin, end] = rows.has(row) ? columns.within(range.s0 + from, range.s0 + to) : nothing;
+            const auto v = static_cast<std::size_t>(rows.low[row]);
+            for (std::size_t c = 0; c < grid_.channels; ++c) {
+                const std::span<float> values = seen[i][t][c].elements().subspan(from, to - from);
+                if (begin == end) {
+                    std::ranges::fill(values, 0.0f);
+                    continue;
+                }
+                const std::size_t first = begin - range.s0 - from, last = end - range.s0 - from;
+                std::ranges::fill(values.first(first), 0.0f);
+                std::ranges::fill(values.subspan(last), 0.0f);
+                const float* hogel = block.radiance + c * block.channel + t * block.row + (from + first) * block.hogel;
+                look_between({hogel + v * grid_.directions_u, hogel + (v + rows.next) * grid_.directions_u, block.hogel,
+                              columns.next, rows.high_weight[row]},
+                             {std::span(columns.low).subspan(begin, end - begin),
+                              std::span(columns.high_weight).subspan(begin, end - begin)},
+                             values.subspan(first, last - first));
+            }
+        }
+    }
+}
+
+template <class Sample>
+void Exposure::look_along_row(const Views<Sample>& views, const HogelRange& range, std::size_t t,
+                              View<float, 4> seen) const {
+    const std::size_t row = range.t0 + t, view = grid_.channels * grid_.hogels();
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+        const Run& columns = rays_[i].columns_of_directions;
+        const Run& rows = rays_[i].rows_of_directions;
+        const auto [begin, end] = rows.has(row) ? columns.within(range.s0, range.s0 + range.ns) : nothing;
+        if (begin == end) {
+            std::ranges::fill(seen[i][t].elements(), 0.0f);
+            continue;
+        }
+        for (std::size_t c = 0; c < grid_.channels; ++c) {
+            const std::span<float> values = seen[i][t][c].elements();
+            std::ranges::fill(values.first(begin - range.s0), 0.0f);
+            std::ranges::fill(values.subspan(end - range.s0), 0.0f);
+        }
+        const auto v = static_cast<std::size_t>(rows.low[row]);
+        // Neighbours between the same columns of directions are looked at together.
+        for (std::size_t first = begin, last = begin; first < end; first = last) {
+            const auto u = static_cast<std::size_t>(columns.low[first]);
+            while (last < end && static_cast<std::size_t>(columns.low[last]) == u) ++last;
+            const std::span<const float> weights = std::span(columns.high_weight).subspan(first, last - first);
+            for (std::size_t c = 0; c < grid_.channels; ++c) {
+                const std::size_t at = (c * grid_.hogels_t + row) * grid_.hogels_s + first;
+                const auto direction = [&](std::size_t down, std::size_t across) {
+                    return views.samples + (down * grid_.directions_u + across) * view + at;
+                };
+                look_along({direction(v, u), direction(v, u + columns.next), direction(v + rows.next, u),
+                            direction(v + rows.next, u + columns.next)},
+                           weights, rows.high_weight[row],
+                           seen[i][t][c].elements().subspan(first - range.s0, last - first));
+            }
+        }
+    }
+}
+
+void Exposure::expose_row(std::size_t row, const HogelRange& range, const HogelRange& cells,
+                          View<const float, 4> seen) {
+    const core::ThreadBuffer<float> line_buffer(range.ns);
+    const core::ThreadBuffer<std::int32_t> low_buffer(camera_.picture.width);
+    const std::span<float> line(line_buffer.data(), range.ns);
+    const std::span<std::int32_t> low(low_buffer.data(), low_buffer.size());
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+        const Run& rows = rays_[i].rows_of_hogels;
+        const Run& columns = rays_[i].columns_of_hogels;
+        if (row < rows.begin || row >= rows.end) continue;
+        const auto t = static_cast<std::size_t>(rows.low[row]);
+        if (t < cells.t0 || t >= cells.t0 + cells.nt) continue;
+        const std::size_t t0 = t - range.t0, t1 = t0 + rows.next;
+        const auto [begin, end] = columns.between(cells.s0, cells.ns);
+        if (begin == end) continue;
+        // The hogels beside these pixels, from the first to the last.
+        const std::size_t first = static_cast<std::size_t>(columns.low[begin]) - range.s0;
+        const std::size_t last = static_cast<std::size_t>(columns.low[end - 1]) - range.s0 + columns.next;
+        const std::span<const std::int32_t> places = std::span(columns.low).subspan(begin, end - begin);
+        const auto offset = static_cast<std::int32_t>(range.s0);
+        std::ranges::transform(places, low.begin(), [&](std::int32_t place) { return place - offset; });
+        for (std::size_t c = 0; c < grid_.channels; ++c) {
+            const std::span<const float> top = seen[i][t0][c].elements(), bottom = seen[i][t1][c].elements();
+            const std::size_t count = last - first + 1;
+            mix_lines(top.subspan(first, count), bottom.subspan(first, count), rows.high_weight[row],
+                      line.subspan(first, count));
+            add_between(line, columns.next,
+                        {low.first(end - begin), std::span(columns.high_weight).subspan(begin, end - begin)},
+                        film_[c][row].elements().subspan(begin, end - begin));
+        }
+    }
+}
+
+void Exposure::develop(Image& image) const {
+    const float mean = 1 / static_cast<float>(points_.size());
+    core::parallel_for(camera_.picture.height, [&](std::size_t row) {
+        for (std::size_t column = 0; column < camera_.picture.width; ++column)
+            for (std::size_t c = 0; c < grid_.channels; ++c)
+                image.pixels(row, column, c) = film_(c, row, column) * mean;
+    });
+}
+
+}  // namespace hogel::camera::rays

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/image/film.h"
+#include "hogel/ray_photograph.h"
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "hogel/camera/rays/exposure.h"
+#include "hogel/camera/rays/ray_blocks.h"
+#include "hogel/core/pieces.h"
+#include "hogel/core/rates.h"
+#include "hogel/core/shared_order.h"
+
+namespace hogel {
+namespace {
+
+using camera::rays::Block;
+using camera::rays::Exposure;
+using camera::rays::HeldHogels;
+using camera::rays::hold;
+
+struct FaceBlock {
+    std::size_t face;
+    Block block;
+};
+
+// Exposes films to the rays of blocks of hogels, in their order. Reading may involve rendering, so several blocks are
+// read in parallel. What is in memory is looked at where it is.
+void expose(std::span<const LightField::Source> faces, std::span<const FaceBlock> list, std::size_t blocks_at_once,
+            std::span<camera::rays::Exposure> exposures, const Progress& progress) {
+    for (camera::rays::Exposure& exposure : exposures)
+        exposure.keep_rays(camera::rays::max_kept_rays / exposures.size());
+    core::parallel_ordered<camera::rays::HeldHogels>(
+        list.size(), blocks_at_once,
+        [&](std::size_t i) { return camera::rays::hold(*faces[list[i].face], list[i].block.hogels); },
+        [&](std::size_t i, camera::rays::HeldHogels& held) {
+            const auto& [face, block] = list[i];
+            for (camera::rays::Exposure& exposure : exposures) exposure.add(face, held.block, block.cells);
+            progress.report(static_cast<double>(i + 1) / static_cast<double>(list.size()));
+        });
+}
+
+struct CameraRange {
+    std::size_t first = 0, count = 0;
+};
+
+// Groups of the cameras, each of which one process photographs: one for each process of a team, because all cameras of
+// a group share the reading of hogels; but one where pictures are kept, for any number of processes.
+std::vector<CameraRange> groups_of(std::size_t cameras) {
+    const Team* const all = core::team_of_several();
+    const std::size_t groups = all == nullptr || core::result_log() != nullptr ? 1 : std::min(all->size(), cameras);
+    std::vector<CameraRange> list;
+    for (std::size_t i = 0; i < groups; ++i)
+        list.push_back({i * cameras / groups, (i + 1) * cameras / groups - i * cameras / groups});
+    return list;
+}
+
+}  // namespace
+
+std::vector<Image> photograph(const LightField& light_field, std::span<const Camera> cameras, const RayCamera& options,
+                              const Progress& progress) {
+    std::vector<Image> pictures(cameras.size());
+    photograph_into(light_field, cameras, options, pictures, progress);
+    return pictures;
+}
+
+void photograph_into(const LightField& light_field, std::span<const Camera> cameras, const RayCamera& options,
+                     std::span<Image> pictures, const Progress& progress) {
+    const core::StopScope scope(progress);
+    image::require_a_picture_for_each(cameras, pictures);
+    const std::vector<LightFieldGrid> grids = light_field.grids();
+    const std::span<const LightField::Source> faces = light_field.faces();
+    for (const Camera& camera : cameras) camera::rays::require_ray_camera(camera);
+    image::load_film(cameras, light_field.grid().channels, light_field.provenance(), pictures);
+    std::vector<FaceBlock> list;
+    for (std::size_t face = 0; face < faces.size(); ++face)
+        for (const Block& block : camera::rays::blocks(grids[face])) list.push_back({face, block});
+    const std::size_t lens_points = std::max<std::size_t>(options.pupil_samples, 1);
+    const std::vector<CameraRange> groups = groups_of(cameras.size());
+    core::shared_jobs<std::vector<Image>>(
+        groups.size(), image::sent_pictures(),
+        [&](std::size_t i) {
+            const auto [first, count] = groups[i];
+            std::vector<camera::rays::Exposure> exposures;
+            for (const Camera& camera : cameras.subspan(first, count))
+                exposures.emplace_back(grids, camera, lens_points);
+            expose(faces, list, thread_count(), exposures, progress.part(i, groups.size()));
+            std::vector<Image> made(count);
+            for (std::size_t k = 0; k < count; ++k) {
+                made[k].pixels = std::move(pictures[first + k].pixels);  // whose memory is reused
+                exposures[k].develop(made[k]);
+            }
+            return made;
+        },
+        [&](std::size_t i, std::vector<Image>& made) {
+            for (std::size_t k = 0; k < made.size(); ++k)
+                pictures[groups[i].first + k].pixels = std::move(made[k].pixels);
+        });
+    Team* const all = core::team_of_several();
+    for (std::size_t i = 0; i < pictures.size() && all != nullptr; ++i) {
+        Array<float, 3>& pixels = pictures[i].pixels;
+        const Grid& picture = cameras[i].picture;
+        if (!all->is_first()) pixels = Array<float, 3>({picture.height, picture.width, light_field.grid().channels});
+        core::share_in_pieces<float>(*all, pixels.elements());
+    }
+}
+
+Plan plan_ray_photographs(std::span<const LightFieldGrid> faces, std::span<const Camera> cameras,
+                          const RayCamera& options) {
+    namespace rates = core::rates;
+    double hogels = 0;
+    for (const LightFieldGrid& face : faces) hogels += static_cast<double>(face.hogels());
+    const auto points = static_cast<double>(std::max<std::size_t>(options.pupil_samples, 1));
+    Plan plan;
+    plan.memory =
+        static_cast<double>(thread_count() + 1) * camera::rays::max_block_bytes;  // hogels that are being read
+    for (const Camera& camera : cameras) {
+        const auto pixels = static_cast<double>(camera.picture.samples());
+        const double rays = points * static_cast<double>(camera::rays::bytes_of_rays(faces.front(), camera));
+        const bool are_kept = rays <= static_cast<double>(camera::rays::max_kept_rays / cameras.size());
+        plan.memory += points * sizeof(Exposure::LensPoint) +
+                       pixels * static_cast<double>(faces.front().channels) * sizeof(float) + (are_kept ? rays : 0);
+        plan.seconds += rates::on_all_threads(points * (hogels * rates::seen_hogel + pixels * rates::seen_pixel));
+    }
+    return plan;
+}
+
+}  // namespace hogel

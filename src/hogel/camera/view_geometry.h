@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "hogel/field.h"
+#include "hogel/geometry.h"
+
+namespace hogel::camera {
+
+/// The geometry of a hologram as seen from the centre c of a lens. A point (x, y, 0) is in direction n = (x − c)/r, so
+/// n_x and n_y are direction sines. Light from there to a point δ of the pupil has, after demodulation by e^{ikr}, the
+/// frequency n'·δ/λ.
+class ViewGeometry {
+  public:
+    ViewGeometry(Vec3 eye, double wavelength) : eye_(eye), wavelength_(wavelength) {}
+
+    Vec3 eye() const { return eye_; }
+    double wavelength() const { return wavelength_; }
+    double distance(double x, double y) const {
+        return std::sqrt((x - eye_.x) * (x - eye_.x) + (y - eye_.y) * (y - eye_.y) + eye_.z * eye_.z);
+    }
+    /// The phase kr of the path from (x, y, 0) to the eye, in cycles.
+    double cycles(double x, double y) const { return distance(x, y) / wavelength_; }
+    double cosine(double x, double y) const { return eye_.z / distance(x, y); }
+    double sine_x(double x, double y) const { return (x - eye_.x) / distance(x, y); }
+    double sine_y(double x, double y) const { return (y - eye_.y) / distance(x, y); }
+
+  private:
+    Vec3 eye_;
+    double wavelength_;
+};
+
+}  // namespace hogel::camera

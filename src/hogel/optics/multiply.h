@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <complex>
+#include <span>
+
+namespace hogel::optics {
+
+/// out[x] = a[x] · b[x], for every x of `out`. Plain and fast twins agree to rounding.
+void multiply_plain(const std::complex<float>* a, const std::complex<float>* b, std::span<std::complex<float>> out);
+extern decltype(multiply_plain)& multiply;
+
+}  // namespace hogel::optics

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hogel/error.h"
+#include "hogel/math/fft.h"
+#include "hogel/patterns/pattern_parts.h"
+#include "hogel/units.h"
+
+namespace hogel::patterns {
+namespace {
+
+using Complex = std::complex<float>;
+
+constexpr double share_within_band = 0.95;
+
+// The carrier frequency of components in successive columns: one cycle per group of columns, which cannot be chosen.
+// Orders are at multiples of it, so it must be twice the field's band.
+double column_carrier(double band, std::size_t columns, double pitch) {
+    const double carrier = 1.0 / static_cast<double>(columns);
+    if (2 * band > carrier)
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("at a pitch of {} the light of the hologram reaches {:.3f} cycles a pixel, but groups "
+                        "of {} columns have room for {:.3f}; a pitch of {} would do",
+                        format_length(pitch), band, columns, carrier / 2, format_length(pitch * carrier / (2 * band))));
+    return carrier;
+}
+
+double degrees(double sine) { return std::asin(std::min(sine, 1.0)) * 180 / std::numbers::pi; }
+
+// The frequency f of the reference wave, cycles per sample. The fringe FR* is at −f and its conjugate at +f, each as
+// wide as F (half width `band`); |F|², which the intensity contains, is around zero and twice as wide. They must not
+// overlap, and all must be sampled: [K] 3.2.
+double reference_carrier(double band, const PatternOptions& options, double wavelength) {
+    const double pitch = options.modulator.pitch, to_sine = wavelength / pitch;
+    const double min_carrier = (options.encoding == Encoding::intensity ? 3 : 1) * band;
+    const double asked = std::sin(options.reference_angle) / to_sine;
+    const double carrier =
+        options.reference_angle == 0 ? std::max(min_carrier, 0.5 * (min_carrier + 0.5 - band)) : asked;
+    if (carrier < min_carrier * (1 - 1e-9))
+        throw Error(ErrorCode::usage,
+                    fmt::format("a reference beam at {:.2f} degrees overlaps the object, whose light reaches {:.2f} "
+                                "degrees; one at {:.2f} degrees would do",
+                                degrees(asked * to_sine), degrees(band * to_sine), degrees(min_carrier * to_sine)));
+    if (carrier + band > 0.5)
+        throw Error(ErrorCode::usage,
+                    fmt::format("the fringe of light to {:.2f} degrees with a reference beam at {:.2f} degrees is too "
+                                "fine for a pitch of {}; {} would do",
+                                degrees(band * to_sine), degrees(carrier * to_sine), format_length(pitch),
+                                format_length(pitch * 0.5 / (carrier + band))));
+    return carrier;
+}
+
+// From the middle of the useful order at -frequency to the light of others, cycles per sample: to the middle between
+// two orders of columns; to |F|² around zero, which the intensity contains; otherwise to what is not diffracted.
+double room_around(double frequency, double band, Encoding encoding) {
+    if (encoding == Encoding::burckhardt || encoding == Encoding::lee) return frequency / 2;
+    return encoding == Encoding::intensity ? frequency - 2 * band : frequency;
+}
+
+// The m-th of the `columns` non-negative real components of a complex number. Only the two adjacent to its phase are
+// not zero. If components are more than a right angle apart they can exceed the modulus, so all are scaled down.
+float component(Complex value, std::size_t m, std::size_t columns) {
+    const double sector = 2 * std::numbers::pi / static_cast<double>(columns);
+    const double away =
+        std::abs(std::remainder(std::arg(value) - sector * static_cast<double>(m), 2 * std::numbers::pi));
+    if (away >= sector) return 0;
+    const double largest = columns < 4 ? 1 : std::sin(sector);
+    return static_cast<float>(std::abs(value) * std::sin(sector - away) / largest);
+}
+
+}  // namespace
+
+double band_along_x(View<const Complex, 2> field) {
+    const std::size_t width = field.extent(1);
+    const math::Fft2 fft(1, width);
+    std::vector<double> power(width / 2 + 1);
+    Array<Complex, 2> row({1, width});
+    double all = 0;
+    for (std::size_t y = 0; y < field.extent(0); ++y) {
+        std::copy_n(&field(y, 0), width, row.data());
+        fft.forward(row);
+        for (std::size_t j = 0; j < width; ++j) {
+            power[std::min(j, width - j)] += std::norm(row.data()[j]);
+            all += std::norm(row.data()[j]);
+        }
+    }
+    double within = 0;
+    for (std::size_t j = 0; j < power.size(); ++j)
+        if ((within += power[j]) >= share_within_band * all)
+            return (static_cast<double>(j) + 0.5) / static_cast<double>(width);
+    return 0.5;
+}
+
+Array<float, 2> encode_amplitude(View<const Complex, 2> field, const PatternOptions& options, double wavelength,
+                                 CarriedOrder& order) {
+    const double band = band_along_x(field), pitch = options.modulator.pitch;
+    const std::size_t columns = options.encoding == Encoding::burckhardt ? 3
+                                : options.encoding == Encoding::lee      ? 4
+                                                                         : 0;
+    order.frequency = columns > 0 ? column_carrier(band, columns, pitch) : reference_carrier(band, options, wavelength);
+    order.room = room_around(order.frequency, band, options.encoding);
+    order.angle = std::asin(std::min(1.0, order.frequency * wavelength / pitch));
+    for (std::size_t x = 0; x < field.extent(1); ++x)
+        order.carrier.push_back(
+            Complex(std::polar(1.0, -2 * std::numbers::pi * std::fmod(order.frequency * static_cast<double>(x), 1.0))));
+
+    Array<float, 2> values(field.shape());
+    for (std::size_t y = 0; y < field.extent(0); ++y)
+        for (std::size_t x = 0; x < field.extent(1); ++x) {
+            const Complex value = field(y, x), fringe = value * order.carrier[x];
+            float& out = values(y, x);
+            if (columns > 0)
+                out = component(value, x % columns, columns);
+            else if (options.encoding == Encoding::intensity)
+                out = std::norm(Complex(1) + fringe) / 4;
+            else if (options.encoding == Encoding::bipolar)
+                out = 0.5f * (1 + fringe.real());
+            else
+                out = fringe.real() > 0 ? 1.0f : 0.0f;
+            out = std::clamp(out, 0.0f, 1.0f);
+        }
+    return values;
+}
+
+}  // namespace hogel::patterns

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <numbers>
+#include <utility>
+
+#include "hogel/core/parallel.h"
+#include "hogel/optics/lines.h"
+#include "hogel/patterns/pattern_parts.h"
+
+namespace hogel::patterns {
+namespace {
+
+using Complex = std::complex<float>;
+using Numbers = Array<float, 2>;
+
+constexpr std::size_t max_pairs = 5;  // steps that are remembered
+constexpr double first_step = 0.25;   // root mean square of the first step, radians
+constexpr double sufficient = 1e-4;   // Armijo's share of the descent that the slope promises
+constexpr int max_halvings = 10;      // of a step that does not descend
+// The descent ends when the correlation gains less than this in so many steps.
+constexpr double min_gain = 5e-4;
+constexpr std::size_t watched_steps = 5;
+
+// Σ a b, in each row as eight sums, which vectors add.
+double dot(const Numbers& a, const Numbers& b) {
+    return sum_of_lines(a.extent(0), [&](std::size_t y) {
+        constexpr std::size_t together = 8;
+        const float *one = a.data() + y * a.extent(1), *other = b.data() + y * b.extent(1);
+        double sums[together] = {};
+        std::size_t x = 0;
+        for (; x + together <= a.extent(1); x += together)
+            for (std::size_t i = 0; i < together; ++i)
+                sums[i] += static_cast<double>(one[x + i]) * static_cast<double>(other[x + i]);
+        for (; x < a.extent(1); ++x) sums[0] += static_cast<double>(one[x]) * static_cast<double>(other[x]);
+        for (std::size_t i = 1; i < together; ++i) sums[0] += sums[i];
+        return sums[0];
+    });
+}
+
+// result = a + factor · b; any two may be the same array.
+void add(const Numbers& a, double factor, const Numbers& b, Numbers& result) {
+    core::parallel_for(a.extent(0), [&](std::size_t y) {
+        for (std::size_t x = 0; x < a.extent(1); ++x) result(y, x) = a(y, x) + static_cast<float>(factor) * b(y, x);
+    });
+}
+
+void add(Numbers& a, double factor, const Numbers& b) { add(a, factor, b, a); }
+
+// result = factor · a
+void multiply(const Numbers& a, double factor, Numbers& result) {
+    core::parallel_for(a.extent(0), [&](std::size_t y) {
+        for (std::size_t x = 0; x < a.extent(1); ++x) result(y, x) = static_cast<float>(factor) * a(y, x);
+    });
+}
+
+// The error of the pattern e^{iφ}, and its gradient ∂ε/∂φ = −Im(conj(g) e^{iφ}) with g the error's derivative by the
+// pattern, whose spectrum is FieldBand::derivative().
+class PatternError {
+  public:
+    PatternError(const FieldBand& band, const Shape<2>& shape)
+        : band_(band), rows_(shape[0]), columns_(shape[1]), along_(columns_), down_(rows_), plane_(shape) {}
+
+    double find(const Numbers& phases, Numbers& gradient) {
+        for_rows([&](std::size_t y, Complex* line) {
+            for (std::size_t x = 0; x < columns_; ++x) line[x] = std::polar(1.0f, phases(y, x));
+            along_.forward(line);
+        });
+        std::vector<FieldBand::Sums> sums(columns_);
+        for_columns([&](std::size_t x, Complex* column) {
+            down_.forward(column);
+            for (std::size_t y = 0; y < rows_; ++y) band_.add(y, x, column[y], sums[x]);
+        });
+        FieldBand::Sums sum;
+        for (const FieldBand::Sums& of_column : sums) sum += of_column;
+        const FieldBand::Match match = band_.match(sum);
+        for_columns([&](std::size_t x, Complex* column) {
+            for (std::size_t y = 0; y < rows_; ++y) column[y] = band_.derivative(match, y, x, column[y]);
+            down_.backward(column);
+        });
+        for_rows([&](std::size_t y, Complex* line) {
+            along_.backward(line);
+            for (std::size_t x = 0; x < columns_; ++x)
+                gradient(y, x) = -(std::conj(line[x]) * std::polar(1.0f, phases(y, x))).imag();
+        });
+        return match.error;
+    }
+
+  private:
+    static constexpr std::size_t lines_together = optics::lines_together;
+
+    // Calls row(y, samples) for each row, to change it.
+    template <class Row>
+    void for_rows(const Row& row) {
+        core::parallel_for(optics::blocks_of(rows_), [&](std::size_t block) {
+            const std::size_t first = block * lines_together;
+            for (std::size_t y = first; y < std::min(first + lines_together, rows_); ++y) row(y, &plane_(y, 0));
+        });
+    }
+
+    // Calls column(x, samples) for each column, to change it.
+    template <class Column>
+    void for_columns(const Column& column) {
+        core::parallel_for(optics::blocks_of(columns_), [&](std::size_t block) {
+            const std::size_t x0 = block * lines_together, count = std::min(lines_together, columns_ - x0);
+            Array<Complex, 2> lines({count, optics::stride_of(rows_)});
+            for (std::size_t y = 0; y < rows_; ++y)
+                for (std::size_t i = 0; i < count; ++i) lines(i, y) = plane_(y, x0 + i);
+            for (std::size_t i = 0; i < count; ++i) column(x0 + i, &lines(i, 0));
+            for (std::size_t y = 0; y < rows_; ++y)
+                for (std::size_t i = 0; i < count; ++i) plane_(y, x0 + i) = lines(i, y);
+        });
+    }
+
+    const FieldBand& band_;
+    std::size_t rows_, columns_;
+    math::Fft1 along_, down_;
+    Array<Complex, 2> plane_;
+};
+
+// The last steps s and the changes y of the gradient over them, which stand for the curvature: L-BFGS, Nocedal and
+// Wright, Numerical Optimization, 2nd ed., algorithm 7.4.
+class Curvature {
+  public:
+    // Takes both, and leaves arrays in their place with any numbers: those of the oldest pair, if it is forgotten.
+    void remember(Numbers& step, Numbers& change) {
+        const double product = dot(step, change);
+        if (!(product > 0)) return;
+        Pair pair;
+        if (pairs_.size() == max_pairs) {
+            pair = std::move(pairs_.front());
+            pairs_.pop_front();
+        } else {
+            pair = {Numbers(step.shape()), Numbers(change.shape()), 0};
+        }
+        std::swap(pair.step, step);
+        std::swap(pair.change, change);
+        pair.product = product;
+        pairs_.push_back(std::move(pair));
+    }
+
+    // The direction of descent that belongs to a gradient.
+    void find_direction(const Numbers& gradient, double samples, Numbers& d) const {
+        multiply(gradient, 1, d);
+        std::vector<double> along(pairs_.size());
+        for (std::size_t i = pairs_.size(); i-- > 0;) {
+            along[i] = dot(pairs_[i].step, d) / pairs_[i].product;
+            add(d, -along[i], pairs_[i].change);
+        }
+        const double scale = pairs_.empty()
+                                 ? -first_step / std::max(std::sqrt(dot(gradient, gradient) / samples), 1e-30)
+                                 : -pairs_.back().product / dot(pairs_.back().change, pairs_.back().change);
+        multiply(d, scale, d);
+        for (std::size_t i = 0; i < pairs_.size(); ++i)
+            add(d, -along[i] - dot(pairs_[i].change, d) / pairs_[i].product, pairs_[i].step);
+    }
+
+  private:
+    struct Pair {
+        Numbers step, change;
+        double product;
+    };
+    std::deque<Pair> pairs_;
+};
+
+}  // namespace
+
+// Descent on the phases φ for ε = 1 − C², with C the correlation of the field and of what an aperture for it lets
+// through of e^{iφ}; the light that the aperture blocks is free. The objective is that of Chakravarthula, Peng, Kollin,
+// Fuchs and Heide, Wirtinger holography, ACM TOG 38(6), 2019, in the field's own plane.
+Array<float, 2> descend_phases(View<const Complex, 2> field, const FieldBand& band, const PatternOptions& options,
+                               Convergence& convergence, const Progress& progress) {
+    PatternError error(band, field.shape());
+    const Shape<2> shape = field.shape();
+    Numbers phases(shape), gradient(shape), next(shape), next_gradient(shape), step(shape);
+    core::parallel_for(field.extent(0), [&](std::size_t y) {
+        for (std::size_t x = 0; x < field.extent(1); ++x) phases(y, x) = std::arg(field(y, x));
+    });
+    const std::size_t limit = options.iterations > 0 ? options.iterations : max_descent_steps;
+    double now = error.find(phases, gradient);
+    std::vector<double> correlations{std::sqrt(1 - now)};
+    Curvature curvature;
+    for (std::size_t k = 0; k < limit; ++k) {
+        progress.report(static_cast<double>(k) / static_cast<double>(limit));
+        curvature.find_direction(gradient, static_cast<double>(field.size()), step);
+        const double slope = dot(gradient, step);
+        if (!(slope < 0)) break;
+        double length = 1;
+        const auto error_of_next = [&] {
+            add(phases, length, step, next);
+            return error.find(next, next_gradient);
+        };
+        double then = error_of_next();
+        for (int i = 0; i < max_halvings && then > now + sufficient * length * slope; ++i) {
+            length *= 0.5;
+            then = error_of_next();
+        }
+        if (!(then < now)) break;
+        // The step as it was rounded, and the change, in the place of what is no longer needed.
+        add(next, -1, phases, step);
+        add(next_gradient, -1, gradient, gradient);
+        curvature.remember(step, gradient);
+        std::swap(phases, next);
+        std::swap(gradient, next_gradient);
+        now = then;
+        correlations.push_back(std::sqrt(1 - now));
+        if (k + 1 >= watched_steps &&
+            correlations.back() - correlations[correlations.size() - 1 - watched_steps] < min_gain)
+            break;
+    }
+    convergence = {correlations.size() - 1, correlations.back()};
+    for (float& phase : phases.elements()) {
+        const auto cycles = static_cast<float>(phase * (0.5 / std::numbers::pi));
+        phase = cycles - std::floor(cycles);
+    }
+    return phases;
+}
+
+}  // namespace hogel::patterns

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hogel/core/parallel.h"
+#include "hogel/error.h"
+#include "hogel/math/fft.h"
+#include "hogel/patterns/pattern_parts.h"
+
+namespace hogel::patterns {
+namespace {
+
+using Complex = std::complex<float>;
+
+Complex unit(Complex value) {
+    const float modulus = std::abs(value);
+    return modulus > 0 ? value / modulus : Complex(1);
+}
+
+// The first pixels of squares that cover a side of the modulator. The last square overlaps the one before if the side
+// is not a multiple.
+std::vector<std::size_t> squares_along(std::size_t side, std::size_t length) {
+    std::vector<std::size_t> starts;
+    for (std::size_t at = 0; at + side <= length; at += side) starts.push_back(at);
+    if (starts.back() + side < length) starts.push_back(length - side);
+    return starts;
+}
+
+}  // namespace
+
+void require_squares_fit(View<const Complex, 2> field, std::size_t side) {
+    const std::size_t max_side = std::min(field.extent(0), field.extent(1));
+    if (side < 2 || side > max_side)
+        throw Error(ErrorCode::usage, fmt::format("squares of {} pixels do not fit a modulator of {}x{}; 2 to {} do",
+                                                  side, field.extent(1), field.extent(0), max_side));
+}
+
+// Each square independently alternates between unit modulus and the moduli of the field's spectrum there, which are its
+// light field: Gerchberg and Saxton, Optik 35, 1972.
+Array<float, 2> iterate_phases(View<const Complex, 2> field, const PatternOptions& options, const Progress& progress) {
+    const std::size_t side = options.window, width = field.extent(1), height = field.extent(0);
+    require_squares_fit(field, side);
+    const std::vector<std::size_t> columns = squares_along(side, width), rows = squares_along(side, height);
+    const std::size_t iterations = options.iterations > 0 ? options.iterations : projections;
+    const math::Fft2 fft(side, side);
+    Array<float, 2> cycles(field.shape());
+    for (std::size_t j = 0; j < rows.size(); ++j) {
+        progress.report(static_cast<double>(j) / static_cast<double>(rows.size()));
+        core::parallel_for(columns.size(), [&](std::size_t i) {
+            const std::size_t x0 = columns[i], y0 = rows[j];
+            Array<Complex, 2> square({side, side});
+            Array<float, 2> moduli({side, side});
+            for (std::size_t y = 0; y < side; ++y) std::copy_n(&field(y0 + y, x0), side, &square(y, 0));
+            fft.forward(square);
+            for (std::size_t p = 0; p < square.size(); ++p) moduli.data()[p] = std::abs(square.data()[p]);
+            for (std::size_t k = 0; k <= iterations; ++k) {
+                for (std::size_t p = 0; p < square.size(); ++p)
+                    square.data()[p] = moduli.data()[p] * unit(square.data()[p]);
+                fft.backward(square);
+                if (k == iterations) break;
+                for (Complex& value : square.elements()) value = unit(value);
+                fft.forward(square);
+            }
+            // Where squares overlap, the pixels of the earlier one are kept.
+            const std::size_t skip_x = i > 0 ? columns[i - 1] + side - x0 : 0;
+            const std::size_t skip_y = j > 0 ? rows[j - 1] + side - y0 : 0;
+            for (std::size_t y = skip_y; y < side; ++y)
+                for (std::size_t x = skip_x; x < side; ++x) {
+                    const auto phase = static_cast<float>(std::arg(square(y, x)) * (0.5 / std::numbers::pi));
+                    cycles(y0 + y, x0 + x) = phase < 0 ? phase + 1 : phase;
+                }
+        });
+    }
+    return cycles;
+}
+
+}  // namespace hogel::patterns

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/pattern.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "hogel/core/parallel.h"
+#include "hogel/math/fft.h"
+#include "hogel/patterns/pattern_parts.h"
+#include "hogel/units.h"
+
+namespace hogel {
+
+using namespace patterns;
+
+namespace {
+
+using Complex = std::complex<float>;
+
+void require_fitting(const FieldGrid& grid, const PatternOptions& options) {
+    const Modulator& modulator = options.modulator;
+    if (modulator.width == 0 || modulator.height == 0 || !(modulator.pitch > 0) || modulator.levels < 2 ||
+        modulator.levels > 256)
+        throw Error(ErrorCode::usage,
+                    fmt::format("a modulator of {}x{} pixels at {} with {} levels cannot be; pixels "
+                                "need a pitch, and 2 to 256 levels",
+                                modulator.width, modulator.height, format_length(modulator.pitch), modulator.levels));
+    for (double pitch : {grid.plane.pitch_x, grid.plane.pitch_y})
+        if (std::abs(pitch - modulator.pitch) > 1e-3 * modulator.pitch)
+            throw Error(
+                ErrorCode::usage,
+                fmt::format("the hologram's samples are {} apart, but the modulator's pixels {}; make the "
+                            "hologram with hogels of whole pixels and a pitch of {}",
+                            format_length(pitch), format_length(modulator.pitch), format_length(modulator.pitch)));
+    if (!(options.clip >= 0 && options.clip < 1))
+        throw Error(ErrorCode::usage, "the share of samples that may be cut must lie in 0..1");
+}
+
+// The middle of the field, or the whole field with a dark border, in the size of the modulator.
+Array<Complex, 2> fit(const FieldSource& source, const Modulator& modulator) {
+    const Grid& plane = source.grid().plane;
+    Array<Complex, 2> field({modulator.height, modulator.width});
+    const std::size_t width = std::min(plane.width, modulator.width), height = std::min(plane.height, modulator.height);
+    const std::size_t left = (modulator.width - width) / 2, top = (modulator.height - height) / 2;
+    // Reads bands of rows on all threads, aligned as the source prefers.
+    const std::size_t y0 = (plane.height - height) / 2, rows = std::max<std::size_t>(64, source.alignment());
+    const std::size_t first = y0 / rows, bands = (y0 + height + rows - 1) / rows - first;
+    core::parallel_for(bands, [&](std::size_t band) {
+        const std::size_t from = std::max(y0, (first + band) * rows),
+                          to = std::min(y0 + height, (first + band + 1) * rows);
+        const Region region{(plane.width - width) / 2, from, width, to - from};
+        Array<Complex, 2> part({region.height, region.width});
+        source.read(region, 0, part);
+        for (std::size_t y = 0; y < region.height; ++y)
+            std::copy_n(&part(y, 0), width, &field(top + from - y0 + y, left));
+    });
+    return field;
+}
+
+// Calls element(i) for all elements of an array, row by row on all threads.
+template <class Element>
+void for_rows(const Shape<2>& shape, const Element& element) {
+    core::parallel_for(shape[0], [&](std::size_t y) {
+        for (std::size_t i = y * shape[1]; i < (y + 1) * shape[1]; ++i) element(i);
+    });
+}
+
+// Scales the field so that |F| <= 1 except for the share `clip` of its samples, whose modulus is clipped to 1. The
+// modulus that became 1.
+float normalise(Array<Complex, 2>& field, double clip) {
+    std::vector<float, CacheLineAllocator<float>> moduli(field.size());
+    for_rows(field.shape(), [&](std::size_t i) { moduli[i] = std::abs(field.data()[i]); });
+    std::erase(moduli, 0.0f);
+    if (moduli.empty()) throw Error(ErrorCode::usage, "the hologram is dark where the modulator is");
+    const auto above = static_cast<std::size_t>(clip * static_cast<double>(moduli.size()));
+    const auto largest = moduli.end() - 1 - static_cast<std::ptrdiff_t>(above);
+    std::nth_element(moduli.begin(), largest, moduli.end());
+    const float scale = 1 / *largest;
+    for_rows(field.shape(), [&](std::size_t i) {
+        Complex& value = field.data()[i];
+        value *= scale;
+        if (const float modulus = std::abs(value); modulus > 1) value /= modulus;
+    });
+    return 1 / scale;
+}
+
+float cycles_of(Complex value) {
+    const float cycles = std::arg(value) * static_cast<float>(0.5 / std::numbers::pi);
+    return cycles < 0 ? cycles + 1 : cycles;
+}
+
+Array<float, 2> encode_phase(View<const Complex, 2> field, const FieldBand& band, const PatternOptions& options,
+                             Convergence& convergence, const Progress& progress) {
+    if (options.encoding == Encoding::gerchberg_saxton) {
+        convergence.iterations = options.iterations > 0 ? options.iterations : projections;
+        return iterate_phases(field, options, progress);
+    }
+    if (options.encoding == Encoding::gradient) return descend_phases(field, band, options, convergence, progress);
+    Array<float, 2> cycles(field.shape());
+    core::parallel_for(field.extent(0), [&](std::size_t y) {
+        for (std::size_t x = 0; x < field.extent(1); ++x) {
+            cycles(y, x) = cycles_of(field(y, x));
+            if (options.encoding != Encoding::double_phase) continue;
+            const auto spread =
+                static_cast<float>(std::acos(std::min(1.0f, std::abs(field(y, x)))) * (0.5 / std::numbers::pi));
+            cycles(y, x) += (x + y) % 2 == 0 ? spread : -spread;
+            cycles(y, x) -= std::floor(cycles(y, x));
+        }
+    });
+    return cycles;
+}
+
+Array<std::uint8_t, 2> round_to_levels(View<const float, 2> values, unsigned levels, bool phases,
+                                       const PhaseCode& code) {
+    Array<std::uint8_t, 2> rounded(values.shape());
+    for_rows(values.shape(), [&](std::size_t i) {
+        const float value = values.data()[i];
+        if (phases) {  // phases wrap around from the last level to the first
+            double turns = value;
+            if (levels < 256) {
+                const auto level = static_cast<unsigned>(std::lround(value * static_cast<float>(levels))) % levels;
+                const unsigned of_256 = level * 256 / levels;
+                turns = of_256 / 256.0;
+            }
+            rounded.data()[i] = static_cast<std::uint8_t>(code.level(2 * std::numbers::pi * turns, 255));
+        } else {
+            const auto level = static_cast<unsigned>(std::lround(value * static_cast<float>(levels - 1)));
+            rounded.data()[i] = static_cast<std::uint8_t>(std::lround(level * 255.0 / (levels - 1)));
+        }
+    });
+    return rounded;
+}
+
+// The share of the modulator's light that is F times the carrier: |<E, F c>|² / (<F, F> pixels).
+double efficiency_of(View<const Complex, 2> transmitted, View<const Complex, 2> field, const Carrier& carrier) {
+    const FieldBand::Sums sums = sum_of_lines(field.extent(0), [&](std::size_t y) {
+        FieldBand::Sums row;
+        for (std::size_t x = 0; x < field.extent(1); ++x) {
+            const Complex wave = carrier.empty() ? field(y, x) : optics::times(field(y, x), carrier[x]);
+            row.product += std::complex<double>(optics::times(transmitted(y, x), std::conj(wave)));
+            row.energy += std::norm(wave);
+        }
+        return row;
+    });
+    return std::norm(sums.product) / (sums.energy * static_cast<double>(field.size()));
+}
+
+double mean_power(View<const Complex, 2> field) {
+    return sum_of_lines(field.extent(0),
+                        [&](std::size_t y) {
+                            double row = 0;
+                            for (std::size_t x = 0; x < field.extent(1); ++x) row += std::norm(field(y, x));
+                            return row;
+                        }) /
+           static_cast<double>(field.size());
+}
+
+struct LightShare {
+    double light = 0, all = 0;
+    void operator+=(const LightShare& other) {
+        light += other.light;
+        all += other.all;
+    }
+};
+
+// The share of the modulator's light that reproduces the moduli of the field's local spectra: (Σ|A||B|)²/Σ|B|² of A's
+// energy in each square.
+double light_field_efficiency_of(View<const Complex, 2> transmitted, View<const Complex, 2> field, std::size_t side) {
+    side = std::min({side, field.extent(0), field.extent(1)});
+    const math::Fft2 fft(side, side);
+    const LightShare share = sum_of_lines(field.extent(0) / side, [&](std::size_t row) {
+        Array<Complex, 2> shown({side, side}), wanted({side, side});
+        LightShare of_row;
+        const std::size_t y0 = row * side;
+        for (std::size_t x0 = 0; x0 + side <= field.extent(1); x0 += side) {
+            for (std::size_t y = 0; y < side; ++y) {
+                std::copy_n(&transmitted(y0 + y, x0), side, &shown(y, 0));
+                std::copy_n(&field(y0 + y, x0), side, &wanted(y, 0));
+            }
+            fft.forward(shown);
+            fft.forward(wanted);
+            double product = 0, energy = 0;
+            for (std::size_t f = 0; f < shown.size(); ++f) {
+                product += std::abs(shown.data()[f]) * std::abs(wanted.data()[f]);
+                energy += std::norm(wanted.data()[f]);
+                of_row.all += std::norm(shown.data()[f]);
+            }
+            if (energy > 0) of_row.light += product * product / energy;
+        }
+        return of_row;
+    });
+    return share.all > 0 ? share.light / share.all : 0;
+}
+
+}  // namespace
+
+bool is_phase_only(Encoding encoding) {
+    return encoding == Encoding::phase || encoding == Encoding::double_phase ||
+           encoding == Encoding::gerchberg_saxton || encoding == Encoding::gradient;
+}
+
+Table<EncodingInfo>& encodings() {
+    const auto row = [](const char* name, const char* text, Encoding encoding) {
+        return EncodingInfo{name, text, encoding, is_phase_only(encoding)};
+    };
+    static Table<EncodingInfo> table(
+        "encoding",
+        {
+            row("phase", "the field's own phase, its modulus forgotten", Encoding::phase),
+            row("double-phase", "the modulus as two phases on a checkerboard", Encoding::double_phase),
+            row("gerchberg-saxton", "phases by alternating projections", Encoding::gerchberg_saxton),
+            row("gradient", "phases by descent towards the field within its band", Encoding::gradient),
+            row("intensity", "amplitudes of the interference with a reference wave", Encoding::intensity),
+            row("bipolar", "amplitudes of the real part with a reference wave, raised", Encoding::bipolar),
+            row("burckhardt", "amplitudes of three real components in successive columns", Encoding::burckhardt),
+            row("lee", "amplitudes of four real components in successive columns", Encoding::lee),
+            row("binary", "amplitudes 0 and 1 by the sign of the real part with a reference wave", Encoding::binary),
+        });
+    return table;
+}
+
+Pattern encode_pattern(const FieldSource& source, const PatternOptions& options, const Progress& progress) {
+    const core::StopScope scope(progress);
+    require_fitting(source.grid(), options);
+    Array<Complex, 2> field = fit(source, options.modulator);
+    const double unit = normalise(field, options.clip);
+    Pattern pattern;
+    CarriedOrder order;
+    Convergence convergence;
+    const bool phases = is_phase_only(options.encoding);
+    const FieldBand band(field);
+    pattern.values = phases ? encode_phase(field, band, options, convergence, progress)
+                            : encode_amplitude(field, options, source.grid().wavelength, order);
+    pattern.levels = round_to_levels(pattern.values, options.modulator.levels, phases, options.phase_code);
+    const Array<Complex, 2> transmitted = transmission(pattern, options.encoding, options.phase_code);
+    pattern.efficiency = efficiency_of(transmitted, field, order.carrier);
+    pattern.power = unit * unit * mean_power(field) / pattern.efficiency;
+    pattern.reference_angle = order.angle;
+    pattern.aperture = phases ? band.aperture() : aperture_around(order, band.aperture());
+    if (!phases) return pattern;
+    pattern.light_field_efficiency = light_field_efficiency_of(transmitted, field, options.window);
+    pattern.iterations = convergence.iterations;
+    Array<Complex, 2> spectrum = transmitted;
+    pattern.correlation = std::sqrt(1 - band.match(spectrum).error);
+    return pattern;
+}
+
+Encoding suitable_encoding(const FieldSource& source, const PatternOptions& options) {
+    return find_suitable(options, {},
+                         [&](const PatternOptions& tried, const Progress& progress) {
+                             return std::vector{encode_pattern(source, tried, progress)};
+                         })
+        .encoding;
+}
+
+Array<Complex, 2> transmission(const Pattern& pattern, Encoding encoding, const PhaseCode& phase_code) {
+    Array<Complex, 2> result(pattern.levels.shape());
+    std::array<Complex, 256> of_level;
+    for (std::size_t level = 0; level < of_level.size(); ++level)
+        of_level[level] = is_phase_only(encoding)
+                              ? Complex(std::polar(1.0, phase_code.phase(static_cast<double>(level), 255)))
+                              : Complex(static_cast<float>(static_cast<double>(level) / 255));
+    for_rows(result.shape(), [&](std::size_t i) { result.data()[i] = of_level[pattern.levels.data()[i]]; });
+    return result;
+}
+
+}  // namespace hogel

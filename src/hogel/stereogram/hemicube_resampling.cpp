@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/stereogram/hemicube_resampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace hogel::stereogram {
+namespace {
+
+// The maximum of points per lobe along each axis. More would only matter for rays close to the hologram plane, which
+// are dense in frequency.
+constexpr double max_points = 12;
+
+// The width, in rays of the face, of a cell of direction sines around a direction of unit length, by finite
+// differences.
+double width_in_rays(const LightFieldGrid& face, Vec3 direction, double step, bool line) {
+    const auto place = [&](double sx, double sy) {
+        const Vec3 q = to_face(face.face(), {sx, sy, std::sqrt(std::max(1e-6, 1 - sx * sx - sy * sy))});
+        return Vec3{face.column(q.x / q.z), line ? 0 : face.row(q.y / q.z), 0};
+    };
+    constexpr double little = 0.05;
+    const Vec3 here = place(direction.x, direction.y);
+    return std::max(length(place(direction.x + little * step, direction.y) - here),
+                    length(place(direction.x, direction.y + little * step) - here)) /
+           little;
+}
+
+// Adds the four rays around a direction with their bilinear weights, or the nearest one. Rays at the border extend to
+// the face's edge.
+void add_rays(const LightFieldGrid& face, std::size_t first, Vec3 direction, Interpolation between, double weight,
+              std::map<std::uint32_t, double>& sum) {
+    const Vec3 q = to_face(face.face(), direction);
+    const auto inside = [](double at, std::size_t count) {
+        return std::clamp(at, 0.0, static_cast<double>(count) - 1);
+    };
+    double k = inside(face.column(q.x / q.z), face.directions_u), l = inside(face.row(q.y / q.z), face.directions_v);
+    if (between == Interpolation::constant) {
+        k = std::round(k);
+        l = std::round(l);
+    }
+    const auto k0 = static_cast<std::size_t>(k), l0 = static_cast<std::size_t>(l);
+    const double a = k - static_cast<double>(k0), b = l - static_cast<double>(l0);
+    for (const std::size_t j : {0, 1})
+        for (const std::size_t i : {0, 1}) {
+            const double part = weight * (i == 1 ? a : 1 - a) * (j == 1 ? b : 1 - b);
+            if (part > 0) sum[static_cast<std::uint32_t>(first + (l0 + j) * face.directions_u + k0 + i)] += part;
+        }
+}
+
+}  // namespace
+
+HemicubeResampling scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t samples, double step_up, bool line,
+                                 double wavelength, Interpolation between) {
+    const double step = wavelength / faces.front().pitch;
+    const auto n = static_cast<std::ptrdiff_t>(samples);
+    const std::ptrdiff_t reach = (n - 1) / 2;
+    HemicubeResampling result;
+    const std::ptrdiff_t reach_up = line ? 0 : reach;
+    for (std::ptrdiff_t jy = -reach_up; jy <= reach_up; ++jy)
+        for (std::ptrdiff_t jx = -reach; jx <= reach; ++jx) {
+            const double sx = -step * static_cast<double>(jx), sy = -step * static_cast<double>(jy);
+            const double cos2 = 1 - sx * sx - sy * sy;
+            if (cos2 <= 0) continue;
+            const Vec3 middle{sx, sy, std::sqrt(cos2)};
+            double rays = 1;
+            for (const LightFieldGrid& face : faces)
+                if (face.covers(middle)) rays = std::max(rays, width_in_rays(face, middle, step, line));
+            const auto points = static_cast<int>(std::min(max_points, std::ceil(2 * rays)));
+            const int all = line ? points : points * points;
+            std::map<std::uint32_t, double> sum;
+            for (int p = 0; p < all; ++p) {
+                const int across = p % points, down = p / points;
+                const double x = sx + step * ((across + 0.5) / points - 0.5);
+                const double y = line ? 0 : sy + step * ((down + 0.5) / points - 0.5);
+                if (x * x + y * y >= 1) continue;
+                const Vec3 direction{x, y, std::sqrt(1 - x * x - y * y)};
+                std::size_t first = 0;
+                for (const LightFieldGrid& face : faces) {
+                    if (face.covers(direction)) {
+                        add_rays(face, first, direction, between, 1.0 / all, sum);
+                        break;
+                    }
+                    first += face.directions();
+                }
+            }
+            if (sum.empty()) continue;
+            // Rows are counted downwards but y upwards, so a row of the DFT is −j_y.
+            const auto row = static_cast<std::size_t>(line ? 0 : (n - jy) % n),
+                       column = static_cast<std::size_t>((n + jx) % n);
+            result.lobes.push_back(
+                {static_cast<std::uint32_t>(row * samples + column), static_cast<std::uint32_t>(result.rays.size()),
+                 static_cast<std::uint32_t>(sum.size()), static_cast<float>(step * step_up / middle.z)});
+            for (const auto& [ray, weight] : sum) {
+                result.rays.push_back(ray);
+                result.weights.push_back(static_cast<float>(weight));
+            }
+        }
+    return result;
+}
+
+void average_scattered(const HemicubeResampling& lobes, std::size_t first, std::size_t count,
+                       View<const float, 2> values, bool of_roots, float* out) {
+    const std::size_t hogels = values.extent(1);
+    for (const HemicubeResampling::Lobe& lobe : std::span(lobes.lobes).subspan(first, count)) {
+        std::fill_n(out, hogels, 0.0f);
+        for (std::uint32_t i = lobe.first; i < lobe.first + lobe.count; ++i) {
+            const float* from = &values(lobes.rays[i], 0);
+            for (std::size_t h = 0; h < hogels; ++h) out[h] += lobes.weights[i] * from[h];
+        }
+        for (std::size_t h = 0; h < hogels; ++h)
+            out[h] = of_roots ? out[h] * std::sqrt(lobe.scale) : std::sqrt(std::max(out[h], 0.0f) * lobe.scale);
+        out += hogels;
+    }
+}
+
+}  // namespace hogel::stereogram

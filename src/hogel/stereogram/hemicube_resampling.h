@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hogel/light_field.h"
+
+namespace hogel::stereogram {
+
+/// The interpolation of a light field between its samples.
+enum class Interpolation {
+    linear,    ///< linear interpolation
+    constant,  ///< the nearest sample, constant over the sample's cell
+};
+
+/// Resamples the rays of several faces of a hemicube to the lobes of a hogel's frequencies. A lobe is the mean over
+/// points of its cell in frequency, two or more for each ray that it covers; each point is looked up, interpolated, in
+/// the first face that has its direction. Points in no face, and evanescent frequencies, are dark.
+struct HemicubeResampling {
+    struct Lobe {
+        std::uint32_t coefficient;   // of the DFT: [j_y mod n][j_x mod n], rows counted downwards
+        std::uint32_t first, count;  // range of its rays and weights
+        float scale;                 // (λ/d)² / cos θ, applied under the root
+    };
+    std::vector<Lobe> lobes;
+    std::vector<std::uint32_t> rays;  // indices into the rays of all faces, face after face, [v][u] in each
+    std::vector<float> weights;
+};
+
+/// @param step_up  the height of a cell as a direction sine; for a line of frequencies a factor in the scale
+/// @param line     frequencies along x only, from faces with one row of directions
+HemicubeResampling scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t samples, double step_up, bool line,
+                                 double wavelength, Interpolation between);
+
+/// out[lobe][hogel] = √(scale · Σ weight · values[ray][hogel]) for `count` lobes from number `first` on; if the values
+/// are already roots, √scale · Σ.
+void average_scattered(const HemicubeResampling& lobes, std::size_t first, std::size_t count,
+                       View<const float, 2> values, bool of_roots, float* out);
+
+}  // namespace hogel::stereogram

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hogel/stereogram/points.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "hogel/core/parallel.h"
+#include "hogel/error.h"
+
+namespace hogel::stereogram {
+
+Field point_hologram(std::span<const PointSource> points, const FieldGrid& grid) {
+    validate(grid, ErrorCode::usage, "point hologram");
+    for (const PointSource& point : points)
+        if (!(point.position.z != 0) || !std::isfinite(length(point.position)))
+            throw Error(ErrorCode::usage,
+                        "point hologram: a point lies on the hologram plane, where its wave is singular");
+    Field field(grid);
+    const double k = 2 * std::numbers::pi / grid.wavelength;
+    core::parallel_for(grid.plane.height, [&](std::size_t row) {
+        for (std::size_t column = 0; column < grid.plane.width; ++column) {
+            const Vec3 here{grid.plane.x(static_cast<double>(column)), grid.plane.y(static_cast<double>(row)), 0};
+            std::complex<double> sum = 0;
+            for (const PointSource& point : points) {
+                const double r = length(here - point.position);
+                // From a point behind the plane (z < 0) the wave diverges; to a point in front of it the wave converges
+                // and arrives there with the point's phase.
+                const double travelled = point.position.z < 0 ? r : -r;
+                sum += std::polar(point.amplitude / r, k * travelled + point.phase);
+            }
+            field.samples(row, column) = std::complex<float>(sum);
+        }
+    });
+    return field;
+}
+
+}  // namespace hogel::stereogram
