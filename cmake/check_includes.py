@@ -15,7 +15,7 @@ import re
 import sys
 
 THIRD_PARTY = {  # first part of the include path -> the modules or folders that may name it; None: any
-    "tbb": {"core"}, "fftw3.h": {"math"}, "OpenEXR": {"image/formats"}, "Imath": {"image/formats"}, "png.h": {"image/formats"},
+    "tbb": {"core", "work"}, "fftw3.h": {"math"}, "OpenEXR": {"image/formats"}, "Imath": {"image/formats"}, "png.h": {"image/formats"},
     "jpeglib.h": {"image/formats"}, "stb": {"image/formats"}, "tiffio.h": {"image/formats"}, "webp": {"image/formats"}, "assimp": {"scene"}, "draco": {"scene"}, "meshoptimizer.h": {"scene"}, "embree3": {"trace"},
     "hdf5.h": {"io/hdf5"}, "hwy": {"camera", "codec", "core", "direct", "fringes", "lightfield", "math", "optics",
             "render", "shading", "simplex", "stereogram"}, "fmt": None,

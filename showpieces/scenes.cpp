@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/scene/analytic_scenes.h"
 #include "showpieces/showpieces.h"

@@ -12,7 +12,6 @@
 
 #include "hogel/bake.h"
 #include "hogel/compress.h"
-#include "hogel/core/parallel.h"
 #include "hogel/core/test_errors.h"
 #include "hogel/core/test_stop.h"
 #include "hogel/hologram.h"
@@ -26,6 +25,9 @@
 #include "hogel/scenes.h"
 #include "hogel/shading.h"
 #include "hogel/units.h"
+#include "hogel/work/parallel.h"
+
+#include "hogel/core/stop_scope.h"
 
 namespace hogel {
 namespace {
@@ -37,7 +39,7 @@ core::StoppedWork* items = nullptr;
 
 // Work that takes a minute on all threads.
 void work_for_a_minute() {
-    core::parallel_for(60000 * thread_count(), [](std::size_t) { items->item(); });
+    work::parallel_for(60000 * thread_count(), [](std::size_t) { items->item(); });
 }
 
 class SlowLightField final : public LightFieldSource {

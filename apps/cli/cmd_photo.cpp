@@ -208,8 +208,10 @@ void record_photograph(RunRecord& record, const Options& options, InputKind kind
     // EXR files hold linear values, which no exposure multiplies.
     if (options.display == "intensity" && output.extension() != ".exr") record.acted({"exposure"});
     if (kind != InputKind::hologram) record.acted(geometric ? "geometric" : "wave", "yes");
-    if (kind == InputKind::hologram && options.camera == "auto") record.acted("camera", "narrow");
-    record.acted({geometric ? "pupil-samples" : "camera"});
+    if (geometric)
+        record.acted({"pupil-samples"});
+    else
+        record.acted("camera", kind == InputKind::hologram && options.camera == "auto" ? "narrow" : options.camera);
     if (kind == InputKind::hologram && options.camera != "full") record.acted({"diffuser"});
     if (!geometric && options.camera == "full") record.acted({"film-distance"});
     if (options.preview) record.acted({"preview"});

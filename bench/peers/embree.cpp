@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "bench/peers/renderers.h"
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::bench {
 namespace {
@@ -57,7 +57,7 @@ class EmbreePeer final : public RenderPeer {
         values_.resize(hogels.size() * 3 * grid_.directions());
         const std::size_t rows = (grid_.directions_v + side - 1) / side;
         const std::size_t bands = (rows + rows_of_squares - 1) / rows_of_squares;
-        core::parallel_for(hogels.size() * bands, [&](std::size_t task) {
+        work::parallel_for(hogels.size() * bands, [&](std::size_t task) {
             const std::size_t hogel = task / bands, first = task % bands * rows_of_squares;
             float* values = values_.data() + hogel * 3 * grid_.directions();
             for (std::size_t row = first; row < std::min(rows, first + rows_of_squares); ++row)

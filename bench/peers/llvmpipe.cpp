@@ -28,7 +28,7 @@ std::unique_ptr<RenderPeer> make_llvmpipe_peer(const ShadedScene&, const LightFi
 #include <exception>
 #include <thread>
 
-#include "hogel/core/parallel.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::bench {
 namespace {

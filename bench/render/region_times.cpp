@@ -8,7 +8,7 @@
 #include "bench/measure.h"
 #include "bench/render/direction_slabs.h"
 #include "bench/session.h"
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/render/layers.h"
 #include "hogel/render/visits.h"
 #include "hogel/renderer.h"

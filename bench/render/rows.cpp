@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/core/parallel.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::bench {
 
@@ -21,7 +21,7 @@ HogelRows::HogelRows(const LightFieldSource& source, std::size_t rows) : source_
 }
 
 void HogelRows::render() {
-    core::parallel_for(tiles_.size(), [&](std::size_t i) { source_.read(tiles_[i]); });
+    work::parallel_for(tiles_.size(), [&](std::size_t i) { source_.read(tiles_[i]); });
 }
 
 std::vector<HogelPlace> HogelRows::some(std::size_t count) const {

@@ -9,9 +9,9 @@
 #include "bench/measure.h"
 #include "bench/render/render.h"
 #include "bench/render/rows.h"
-#include "hogel/core/parallel.h"
 #include "hogel/renderer.h"
 #include "hogel/resources.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::bench {
 namespace {
@@ -102,7 +102,7 @@ void print_limits(const std::string& algorithm, const LightFieldGrid& grid, doub
     constexpr int not_zero = 0x3f;
     const double writing = median_time_of(
                                [&] {
-                                   core::parallel_for(some.tiles().size(), [&](std::size_t i) {
+                                   work::parallel_for(some.tiles().size(), [&](std::size_t i) {
                                        const auto values = some.tiles()[i].radiance.elements();
                                        std::memset(values.data(), not_zero, values.size_bytes());
                                    });

@@ -11,7 +11,7 @@
 
 namespace hogel {
 
-namespace core {
+namespace work {
 class ResultLog;
 }
 
@@ -40,7 +40,7 @@ class HOGEL_API ResumeScope {
     void complete();
 
   private:
-    std::unique_ptr<core::ResultLog> log_;
+    std::unique_ptr<work::ResultLog> log_;
 };
 
 }  // namespace hogel

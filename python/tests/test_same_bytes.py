@@ -167,7 +167,7 @@ class SameBytes(InFolder):
         self.assert_same_picture("waves.png", hogel.Hologram.open("holo.h5").photograph(**camera))
         command_line("hologram", "lf.h5", "-o", "red.h5", "--wavelength", "633nm")
         command_line("photo", "red.h5", "-o", "full.png", "--pupil", "2mm", "--resolution", "40", "--camera", "full")
-        self.assert_same_picture("full.png", hogel.Hologram.open("red.h5").photograph(pupil="2mm", resolution=40, camera="full"))
+        self.assert_same_picture("full.png", hogel.Hologram.open("red.h5").photograph(pupil="2mm", resolution=40, camera="plane-waves"))
         command_line("photo", "lf.h5", "-o", "expected.png", *view, "--wave", "--looks", "expected")
         expected = hogel.LightField.open("lf.h5").hologram().photograph(**camera, expected=True)
         self.assert_same_picture("expected.png", expected)

@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "fuzz_file.h"
-#include "hogel/core/checkpoint_file.h"
 #include "hogel/file_part.h"
+#include "hogel/work/checkpoint_file.h"
 
 namespace {
 
@@ -19,7 +19,7 @@ void repair(std::uint8_t* data, std::size_t size) {
     std::string_view file(reinterpret_cast<const char*>(data), size);
     const std::size_t begin = file.find(before);
     if (begin == std::string_view::npos) return;
-    constexpr std::size_t head = core::checkpoint_record_head_bytes(0);
+    constexpr std::size_t head = work::checkpoint_record_head_bytes(0);
     for (std::size_t at = begin + before.size(); size - at >= head;) {
         std::uint64_t lengths[2];
         std::memcpy(lengths, data + at + 8, sizeof lengths);
@@ -28,7 +28,7 @@ void repair(std::uint8_t* data, std::size_t size) {
         std::vector<std::uint64_t> key(lengths[0]);
         if (!key.empty()) std::memcpy(key.data(), data + at + head, 8 * key.size());
         const std::size_t bytes = at + head + 8 * key.size();
-        std::memcpy(data + at, core::checkpoint_record_head(key, file.substr(bytes, lengths[1])).data(), 8);
+        std::memcpy(data + at, work::checkpoint_record_head(key, file.substr(bytes, lengths[1])).data(), 8);
         at = bytes + lengths[1];
     }
 }
@@ -51,7 +51,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::expect_bad_input([&] { join_parts(joined, {&file.path(), 1}); });
     std::filesystem::remove(joined);
     fuzz::expect_bad_input([&] {
-        core::CheckpointReader reader(file.path(), "checkpoint");
+        work::CheckpointReader reader(file.path(), "checkpoint");
         while (reader.read()) {
         }
     });

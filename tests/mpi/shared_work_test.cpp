@@ -8,9 +8,10 @@
 #include <numeric>
 #include <vector>
 
-#include "hogel/core/pieces.h"
-#include "hogel/core/shared_order.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/optics/distributed/shared_plane.h"
+#include "hogel/work/pieces.h"
+#include "hogel/work/shared_order.h"
 #include "mpi/test_ranks.h"
 
 namespace hogel::mpi {
@@ -25,11 +26,11 @@ TEST_P(SharedWorkTest, TheFirstMergesAllInOrder) {
     std::atomic<bool> too_far{false};
     std::vector<std::atomic<int>> computed(n);
     run_ranks(GetParam(), [&](RankTeam& team) {
-        core::ordered_in_team(
+        work::ordered_in_team(
             team, n, in_flight,
             [&](std::size_t i) {
                 ++computed[i];
-                if (i >= merged + core::tiles_in_flight(in_flight) * GetParam()) too_far = true;
+                if (i >= merged + work::tiles_in_flight(in_flight) * GetParam()) too_far = true;
                 if (i % 50 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
                 return std::string(i % 7, 'x') + std::to_string(i);
             },
@@ -55,7 +56,7 @@ TEST_P(SharedWorkTest, JobsAreDoneOneByOne) {
     std::vector<std::atomic<int>> computed(n);
     run_ranks(GetParam(), [&](RankTeam& team) {
         std::atomic<int> at_work = 0;
-        core::ordered_in_team(
+        work::ordered_in_team(
             team, n, 1,
             [&](std::size_t i) {
                 EXPECT_EQ(++at_work, 1);
@@ -83,7 +84,7 @@ TEST_P(SharedWorkTest, ResultsThatComeEarlyWaitForTheirLoop) {
     std::vector<std::size_t> merged;
     run_ranks(GetParam(), [&](RankTeam& team) {
         for (std::size_t loop = 0; loop < 5; ++loop) {
-            core::ordered_in_team(
+            work::ordered_in_team(
                 team, 20, 2, [&](std::size_t i) { return std::to_string(100 * loop + i); },
                 [&](std::size_t, std::string_view bytes) {
                     merged.push_back(std::stoul(std::string(bytes)));
@@ -105,7 +106,7 @@ TEST_P(SharedWorkTest, AFailureEndsAll) {
             team.stop_with(stop);
             const core::StopScope scope(Progress(stop.get_token()));
             try {
-                core::ordered_in_team(
+                work::ordered_in_team(
                     team, 400, 2,
                     [&](std::size_t i) -> std::string {
                         if (!merging && i == 100) throw Error(ErrorCode::bad_input, "damaged");
@@ -183,7 +184,7 @@ TEST_P(SharedWorkTest, AllGetTheNumbersOfTheFirst) {
         for (const std::size_t count : {0, 1, 262'144, 262'145, 700'001}) {
             std::vector<float> numbers(count, static_cast<float>(team.rank()));
             if (team.is_first()) std::iota(numbers.begin(), numbers.end(), 3.0f);
-            core::share_in_pieces<float>(team, numbers);
+            work::share_in_pieces<float>(team, numbers);
             for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(numbers[i], static_cast<float>(i) + 3) << count;
         }
         EXPECT_FALSE(team.settle({}, patience)->failed);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/render/oblique_triangle.h"
 #include "hogel/render/visits.h"

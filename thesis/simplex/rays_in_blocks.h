@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/light_field.h"
 #include "hogel/render/span.h"
 

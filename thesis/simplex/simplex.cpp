@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "thesis/simplex/simplex.h"
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/render/oblique_triangle.h"
 #include "hogel/render/region_memory.h"
 #include "hogel/render/visits.h"

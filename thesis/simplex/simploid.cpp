@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/render/region_memory.h"
 #include "thesis/simplex/slab.h"
 

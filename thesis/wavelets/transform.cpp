@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/work/parallel.h"
 #include "thesis/wavelets/dct.h"
 #include "thesis/wavelets/line.h"
 
@@ -80,7 +80,7 @@ void transform_lines(const Plan& plan, Direction direction, const Lines& lines, 
     // A task transforms several tiles, enough to outweigh its overhead.
     const std::size_t tiles = (lines.count() + lane_count - 1) / lane_count;
     const std::size_t batch = std::max<std::size_t>(1, (std::size_t{1} << 16) / (plan.length() * lane_count));
-    core::parallel_for((tiles + batch - 1) / batch, [&](std::size_t task) {
+    work::parallel_for((tiles + batch - 1) / batch, [&](std::size_t task) {
         std::vector<float> tile(plan.length() * lane_count);
         std::array<std::size_t, lane_count> starts;
         for (std::size_t t = task * batch; t < std::min(tiles, (task + 1) * batch); ++t) {

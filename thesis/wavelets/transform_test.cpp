@@ -6,9 +6,9 @@
 #include <cmath>
 #include <random>
 
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/math/dct.h"
+#include "hogel/work/parallel.h"
 #include "thesis/wavelets/dct.h"
 #include "thesis/wavelets/line.h"
 

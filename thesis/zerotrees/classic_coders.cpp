@@ -12,7 +12,7 @@
 #include "hogel/codec/format/unfolded.h"
 #include "hogel/codec/tile_coder.h"
 #include "hogel/coding/histogram_rule.h"
-#include "hogel/core/parallel.h"
+#include "hogel/work/parallel.h"
 #include "thesis/wavelets/transform.h"
 #include "thesis/zerotrees/ezw.h"
 #include "thesis/zerotrees/jpeg4d.h"
@@ -53,7 +53,7 @@ class ClassicCoder : public TileCoder {
         const wavelets::Pyramid pyramid = to_coefficients(work);
         const std::size_t channels = tile.radiance.extent(0);
         std::vector<std::vector<std::uint8_t>> codes(channels);
-        core::parallel_for(
+        work::parallel_for(
             channels, [&](std::size_t c) { codes[c] = encode_channel(pyramid, work.radiance[c].elements(), step); });
         shorten(codes, max_bytes);
         ByteWriter writer;
@@ -123,7 +123,7 @@ class ClassicCoder : public TileCoder {
     // Inverts the transform of the coefficients that make(channel, values) fills in, and combines the colours.
     template <class Make>
     void restore(const wavelets::Pyramid& back, LightFieldTile& tile, Make&& make) const {
-        core::parallel_for(tile.radiance.extent(0), [&](std::size_t c) {
+        work::parallel_for(tile.radiance.extent(0), [&](std::size_t c) {
             const std::span<float> values = tile.radiance[c].elements();
             make(c, values);
             transform_.inverse(back, values);

@@ -3,9 +3,9 @@
 #include <numbers>
 
 #include "hogel/camera/models.h"
-#include "hogel/core/parallel.h"
 #include "hogel/math/quadrature.h"
 #include "hogel/photograph.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel {
 namespace {
@@ -55,7 +55,7 @@ void sum_directly(const FieldSource& hologram, const Camera& camera, const Direc
     for (std::size_t look = 0; look < hologram.looks(); ++look) {
         hologram.read({0, 0, plane.width, plane.height}, look, field);
         // Rayleigh and Sommerfeld: every sample of the hologram sends a wave z/(iλr²) e^{ikr} to the pupil.
-        core::parallel_for(pupil.size(), [&](std::size_t i) {
+        work::parallel_for(pupil.size(), [&](std::size_t i) {
             DoubleComplex sum = 0;
             for (std::size_t row = 0; row < plane.height; ++row)
                 for (std::size_t column = 0; column < plane.width; ++column) {
@@ -66,7 +66,7 @@ void sum_directly(const FieldSource& hologram, const Camera& camera, const Direc
             pupil[i].field = sum * plane.pitch_x * plane.pitch_y / DoubleComplex(0, grid.wavelength);
         });
         // A perfect lens: waves from a point p of the plane in focus arrive in phase at the image of p on the film.
-        core::parallel_for(camera.picture.height, [&](std::size_t row) {
+        work::parallel_for(camera.picture.height, [&](std::size_t row) {
             for (std::size_t column = 0; column < camera.picture.width; ++column)
                 for (std::size_t b = 0; b < subpixels; ++b)
                     for (std::size_t a = 0; a < subpixels; ++a) {

@@ -8,10 +8,10 @@
 #include "hogel/camera/eye_drawings.h"
 #include "hogel/camera/film/film.h"
 #include "hogel/camera/photograph_plan.h"
-#include "hogel/core/parallel.h"
-#include "hogel/core/shared_order.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/image/film.h"
 #include "hogel/photograph.h"
+#include "hogel/work/shared_order.h"
 
 namespace hogel {
 
@@ -35,7 +35,7 @@ struct SeenColour {
 
     // The wave of the next look, in each process of a team.
     film::PupilWave draw(std::size_t look) const {
-        const core::JobScope alone;
+        const work::JobScope alone;
         auto bands = drawing->draw(look, 1, {});
         return film->pupil_wave(bands.front().front());
     }

@@ -9,9 +9,9 @@
 #include "hogel/camera/narrow_band/narrow_band.h"
 #include "hogel/camera/photograph_plan.h"
 #include "hogel/camera/view_geometry.h"
-#include "hogel/core/parallel.h"
 #include "hogel/core/rates.h"
 #include "hogel/image/film.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::camera {
 namespace {
@@ -130,7 +130,7 @@ struct FineRows {
             weights[i] = static_cast<float>(
                 factor * (overlap_up_to(low + row, pixel, line_height) - overlap_up_to(low, pixel, line_height)));
         }
-        core::parallel_for(picture.height(), [&](std::size_t y) {
+        work::parallel_for(picture.height(), [&](std::size_t y) {
             for (std::size_t i = 0; i < weights.size(); ++i)
                 for (std::size_t x = 0; x < picture.width(); ++x)
                     picture.pixels(y, x, 0) += weights[i] * fine.pixels(share * y + i, x, 0);

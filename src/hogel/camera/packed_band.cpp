@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "hogel/core/parallel.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::camera {
 namespace {
@@ -17,7 +17,7 @@ std::vector<PackedBand> PackedBand::dark(std::size_t count, std::size_t height, 
     const std::size_t each = size(height, width), all = count * each;
     const std::shared_ptr<math::PackedComplex> memory(
         static_cast<math::PackedComplex*>(allocate_lines(all * sizeof(math::PackedComplex))), free_lines);
-    core::parallel_for((all + cleared_together - 1) / cleared_together, [&](std::size_t i) {
+    work::parallel_for((all + cleared_together - 1) / cleared_together, [&](std::size_t i) {
         const std::size_t first = i * cleared_together;
         std::fill_n(memory.get() + first, std::min(cleared_together, all - first), math::PackedComplex());
     });

@@ -11,9 +11,9 @@
 #include <set>
 #include <tuple>
 
-#include "hogel/core/parallel.h"
 #include "hogel/photograph.h"
 #include "hogel/units.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::camera {
 namespace {
@@ -81,7 +81,7 @@ Need need(const FieldGrid& hologram, const Rectangle& shown, std::span<const Cam
         // Tiles that are being processed.
         const double tile = narrow_band::NarrowBand::tile_width / static_cast<double>(band.factor) +
                             2 * narrow_band::NarrowBand::margin;
-        bytes.a_look += 8.0 * static_cast<double>(core::default_in_flight()) * tile * tile;
+        bytes.a_look += 8.0 * static_cast<double>(work::default_in_flight()) * tile * tile;
         bytes.fixed += film.intensity_bytes() * static_cast<double>(eye.members.size());
         largest = std::max(largest, film.pupil_bytes() + film.work_bytes());
     }

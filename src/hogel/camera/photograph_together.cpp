@@ -6,7 +6,7 @@
 #include "hogel/camera/exposed_bands.h"
 #include "hogel/camera/hogel_spectra/stereogram_eyes.h"
 #include "hogel/camera/photograph_plan.h"
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/image/film.h"
 
 namespace hogel::camera {

@@ -13,7 +13,6 @@
 #include "hogel/camera/models.h"
 #include "hogel/camera/photograph_plan.h"
 #include "hogel/camera/sine_grid.h"
-#include "hogel/core/shared_order.h"
 #include "hogel/error.h"
 #include "hogel/image/film.h"
 #include "hogel/math/fft.h"
@@ -22,6 +21,9 @@
 #include "hogel/optics/tilt.h"
 #include "hogel/photograph.h"
 #include "hogel/units.h"
+#include "hogel/work/shared_order.h"
+
+#include "hogel/core/stop_scope.h"
 
 namespace hogel {
 
@@ -293,7 +295,7 @@ void expose(const Focused& focused, const Camera& camera, const distributed::Lin
     const View<const std::complex<float>, 2> samples = focused.wave.samples.view();
     const std::size_t first = focused.wave.rows.first;
     const auto intensity = [&](std::size_t row, std::size_t column) { return std::norm(samples(row - first, column)); };
-    core::parallel_for(rows.count, [&](std::size_t i) {
+    work::parallel_for(rows.count, [&](std::size_t i) {
         const std::size_t row = rows.first + i;
         for (std::size_t column = 0; column < picture.width; ++column) {
             double sum = 0;
@@ -336,7 +338,7 @@ Array<std::complex<float>, 2> wave_at_pixels(const Focused& focused, const Camer
         up[j] = phasor(-wave.carrier_y * (plane.y(static_cast<double>(j)) - plane.center_y));
     Array<std::complex<float>, 2> result({picture.height, picture.width});
     const std::size_t first = wave.rows.first;
-    core::parallel_for(rows.count, [&](std::size_t line) {
+    work::parallel_for(rows.count, [&](std::size_t line) {
         const std::size_t row = rows.first + line;
         for (std::size_t column = 0; column < picture.width; ++column) {
             const double x = picture.x(static_cast<double>(column)), y = picture.y(static_cast<double>(row));
@@ -403,7 +405,7 @@ void camera::add_light(const FieldSource& hologram, std::span<const Camera> came
                        std::span<Image> images, const Progress& progress) {
     require_by_plane_waves(hologram.grid(), cameras, model);
     const auto looks = static_cast<double>(hologram.looks());
-    Team* const team = core::team_of_several();
+    Team* const team = work::team_of_several();
     for (std::size_t look = 0; look < hologram.looks(); ++look) {
         const auto report = [&](double fraction) {
             return !progress || progress((static_cast<double>(look) + fraction) / looks);
@@ -425,7 +427,7 @@ std::vector<Array<std::complex<float>, 2>> waves_in_focus(const FieldSource& hol
         throw Error(ErrorCode::usage, "waves in focus are those of a perfect lens, which has no film distance");
     require_by_plane_waves(hologram.grid(), cameras, model);
     std::vector<Array<std::complex<float>, 2>> waves(cameras.size());
-    Team* const team = core::team_of_several();
+    Team* const team = work::team_of_several();
     focus_all({hologram, look, model, team}, cameras, progress, [&](std::size_t i, const Focused& focused) {
         waves[i] =
             wave_at_pixels(focused, cameras[i], own_rows(cameras[i], team), seen_by(cameras[i], hologram.grid()));

@@ -12,7 +12,7 @@
 #include "hogel/codec/format/residuals.h"
 #include "hogel/codec/format/unfolded.h"
 #include "hogel/codec/hogel_coder.h"
-#include "hogel/core/parallel.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::codec {
 
@@ -196,7 +196,7 @@ class ExactDecoder final : public TileDecoder {
 
     void read(LightFieldTile& part) override {
         // A thread that waits inside must not start other work that waits for this tile.
-        core::isolate([&] {
+        work::isolate([&] {
             const std::lock_guard lock(mutex_);
             HogelRange coded = part.range;  // whole codes
             if (!tile_.hogels_apart) {
@@ -210,7 +210,7 @@ class ExactDecoder final : public TileDecoder {
             if (!missing.empty()) {
                 LightFieldTile made(grid_, coded, false);
                 prediction_->read(made);
-                core::parallel_for(missing.size(), [&](std::size_t k) {
+                work::parallel_for(missing.size(), [&](std::size_t k) {
                     const std::size_t t = missing[k] / across, s = missing[k] % across;
                     const std::size_t first = place(coded.t0 + t, coded.s0 + s);
                     tile_.decode(first / a_code, made, t, s, counted_);
@@ -220,7 +220,7 @@ class ExactDecoder final : public TileDecoder {
                     }
                 });
             }
-            core::parallel_for(part.range.hogels(), [&](std::size_t n) {
+            work::parallel_for(part.range.hogels(), [&](std::size_t n) {
                 const std::size_t t = part.range.t0 + n / part.range.ns, s = part.range.s0 + n % part.range.ns;
                 copy_common(*decoded(t, s), part);
             });
@@ -270,7 +270,7 @@ class ExactCoder final : public TileCoder {
         const auto exact = ExactTile<Rule>::take(bytes, tile.range);
         predictor_->decode(exact.prediction, tile);
         const std::size_t across = exact.hogels_apart ? tile.range.ns : 1;
-        core::parallel_for(exact.codes.size(),
+        work::parallel_for(exact.codes.size(),
                            [&](std::size_t k) { exact.decode(k, tile, k / across, k % across, counted_); });
     }
 
@@ -310,7 +310,7 @@ class ExactCoder final : public TileCoder {
     // Whether hogels are large enough for codes of their own, judged by the row in the middle.
     bool hogels_apart(const LightFieldTile& tile, const Rule& rule, const LightFieldTile& prediction) const {
         std::vector<std::size_t> bytes(tile.range.ns);
-        core::parallel_for(bytes.size(), [&](std::size_t s) {
+        work::parallel_for(bytes.size(), [&](std::size_t s) {
             bytes[s] = encode_code(tile, rule, prediction, tile.range.nt / 2, s, s + 1, nullptr).size();
         });
         return std::accumulate(bytes.begin(), bytes.end(), std::size_t{0}) >= min_own_code * bytes.size();
@@ -342,7 +342,7 @@ class ExactCoder final : public TileCoder {
                       ByteWriter& bytes) const {
         const std::size_t across = apart ? tile.range.ns : 1, a_code = tile.range.ns / across;
         std::vector<std::vector<std::uint8_t>> codes(across * tile.range.nt);
-        core::parallel_for(codes.size(), [&](std::size_t k) {
+        work::parallel_for(codes.size(), [&](std::size_t k) {
             const std::size_t s = k % across;
             codes[k] = encode_code(tile, rule, prediction, k / across, s, s + a_code, &prediction);
         });

@@ -8,8 +8,8 @@
 #include "hogel/codec/test_damage.h"
 #include "hogel/codec/test_fields.h"
 #include "hogel/compress.h"
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::codec {
 namespace {

@@ -18,8 +18,8 @@
 #include "hogel/codec/format/bytes.h"
 #include "hogel/codec/format/model_states.h"
 #include "hogel/codec/format/pictures.h"
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::codec {
 
@@ -82,7 +82,7 @@ class TileEncoder {
 
     Estimates estimate() const {
         Estimates estimates;
-        core::parallel_for(std::min(estimates.size(), order_.size()), [&](std::size_t k) {
+        work::parallel_for(std::min(estimates.size(), order_.size()), [&](std::size_t k) {
             if (order_[k].layer < 2) estimates[k] = encode::estimate_disparities(setup_, tile_, order_[k]);
         });
         return estimates;
@@ -102,7 +102,7 @@ class TileEncoder {
         TileCoder::Encoded result;
         for (std::size_t layer = 0; layer + 1 < of_layers.size(); ++layer) {
             for (std::size_t wavefront = of_layers[layer]; wavefront < of_layers[layer + 1]; ++wavefront) {
-                core::parallel_for(wavefronts[wavefront + 1] - wavefronts[wavefront],
+                work::parallel_for(wavefronts[wavefront + 1] - wavefronts[wavefront],
                                    [&](std::size_t n) { decide(wavefronts[wavefront] + n); });
                 if (go_on && !go_on(error(), bytes_.bytes.size())) return std::nullopt;
             }
@@ -152,7 +152,7 @@ class TileEncoder {
         const ModelStates states(counts, states_);
         const std::vector<coding::BitModel> models = states.models_in_order();
         std::vector<std::vector<std::uint8_t>> codes(end - begin);
-        core::parallel_for(codes.size(), [&](std::size_t n) {
+        work::parallel_for(codes.size(), [&](std::size_t n) {
             codes[n] = write_bits(records_[begin + n], models);
             records_[begin + n] = {};
         });
@@ -209,7 +209,7 @@ class ReferencesTrial {
     double cost(std::uint8_t references, double max_cost = std::numeric_limits<double>::infinity()) {
         std::array<std::atomic<double>, windows> costs{};
         std::atomic<bool> too_much = false;
-        core::parallel_for(windows, [&](std::size_t n) {
+        work::parallel_for(windows, [&](std::size_t n) {
             Window window = window_of(tile_, grid_, 1 + 2 * n);
             const DirectionCross all;
             TileEncoder encoder(window.tile, window.grid, all, static_cast<float>(step_), references);

@@ -12,8 +12,8 @@
 #include "hogel/codec/format/bytes.h"
 #include "hogel/codec/test_damage.h"
 #include "hogel/codec/test_fields.h"
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::codec {
 namespace {
@@ -53,7 +53,7 @@ TEST(Stream, any_range_has_the_samples_of_the_whole) {
     copy(open_stream(folder / "a.hgl").front(), whole);
     for (const std::size_t memory : {std::size_t{1}, std::size_t{5000}, std::size_t{1} << 30}) {
         const LightField source = open_stream(folder / "a.hgl", {.memory = memory});
-        core::parallel_for(200, [&](std::size_t i) {
+        work::parallel_for(200, [&](std::size_t i) {
             HogelRange range{i % 7, i / 7 % 5, 0, 0};
             range.ns = 1 + i % (7 - range.s0);
             range.nt = 1 + i % (5 - range.t0);

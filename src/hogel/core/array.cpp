@@ -6,7 +6,7 @@
 #include <new>
 
 #include "hogel/core/freed_blocks.h"
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/resources.h"
 

@@ -20,7 +20,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 
 namespace hogel::core {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "hogel/array.h"
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/core/test_errors.h"
 
 namespace hogel::core {

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <vector>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 
 namespace hogel::core {

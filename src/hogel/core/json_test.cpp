@@ -7,7 +7,7 @@
 
 #include <stop_token>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/core/test_errors.h"
 
 namespace hogel::core {

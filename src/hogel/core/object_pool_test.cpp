@@ -5,7 +5,7 @@
 
 #include <atomic>
 
-#include "hogel/core/parallel.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::core {
 namespace {
@@ -30,7 +30,7 @@ TEST(ObjectPool, an_object_has_one_user_at_a_time) {
     };
     ObjectPool<Buffer> buffers;
     std::atomic<int> shared{0};
-    parallel_for(1000, [&](std::size_t) {
+    work::parallel_for(1000, [&](std::size_t) {
         auto buffer = buffers.take();
         if (++buffer->users != 1) ++shared;
         --buffer->users;

@@ -17,8 +17,8 @@
 #include <utility>
 #include <vector>
 
-#include "hogel/core/parallel.h"
 #include "hogel/core/raw_file.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 
 namespace hogel::core {

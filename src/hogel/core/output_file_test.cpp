@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "hogel/core/parallel.h"
 #include "hogel/core/raw_file.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/core/test_errors.h"
 #include "hogel/error.h"
 

@@ -13,7 +13,7 @@
 #include <sstream>
 #include <thread>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 
 namespace hogel::core {
 namespace {

@@ -13,7 +13,7 @@
 #include <stop_token>
 #include <thread>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/core/test_errors.h"
 #include "hogel/progress.h"
 

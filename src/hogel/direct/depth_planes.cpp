@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::direct {
 
@@ -40,7 +40,7 @@ SliceDrawing::Drawn SliceDrawing::draw(const Slice& slice, const Grid& plane, do
     const double scale = wavelength / std::sqrt(plane.pitch_x * plane.pitch_y);
     const auto number = static_cast<std::uint32_t>(std::lround(1e9 * std::abs(slice.depth())));
     std::atomic<bool> empty = true;
-    core::parallel_for(plane.height, [&](std::size_t row) {
+    work::parallel_for(plane.height, [&](std::size_t row) {
         bool row_is_empty = true;
         for (std::size_t column = 0; column < plane.width; ++column) {
             const Vec3 start{plane.x(static_cast<double>(column)), plane.y(static_cast<double>(row)), -slice.near};

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/core/parallel.h"
 #include "hogel/core/test_targets.h"
 #include "hogel/direct/exact_sums.h"
 #include "hogel/direct/fresnel_integral.h"
@@ -15,6 +14,7 @@
 #include "hogel/error.h"
 #include "hogel/photograph.h"
 #include "hogel/units.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::direct {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/direct/exact_sums.h"
 
 namespace hogel::direct {

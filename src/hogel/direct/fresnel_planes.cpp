@@ -5,11 +5,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/core/parallel.h"
 #include "hogel/direct/depth_planes.h"
 #include "hogel/error.h"
 #include "hogel/math/fft.h"
 #include "hogel/units.h"
+#include "hogel/work/parallel.h"
+
+#include "hogel/core/stop_scope.h"
 
 namespace hogel::direct {
 namespace {
@@ -45,7 +47,7 @@ class PlaneTransform {
             return (c * index - 0.5 * c * c) / n;
         };
         const auto curved = [&](double x, double y) { return 0.5 * k * (x * x + y * y) / depth_; };
-        core::parallel_for(light.extent(0), [&](std::size_t row) {
+        work::parallel_for(light.extent(0), [&](std::size_t row) {
             for (std::size_t column = 0; column < light.extent(1); ++column) {
                 const double i = static_cast<double>(column), j = static_cast<double>(row);
                 double cycles = sign * (shift(i, plane.width) + shift(j, plane.height));
@@ -55,7 +57,7 @@ class PlaneTransform {
         });
         depth_ > 0 ? fft_.forward(light) : fft_.backward(light);
         const double scale = object_.pitch_x * object_.pitch_y / (hologram_.wavelength * std::abs(depth_));
-        core::parallel_for(field.extent(0), [&](std::size_t row) {
+        work::parallel_for(field.extent(0), [&](std::size_t row) {
             for (std::size_t column = 0; column < field.extent(1); ++column) {
                 const double i = static_cast<double>(column), j = static_cast<double>(row);
                 // e^{ikR}/(iλR)

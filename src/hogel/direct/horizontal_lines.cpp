@@ -4,8 +4,10 @@
 #include <complex>
 #include <numbers>
 
-#include "hogel/core/parallel.h"
 #include "hogel/direct/scene_points.h"
+#include "hogel/work/parallel.h"
+
+#include "hogel/core/stop_scope.h"
 
 namespace hogel::direct {
 
@@ -28,7 +30,7 @@ Field horizontal_lines(const ShadedScene& scene, const FieldGrid& grid, const Sc
     const Visibility visibility(scene);
     Field field(grid);
     progress.report(0);
-    core::parallel_for(lines, [&](std::size_t line) {
+    work::parallel_for(lines, [&](std::size_t line) {
         std::vector<std::complex<float>> values(grid.plane.width);
         for (std::size_t column = 0; column < values.size(); ++column) {
             core::throw_if_stopped();

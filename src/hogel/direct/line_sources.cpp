@@ -4,7 +4,7 @@
 #include <complex>
 #include <numbers>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/direct/fresnel_integral.h"
 #include "hogel/direct/line_source.h"
 #include "hogel/direct/scene_points.h"

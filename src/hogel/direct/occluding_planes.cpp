@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
-#include "hogel/core/parallel.h"
 #include "hogel/direct/depth_planes.h"
 #include "hogel/direct/onward.h"
 #include "hogel/optics/spectrum.h"
+#include "hogel/work/parallel.h"
+
+#include "hogel/core/stop_scope.h"
 
 namespace hogel::direct {
 
@@ -29,7 +31,7 @@ Field occluding_planes(const ShadedScene& scene, const FieldGrid& grid, const Sc
         if (!dark) field = onward(field, depth - slices[i].depth());
         depth = slices[i].depth();
         dark = false;
-        core::parallel_for(field.samples.extent(0), [&](std::size_t row) {
+        work::parallel_for(field.samples.extent(0), [&](std::size_t row) {
             for (std::size_t column = 0; column < field.samples.extent(1); ++column)
                 if (drawn.solid(row, column) > 0) field.samples(row, column) = drawn.light(row, column);
         });

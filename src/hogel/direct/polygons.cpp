@@ -5,10 +5,12 @@
 #include <numbers>
 #include <tuple>
 
-#include "hogel/core/parallel.h"
 #include "hogel/direct/onward.h"
 #include "hogel/direct/scene_points.h"
 #include "hogel/optics/tilt.h"
+#include "hogel/work/parallel.h"
+
+#include "hogel/core/stop_scope.h"
 
 namespace hogel::direct {
 namespace {
@@ -81,7 +83,7 @@ void for_samples_inside(const std::array<Vec3, 3>& p, const Grid& grid,
 // Gives the waves of random samples, which have the same spectral density in all directions, that of a diffuse surface:
 // Lλ²/cos θ, with θ to the normal of its own plane (docs/notation.md, section 3).
 void weigh_as_diffuse(optics::Spectrum& waves) {
-    core::parallel_for(waves.height(), [&](std::size_t row) {
+    work::parallel_for(waves.height(), [&](std::size_t row) {
         const double sine_y = waves.wavelength * waves.frequency_y(static_cast<double>(row));
         for (std::size_t column = 0; column < waves.width(); ++column) {
             const double sine_x = waves.wavelength * waves.frequency_x(static_cast<double>(column));

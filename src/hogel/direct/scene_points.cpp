@@ -7,14 +7,16 @@
 #include <numbers>
 #include <utility>
 
-#include "hogel/core/parallel.h"
 #include "hogel/core/part.h"
 #include "hogel/core/random.h"
-#include "hogel/core/steps.h"
 #include "hogel/direct/scene_points.h"
 #include "hogel/error.h"
 #include "hogel/shading/triangles.h"
 #include "hogel/units.h"
+#include "hogel/work/parallel.h"
+#include "hogel/work/steps.h"
+
+#include "hogel/core/stop_scope.h"
 
 namespace hogel::direct {
 namespace {
@@ -190,8 +192,8 @@ Field sum_over_tiles(const FieldGrid& grid, const Progress& progress,
     Field field(grid);
     const std::size_t across = (grid.plane.width + side - 1) / side, down = (grid.plane.height + side - 1) / side;
     progress.report(0);
-    core::Steps steps(progress, across * down);
-    core::parallel_for(across * down, [&](std::size_t i) {
+    work::Steps steps(progress, across * down);
+    work::parallel_for(across * down, [&](std::size_t i) {
         Region region{i % across * side, i / across * side, side, side};
         region.width = std::min(side, grid.plane.width - region.x0);
         region.height = std::min(side, grid.plane.height - region.y0);

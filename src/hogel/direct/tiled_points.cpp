@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/direct/exact_sums.h"
 #include "hogel/direct/scene_points.h"
 #include "hogel/stereogram/unit_roots.h"

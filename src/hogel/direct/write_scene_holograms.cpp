@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "hogel/core/shared_order.h"
 #include "hogel/error.h"
 #include "hogel/scene_hologram.h"
+#include "hogel/work/shared_order.h"
+
+#include "hogel/core/stop_scope.h"
 
 namespace hogel {
 namespace {
@@ -11,7 +13,7 @@ namespace {
 void write_rows(const Field& field, FieldSink& sink) {
     const Grid& plane = field.grid().plane;
     constexpr std::size_t rows = 64;
-    core::parallel_for((plane.height - 1) / rows + 1, [&](std::size_t i) {
+    work::parallel_for((plane.height - 1) / rows + 1, [&](std::size_t i) {
         const Region region{0, i * rows, plane.width, std::min(rows, plane.height - i * rows)};
         if (!sink.has_already(region))
             sink.write(region, {&field.samples(region.y0, 0), {region.height, region.width}});
@@ -26,8 +28,8 @@ void write_scene_holograms(const SceneHologramMethod& method, const ShadedScene&
     const core::StopScope scope(progress);
     if (options.size() != grids.size() || sinks.size() != grids.size())
         throw Error(ErrorCode::usage, "holograms of a scene need options and a sink for each wavelength");
-    const core::JobScope kept_by_sinks(core::DoneBy::whole_team);
-    core::shared_jobs<std::uint8_t>(
+    const work::JobScope kept_by_sinks(work::DoneBy::whole_team);
+    work::shared_jobs<std::uint8_t>(
         grids.size(), {},
         [&](std::size_t i) {
             write_rows(method.make(scene, grids[i], options[i], progress.part(i, grids.size())), *sinks[i]);

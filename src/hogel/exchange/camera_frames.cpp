@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "hogel/core/json.h"
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/image/picture_bytes.h"
 

@@ -147,7 +147,7 @@ class DensifiedPictures final : public ViewPictures {
     ViewSet set_;
     std::shared_ptr<const Disparities> disparities_;
     std::size_t factor_;
-    mutable core::LruCache<std::size_t, image::Picture> kept_;
+    mutable work::LruCache<std::size_t, image::Picture> kept_;
 };
 
 }  // namespace

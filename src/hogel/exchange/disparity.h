@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "hogel/array.h"
-#include "hogel/core/lru_cache.h"
 #include "hogel/exchange/view_set.h"
+#include "hogel/work/lru_cache.h"
 
 namespace hogel::exchange {
 
@@ -40,7 +40,7 @@ class Disparities {
     std::vector<std::pair<std::pair<std::size_t, std::size_t>, DisparityMap>> known_;
     double spacing_ratio_;
     std::string origin_;
-    mutable core::LruCache<std::pair<double, double>, DisparityMap> moved_;
+    mutable work::LruCache<std::pair<double, double>, DisparityMap> moved_;
 };
 
 /// The disparity that comes with a set in its folder: PFM, EXR or NPY files with "disp" or "depth" in their names, of

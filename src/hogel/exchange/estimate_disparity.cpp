@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hogel/core/parallel.h"
 #include "hogel/exchange/disparity.h"
 #include "hogel/exchange/parallax.h"
+#include "hogel/work/parallel.h"
+
+#include "hogel/core/stop_scope.h"
 
 namespace hogel::exchange {
 namespace {
@@ -123,7 +125,7 @@ DisparityMap estimate_disparity(const ViewSet& set, double max_disparity) {
     const std::vector<Neighbour> around = neighbours(set, row, column);
     DisparityMap map(middle.shape());
     if (around.empty()) return map;
-    core::parallel_for((set.height + strip - 1) / strip,
+    work::parallel_for((set.height + strip - 1) / strip,
                        [&](std::size_t i) { sweep(middle, around, max_disparity, i * strip, map); });
     return map;
 }

@@ -6,11 +6,13 @@
 #include <cmath>
 
 #include "hogel/core/output_file.h"
-#include "hogel/core/parallel.h"
 #include "hogel/core/rates.h"
 #include "hogel/error.h"
 #include "hogel/exchange/transfer.h"
 #include "hogel/exchange/view_set.h"
+#include "hogel/work/parallel.h"
+
+#include "hogel/core/stop_scope.h"
 
 namespace hogel {
 namespace exchange {
@@ -143,7 +145,7 @@ void read_group(const LightFieldSource& source, Group& group, const Progress& pr
     // In order, because a source may be read in bands.
     const std::size_t batch = std::max<std::size_t>(thread_count(), 1) * 4;
     for (std::size_t first = 0; first < across * down; first += batch) {
-        core::parallel_for(std::min(batch, across * down - first), [&](std::size_t i) {
+        work::parallel_for(std::min(batch, across * down - first), [&](std::size_t i) {
             const std::size_t s0 = (first + i) % across * size.ns, t0 = (first + i) / across * size.nt;
             LightFieldTile tile(
                 grid, {s0, t0, std::min(size.ns, grid.hogels_s - s0), std::min(size.nt, grid.hogels_t - t0)}, false);
@@ -169,7 +171,7 @@ ExportedViews write_views(const LightField& light_field, const ViewTarget& targe
                                             static_cast<double>(first + count) / static_cast<double>(views));
         Group group(light_field.grid(), first, count);
         read_group(light_field.front(), group, part.part(0, 0.5));
-        core::parallel_for(count, [&](std::size_t i) {
+        work::parallel_for(count, [&](std::size_t i) {
             const std::size_t row = (first + i) / target.columns, column = (first + i) % target.columns;
             exported.files[first + i] =
                 writer->write(row, column, stored_view(group.view(i), target, options.exposure));

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "hogel/core/output_file.h"
-#include "hogel/core/parallel.h"
 #include "hogel/core/program.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 
 namespace hogel {

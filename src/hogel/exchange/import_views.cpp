@@ -7,7 +7,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "hogel/core/parallel.h"
 #include "hogel/core/rates.h"
 #include "hogel/error.h"
 #include "hogel/exchange/densify.h"
@@ -16,6 +15,9 @@
 #include "hogel/exchange/rectified.h"
 #include "hogel/exchange/sparse_views.h"
 #include "hogel/exchange/view_light_field.h"
+#include "hogel/work/parallel.h"
+
+#include "hogel/core/stop_scope.h"
 
 namespace hogel {
 namespace exchange {
@@ -168,7 +170,7 @@ void write_views(const LightField& light_field, LightFieldSink& sink, const Prog
         const HogelRange tile_size = views->preferred_tile();
         const std::size_t tiles = (rows + tile_size.nt - 1) / tile_size.nt;
         std::atomic<std::size_t> done = 0;
-        core::parallel_for(tiles, [&](std::size_t i) {
+        work::parallel_for(tiles, [&](std::size_t i) {
             const std::size_t t0 = t + i * tile_size.nt;
             const HogelRange range{0, t0, grid.hogels_s, std::min(tile_size.nt, t + rows - t0)};
             if (!sink.has_already(range)) {

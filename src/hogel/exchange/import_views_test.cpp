@@ -4,13 +4,13 @@
 
 #include <fmt/format.h>
 
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/exchange.h"
 #include "hogel/exchange/sparse_views.h"
 #include "hogel/exchange/test_views.h"
 #include "hogel/image.h"
 #include "hogel/ray_photograph.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::exchange {
 namespace {

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "hogel/core/parallel.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::exchange {
 namespace {
@@ -110,7 +110,7 @@ double total_error(const Array<BlockMatch, 2>& matches) {
 
 Array<BlockMatch, 2> match_blocks(View<const float, 2> a, View<const float, 2> b, bool along_y, int max_shift) {
     Array<BlockMatch, 2> matches({a.extent(0) / block_side, a.extent(1) / block_side});
-    core::parallel_for(matches.extent(0), [&](std::size_t row) {
+    work::parallel_for(matches.extent(0), [&](std::size_t row) {
         for (std::size_t column = 0; column < matches.extent(1); ++column)
             matches(row, column) = match_block(a, b, row * block_side, column * block_side, along_y, max_shift);
     });

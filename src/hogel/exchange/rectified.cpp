@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "hogel/core/parallel.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::exchange {
 namespace {
@@ -46,7 +46,7 @@ double texture_of(View<const float, 2> a, Place at) {
 std::vector<Place> textured_blocks(View<const float, 2> a, long margin_y, long margin_x) {
     const auto height = static_cast<long>(a.extent(0)), width = static_cast<long>(a.extent(1));
     std::vector<std::optional<Place>> best(cells_across * cells_down);
-    core::parallel_for(cells_down, [&](std::size_t row) {
+    work::parallel_for(cells_down, [&](std::size_t row) {
         std::array<double, cells_across> most;
         most.fill(min_gradient * min_gradient);
         for (long y = margin_y; y + block + margin_y <= height; y += step) {
@@ -187,7 +187,7 @@ CrossParallax cross_parallax(View<const float, 2> a, View<const float, 2> b, boo
     const long reach = max_shift, margin_y = along_y ? reach : max_cross, margin_x = along_y ? max_cross : reach;
     const std::vector<Place> places = textured_blocks(a, margin_y, margin_x);
     std::vector<std::optional<double>> shifts(places.size());
-    core::parallel_for(places.size(), [&](std::size_t i) { shifts[i] = cross_shift(a, b, places[i], along_y, reach); });
+    work::parallel_for(places.size(), [&](std::size_t i) { shifts[i] = cross_shift(a, b, places[i], along_y, reach); });
     std::vector<Sample> samples;
     for (std::size_t i = 0; i < places.size(); ++i) {
         if (!shifts[i]) continue;

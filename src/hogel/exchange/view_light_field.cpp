@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/exchange/transfer.h"
 #include "hogel/units.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::exchange {
 namespace {
@@ -66,7 +66,7 @@ void ViewLightField::read(LightFieldTile& tile) const {
     for (std::size_t j = 0; j < tile.range.nt;) {
         const std::shared_ptr<const Band> band = band_at(tile.range.t0 + j);
         const std::size_t end = std::min(tile.range.nt, band->first + band->count - tile.range.t0);
-        core::parallel_for(end - j, [&](std::size_t i) {
+        work::parallel_for(end - j, [&](std::size_t i) {
             fill(tile, j + i, *band);
             if (tile.depth.size() > 0 && has_depth()) fill_depth(tile, j + i, *band);
         });
@@ -79,7 +79,7 @@ std::shared_ptr<const ViewLightField::Band> ViewLightField::band_at(std::size_t 
     const std::lock_guard lock(mutex_);
     if (band_ == nullptr || t < band_->first || t >= band_->first + band_->count) {
         band_ = nullptr;
-        core::isolate([&] {
+        work::isolate([&] {
             if (spool_ == nullptr && !spool_folder_.empty() && spool_bytes() > 0) fill_spool();
             band_ = load(t / band_rows_ * band_rows_);
         });
@@ -92,13 +92,13 @@ std::shared_ptr<const ViewLightField::Band> ViewLightField::load(std::size_t fir
     band->first = first;
     band->count = std::min(band_rows_, grid_.hogels_t - first);
     band->views.resize(set_.rows * set_.columns);
-    core::parallel_for(band->views.size(), [&](std::size_t i) {
+    work::parallel_for(band->views.size(), [&](std::size_t i) {
         band->views[i] = spool_ != nullptr ? spooled(i, first, band->count) : decoded(i, first, band->count);
     });
     if (disparities_ == nullptr) return band;
     band->maps.resize(band->views.size());
     const auto place = [&](std::size_t i) { return static_cast<double>(i) / static_cast<double>(densified_); };
-    core::parallel_for(band->maps.size(), [&](std::size_t i) {
+    work::parallel_for(band->maps.size(), [&](std::size_t i) {
         band->maps[i] = disparities_->at(place(i / set_.columns), place(i % set_.columns));
     });
     return band;
@@ -157,7 +157,7 @@ void ViewLightField::fill_spool() const {
         std::make_unique<core::RawFile>(spool_folder_, core::RawFile::Mode::unnamed, spool_folder_ / "hogel-views");
     spool->reserve(static_cast<std::uint64_t>(spool_bytes()));
     const std::uint64_t bytes = static_cast<std::uint64_t>(spool_bytes()) / grid_.directions();
-    core::parallel_for(grid_.directions(), [&](std::size_t view) {
+    work::parallel_for(grid_.directions(), [&](std::size_t view) {
         std::visit(
             [&](const auto& samples) {
                 spool->write(view * bytes, samples.data(), samples.size() * sizeof(*samples.data()));

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "hogel/core/lru_cache.h"
 #include "hogel/exchange.h"
 #include "hogel/image/formats/formats.h"
+#include "hogel/work/lru_cache.h"
 
 /// A set of views, however it is stored. Views are in the order of their cameras: column 0 is the leftmost camera, row
 /// 0 the topmost, as their owner sees them who looks at the scene. An eye on the left sees column 0.
@@ -33,7 +33,7 @@ class ViewPictures {
 
   private:
     static constexpr std::size_t kept = 12;
-    mutable core::LruCache<std::pair<std::size_t, std::size_t>, image::Picture> looked_at_{kept};
+    mutable work::LruCache<std::pair<std::size_t, std::size_t>, image::Picture> looked_at_{kept};
 };
 
 /// What a set says of its cameras; lengths in metres at the size of the scene, 0 for what it does not say.

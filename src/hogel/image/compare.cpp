@@ -8,8 +8,9 @@
 #include <limits>
 #include <vector>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel {
 namespace {
@@ -23,7 +24,7 @@ float display(float linear, double exposure) { return srgb_encode(static_cast<fl
 
 Plane display_luma(const Image& image, double exposure) {
     Plane luma({image.height(), image.width()});
-    core::parallel_for(image.height(), [&](std::size_t y) {
+    work::parallel_for(image.height(), [&](std::size_t y) {
         for (std::size_t x = 0; x < image.width(); ++x) {
             const auto value = [&](std::size_t c) { return display(image.pixels(y, x, c), exposure); };
             luma(y, x) = image.channels() == 3 ? 0.2126 * value(0) + 0.7152 * value(1) + 0.0722 * value(2) : value(0);
@@ -51,11 +52,11 @@ Plane local_mean(std::size_t height, std::size_t width, const F& f) {
     const std::vector<double> across = gaussian_window(width), down = gaussian_window(height);
     const std::size_t valid_width = width - across.size() + 1, valid_height = height - down.size() + 1;
     Plane rows({height, valid_width}), means({valid_height, valid_width});
-    core::parallel_for(height, [&](std::size_t y) {
+    work::parallel_for(height, [&](std::size_t y) {
         for (std::size_t x = 0; x < valid_width; ++x)
             for (std::size_t i = 0; i < across.size(); ++i) rows(y, x) += across[i] * f(y, x + i);
     });
-    core::parallel_for(valid_height, [&](std::size_t y) {
+    work::parallel_for(valid_height, [&](std::size_t y) {
         for (std::size_t i = 0; i < down.size(); ++i)
             for (std::size_t x = 0; x < valid_width; ++x) means(y, x) += down[i] * rows(y + i, x);
     });

@@ -23,12 +23,12 @@ void load_film(std::span<const Camera> cameras, std::size_t channels, const Prov
     }
 }
 
-core::Sent<std::vector<Image>> sent_pictures() {
-    return {[](core::MessageWriter& message, const std::vector<Image>& pictures) {
+work::Sent<std::vector<Image>> sent_pictures() {
+    return {[](work::MessageWriter& message, const std::vector<Image>& pictures) {
                 message.put(pictures.size());
                 for (const Image& picture : pictures) message.put(picture.pixels);
             },
-            [](core::MessageReader& message) {
+            [](work::MessageReader& message) {
                 std::vector<Image> pictures(message.get<std::size_t>());
                 for (Image& picture : pictures) picture.pixels = message.get_array<float, 3>();
                 return pictures;

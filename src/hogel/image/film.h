@@ -4,8 +4,8 @@
 #include <span>
 
 #include "hogel/camera.h"
-#include "hogel/core/shared_order.h"
 #include "hogel/image.h"
+#include "hogel/work/shared_order.h"
 
 namespace hogel::image {
 
@@ -18,6 +18,6 @@ void load_film(std::span<const Camera> cameras, std::size_t channels, const Prov
                std::span<Image> pictures);
 
 /// How pictures travel between processes, and are kept.
-core::Sent<std::vector<Image>> sent_pictures();
+work::Sent<std::vector<Image>> sent_pictures();
 
 }  // namespace hogel::image

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel {
 
@@ -50,7 +51,7 @@ bool shows(const Image& image, std::size_t x, std::size_t y, Rgb background) {
 double automatic_exposure(const Image& image) {
     const Rgb background = background_of(image.provenance);
     std::vector<float> largest(image.width() * image.height());
-    core::parallel_for(image.height(), [&](std::size_t y) {
+    work::parallel_for(image.height(), [&](std::size_t y) {
         for (std::size_t x = 0; x < image.width(); ++x) {
             float value = 0;
             for (std::size_t c = 0; c < image.channels(); ++c) {

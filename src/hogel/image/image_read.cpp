@@ -8,11 +8,13 @@
 #include <system_error>
 #include <type_traits>
 
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/image.h"
 #include "hogel/image/picture_bytes.h"
 #include "hogel/image/texture_picture.h"
+#include "hogel/work/parallel.h"
+
+#include "hogel/core/stop_scope.h"
 
 namespace hogel {
 
@@ -76,7 +78,7 @@ Image linear_image(Samples&& samples, bool numbers = false) {
             // Alpha, and what is no light, has no transfer curve.
             const std::size_t channels = values.extent(2), first = numbers ? 0 : channels == 4 ? 3 : channels;
             constexpr float largest = std::is_same_v<T, std::uint8_t> ? 255.0f : 65535.0f;
-            core::parallel_for(values.extent(0), [&](std::size_t y) {
+            work::parallel_for(values.extent(0), [&](std::size_t y) {
                 const View<const T, 2> from = values[y];
                 const View<float, 2> to = image.pixels[y];
                 std::ranges::transform(from.elements(), to.data(),

@@ -6,13 +6,13 @@
 #include <limits>
 
 #include "hogel/core/output_file.h"
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/image.h"
 #include "hogel/image/display_value.h"
 #include "hogel/image/picture_bytes.h"
 #include "hogel/image/picture_formats.h"
 #include "hogel/screen.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel {
 
@@ -35,7 +35,7 @@ void check_writable(const Image& image, double exposure, const std::string& name
 // The 8-bit display values of a picture.
 Array<std::uint8_t, 3> display_values(const Image& image, double exposure) {
     Array<std::uint8_t, 3> display(image.pixels.shape());
-    core::parallel_for(image.height(), [&](std::size_t y) {
+    work::parallel_for(image.height(), [&](std::size_t y) {
         std::ranges::transform(image.pixels[y].elements(), display[y].elements().begin(),
                                [&](float value) { return display_value(static_cast<float>(value * exposure)); });
     });

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <atomic>
 
-#include "hogel/core/parallel.h"
 #include "hogel/io/test_files.h"
 #include "hogel/lightfield/channel_source.h"
+#include "hogel/work/parallel.h"
 
 // Suppressions for leak checkers: HDF5 1.10 leaks data when a checksum is wrong.
 extern "C" const char* __lsan_default_suppressions();
@@ -25,7 +25,7 @@ void write_tiles(const LightFieldBuffer& from, LightFieldSink& sink, std::size_t
         for (std::size_t s = 0; s < g.hogels_s; s += ns)
             ranges.push_back({s, t, std::min(ns, g.hogels_s - s), std::min(nt, g.hogels_t - t)});
     std::ranges::shuffle(ranges, std::mt19937(3));
-    core::parallel_for(ranges.size(), [&](std::size_t i) {
+    work::parallel_for(ranges.size(), [&](std::size_t i) {
         LightFieldTile tile(g, ranges[i], from.has_depth());
         from.read(tile);
         sink.write(tile);
@@ -355,7 +355,7 @@ TEST_F(Files, many_threads_open_read_and_write_at_once) {
     const LightFieldGrid grid = grid_of(7, 5, 3, 2, 3);
     const LightFieldBuffer field = random_light_field(grid, true);
     std::atomic<int> good{0};
-    core::parallel_for(40, [&](std::size_t i) {
+    work::parallel_for(40, [&](std::size_t i) {
         const fs::path path = directory_ / (std::to_string(i) + ".h5");
         copy(field, *create_front(path, grid, {SampleType::half, true, {}}));
         LightFieldBuffer back(grid, true);

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "hogel/core/lru_cache.h"
 #include "hogel/core/object_pool.h"
+#include "hogel/work/lru_cache.h"
 
 namespace hogel {
 namespace {
@@ -68,7 +68,7 @@ class CachedTiles final : public LightFieldSource {
     // Kept from tile to tile, because the system clears new memory.
     using Memory = core::ObjectPool<LightFieldTile>;
     mutable Memory memory_;
-    mutable core::LruCache<std::pair<std::size_t, std::size_t>, LightFieldTile> recent_;
+    mutable work::LruCache<std::pair<std::size_t, std::size_t>, LightFieldTile> recent_;
 };
 
 }  // namespace

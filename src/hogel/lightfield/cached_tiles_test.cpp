@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <atomic>
 
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::lightfield {
 namespace {
@@ -49,7 +49,7 @@ void expect_all_in_tiles(const LightFieldSource& source, std::size_t ns, std::si
     const Numbered truth(asked);
     const std::size_t across = (20 + ns - 1) / ns, down = (9 + nt - 1) / nt;
     std::atomic<std::size_t> wrong = 0;
-    core::parallel_for(across * down, [&](std::size_t i) {
+    work::parallel_for(across * down, [&](std::size_t i) {
         const std::size_t s0 = i % across * ns, t0 = i / across * nt;
         const HogelRange range{s0, t0, std::min(ns, 20 - s0), std::min(nt, 9 - t0)};
         LightFieldTile tile(grid, range, with_depth), expected(grid, range, with_depth);

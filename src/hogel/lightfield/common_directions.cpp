@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/light_field.h"
 #include "hogel/lightfield/interpolation.h"
 #include "hogel/units.h"

@@ -9,9 +9,10 @@
 #include <numbers>
 #include <set>
 
-#include "hogel/core/parallel.h"
-#include "hogel/core/shared_tiles.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/units.h"
+#include "hogel/work/parallel.h"
+#include "hogel/work/shared_tiles.h"
 
 namespace hogel {
 namespace {
@@ -272,7 +273,7 @@ void copy_common(const LightFieldTile& from, LightFieldTile& to, std::size_t fir
 void LightFieldBuffer::read(LightFieldTile& tile) const {
     validate(tile, grid_);
     const HogelRange& r = tile.range;
-    core::parallel_for(r.nt, [&](std::size_t j) {
+    work::parallel_for(r.nt, [&](std::size_t j) {
         for (std::size_t c = 0; c < grid_.channels; ++c)
             copy_row(&radiance(c, r.t0 + j, r.s0, 0, 0), &tile.radiance(c, j, 0, 0, 0), r.ns, grid_.directions());
         if (has_depth() && tile.depth.size() > 0)
@@ -311,8 +312,8 @@ void copy(const LightFieldSource& source, LightFieldSink& sink, const Progress& 
     const HogelRange size = source.preferred_tile();
     const std::size_t across = (grid.hogels_s + size.ns - 1) / size.ns;
     const std::size_t down = (grid.hogels_t + size.nt - 1) / size.nt;
-    const auto shared = dynamic_cast<core::SharedSink*>(&sink);
-    core::for_each_tile(across * down, shared, progress, [&](std::size_t i) {
+    const auto shared = dynamic_cast<work::SharedSink*>(&sink);
+    work::for_each_tile(across * down, shared, progress, [&](std::size_t i) {
         HogelRange range{(i % across) * size.ns, (i / across) * size.nt, size.ns, size.nt};
         range.ns = std::min(range.ns, grid.hogels_s - range.s0);
         range.nt = std::min(range.nt, grid.hogels_t - range.t0);

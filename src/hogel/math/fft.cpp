@@ -8,10 +8,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/math/column_fft.h"
 #include "hogel/math/fft_engine.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::math {
 namespace {
@@ -28,7 +28,7 @@ template <class Transform>
 void for_blocks(std::size_t lines, std::size_t length, const Transform& transform) {
     constexpr std::size_t together = LineEngine::together, values_at_once = 16384;
     const std::size_t at_once = std::max<std::size_t>(1, values_at_once / (together * length)) * together;
-    core::parallel_for((lines + at_once - 1) / at_once, [&](std::size_t task) {
+    work::parallel_for((lines + at_once - 1) / at_once, [&](std::size_t task) {
         const std::size_t end = std::min(lines, (task + 1) * at_once);
         for (std::size_t first = task * at_once; first < end; first += together)
             transform(first, std::min(together, end - first));

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hogel/core/parallel.h"
 #include "hogel/optics/phase_walk.h"
 #include "hogel/units.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::optics {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 template <class Factor>
 void multiply_everywhere(Wave& wave, const Factor& factor) {
     const Grid& plane = wave.grid().plane;
-    core::parallel_for(wave.rows.count, [&](std::size_t row) {
+    work::parallel_for(wave.rows.count, [&](std::size_t row) {
         const double y = plane.y(static_cast<double>(wave.rows.first + row));
         std::complex<float>* samples = &wave.samples.view()(row, 0);
         for (std::size_t column = 0; column < plane.width; ++column) {

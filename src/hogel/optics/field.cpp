@@ -8,9 +8,9 @@
 #include <limits>
 
 #include "hogel/core/object_pool.h"
-#include "hogel/core/parallel.h"
-#include "hogel/core/shared_tiles.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/units.h"
+#include "hogel/work/shared_tiles.h"
 
 namespace hogel {
 namespace {
@@ -121,8 +121,8 @@ void copy(const FieldSource& source, FieldSink& sink, std::size_t look, const Pr
     const std::size_t across = (plane.width + each.width - 1) / each.width,
                       down = (plane.height + each.height - 1) / each.height;
     core::ObjectPool<Array<std::complex<float>, 1>> scratch_pool;
-    const auto shared = dynamic_cast<core::SharedSink*>(&sink);
-    core::for_each_tile(across * down, shared, progress, [&](std::size_t i) {
+    const auto shared = dynamic_cast<work::SharedSink*>(&sink);
+    work::for_each_tile(across * down, shared, progress, [&](std::size_t i) {
         Region region{(i % across) * each.width, (i / across) * each.height, each.width, each.height};
         region.width = std::min(region.width, plane.width - region.x0);
         region.height = std::min(region.height, plane.height - region.y0);

@@ -9,10 +9,11 @@
 #include <limits>
 #include <mutex>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/optics/focus/extrema.h"
 #include "hogel/optics/focus/plane_waves.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel {
 
@@ -79,7 +80,7 @@ double middle_of(const Parts& parts, const FocusSearch& search, const Extremum& 
         const double low = depths.front(), step = (depths.back() - low) / (more - 1);
         depths.resize(more);
         contrasts.resize(more);
-        core::parallel_for(more, [&](std::size_t i) {
+        work::parallel_for(more, [&](std::size_t i) {
             depths[i] = low + step * static_cast<double>(i);
             contrasts[i] = parts.at(depths[i]);
         });
@@ -152,7 +153,7 @@ FocusSearch search_range(const Parts& parts, FocusSearch search, const DepthRang
     for (std::size_t i = 0; i < range.planes; ++i) search.depths[i] = range.from + step * static_cast<double>(i);
     std::mutex mutex;
     std::size_t done = 0;
-    core::parallel_for(range.planes, [&](std::size_t i) {
+    work::parallel_for(range.planes, [&](std::size_t i) {
         search.contrasts[i] = parts.at(search.depths[i]);
         const std::lock_guard lock(mutex);
         progress.report(0.95 * static_cast<double>(++done) / static_cast<double>(range.planes));

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/core/parallel.h"
 #include "hogel/optics/lines.h"
 #include "hogel/optics/phase_walk.h"
 #include "hogel/optics/spectrum.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::optics {
 namespace {
@@ -119,7 +119,7 @@ void propagate_row(std::span<Complex> samples, std::size_t first, const RowOfDir
 
 void propagate(Spectrum& spectrum, const PropagationOptions& options) {
     const distributed::LineRange own = spectrum.samples.own_columns();
-    core::parallel_for(own.count > 0 ? blocks_of(spectrum.height()) : 0, [&](std::size_t block) {
+    work::parallel_for(own.count > 0 ? blocks_of(spectrum.height()) : 0, [&](std::size_t block) {
         for (std::size_t r = block * lines_together; r < std::min((block + 1) * lines_together, spectrum.height()); ++r)
             propagate_row({&spectrum.samples.at(r, own.first), own.count}, own.first,
                           RowOfDirections(spectrum, options, static_cast<double>(r)));

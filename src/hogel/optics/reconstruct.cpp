@@ -7,9 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/math/fft.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel {
 namespace {
@@ -36,7 +37,7 @@ double y_of(const Grid& plane, std::size_t row) {
 template <class Phase>
 void turn(Field& field, const Phase& phase) {
     const Grid& plane = field.grid().plane;
-    core::parallel_for(plane.height, [&](std::size_t row) {
+    work::parallel_for(plane.height, [&](std::size_t row) {
         const double y = y_of(plane, row);
         for (std::size_t column = 0; column < plane.width; ++column)
             field.samples(row, column) *=
@@ -148,7 +149,7 @@ Field transformed(Field field, double length) {
         return sign * 2 * pi * static_cast<double>(i) * (0.5 - static_cast<double>(n) / 2) / static_cast<double>(n);
     };
     const auto turn_both = [&](Array<Complex, 2>& samples) {
-        core::parallel_for(plane.height, [&](std::size_t y) {
+        work::parallel_for(plane.height, [&](std::size_t y) {
             for (std::size_t x = 0; x < plane.width; ++x)
                 samples(y, x) *=
                     Complex(std::polar(1.0, std::remainder(ramp(x, plane.width) + ramp(y, plane.height), 2 * pi)));
@@ -169,7 +170,7 @@ Field transformed(Field field, double length) {
     const std::complex<double> factor = plane.pitch_x * plane.pitch_y /
                                         (std::complex<double>(0, 1) * in.wavelength * length) *
                                         std::polar(1.0, sign * 2 * pi * (half(plane.width) + half(plane.height)));
-    core::parallel_for(field.samples.size() / plane.width, [&](std::size_t y) {
+    work::parallel_for(field.samples.size() / plane.width, [&](std::size_t y) {
         for (std::size_t x = 0; x < plane.width; ++x)
             out.samples(y, x) = Complex(std::complex<double>(field.samples(y, x)) * factor);
     });

@@ -8,14 +8,14 @@
 #include <cmath>
 #include <utility>
 
-#include "hogel/core/parallel.h"
-#include "hogel/core/steps.h"
 #include "hogel/math/fft.h"
 #include "hogel/optics/lines.h"
 #include "hogel/optics/multiply.h"
 #include "hogel/optics/phase_walk.h"
 #include "hogel/optics/spectrum_steps.h"
 #include "hogel/units.h"
+#include "hogel/work/parallel.h"
+#include "hogel/work/steps.h"
 
 namespace hogel::optics {
 namespace {
@@ -108,7 +108,7 @@ Spectrum empty_spectrum(const Grid& window, double wavelength, const Band& band,
     Shape<2> shape{};
     Spectrum result = frame_of(window, wavelength, band, carrier_x, carrier_y, shape);
     result.samples = distributed::SharedPlane(shape[0], shape[1], 1, 1, scratch, nullptr);
-    core::parallel_for(shape[0],
+    work::parallel_for(shape[0],
                        [&](std::size_t row) { std::fill_n(&result.samples.at(row, 0), shape[1], Complex(0)); });
     return result;
 }
@@ -142,9 +142,9 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
     const std::vector<Complex> centre_x =
         centring(first_column, columns, window.width, -1, window.pitch_x * window.pitch_y);
     const std::size_t row_blocks = blocks_of(own.count, together), all_blocks = row_blocks + blocks_of(across.count);
-    core::Steps steps(progress, all_blocks);
+    work::Steps steps(progress, all_blocks);
     const std::size_t left = (window.width - plane.width) / 2, above = (window.height - plane.height) / 2;
-    core::parallel_for(row_blocks, [&](std::size_t block) {
+    work::parallel_for(row_blocks, [&](std::size_t block) {
         const std::size_t y0 = own.first + block * together, height = std::min(together, own.end() - y0);
         Array<Complex, 2> lines({height, plane.width});
         source.read({0, y0, plane.width, height}, look, lines);
@@ -165,7 +165,7 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
     kept.to_columns(plane.height);
     const std::vector<Complex> centre_y = centring(first_row, rows, window.height, -1, 1);
     const distributed::OwnColumns before = kept.in_columns(plane.height), after = kept.in_columns(rows);
-    core::parallel_for(blocks_of(across.count), [&](std::size_t block) {
+    work::parallel_for(blocks_of(across.count), [&](std::size_t block) {
         const std::size_t x0 = across.first + block * lines_together,
                           width = std::min(lines_together, across.end() - x0);
         Array<Complex, 2> lines({width, stride_of(window.height)});
@@ -236,7 +236,7 @@ class ToWave {
     template <class Place>
     void along_columns(const distributed::LineRange& across, const Place& place) const {
         const math::Fft1 down(height_);
-        core::parallel_for(blocks_of(across.count), [&](std::size_t block) {
+        work::parallel_for(blocks_of(across.count), [&](std::size_t block) {
             const std::size_t x0 = across.first + block * lines_together,
                               count = std::min(lines_together, across.end() - x0);
             Array<Complex, 2> lines({count, stride_of(height_)});
@@ -267,7 +267,7 @@ class ToWave {
     template <class Row>
     void along_rows(const distributed::LineRange& rows, const Row& row) const {
         const math::Fft1 along(width_);
-        core::parallel_for(blocks_of(rows.count), [&](std::size_t block) {
+        work::parallel_for(blocks_of(rows.count), [&](std::size_t block) {
             Array<Complex, 1> line({width_});
             for (std::size_t i = block * lines_together; i < std::min((block + 1) * lines_together, rows.count); ++i) {
                 std::ranges::fill(line.elements(), Complex(0));

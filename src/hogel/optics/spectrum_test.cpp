@@ -9,12 +9,12 @@
 #include <numbers>
 #include <random>
 
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/optics/elements.h"
 #include "hogel/optics/phase_walk.h"
 #include "hogel/optics/tilt.h"
 #include "hogel/units.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::optics {
 namespace {

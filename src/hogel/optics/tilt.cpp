@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "hogel/core/parallel.h"
 #include "hogel/optics/low_pass.h"
 #include "hogel/optics/spectrum_steps.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::optics {
 namespace {
@@ -72,7 +72,7 @@ Spectrum tilt(const Spectrum& spectrum, const Orientation& plane, const Grid& wi
     result.window.center_x = spectrum.window.center_x;
     result.window.center_y = spectrum.window.center_y;
     const double frequency = 1 / spectrum.wavelength;
-    core::parallel_for(result.height(), [&](std::size_t row) {
+    work::parallel_for(result.height(), [&](std::size_t row) {
         const double fy = result.frequency_y(static_cast<double>(row));
         for (std::size_t column = 0; column < result.width(); ++column) {
             const double fx = result.frequency_x(static_cast<double>(column));

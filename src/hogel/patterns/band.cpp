@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/core/parallel.h"
 #include "hogel/patterns/pattern_parts.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::patterns {
 namespace {

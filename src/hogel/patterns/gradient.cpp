@@ -5,9 +5,9 @@
 #include <numbers>
 #include <utility>
 
-#include "hogel/core/parallel.h"
 #include "hogel/optics/lines.h"
 #include "hogel/patterns/pattern_parts.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::patterns {
 namespace {
@@ -41,7 +41,7 @@ double dot(const Numbers& a, const Numbers& b) {
 
 // result = a + factor · b; any two may be the same array.
 void add(const Numbers& a, double factor, const Numbers& b, Numbers& result) {
-    core::parallel_for(a.extent(0), [&](std::size_t y) {
+    work::parallel_for(a.extent(0), [&](std::size_t y) {
         for (std::size_t x = 0; x < a.extent(1); ++x) result(y, x) = a(y, x) + static_cast<float>(factor) * b(y, x);
     });
 }
@@ -50,7 +50,7 @@ void add(Numbers& a, double factor, const Numbers& b) { add(a, factor, b, a); }
 
 // result = factor · a
 void multiply(const Numbers& a, double factor, Numbers& result) {
-    core::parallel_for(a.extent(0), [&](std::size_t y) {
+    work::parallel_for(a.extent(0), [&](std::size_t y) {
         for (std::size_t x = 0; x < a.extent(1); ++x) result(y, x) = static_cast<float>(factor) * a(y, x);
     });
 }
@@ -93,7 +93,7 @@ class PatternError {
     // Calls row(y, samples) for each row, to change it.
     template <class Row>
     void for_rows(const Row& row) {
-        core::parallel_for(optics::blocks_of(rows_), [&](std::size_t block) {
+        work::parallel_for(optics::blocks_of(rows_), [&](std::size_t block) {
             const std::size_t first = block * lines_together;
             for (std::size_t y = first; y < std::min(first + lines_together, rows_); ++y) row(y, &plane_(y, 0));
         });
@@ -102,7 +102,7 @@ class PatternError {
     // Calls column(x, samples) for each column, to change it.
     template <class Column>
     void for_columns(const Column& column) {
-        core::parallel_for(optics::blocks_of(columns_), [&](std::size_t block) {
+        work::parallel_for(optics::blocks_of(columns_), [&](std::size_t block) {
             const std::size_t x0 = block * lines_together, count = std::min(lines_together, columns_ - x0);
             Array<Complex, 2> lines({count, optics::stride_of(rows_)});
             for (std::size_t y = 0; y < rows_; ++y)
@@ -174,7 +174,7 @@ Array<float, 2> descend_phases(View<const Complex, 2> field, const FieldBand& ba
     PatternError error(band, field.shape());
     const Shape<2> shape = field.shape();
     Numbers phases(shape), gradient(shape), next(shape), next_gradient(shape), step(shape);
-    core::parallel_for(field.extent(0), [&](std::size_t y) {
+    work::parallel_for(field.extent(0), [&](std::size_t y) {
         for (std::size_t x = 0; x < field.extent(1); ++x) phases(y, x) = std::arg(field(y, x));
     });
     const std::size_t limit = options.iterations > 0 ? options.iterations : max_descent_steps;

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/math/fft.h"
 #include "hogel/patterns/pattern_parts.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::patterns {
 namespace {
@@ -49,7 +49,7 @@ Array<float, 2> iterate_phases(View<const Complex, 2> field, const PatternOption
     Array<float, 2> cycles(field.shape());
     for (std::size_t j = 0; j < rows.size(); ++j) {
         progress.report(static_cast<double>(j) / static_cast<double>(rows.size()));
-        core::parallel_for(columns.size(), [&](std::size_t i) {
+        work::parallel_for(columns.size(), [&](std::size_t i) {
             const std::size_t x0 = columns[i], y0 = rows[j];
             Array<Complex, 2> square({side, side});
             Array<float, 2> moduli({side, side});

@@ -8,10 +8,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/math/fft.h"
 #include "hogel/patterns/pattern_parts.h"
 #include "hogel/units.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel {
 
@@ -49,7 +50,7 @@ Array<Complex, 2> fit(const FieldSource& source, const Modulator& modulator) {
     // Reads bands of rows on all threads, aligned as the source prefers.
     const std::size_t y0 = (plane.height - height) / 2, rows = std::max<std::size_t>(64, source.alignment());
     const std::size_t first = y0 / rows, bands = (y0 + height + rows - 1) / rows - first;
-    core::parallel_for(bands, [&](std::size_t band) {
+    work::parallel_for(bands, [&](std::size_t band) {
         const std::size_t from = std::max(y0, (first + band) * rows),
                           to = std::min(y0 + height, (first + band + 1) * rows);
         const Region region{(plane.width - width) / 2, from, width, to - from};
@@ -64,7 +65,7 @@ Array<Complex, 2> fit(const FieldSource& source, const Modulator& modulator) {
 // Calls element(i) for all elements of an array, row by row on all threads.
 template <class Element>
 void for_rows(const Shape<2>& shape, const Element& element) {
-    core::parallel_for(shape[0], [&](std::size_t y) {
+    work::parallel_for(shape[0], [&](std::size_t y) {
         for (std::size_t i = y * shape[1]; i < (y + 1) * shape[1]; ++i) element(i);
     });
 }
@@ -101,7 +102,7 @@ Array<float, 2> encode_phase(View<const Complex, 2> field, const FieldBand& band
     }
     if (options.encoding == Encoding::gradient) return descend_phases(field, band, options, convergence, progress);
     Array<float, 2> cycles(field.shape());
-    core::parallel_for(field.extent(0), [&](std::size_t y) {
+    work::parallel_for(field.extent(0), [&](std::size_t y) {
         for (std::size_t x = 0; x < field.extent(1); ++x) {
             cycles(y, x) = cycles_of(field(y, x));
             if (options.encoding != Encoding::double_phase) continue;

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "hogel/core/parallel.h"
 #include "hogel/math/fft.h"
 #include "hogel/optics/phase_walk.h"
 #include "hogel/pattern.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::patterns {
 
@@ -19,7 +19,7 @@ namespace hogel::patterns {
 template <class OfLine>
 auto sum_of_lines(std::size_t count, const OfLine& of_line) {
     std::vector<decltype(of_line(count))> lines(count);
-    core::parallel_for(count, [&](std::size_t i) { lines[i] = of_line(i); });
+    work::parallel_for(count, [&](std::size_t i) { lines[i] = of_line(i); });
     decltype(of_line(count)) sum{};
     for (const auto& line : lines) sum += line;
     return sum;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/core/shared_order.h"
 #include "hogel/pattern.h"
 #include "hogel/patterns/pattern_parts.h"
+#include "hogel/work/shared_order.h"
+
+#include "hogel/core/stop_scope.h"
 
 namespace hogel {
 namespace {
 
-void put_numbers(core::MessageWriter& message, const Pattern& pattern) {
+void put_numbers(work::MessageWriter& message, const Pattern& pattern) {
     message.put(pattern.efficiency);
     message.put(pattern.light_field_efficiency);
     message.put(pattern.reference_angle);
@@ -16,7 +18,7 @@ void put_numbers(core::MessageWriter& message, const Pattern& pattern) {
     message.put(pattern.power);
 }
 
-void get_numbers(core::MessageReader& message, Pattern& pattern) {
+void get_numbers(work::MessageReader& message, Pattern& pattern) {
     pattern.efficiency = message.get<double>();
     pattern.light_field_efficiency = message.get<double>();
     pattern.reference_angle = message.get<double>();
@@ -26,13 +28,13 @@ void get_numbers(core::MessageReader& message, Pattern& pattern) {
     pattern.power = message.get<double>();
 }
 
-void put(core::MessageWriter& message, const Pattern& pattern) {
+void put(work::MessageWriter& message, const Pattern& pattern) {
     message.put(pattern.values);
     message.put(pattern.levels);
     put_numbers(message, pattern);
 }
 
-Pattern get(core::MessageReader& message) {
+Pattern get(work::MessageReader& message) {
     Pattern pattern;
     pattern.values = message.get_array<float, 2>();
     pattern.levels = message.get_array<std::uint8_t, 2>();
@@ -46,11 +48,11 @@ std::vector<Pattern> encode_patterns(std::span<const std::shared_ptr<const Field
                                      const PatternOptions& options, const Progress& progress) {
     const core::StopScope scope(progress);
     std::vector<Pattern> patterns(fields.size());
-    core::shared_jobs<Pattern>(
+    work::shared_jobs<Pattern>(
         fields.size(), {put, get},
         [&](std::size_t i) { return encode_pattern(*fields[i], options, progress.part(i, fields.size())); },
         [&](std::size_t i, Pattern& pattern) { patterns[i] = std::move(pattern); });
-    for (Pattern& pattern : patterns) core::share_result<Pattern>(pattern, {put, get});
+    for (Pattern& pattern : patterns) work::share_result<Pattern>(pattern, {put, get});
     return patterns;
 }
 

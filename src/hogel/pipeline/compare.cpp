@@ -4,9 +4,11 @@
 #include <functional>
 #include <limits>
 
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/pipeline.h"
+#include "hogel/work/parallel.h"
+
+#include "hogel/core/stop_scope.h"
 
 namespace hogel {
 namespace {
@@ -55,8 +57,8 @@ struct Blocks {
 Difference sum_blocks(const Blocks& blocks, const Progress& progress,
                       const std::function<Difference(const Region&)>& compare_block) {
     Difference sum;
-    core::parallel_ordered<Difference>(
-        blocks.count(), core::default_in_flight(), [&](std::size_t i) { return compare_block(blocks[i]); },
+    work::parallel_ordered<Difference>(
+        blocks.count(), work::default_in_flight(), [&](std::size_t i) { return compare_block(blocks[i]); },
         [&](std::size_t i, Difference& block) {
             sum.add(block);
             progress.report(static_cast<double>(i + 1) / static_cast<double>(blocks.count()));

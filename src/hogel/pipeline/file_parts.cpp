@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/file_part.h"
 #include "hogel/io/part_sinks.h"

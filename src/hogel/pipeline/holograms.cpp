@@ -8,13 +8,15 @@
 #include <optional>
 #include <utility>
 
-#include "hogel/core/pieces.h"
-#include "hogel/core/shared_order.h"
 #include "hogel/error.h"
 #include "hogel/image/film.h"
 #include "hogel/pipeline.h"
 #include "hogel/pipeline/picture_jobs.h"
 #include "hogel/stereogram/parallax.h"
+#include "hogel/work/pieces.h"
+#include "hogel/work/shared_order.h"
+
+#include "hogel/core/stop_scope.h"
 
 namespace hogel {
 
@@ -116,8 +118,8 @@ void photograph_one_by_one(const Fields& holograms, std::span<const Camera> came
         pipeline::put(job, made, pictures);
     };
     if (band == nullptr || band->vertical_diffuser)
-        return core::shared_jobs<std::vector<Image>>(order.size(), image::sent_pictures(), photograph, put,
-                                                     core::DoneBy::whole_team);
+        return work::shared_jobs<std::vector<Image>>(order.size(), image::sent_pictures(), photograph, put,
+                                                     work::DoneBy::whole_team);
     for (std::size_t k = 0; k < order.size(); ++k) {
         std::vector<Image> made = photograph(k);
         put(k, made);
@@ -137,7 +139,7 @@ std::vector<std::vector<Image>> photograph_colours(const Fields& holograms, std:
     std::size_t others = 0, done = 0;
     for (const CameraModel& with : ways) others += pipeline::is_made_in_jobs(holograms, with) ? 0 : 1;
     const std::size_t parts = jobs.size() + others;
-    core::shared_jobs<std::vector<Image>>(
+    work::shared_jobs<std::vector<Image>>(
         jobs.size(), image::sent_pictures(),
         [&](std::size_t i) { return pipeline::photograph(jobs[i], holograms, cameras, ways, progress.part(i, parts)); },
         [&](std::size_t i, std::vector<Image>& made) { pipeline::put(jobs[i], made, pictures[jobs[i].way]); });
@@ -145,9 +147,9 @@ std::vector<std::vector<Image>> photograph_colours(const Fields& holograms, std:
         if (!pipeline::is_made_in_jobs(holograms, ways[way]))
             photograph_one_by_one(holograms, cameras, ways[way], pictures[way],
                                   progress.part(jobs.size() + done++, parts));
-    if (Team* const all = core::team_of_several())
+    if (Team* const all = work::team_of_several())
         for (std::vector<Image>& of_way : pictures)
-            for (Image& picture : of_way) core::share_in_pieces<float>(*all, picture.pixels.elements());
+            for (Image& picture : of_way) work::share_in_pieces<float>(*all, picture.pixels.elements());
     return pictures;
 }
 

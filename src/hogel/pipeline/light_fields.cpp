@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <limits>
 
-#include "hogel/core/parallel.h"
 #include "hogel/core/part.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/pipeline.h"
 #include "hogel/pipeline/scene_placing.h"

@@ -5,9 +5,11 @@
 #include <chrono>
 
 #include "hogel/core/output_file.h"
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/pipeline.h"
+#include "hogel/work/parallel.h"
+
+#include "hogel/core/stop_scope.h"
 
 namespace hogel {
 namespace {
@@ -51,7 +53,7 @@ std::vector<std::filesystem::path> write_printer_images(const std::filesystem::p
                             with_history(options.metadata, to_metadata(light_field.provenance())));
                 continue;
             }
-            core::parallel_for(grid.hogels_s, [&](std::size_t i) {
+            work::parallel_for(grid.hogels_s, [&](std::size_t i) {
                 Image picture(grid.directions_u, grid.directions_v, grid.channels);
                 paste(row, hogel_at(i, t), picture, 0);
                 write_image(temporary / name(t * grid.hogels_s + i), picture, options.exposure);

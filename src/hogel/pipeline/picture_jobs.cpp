@@ -8,7 +8,7 @@
 
 #include "hogel/camera/photograph_plan.h"
 #include "hogel/camera/photograph_together.h"
-#include "hogel/core/shared_order.h"
+#include "hogel/work/shared_order.h"
 
 namespace hogel::pipeline {
 namespace {
@@ -44,7 +44,7 @@ std::vector<PictureJob> picture_jobs(const Fields& holograms, std::span<const st
     std::vector<PictureJob> jobs;
     for (std::size_t way = 0; way < ways.size(); ++way) {
         if (!is_made_in_jobs(holograms, ways[way])) continue;
-        if (!core::is_shared_or_kept()) {
+        if (!work::is_shared_or_kept()) {
             jobs.push_back({way, {order.begin(), order.end()}, numbers_below(cameras.size())});
             continue;
         }

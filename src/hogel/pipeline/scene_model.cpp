@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/pipeline/scene_placing.h"
 #include "hogel/stereogram/diffraction.h"
 #include "hogel/units.h"

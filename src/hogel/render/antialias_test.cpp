@@ -7,10 +7,10 @@
 #include <limits>
 #include <numbers>
 
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/render/test_renderers.h"
 #include "hogel/units.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::render {
 namespace {

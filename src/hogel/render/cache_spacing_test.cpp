@@ -8,11 +8,11 @@
 #include <atomic>
 #include <cmath>
 
-#include "hogel/core/parallel.h"
 #include "hogel/renderer.h"
 #include "hogel/shading.h"
 #include "hogel/shading/radiance_cache.h"
 #include "hogel/units.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::render {
 namespace {

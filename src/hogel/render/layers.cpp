@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/render/oblique_triangle.h"
 #include "hogel/render/projected.h"
 #include "hogel/render/span.h"

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/scene/position_hash.h"
 
 namespace hogel::scene {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/scene.h"
 #include "hogel/scene/edges.h"
 #include "hogel/scene/vertices.h"

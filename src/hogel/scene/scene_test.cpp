@@ -10,7 +10,7 @@
 #include <set>
 #include <stop_token>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/core/test_errors.h"
 #include "hogel/error.h"
 #include "hogel/scene/edges.h"

@@ -7,16 +7,17 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/core/parallel.h"
 #include "hogel/core/part.h"
 #include "hogel/core/random.h"
 #include "hogel/core/rates.h"
-#include "hogel/core/steps.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/scene/shapes.h"
 #include "hogel/scene/tessellate.h"
 #include "hogel/shading.h"
 #include "hogel/shading/lighting.h"
 #include "hogel/shading/triangles.h"
+#include "hogel/work/parallel.h"
+#include "hogel/work/steps.h"
 
 namespace hogel {
 
@@ -85,8 +86,8 @@ void for_vertices(std::size_t n, const Progress& progress, double from, double t
                   const std::function<void(std::size_t)>& body) {
     const std::size_t tasks = (n + baked_vertices_per_task - 1) / baked_vertices_per_task;
     const Progress part = progress.part(from, to);
-    core::Steps steps(part, tasks);
-    core::parallel_for(tasks, [&](std::size_t task) {
+    work::Steps steps(part, tasks);
+    work::parallel_for(tasks, [&](std::size_t task) {
         for (std::size_t i = task * baked_vertices_per_task; i < std::min(n, (task + 1) * baked_vertices_per_task);
              ++i) {
             core::throw_if_stopped();

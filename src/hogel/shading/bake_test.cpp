@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/scene/shapes.h"
 #include "hogel/shading.h"
 #include "hogel/shading/test_scenes.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::shading {
 namespace {

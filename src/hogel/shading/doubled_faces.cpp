@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "hogel/core/parallel.h"
 #include "hogel/scene/position_hash.h"
 #include "hogel/shading/sides.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::shading {
 namespace {
@@ -24,7 +24,7 @@ class DoubledFaces {
     explicit DoubledFaces(const ShadedScene& scene) : scene_(scene), removed_(scene.triangles.size()) {
         const std::size_t count = scene.triangles.size();
         hashes_.resize(count);
-        core::parallel_for((count + triangles_per_task - 1) / triangles_per_task, [&](std::size_t task) {
+        work::parallel_for((count + triangles_per_task - 1) / triangles_per_task, [&](std::size_t task) {
             const std::size_t first = task * triangles_per_task;
             for (std::size_t i = first; i < std::min(count, first + triangles_per_task); ++i) {
                 const std::array<Vec3, 3> p = corners(i);

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <random>
 
-#include "hogel/core/parallel.h"
 #include "hogel/shading.h"
 #include "hogel/shading/test_scenes.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::shading {
 namespace {
@@ -104,7 +104,7 @@ TEST(RadianceCache, gives_the_same_bits_in_any_order_and_number_of_threads) {
         return radiance_at(scene, index, w[0], w[1], w[2]);
     };
     for (std::size_t i = 0; i < count; ++i) alone[i] = evaluate(once, i);
-    core::parallel_for(count, [&](std::size_t i) { together[count - 1 - i] = evaluate(again, count - 1 - i); });
+    work::parallel_for(count, [&](std::size_t i) { together[count - 1 - i] = evaluate(again, count - 1 - i); });
     EXPECT_EQ(alone, together);
 }
 

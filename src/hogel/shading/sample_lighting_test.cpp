@@ -6,10 +6,10 @@
 #include <numbers>
 #include <random>
 
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/shading.h"
 #include "hogel/shading/test_scenes.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::shading {
 namespace {

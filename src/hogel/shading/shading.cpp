@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/shading/doubled_faces.h"
 #include "hogel/shading/layers.h"

@@ -7,9 +7,9 @@
 #include <limits>
 #include <numbers>
 
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/shading/test_scenes.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::shading {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "hogel/core/parallel.h"
-#include "hogel/core/steps.h"
+#include "hogel/work/parallel.h"
+#include "hogel/work/steps.h"
 
 namespace hogel::shading {
 namespace {
@@ -140,8 +140,8 @@ std::vector<ShadowMap> make_shadow_maps(const Scene& scene, const trace::RayCast
     }
     constexpr std::size_t rows_per_task = 64;
     const std::size_t tasks = (work.size() + rows_per_task - 1) / rows_per_task;
-    core::Steps steps(progress, tasks);
-    core::parallel_for(tasks, [&](std::size_t task) {
+    work::Steps steps(progress, tasks);
+    work::parallel_for(tasks, [&](std::size_t task) {
         for (std::size_t i = task * rows_per_task; i < std::min(work.size(), (task + 1) * rows_per_task); ++i)
             maps[work[i].first].fill(caster, work[i].second);
         steps.report_one();

@@ -3,11 +3,11 @@
 #include <array>
 #include <numbers>
 
-#include "hogel/core/parallel.h"
 #include "hogel/shading/illumination.h"
 #include "hogel/shading/lighting.h"
 #include "hogel/shading/shadow_maps.h"
 #include "hogel/shading/triangles.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::shading {
 namespace {
@@ -82,7 +82,7 @@ class ShadowedLighting final : public SampleLighting {
             unshadowed_.push_back(color * scene.ambient + vertex_emission(mesh.material));
         }
         irradiance_.resize((base + n) * lights);
-        core::parallel_for((n + shadowed_vertices_per_task - 1) / shadowed_vertices_per_task, [&](std::size_t task) {
+        work::parallel_for((n + shadowed_vertices_per_task - 1) / shadowed_vertices_per_task, [&](std::size_t task) {
             for (std::size_t i = task * shadowed_vertices_per_task;
                  i < std::min(n, (task + 1) * shadowed_vertices_per_task); ++i)
                 for (std::size_t k = 0; k < lights; ++k) {

@@ -5,11 +5,11 @@
 #include <unordered_map>
 #include <vector>
 
-#include "hogel/core/parallel.h"
 #include "hogel/core/part.h"
 #include "hogel/scene/vertices.h"
 #include "hogel/shading/lighting.h"
 #include "hogel/shading/triangles.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::shading {
 namespace {
@@ -57,7 +57,7 @@ std::vector<char> find_seen_backs(const Scene& scene, const ShadedScene& shaded)
     const BackFinder finder(scene, shaded);
     const std::size_t count = shaded.triangles.size();
     std::vector<char> seen(count);
-    core::parallel_for((count + sides_per_task - 1) / sides_per_task, [&](std::size_t task) {
+    work::parallel_for((count + sides_per_task - 1) / sides_per_task, [&](std::size_t task) {
         const std::size_t first = task * sides_per_task;
         for (std::size_t i = first; i < std::min(count, first + sides_per_task); ++i)
             seen[i] =

@@ -3,10 +3,10 @@
 #include <numbers>
 #include <vector>
 
-#include "hogel/core/parallel.h"
 #include "hogel/shading/lighting.h"
 #include "hogel/shading/triangles.h"
 #include "hogel/shading/vertex_visibility.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::shading {
 namespace {
@@ -19,7 +19,7 @@ void for_lit_vertices(const Scene& scene, const Work& work) {
     std::size_t base = 0;
     for (const Mesh& mesh : scene.meshes) {
         const std::size_t n = mesh.radiance.empty() ? mesh.positions.size() : 0;
-        core::parallel_for((n + vertices_per_task - 1) / vertices_per_task, [&](std::size_t task) {
+        work::parallel_for((n + vertices_per_task - 1) / vertices_per_task, [&](std::size_t task) {
             const std::size_t first = task * vertices_per_task;
             for (std::size_t i = first; i < std::min(n, first + vertices_per_task); ++i) work(mesh, base, i);
         });

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <span>
 
-#include "hogel/core/parallel.h"
 #include "hogel/scenes.h"
 #include "hogel/shading/illumination.h"
 #include "hogel/shading/lighting.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::shading {
 namespace {
@@ -78,7 +78,7 @@ VertexVisibility::VertexVisibility(const Scene& scene, const ShadedScene& shaded
 void VertexVisibility::trace_vertices(const Part& part) {
     const Mesh& mesh = *part.mesh;
     const std::size_t n = mesh.positions.size();
-    core::parallel_for((n + visible_vertices_per_task - 1) / visible_vertices_per_task, [&](std::size_t task) {
+    work::parallel_for((n + visible_vertices_per_task - 1) / visible_vertices_per_task, [&](std::size_t task) {
         const std::size_t first = task * visible_vertices_per_task;
         for (std::size_t i = first; i < std::min(n, first + visible_vertices_per_task); ++i)
             for (std::size_t k = 0; k < reach_.size(); ++k) {
@@ -156,7 +156,7 @@ void VertexVisibility::smooth(const Light& light, const std::vector<float>& reac
         if (is_crossed(light, reach, shaded_.triangles[i])) crossed.push_back(i);
     if (crossed.empty()) return;
     std::vector<Shares> sampled(crossed.size());
-    core::parallel_for(crossed.size(),
+    work::parallel_for(crossed.size(),
                        [&](std::size_t i) { sampled[i] = sample(light, shaded_.triangles[crossed[i]]); });
     std::vector<char> at_edge(reach.size());
     for (const std::uint32_t i : crossed)

@@ -9,12 +9,12 @@
 #include <optional>
 
 #include "hogel/core/object_pool.h"
-#include "hogel/core/parallel.h"
 #include "hogel/lightfield/channel_source.h"
 #include "hogel/resources.h"
 #include "hogel/stereogram/hogel_synthesis.h"
 #include "hogel/stereogram/stereogram.h"
 #include "hogel/stereogram/windows/overlap_add.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel {
 
@@ -122,7 +122,7 @@ class HogelsSideBySide final : public Stereogram {
         if (bytes > memory) return 0;
         if (kept_.size() > 0) return bytes;
         Array<float, 2> amplitudes(shape);
-        core::parallel_for(front().hogels_t, [&](std::size_t t) {
+        work::parallel_for(front().hogels_t, [&](std::size_t t) {
             auto scratch = scratch_pool_.take();
             const HogelRange row{0, t, front().hogels_s, 1};
             prepare(*waves, row, scratch->rays, {&amplitudes(t * row.ns, 0), {row.ns, shape[1]}});

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::stereogram {
 
@@ -17,7 +17,7 @@ Field point_hologram(std::span<const PointSource> points, const FieldGrid& grid)
                         "point hologram: a point lies on the hologram plane, where its wave is singular");
     Field field(grid);
     const double k = 2 * std::numbers::pi / grid.wavelength;
-    core::parallel_for(grid.plane.height, [&](std::size_t row) {
+    work::parallel_for(grid.plane.height, [&](std::size_t row) {
         for (std::size_t column = 0; column < grid.plane.width; ++column) {
             const Vec3 here{grid.plane.x(static_cast<double>(column)), grid.plane.y(static_cast<double>(row)), 0};
             std::complex<double> sum = 0;

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 
 namespace hogel::trace {

@@ -9,7 +9,7 @@
 #include <random>
 #include <stop_token>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/core/test_errors.h"
 #include "hogel/error.h"
 

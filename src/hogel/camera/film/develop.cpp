@@ -9,8 +9,8 @@
 #include "hogel/camera/film/lens.h"
 #include "hogel/camera/film/merged_weights.h"
 #include "hogel/core/object_pool.h"
-#include "hogel/core/parallel.h"
 #include "hogel/photograph.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::camera::film {
 namespace {
@@ -211,7 +211,7 @@ void Film::develop(View<const float, 2> blocks, const Camera& camera, const Rect
     const double area = FilmLens(size_.sines, hologram_.wavelength, camera).area();
     const auto scale = static_cast<float>(weight / (area * camera.eye.z * development.points()));
     core::ObjectPool<Development::Scratch> pool;
-    core::parallel_for(optics::blocks_of(camera.picture.height), [&](std::size_t block) {
+    work::parallel_for(optics::blocks_of(camera.picture.height), [&](std::size_t block) {
         auto scratch = pool.take();
         development.develop(blocks, block * optics::lines_together, scale, *scratch, image);
     });

@@ -9,11 +9,11 @@
 #include "hogel/camera/film/lanes.h"
 #include "hogel/camera/film/lens.h"
 #include "hogel/camera/film/resample.h"
-#include "hogel/core/parallel.h"
 #include "hogel/core/thread_buffer.h"
 #include "hogel/math/fft.h"
 #include "hogel/optics/lines.h"
 #include "hogel/optics/phase_walk.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::camera::film {
 namespace {
@@ -136,7 +136,7 @@ PupilWave Film::pupil_wave(const PackedBand& band) const {
     transform_columns(is_lit, *scratch);
     const std::size_t lit = size_.lit_right - size_.lit_left, width = across(size_.reach_x);
     PupilWave wave({optics::blocks_of(across(size_.reach_y)), width * optics::lines_together});
-    core::parallel_for(wave.extent(0), [&](std::size_t block) {
+    work::parallel_for(wave.extent(0), [&](std::size_t block) {
         const core::ThreadBuffer<float> lines(along_.size() * both);
         std::fill_n(lines.data(), size_.lit_left * both, 0.0f);
         std::copy_n(&scratch->half(block, 0), lit * both, &lines[size_.lit_left * both]);
@@ -154,7 +154,7 @@ void Film::resample_rows(const PackedBand& band, std::vector<char>& is_lit, Scra
     if (scratch.columns.size() == 0)
         scratch.columns = Array<float, 3>({optics::blocks_of(lit_columns), row_blocks, optics::lines_together * both});
     const Vec3 eye = band_.geometry.eye();
-    core::parallel_for(row_blocks, [&](std::size_t block) {
+    work::parallel_for(row_blocks, [&](std::size_t block) {
         const std::size_t first = block * optics::lines_together,
                           count = std::min(optics::lines_together, plane.height - first);
         // Most rows are dark where the lines of a hologram are photographed apart.
@@ -196,7 +196,7 @@ void Film::transform_columns(const std::vector<char>& is_lit, Scratch& scratch) 
     Array<float, 2>& half = scratch.half;
     if (half.size() == 0) half = Array<float, 2>({optics::blocks_of(across(size_.reach_y)), lit_columns * both});
     // Transforms each column and keeps only the frequencies within the pupil.
-    core::parallel_for(optics::blocks_of(lit_columns), [&](std::size_t block) {
+    work::parallel_for(optics::blocks_of(lit_columns), [&](std::size_t block) {
         const std::size_t first = block * optics::lines_together,
                           count = std::min(optics::lines_together, lit_columns - first);
         const std::size_t padded_rows = padded(plane.height);
@@ -257,7 +257,7 @@ void Film::expose(std::span<const PupilWave> pupil_waves, const Camera& camera, 
     node.share_y.resize(size_.y.count);
     for (std::size_t b = 0; b < lens.nodes_y; ++b)
         for (std::size_t a = 0; a < lens.nodes_x; ++a) {
-            core::parallel_for(node.lens.extent(0), [&](std::size_t block) {
+            work::parallel_for(node.lens.extent(0), [&](std::size_t block) {
                 const auto first = static_cast<std::ptrdiff_t>((node.first_block + block) * optics::lines_together);
                 lens.rows(lens.node_x(a), lens.node_y(b), first - size_.reach_y, node.reach_x, &node.lens(block, 0));
             });
@@ -278,7 +278,7 @@ void Film::expose_node(const PupilWave& pupil_wave, const Node& node, View<float
         columns.shape() != shape)
         columns = Array<float, 2>(shape);
     // First the few rows of the opening, then each column, whose intensity is added at once.
-    core::parallel_for(blocks, [&](std::size_t block) {
+    work::parallel_for(blocks, [&](std::size_t block) {
         const std::size_t size = film_along_.size();
         const core::ThreadBuffer<float> lines(size * both);
         const math::PackedComplex* wave = &pupil_wave(node.first_block + block, left * optics::lines_together);
@@ -293,7 +293,7 @@ void Film::expose_node(const PupilWave& pupil_wave, const Node& node, View<float
     // Row zero of the columns is the frequency −reach_y + 16 first_block.
     const std::size_t rows = blocks * optics::lines_together,
                       below = static_cast<std::size_t>(size_.reach_y) - node.first_block * optics::lines_together;
-    core::parallel_for(columns.extent(0), [&](std::size_t block) {
+    work::parallel_for(columns.extent(0), [&](std::size_t block) {
         const std::size_t size = film_down_.size(), kept = std::min(rows - below, size - below);
         const core::ThreadBuffer<float> lines(size * both);
         std::copy_n(&columns(block, below * both), kept * both, lines.data());

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "hogel/core/half.h"
-#include "hogel/core/parallel.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::camera::hogel_spectra {
 namespace {
@@ -31,7 +31,7 @@ KeptWaves::KeptWaves(const HogelLayout& hogels, const stereogram::HogelWaves& wa
       scales_(across_ * down_) {
     const std::size_t ns = hogels.grid.plane.width / hogels.across(), nt = hogels.grid.plane.height / hogels.down();
     const std::size_t n = hogels.columns, row_size = n * 2 * stereogram::HogelWaves::lanes;
-    core::parallel_for(down_, [&](std::size_t strip) {
+    work::parallel_for(down_, [&](std::size_t strip) {
         const std::size_t t0 = strip * tile_side;
         Array<float, 1> gathered({stereogram::HogelWaves::powers_size(n) * stereogram::HogelWaves::lanes}),
             row_of_waves({row_size});

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "hogel/camera/hogel_spectra/colour_eyes.h"
-#include "hogel/core/lru_cache.h"
-#include "hogel/core/parallel.h"
-#include "hogel/core/steps.h"
 #include "hogel/resources.h"
+#include "hogel/work/lru_cache.h"
+#include "hogel/work/parallel.h"
+#include "hogel/work/steps.h"
 
 namespace hogel::camera::hogel_spectra {
 namespace {
@@ -39,9 +39,9 @@ class StereogramEyes final : public camera::EyeDrawing {
             bands.push_back(camera::PackedBand::dark(looks, plane.height, plane.width));
         }
         const std::vector<std::vector<HogelPart>> sets = parts();
-        core::Steps steps(progress, count_of(sets));
+        work::Steps steps(progress, count_of(sets));
         for (const auto& set : sets)
-            core::parallel_for(set.size(), [&](std::size_t i) {
+            work::parallel_for(set.size(), [&](std::size_t i) {
                 for (std::size_t c = 0; c < colours_.size(); ++c) {
                     auto scratch = colours_[c]->scratch();
                     colours_[c]->draw(set[i], some, *scratch);
@@ -91,7 +91,7 @@ std::unique_ptr<EyeDrawing> make_stereogram_eyes(std::span<const Hogels> colours
 }
 
 // The rays of blocks of hogels, which several colours need one after the other.
-using SharedRays = core::LruCache<std::array<std::size_t, 4>, std::vector<LightFieldTile>>;
+using SharedRays = work::LruCache<std::array<std::size_t, 4>, std::vector<LightFieldTile>>;
 constexpr double max_shared_bytes = 512.0 * (1 << 20);
 
 // Whether hogels are made from the same rays.

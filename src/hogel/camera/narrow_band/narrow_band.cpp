@@ -8,12 +8,13 @@
 
 #include "hogel/camera/narrow_band/kernels.h"
 #include "hogel/core/object_pool.h"
-#include "hogel/core/shared_order.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/optics/low_pass.h"
 #include "hogel/optics/multiply.h"
 #include "hogel/optics/phase_walk.h"
 #include "hogel/team.h"
 #include "hogel/units.h"
+#include "hogel/work/shared_order.h"
 
 namespace hogel::camera::narrow_band {
 namespace {
@@ -71,8 +72,8 @@ struct Contribution {
 
 using Contributions = std::vector<std::vector<Contribution>>;  // [group][member]
 
-core::Sent<Contributions> sent_contributions() {
-    return {[](core::MessageWriter& to, const Contributions& groups) {
+work::Sent<Contributions> sent_contributions() {
+    return {[](work::MessageWriter& to, const Contributions& groups) {
                 to.put(groups.size());
                 for (const auto& members : groups) {
                     to.put(members.size());
@@ -84,7 +85,7 @@ core::Sent<Contributions> sent_contributions() {
                     }
                 }
             },
-            [](core::MessageReader& from) {
+            [](work::MessageReader& from) {
                 Contributions groups(from.get<std::size_t>());
                 for (auto& members : groups) {
                     members.resize(from.get<std::size_t>());
@@ -337,8 +338,8 @@ std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const 
     const std::vector<Region> blocks = blocks_of(hologram);
     // Kept from block to block, because the system clears new memory.
     core::ObjectPool<Array<Complex, 1>> block_memory;
-    core::shared_ordered<Contributions>(
-        blocks.size(), core::default_in_flight(), sent_contributions(),
+    work::shared_ordered<Contributions>(
+        blocks.size(), work::default_in_flight(), sent_contributions(),
         [&](std::size_t i) {
             const Region& block = blocks[i];
             Contributions contributions;

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "hogel/camera/narrow_band/kernels.h"
-#include "hogel/core/parallel.h"
 #include "hogel/units.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::camera::narrow_band {
 namespace {

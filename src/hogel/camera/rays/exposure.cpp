@@ -7,10 +7,11 @@
 #include <tuple>
 
 #include "hogel/camera/rays/ray_kernels.h"
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/core/thread_buffer.h"
 #include "hogel/lightfield/interpolation.h"
 #include "hogel/resources.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::camera::rays {
 namespace {
@@ -148,7 +149,7 @@ void Exposure::prepare(std::size_t first, std::size_t count) {
     if (first_prepared_ != begin || prepared_.size() != size) {
         first_prepared_ = begin;
         prepared_.resize(size);
-        core::parallel_for(size, [&](std::size_t i) { prepared_[i] = rays_of(points_[begin + i]); });
+        work::parallel_for(size, [&](std::size_t i) { prepared_[i] = rays_of(points_[begin + i]); });
     }
     first_ = first;
     rays_ = std::span(prepared_).subspan(first - begin, count);
@@ -173,28 +174,28 @@ void Exposure::add_points(const HogelRange& range, const HogelRange& cells, cons
             bottom = std::max(bottom, end);
         }
         if (top < bottom)
-            core::parallel_for(bottom - top, [&](std::size_t row) { expose_row(top + row, range, cells, seen); });
+            work::parallel_for(bottom - top, [&](std::size_t row) { expose_row(top + row, range, cells, seen); });
     }
 }
 
 void Exposure::add(std::size_t face, const HogelBlock& block, const HogelRange& cells) {
     add_points(block.range, cells, [&](View<float, 4> seen) {
         if (face == 0 && vectors_)
-            core::parallel_for(block.range.nt, [&](std::size_t t) { look_along_row(block, t, seen); });
+            work::parallel_for(block.range.nt, [&](std::size_t t) { look_along_row(block, t, seen); });
         else
-            core::parallel_for(rays_.size(), [&](std::size_t i) { look(face, block, points_[first_ + i], seen[i]); });
+            work::parallel_for(rays_.size(), [&](std::size_t i) { look(face, block, points_[first_ + i], seen[i]); });
     });
 }
 
 void Exposure::add(const Views<float>& views, const HogelRange& hogels, const HogelRange& cells) {
     add_points(hogels, cells, [&](View<float, 4> seen) {
-        core::parallel_for(hogels.nt, [&](std::size_t t) { look_along_row(views, hogels, t, seen); });
+        work::parallel_for(hogels.nt, [&](std::size_t t) { look_along_row(views, hogels, t, seen); });
     });
 }
 
 void Exposure::add(const Views<std::uint16_t>& views, const HogelRange& hogels, const HogelRange& cells) {
     add_points(hogels, cells, [&](View<float, 4> seen) {
-        core::parallel_for(hogels.nt, [&](std::size_t t) { look_along_row(views, hogels, t, seen); });
+        work::parallel_for(hogels.nt, [&](std::size_t t) { look_along_row(views, hogels, t, seen); });
     });
 }
 
@@ -336,7 +337,7 @@ void Exposure::expose_row(std::size_t row, const HogelRange& range, const HogelR
 
 void Exposure::develop(Image& image) const {
     const float mean = 1 / static_cast<float>(points_.size());
-    core::parallel_for(camera_.picture.height, [&](std::size_t row) {
+    work::parallel_for(camera_.picture.height, [&](std::size_t row) {
         for (std::size_t column = 0; column < camera_.picture.width; ++column)
             for (std::size_t c = 0; c < grid_.channels; ++c)
                 image.pixels(row, column, c) = film_(c, row, column) * mean;

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <functional>
 
-#include "hogel/core/parallel.h"
 #include "hogel/units.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::camera::rays {
 namespace {

@@ -10,9 +10,11 @@
 #include "hogel/camera/rays/exposure.h"
 #include "hogel/camera/rays/ray_blocks.h"
 #include "hogel/core/half.h"
-#include "hogel/core/parallel.h"
 #include "hogel/image/film.h"
 #include "hogel/ray_photograph.h"
+#include "hogel/work/parallel.h"
+
+#include "hogel/core/stop_scope.h"
 
 namespace hogel {
 
@@ -47,7 +49,7 @@ std::vector<Sample, CacheLineAllocator<Sample>> views_of(const LightFieldSource&
     const std::size_t view = grid.channels * grid.hogels(), directions = grid.directions();
     std::vector<Sample, CacheLineAllocator<Sample>> samples(view * directions);
     const auto put = [&](const HogelBlock& block) {
-        core::parallel_for(block.range.nt * grid.channels, [&](std::size_t i) {
+        work::parallel_for(block.range.nt * grid.channels, [&](std::size_t i) {
             const std::size_t t = i / grid.channels, c = i % grid.channels;
             const View<const float, 2> hogels(block.radiance + c * block.channel + t * block.row,
                                               {block.range.ns, directions});
@@ -57,7 +59,7 @@ std::vector<Sample, CacheLineAllocator<Sample>> views_of(const LightFieldSource&
     };
     const HogelRange tile = source.preferred_tile();
     const std::size_t across = (grid.hogels_s + tile.ns - 1) / tile.ns, down = (grid.hogels_t + tile.nt - 1) / tile.nt;
-    core::parallel_ordered<HeldHogels>(
+    work::parallel_ordered<HeldHogels>(
         across * down, thread_count(),
         [&](std::size_t i) {
             const std::size_t s = i % across * tile.ns, t = i / across * tile.nt;

@@ -14,10 +14,11 @@
 #include "hogel/camera/speckle_free/spots.h"
 #include "hogel/camera/speckle_free/tails.h"
 #include "hogel/core/object_pool.h"
-#include "hogel/core/parallel.h"
 #include "hogel/core/rates.h"
-#include "hogel/core/steps.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/core/thread_buffer.h"
+#include "hogel/work/parallel.h"
+#include "hogel/work/steps.h"
 
 namespace hogel::camera::speckle_free {
 namespace {
@@ -177,7 +178,7 @@ class Photographer {
         std::size_t blocks = 0;
         for (const ExpectedEye& eye : eyes_)
             for (const Exposure& exposure : eye.exposures) blocks += blocks_of(exposure);
-        core::Steps steps(exposing, blocks);
+        work::Steps steps(exposing, blocks);
         for (ExpectedEye& eye : eyes_)
             for (const Exposure& exposure : eye.exposures)
                 expose_blocks(exposure, steps, [&](std::size_t row, std::size_t left, std::size_t right) {
@@ -198,7 +199,7 @@ class Photographer {
                 Image& image = pictures[exposure.camera];
                 const auto above = static_cast<double>(exposure.rows.beside),
                            left = static_cast<double>(exposure.columns.beside);
-                core::parallel_for(picture.height, [&](std::size_t row) {
+                work::parallel_for(picture.height, [&](std::size_t row) {
                     const double down = above + plane.row(picture.y(static_cast<double>(row)));
                     for (std::size_t column = 0; column < picture.width; ++column)
                         image.pixels(row, column, 0) +=
@@ -233,8 +234,8 @@ class Photographer {
                 eye.numbers = Array<float, 2>({count, plane.width * eye.pairs->padded_count()});
         const std::size_t across = (plane.width + block_across - 1) / block_across,
                           down = (count + block_down - 1) / block_down;
-        core::Steps steps(progress, across * down);
-        core::parallel_for(across * down, [&](std::size_t i) {
+        work::Steps steps(progress, across * down);
+        work::parallel_for(across * down, [&](std::size_t i) {
             Region part{i % across * block_across, first_row_ + i / across * block_down, 0, 0};
             part.width = std::min(block_across, plane.width - part.x0);
             part.height = std::min(block_down, first_row_ + count - part.y0);
@@ -277,10 +278,10 @@ class Photographer {
     // Calls expose(row, left, right) for parts of rows of pixels, block by block, so that the numbers around a block
     // stay in the processor's cache.
     template <class Expose>
-    static void expose_blocks(const Exposure& exposure, core::Steps& steps, const Expose& expose) {
+    static void expose_blocks(const Exposure& exposure, work::Steps& steps, const Expose& expose) {
         const std::size_t width = exposure.columns.base.size(), height = exposure.rows.base.size();
         const std::size_t across = blocks_across(exposure);
-        core::parallel_for(blocks_of(exposure), [&](std::size_t i) {
+        work::parallel_for(blocks_of(exposure), [&](std::size_t i) {
             const std::size_t left = i % across * pixels_across, top = i / across * pixels_down;
             for (std::size_t row = top; row < std::min(top + pixels_down, height); ++row)
                 if (exposure.rows.seen[row] > 0) expose(row, left, std::min(left + pixels_across, width));

@@ -6,8 +6,9 @@
 #include <numeric>
 
 #include "hogel/camera/dirichlet.h"
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/math/quadrature.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::camera::speckle_free {
 namespace {
@@ -100,7 +101,7 @@ SpotBasis::SpotBasis(std::size_t samples, double half_band) : SpotNodes(samples,
 
     table_ = Array<float, 3>({fractions, 2 * samples, padded_count()});
     std::vector<double> wrong(fractions), all(fractions);
-    core::parallel_for(fractions, [&](std::size_t fraction) {
+    work::parallel_for(fractions, [&](std::size_t fraction) {
         std::vector<double> b(count), right(count);
         for (std::size_t m = 0; m < samples; ++m) {
             if (m % 64 == 0) core::throw_if_stopped();

@@ -12,10 +12,10 @@
 #include "hogel/camera/sine_grid.h"
 #include "hogel/camera/speckle_free/kernels.h"
 #include "hogel/camera/view_geometry.h"
-#include "hogel/core/parallel.h"
 #include "hogel/math/fft.h"
 #include "hogel/optics/phase_walk.h"
 #include "hogel/optics/pupil_edge.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::camera::speckle_free {
 namespace {
@@ -123,7 +123,7 @@ Array<float, 2> pixel_means(const PixelPlaces& places, std::size_t reach, std::s
     std::vector<std::complex<double>> roots(samples);
     for (std::size_t i = 0; i < samples; ++i)
         roots[i] = optics::unit_phasor(static_cast<double>(i) / static_cast<double>(samples));
-    core::parallel_for(means.extent(0), [&](std::size_t row) {
+    work::parallel_for(means.extent(0), [&](std::size_t row) {
         const double hogel = static_cast<double>(row % taps) - static_cast<double>(reach);
         const auto [offset, width] = places.places[row / taps];
         const double from = offset - hogel;
@@ -344,7 +344,7 @@ Spots::Spots(const HogelGrid& hogels, const Camera& camera, const SpotBasis& bas
     const double scale = 1 / (period * period);
     // Pair by pair, as threads make them.
     Array<float, 3> of_pairs({list.size(), down_all, across_padded});
-    core::parallel_for(list.size(), [&](std::size_t pair) {
+    work::parallel_for(list.size(), [&](std::size_t pair) {
         const auto [qx, qy] = list[pair];
         Array<Complex, 2> film({size, size});
         opening.fill(&across(qx, 0), &down(qy, 0), static_cast<float>(scale), film);
@@ -364,7 +364,7 @@ Spots::Spots(const HogelGrid& hogels, const Camera& camera, const SpotBasis& bas
                                           followed / static_cast<double>(columns.places.size() * rows.places.size()));
     });
     weights_ = Array<float, 4>({rows.places.size(), columns.places.size(), taps(), taps() * pairs.padded_count()});
-    core::parallel_for(down_all, [&](std::size_t r) {
+    work::parallel_for(down_all, [&](std::size_t r) {
         constexpr std::size_t together = 16;  // numbers of a cache line
         for (std::size_t first = 0; first < across_all; first += together) {
             const std::size_t count = std::min(together, across_all - first);

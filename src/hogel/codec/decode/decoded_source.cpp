@@ -6,8 +6,8 @@
 
 #include "hogel/codec/format/stream_file.h"
 #include "hogel/codec/format/unfolded.h"
-#include "hogel/core/lru_cache.h"
 #include "hogel/error.h"
+#include "hogel/work/lru_cache.h"
 
 namespace hogel {
 
@@ -163,7 +163,7 @@ class DecodedStream {
     std::vector<std::unique_ptr<TileCoder>> coders_;  // one per part
     bool coefficients_;
     std::size_t layers_;
-    mutable core::LruCache<Index, Decoder> recent_;
+    mutable work::LruCache<Index, Decoder> recent_;
 };
 
 // One face of a stream.

@@ -8,7 +8,7 @@
 #include "hogel/codec/format/bytes.h"
 #include "hogel/codec/format/model_states.h"
 #include "hogel/codec/format/pictures.h"
-#include "hogel/core/parallel.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::codec::decode {
 
@@ -84,12 +84,12 @@ void HogelDecoder::read(LightFieldTile& part) {
         for (std::size_t s = part.range.s0; s < part.range.s0 + part.range.ns; ++s)
             wanted.push_back(place_[(t - range_.t0) * range_.ns + s - range_.s0]);
     // A thread that waits inside must not start other work that waits for this tile.
-    core::isolate([&] {
+    work::isolate([&] {
         if (!std::ranges::all_of(wanted, [&](std::size_t k) { return complete_[k].load(); })) {
             const std::lock_guard lock(mutex_);
             decode(wanted);
         }
-        core::parallel_for(wanted.size(), [&](std::size_t n) {
+        work::parallel_for(wanted.size(), [&](std::size_t n) {
             const std::size_t s = n % part.range.ns, t = n / part.range.ns;
             for_each_row(pictures_[wanted[n]], setup_, [&](std::size_t c, std::size_t v, std::span<const float> row) {
                 std::ranges::copy(row, &part.radiance(c, t, s, v, 0));
@@ -139,7 +139,7 @@ void HogelDecoder::read_syntax_in_wavefronts(const std::vector<std::size_t>& wan
         std::vector<std::size_t> now;
         for (std::size_t k = wavefronts[wavefront]; k < wavefronts[wavefront + 1]; ++k)
             if (needed[k] && !syntax_read_[k]) now.push_back(k);
-        core::parallel_for(now.size(), [&](std::size_t n) { read_syntax(now[n]); });
+        work::parallel_for(now.size(), [&](std::size_t n) { read_syntax(now[n]); });
     }
 }
 
@@ -205,7 +205,7 @@ void HogelDecoder::decode(const std::vector<std::size_t>& wanted) {
         }
     for (std::size_t wavefront = 0; wavefront < wavefronts; ++wavefront) {
         const std::vector<std::size_t> now = wanted_of_wavefront(wavefront);
-        core::parallel_for(now.size(), [&](std::size_t n) { reconstruct_wanted(now[n]); });
+        work::parallel_for(now.size(), [&](std::size_t n) { reconstruct_wanted(now[n]); });
     }
 }
 

@@ -9,8 +9,8 @@
 #include "hogel/codec/hogel_coder.h"
 #include "hogel/codec/test_damage.h"
 #include "hogel/codec/test_fields.h"
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::codec::decode {
 
@@ -112,7 +112,7 @@ TEST(HogelDecoder, several_threads_read_the_same_tile) {
     for (const std::size_t threads : {1, 4}) {
         const ThreadLimit limit(threads);
         HogelDecoder decoder = example.open();
-        core::parallel_for(200, [&](std::size_t i) {
+        work::parallel_for(200, [&](std::size_t i) {
             HogelRange range{i % 9, i / 9 % 8, 1, 1};
             range.ns = 1 + i % (9 - range.s0);
             LightFieldTile part(example.field.grid(), range, false);

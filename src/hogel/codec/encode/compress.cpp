@@ -16,8 +16,8 @@
 #include "hogel/codec/format/stacked.h"
 #include "hogel/codec/format/stream_file.h"
 #include "hogel/codec/format/unfolded.h"
-#include "hogel/core/parallel.h"
 #include "hogel/core/rates.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/team.h"
 

@@ -5,8 +5,8 @@
 
 #include "hogel/codec/encode/secant_search.h"
 #include "hogel/codec/test_fields.h"
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/work/parallel.h"
 #include "thesis/wavelets/transform.h"
 
 namespace hogel::codec::encode {

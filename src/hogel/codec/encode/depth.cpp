@@ -8,8 +8,8 @@
 #include "hogel/codec/encode/depth.h"
 #include "hogel/codec/format/stream_file.h"
 #include "hogel/compress.h"
-#include "hogel/core/shared_order.h"
 #include "hogel/error.h"
+#include "hogel/work/shared_order.h"
 
 namespace hogel::codec::encode {
 
@@ -88,11 +88,11 @@ DepthCoding depth_coding(const LightField& light_field, std::optional<double> bo
     Range all;
     for (const LightField::Source& face : light_field.faces()) {
         const Tiling tiling(face->grid(), face->preferred_tile());
-        core::shared_ordered<Range>(
-            tiling.count(), core::default_in_flight(), {}, [&](std::size_t i) { return depths_of(*face, tiling[i]); },
+        work::shared_ordered<Range>(
+            tiling.count(), work::default_in_flight(), {}, [&](std::size_t i) { return depths_of(*face, tiling[i]); },
             [&](std::size_t, Range& depths) { all.include(depths); });
     }
-    core::share_result(all, {});
+    work::share_result(all, {});
     if (all.nearest > all.farthest) all = {0, 0};
     return DepthCoding(
         all.nearest, all.farthest,

@@ -9,8 +9,8 @@
 
 #include "hogel/codec/format/block_kernels.h"
 #include "hogel/codec/tile_coder.h"
-#include "hogel/core/shared_order.h"
 #include "hogel/error.h"
+#include "hogel/work/shared_order.h"
 
 namespace hogel::codec::encode {
 
@@ -67,19 +67,19 @@ CodingOutcome TileCompression::code(std::span<const std::size_t> tiles, double s
         sizes_.clear();
     }
     CodingOutcome sum;
-    const core::Sent<Coded> sent{[](core::MessageWriter& to, const Coded& coded) {
+    const work::Sent<Coded> sent{[](work::MessageWriter& to, const Coded& coded) {
                                      to.put(coded.bytes);
                                      to.put(coded.layers);
                                      to.put(coded.outcome);
                                  },
-                                 [](core::MessageReader& from) {
+                                 [](work::MessageReader& from) {
                                      Coded coded;
                                      coded.bytes = from.get_vector<std::uint8_t>();
                                      coded.layers = from.get_vector<std::size_t>();
                                      coded.outcome = from.get<CodingOutcome>();
                                      return coded;
                                  }};
-    core::shared_ordered<Coded>(
+    work::shared_ordered<Coded>(
         tiles.size(), in_flight(), sent,
         [&](std::size_t i) {
             return code_tile(tiles[i], step, max_bytes.empty() ? TileCoder::no_limit : max_bytes[i]);
@@ -92,17 +92,17 @@ CodingOutcome TileCompression::code(std::span<const std::size_t> tiles, double s
             }
             progress_.report(static_cast<double>(i + 1) / static_cast<double>(tiles.size()));
         });
-    core::share_result(sum, {});
+    work::share_result(sum, {});
     if (write) {
         writer_.share_entries();
-        core::share_result(sizes_, core::sent_vector<std::size_t>());
+        work::share_result(sizes_, work::sent_vector<std::size_t>());
     }
     return sum;
 }
 
 CodingOutcome TileCompression::look(std::span<const std::size_t> tiles) {
     CodingOutcome sum;
-    core::shared_ordered<CodingOutcome>(
+    work::shared_ordered<CodingOutcome>(
         tiles.size(), in_flight(), {},
         [&](std::size_t i) {
             auto [tile, outcome] = read(tiles[i]);
@@ -110,7 +110,7 @@ CodingOutcome TileCompression::look(std::span<const std::size_t> tiles) {
             return outcome;
         },
         [&](std::size_t, CodingOutcome& outcome) { sum.add(outcome); });
-    core::share_result(sum, {});
+    work::share_result(sum, {});
     return sum;
 }
 
@@ -124,16 +124,16 @@ coding::MagnitudeHistogram TileCompression::magnitudes() {
                         "another layout than stacked");
     }
     coding::MagnitudeHistogram sum;
-    const core::Sent<coding::MagnitudeHistogram> sent{
-        [](core::MessageWriter& to, const coding::MagnitudeHistogram& histogram) {
+    const work::Sent<coding::MagnitudeHistogram> sent{
+        [](work::MessageWriter& to, const coding::MagnitudeHistogram& histogram) {
             to.put(histogram.max());
             to.put(histogram.counts());
         },
-        [](core::MessageReader& from) {
+        [](work::MessageReader& from) {
             const auto max = from.get<float>();
             return coding::MagnitudeHistogram(max, from.get_vector<std::uint64_t>());
         }};
-    core::shared_ordered<coding::MagnitudeHistogram>(
+    work::shared_ordered<coding::MagnitudeHistogram>(
         tiles(), in_flight(), sent,
         [&](std::size_t i) {
             auto [tile, outcome] = read(i);
@@ -145,7 +145,7 @@ coding::MagnitudeHistogram TileCompression::magnitudes() {
             sum.add(histogram);
             progress_.report(static_cast<double>(i + 1) / static_cast<double>(tiles()));
         });
-    core::share_result(sum, sent);
+    work::share_result(sum, sent);
     return sum;
 }
 
@@ -167,7 +167,7 @@ std::vector<std::size_t> TileCompression::cut(double file) const {
 }
 
 std::size_t TileCompression::in_flight() const {
-    return std::min(core::default_in_flight(), parts_.front().coder->max_at_once());
+    return std::min(work::default_in_flight(), parts_.front().coder->max_at_once());
 }
 
 std::pair<LightFieldTile, CodingOutcome> TileCompression::read(std::size_t index) const {
@@ -181,7 +181,7 @@ std::pair<LightFieldTile, CodingOutcome> TileCompression::read(const CodedPart& 
     const bool any_value = part.coder->takes_any_value();
     const std::size_t width = tile.radiance.extent(4), height = tile.radiance.extent(3);
     std::vector<double> signal(tile.radiance.size() / (width * height));  // of each hogel and channel
-    core::parallel_for(signal.size(), [&](std::size_t hogel) {
+    work::parallel_for(signal.size(), [&](std::size_t hogel) {
         for (std::size_t v = 0; v < height; ++v) {
             const auto [begin, end] = counted_.columns(v, width);
             const auto values = tile.radiance.elements().subspan((hogel * height + v) * width + begin, end - begin);

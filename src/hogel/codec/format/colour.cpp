@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "hogel/core/parallel.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::codec::format {
 namespace {
@@ -30,7 +30,7 @@ template <class Change>
 void for_each_three_channels(View<float, 5> radiance, Change&& change) {
     if (radiance.extent(0) != 3) return;
     const std::size_t count = radiance.size() / 3;
-    core::parallel_for((count + colours_per_task - 1) / colours_per_task, [&](std::size_t part) {
+    work::parallel_for((count + colours_per_task - 1) / colours_per_task, [&](std::size_t part) {
         const auto of = [&](std::size_t channel) {
             return radiance[channel].elements().subspan(part * colours_per_task,
                                                         std::min(colours_per_task, count - part * colours_per_task));

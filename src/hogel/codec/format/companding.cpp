@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "hogel/codec/format/stream_file.h"
-#include "hogel/core/shared_order.h"
+#include "hogel/work/shared_order.h"
 
 namespace hogel::codec::format {
 namespace {
@@ -17,7 +17,7 @@ float luminance(float red, float green, float blue) { return (red + green + blue
 template <class Change>
 void for_each_part(View<float, 5> radiance, Change&& change) {
     const std::size_t channels = radiance.extent(0), count = radiance.size() / channels;
-    core::parallel_for((count + rays_per_task - 1) / rays_per_task, [&](std::size_t part) {
+    work::parallel_for((count + rays_per_task - 1) / rays_per_task, [&](std::size_t part) {
         const auto of = [&](std::size_t channel) {
             return radiance[channel].elements().subspan(part * rays_per_task,
                                                         std::min(rays_per_task, count - part * rays_per_task));
@@ -98,14 +98,14 @@ LightField companded(const LightField& light_field, const Companding& companding
 LuminanceHistogram luminance_histogram(const LightField& light_field, const Progress& progress) {
     const std::span<const LightField::Source> faces = light_field.faces();
     LuminanceHistogram sum;
-    const core::Sent<LuminanceHistogram> sent{
-        [](core::MessageWriter& to, const LuminanceHistogram& histogram) { to.put(histogram.counts()); },
-        [](core::MessageReader& from) { return LuminanceHistogram(from.get_vector<std::uint64_t>()); }};
+    const work::Sent<LuminanceHistogram> sent{
+        [](work::MessageWriter& to, const LuminanceHistogram& histogram) { to.put(histogram.counts()); },
+        [](work::MessageReader& from) { return LuminanceHistogram(from.get_vector<std::uint64_t>()); }};
     for (std::size_t face = 0; face < faces.size(); ++face) {
         const LightFieldGrid& grid = faces[face]->grid();
         const Tiling tiling(grid, faces[face]->preferred_tile());
-        core::shared_ordered<LuminanceHistogram>(
-            tiling.count(), core::default_in_flight(), sent,
+        work::shared_ordered<LuminanceHistogram>(
+            tiling.count(), work::default_in_flight(), sent,
             [&](std::size_t i) {
                 LightFieldTile tile(grid, tiling[i], false);
                 faces[face]->read(tile);
@@ -119,7 +119,7 @@ LuminanceHistogram luminance_histogram(const LightField& light_field, const Prog
                                 static_cast<double>(faces.size()));
             });
     }
-    core::share_result(sum, sent);
+    work::share_result(sum, sent);
     return sum;
 }
 

@@ -10,8 +10,8 @@
 #include "hogel/codec/format/stream_file.h"
 #include "hogel/codec/test_fields.h"
 #include "hogel/compress.h"
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::codec::format {
 namespace {

@@ -11,7 +11,7 @@
 #include "hogel/codec/test_fields.h"
 #include "hogel/codec/tile_coder.h"
 #include "hogel/compress.h"
-#include "hogel/core/parallel.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::codec::format {
 namespace {
@@ -112,7 +112,7 @@ TEST(Stacked, any_range_has_the_samples_of_the_whole) {
             copy(open_stream(folder / "a.hgl", {.layers = layer}).front(), whole);
             EXPECT_GE(sqnr_of(field, whole), layer == layers ? 25 : 5);
             const LightField source = open_stream(folder / "a.hgl", {.memory = 1, .layers = layer});
-            core::parallel_for(60, [&](std::size_t i) {
+            work::parallel_for(60, [&](std::size_t i) {
                 HogelRange range{i % field.grid().hogels_s, i * 7 % field.grid().hogels_t, 0, 0};
                 range.ns = 1 + i % (field.grid().hogels_s - range.s0);
                 range.nt = 1 + i % (field.grid().hogels_t - range.t0);

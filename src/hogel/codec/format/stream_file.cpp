@@ -10,7 +10,7 @@
 #include "hogel/codec/format/stream_header.h"
 #include "hogel/codec/format/unfolded.h"
 #include "hogel/codec/tile_coder.h"
-#include "hogel/core/shared_order.h"
+#include "hogel/work/shared_order.h"
 
 namespace hogel::codec::format {
 namespace {
@@ -101,7 +101,7 @@ void StreamWriter::append(std::span<const std::uint8_t> tile, std::span<const st
 }
 
 void StreamWriter::share_entries() {
-    core::share_result(entries_, core::sent_vector<StreamEntry>());
+    work::share_result(entries_, work::sent_vector<StreamEntry>());
     next_ = entries_.empty() ? 0 : entries_.back().offset + entries_.back().bytes;
 }
 

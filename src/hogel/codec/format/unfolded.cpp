@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::codec::format {
 namespace {
@@ -93,7 +93,7 @@ class UnfoldedSource final : public LightFieldSource {
                                         &tile.radiance(c, t, s, v + row, u));
         }
         const std::size_t hogels = range.hogels(), channels = tile.radiance.extent(0);
-        core::parallel_for(hogels * channels, [&](std::size_t k) {
+        work::parallel_for(hogels * channels, [&](std::size_t k) {
             const std::size_t hogel = k % hogels;
             unfolding_.fill_corners(tile.radiance[k / hogels][hogel / range.ns][hogel % range.ns]);
         });

@@ -15,12 +15,12 @@
 #include <variant>
 
 #include "hogel/core/output_file.h"
-#include "hogel/core/parallel.h"
 #include "hogel/core/raw_file.h"
 #include "hogel/error.h"
 #include "hogel/exchange/view_order.h"
 #include "hogel/io/arrays/mat.h"
 #include "hogel/io/arrays/mat_write.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::exchange {
 namespace fs = std::filesystem;
@@ -181,7 +181,7 @@ class MatPictures final : public ViewPictures {
                             const Convert& convert) const {
         std::vector<T> to(shape_[0] * shape_[1] * view_samples());
         const std::size_t last = array.shape.size() - 1, slices = array.shape[last], slice = array.samples() / slices;
-        core::parallel_for(slices, [&](std::size_t i) {
+        work::parallel_for(slices, [&](std::size_t i) {
             std::vector<std::size_t> at(array.shape.size());
             at[last] = i;
             std::size_t place = i * steps[last];

@@ -16,7 +16,7 @@
 #include <numeric>
 #include <stop_token>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/core/test_errors.h"
 #include "hogel/error.h"
 #include "hogel/image.h"

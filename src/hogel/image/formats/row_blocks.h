@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 
 namespace hogel::image {
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/io/arrays/numbers.h"
 
 namespace hogel::io::arrays {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/io/arrays/named_arrays.h"
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

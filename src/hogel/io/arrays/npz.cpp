@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/io/arrays/named_arrays.h"
 #include "hogel/io/arrays/npy.h"
 #include "hogel/io/arrays/zip.h"

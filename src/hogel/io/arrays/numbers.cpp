@@ -11,8 +11,8 @@
 #include <numbers>
 
 #include "hogel/core/half.h"
-#include "hogel/core/parallel.h"
 #include "hogel/core/raw_file.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 
 namespace hogel::io::arrays {

@@ -6,8 +6,8 @@
 #include <cstring>
 
 #include "hogel/core/output_file.h"
-#include "hogel/core/parallel.h"
 #include "hogel/core/raw_file.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/files.h"
 #include "hogel/image/channels.h"

@@ -9,14 +9,14 @@
 #include <optional>
 
 #include "hogel/array.h"
-#include "hogel/core/journal.h"
 #include "hogel/core/object_pool.h"
 #include "hogel/core/output_file.h"
 #include "hogel/core/raw_file.h"
-#include "hogel/core/shared_tiles.h"
 #include "hogel/io/hdf5/hdf5.h"
 #include "hogel/io/hdf5/part_file.h"
 #include "hogel/io/hdf5/sample_server.h"
+#include "hogel/work/journal.h"
+#include "hogel/work/shared_tiles.h"
 
 namespace hogel::io::hdf5 {
 
@@ -82,12 +82,12 @@ class DatasetFile {
     void write(std::size_t dataset, const Box& box, const std::complex<float>* from);
     /// For work that can be resumed: was_done() tells whether a part was done in an earlier run, note() records one
     /// that is done.
-    bool was_done(const core::Journal::Part& part) const { return journal_ && journal_->was_done(part); }
-    void note(const core::Journal::Part& part) {
+    bool was_done(const work::Journal::Part& part) const { return journal_ && journal_->was_done(part); }
+    void note(const work::Journal::Part& part) {
         if (journal_) journal_->note(part);
     }
     /// For SharedSink: the queue of the tiles of a dataset.
-    std::unique_ptr<core::TileQueue> share_tiles(std::size_t dataset, std::size_t tiles);
+    std::unique_ptr<work::TileQueue> share_tiles(std::size_t dataset, std::size_t tiles);
     /// The sum over all processes.
     std::uint64_t total(std::uint64_t here);
     /// Closes the file and renames it to its final name.
@@ -113,7 +113,7 @@ class DatasetFile {
     std::optional<core::RawFile> raw_;
     std::mutex writing_;
     core::ObjectPool<std::vector<std::uint16_t, CacheLineAllocator<std::uint16_t>>> halves_;
-    std::optional<core::Journal> journal_;  // last, because its destructor flushes the file
+    std::optional<work::Journal> journal_;  // last, because its destructor flushes the file
 };
 
 }  // namespace hogel::io::hdf5

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "hogel/core/half.h"
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/io/hdf5/dataset.h"
 #include "hogel/io/hdf5/runs.h"
@@ -64,12 +64,12 @@ struct SharedLayout {
     std::filesystem::path temporary;
     std::vector<std::uint64_t> offsets;
     bool resumes = false;
-    std::set<core::Journal::Part> before;
+    std::set<work::Journal::Part> before;
 };
 
 std::string to_text(const SharedLayout& layout) {
     std::string text = fmt::format("{} {}\n", layout.resumes ? 1 : 0, fmt::join(layout.offsets, " "));
-    for (const core::Journal::Part& part : layout.before) text += fmt::format("{}\n", fmt::join(part, " "));
+    for (const work::Journal::Part& part : layout.before) text += fmt::format("{}\n", fmt::join(part, " "));
     return text + '\0' + layout.temporary.string();
 }
 
@@ -185,10 +185,10 @@ void DatasetFile::take(const std::string& lines) {
     }
 }
 
-std::unique_ptr<core::TileQueue> DatasetFile::share_tiles(std::size_t dataset, std::size_t tiles) {
+std::unique_ptr<work::TileQueue> DatasetFile::share_tiles(std::size_t dataset, std::size_t tiles) {
     constexpr std::uint64_t max_datasets = std::uint64_t{1} << 16;
     if (team_ == nullptr) return nullptr;
-    return std::make_unique<core::TileQueue>(*team_, number_ * max_datasets + dataset, tiles);
+    return std::make_unique<work::TileQueue>(*team_, number_ * max_datasets + dataset, tiles);
 }
 
 std::uint64_t DatasetFile::total(std::uint64_t here) { return team_ != nullptr ? team_->sum(here) : here; }

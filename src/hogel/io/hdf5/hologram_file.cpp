@@ -74,7 +74,7 @@ struct SharedHologramFile {
     std::atomic<std::size_t> unfinished;
 };
 
-class FieldWriter final : public FieldSink, public core::SharedSink {
+class FieldWriter final : public FieldSink, public work::SharedSink {
   public:
     FieldWriter(const FieldGrid& grid, Parts parts, std::size_t index, std::shared_ptr<SharedHologramFile> shared)
         : grid_(grid), parts_(parts), index_(index), shared_(std::move(shared)) {}
@@ -98,7 +98,7 @@ class FieldWriter final : public FieldSink, public core::SharedSink {
         return true;
     }
 
-    std::unique_ptr<core::TileQueue> share_tiles(std::size_t tiles) override {
+    std::unique_ptr<work::TileQueue> share_tiles(std::size_t tiles) override {
         return shared_->file.share_tiles(index_, tiles);
     }
 
@@ -112,7 +112,7 @@ class FieldWriter final : public FieldSink, public core::SharedSink {
     }
 
   private:
-    core::Journal::Part part(const Region& r) const { return {index_, r.x0, r.y0, r.width, r.height}; }
+    work::Journal::Part part(const Region& r) const { return {index_, r.x0, r.y0, r.width, r.height}; }
 
     // Throws for samples beyond half floats, because one infinite sample would spoil a whole photograph.
     void require_halves(std::span<const float> numbers) const {

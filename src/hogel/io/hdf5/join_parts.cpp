@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "hogel/core/output_file.h"
-#include "hogel/core/parallel.h"
 #include "hogel/core/raw_file.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/files.h"
 #include "hogel/io/hdf5/part_file.h"

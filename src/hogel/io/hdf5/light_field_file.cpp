@@ -70,7 +70,7 @@ struct SharedLightFieldFile {
     std::atomic<std::size_t> unfinished;
 };
 
-class LightFieldWriter final : public LightFieldSink, public core::SharedSink {
+class LightFieldWriter final : public LightFieldSink, public work::SharedSink {
   public:
     LightFieldWriter(const LightFieldGrid& grid, std::size_t first_dataset, bool with_depth,
                      std::shared_ptr<SharedLightFieldFile> shared)
@@ -96,7 +96,7 @@ class LightFieldWriter final : public LightFieldSink, public core::SharedSink {
         return true;
     }
 
-    std::unique_ptr<core::TileQueue> share_tiles(std::size_t tiles) override {
+    std::unique_ptr<work::TileQueue> share_tiles(std::size_t tiles) override {
         return shared_->file.share_tiles(first_dataset_, tiles);
     }
 
@@ -111,7 +111,7 @@ class LightFieldWriter final : public LightFieldSink, public core::SharedSink {
     }
 
   private:
-    core::Journal::Part part(const HogelRange& r) const { return {first_dataset_, r.s0, r.t0, r.ns, r.nt}; }
+    work::Journal::Part part(const HogelRange& r) const { return {first_dataset_, r.s0, r.t0, r.ns, r.nt}; }
 
     LightFieldGrid grid_;
     std::size_t first_dataset_;  // index of the radiance; depth is the next one

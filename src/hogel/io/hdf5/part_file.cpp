@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "hogel/core/output_file.h"
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::io::hdf5 {
 namespace {
@@ -20,7 +20,7 @@ constexpr std::uint64_t max_image = std::uint64_t{64} << 20;  // kilobytes, unle
 constexpr std::size_t max_datasets = 256, max_axes = 8;
 
 // Of a band's records: so many bytes of samples each, after a head whose key is the dataset and the first byte.
-constexpr std::uint64_t record_bytes = std::uint64_t{1} << 20, head_bytes = core::checkpoint_record_head_bytes(2);
+constexpr std::uint64_t record_bytes = std::uint64_t{1} << 20, head_bytes = work::checkpoint_record_head_bytes(2);
 
 // Where byte `at` of a band is in a part file.
 std::uint64_t place_of(std::uint64_t records, std::uint64_t at) {
@@ -35,7 +35,7 @@ std::vector<std::uint64_t> places_of(const PartHeader& header, std::uint64_t fir
     return places;
 }
 
-core::CheckpointRecord record_of(const PartHeader& header) {
+work::CheckpointRecord record_of(const PartHeader& header) {
     std::vector<std::uint64_t> key{header.number, header.count, header.whole_bytes};
     for (const PartHeader::Samples& s : header.datasets) {
         key.insert(key.end(), {s.offset, s.element_bytes, s.band.axis, s.band.first, s.band.count, s.shape.size()});
@@ -70,7 +70,7 @@ bool is_sound(const PartHeader& header) {
 }
 
 // Nothing if the record is no header.
-std::optional<PartHeader> header_of(core::CheckpointRecord record) {
+std::optional<PartHeader> header_of(work::CheckpointRecord record) {
     constexpr std::size_t of_file = 3, of_dataset = 6;
     if (record.key.size() < of_file) return std::nullopt;
     PartHeader header{record.key[0], record.key[1], record.key[2], {}, std::move(record.bytes)};
@@ -142,7 +142,7 @@ std::vector<std::uint64_t> lay_out_part(const std::filesystem::path& path, const
     }
     std::vector<std::string> lines{part.input};
     lines.insert(lines.end(), work.begin(), work.end());
-    const std::string start = core::checkpoint_header(lines) + record_of(header).encoded();
+    const std::string start = work::checkpoint_header(lines) + record_of(header).encoded();
     std::vector<std::uint64_t> places = places_of(header, start.size());
     core::RawFile file(path, core::RawFile::Mode::create, target);
     file.reserve(places.back());
@@ -167,11 +167,11 @@ void complete_part(const std::filesystem::path& path, const std::filesystem::pat
     core::RawFile file(path, core::RawFile::Mode::write, target);
     for (std::size_t d = 0; d < part.records().size(); ++d) {
         const std::uint64_t bytes = part.header().datasets[d].bytes();
-        core::parallel_for((bytes + record_bytes - 1) / record_bytes, [&](std::size_t i) {
+        work::parallel_for((bytes + record_bytes - 1) / record_bytes, [&](std::size_t i) {
             const std::uint64_t at = i * record_bytes, place = place_of(part.records()[d], at);
             std::string samples(std::min(record_bytes, bytes - at), '\0');
             file.read(place, samples.data(), samples.size());
-            const std::string head = core::checkpoint_record_head({d, at}, samples);
+            const std::string head = work::checkpoint_record_head({d, at}, samples);
             file.write(place - head.size(), head.data(), head.size());
         });
     }
@@ -179,7 +179,7 @@ void complete_part(const std::filesystem::path& path, const std::filesystem::pat
 }
 
 PartReader::PartReader(const std::filesystem::path& path) : file_(require_current(path), "part of a file of hogel's") {
-    std::optional<core::CheckpointRecord> record = file_.read(max_image);
+    std::optional<work::CheckpointRecord> record = file_.read(max_image);
     std::optional<PartHeader> header = record ? header_of(std::move(*record)) : std::nullopt;
     if (!header) fail(path, "it is no part of a file of hogel's");
     header_ = std::move(*header);
@@ -190,7 +190,7 @@ PartReader::PartReader(const std::filesystem::path& path) : file_(require_curren
 }
 
 std::string PartReader::read(std::size_t dataset, std::uint64_t at) {
-    std::optional<core::CheckpointRecord> record = file_.read(record_bytes);
+    std::optional<work::CheckpointRecord> record = file_.read(record_bytes);
     const std::uint64_t rest = header_.datasets[dataset].bytes() - at;
     if (!record || record->key != std::vector<std::uint64_t>{dataset, at} ||
         record->bytes.size() != std::min(record_bytes, rest))

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "hogel/core/checkpoint_file.h"
 #include "hogel/core/raw_file.h"
 #include "hogel/io/hdf5/hdf5.h"
+#include "hogel/work/checkpoint_file.h"
 
 namespace hogel::io::hdf5 {
 
@@ -80,7 +80,7 @@ class PartReader {
     std::string read(std::size_t dataset, std::uint64_t at);
 
   private:
-    core::CheckpointReader file_;
+    work::CheckpointReader file_;
     PartHeader header_;
     std::vector<std::uint64_t> records_;
 };

@@ -134,8 +134,8 @@ TEST_F(PartFileTest, other_files_are_refused_by_name) {
     const fs::path file = folder_ / "other";
     write_bytes(file, "hogel part 1 123 0123abcd\npart 1 of 2\n");
     expect_refused(file, "an earlier version of hogel wrote this part; write it again");
-    const std::string header = core::checkpoint_header({"input"});
-    write_bytes(file, header + core::CheckpointRecord{{1, 2, 3}, "result"}.encoded());
+    const std::string header = work::checkpoint_header({"input"});
+    write_bytes(file, header + work::CheckpointRecord{{1, 2, 3}, "result"}.encoded());
     expect_refused(file, "it is no part of a file of hogel's");
     write_bytes(file, header);
     expect_refused(file, "it is no part of a file of hogel's");

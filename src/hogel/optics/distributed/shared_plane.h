@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "hogel/core/paged_array.h"
-#include "hogel/core/pieces.h"
-#include "hogel/core/shared_order.h"
 #include "hogel/team.h"
+#include "hogel/work/pieces.h"
+#include "hogel/work/shared_order.h"
 
 namespace hogel::optics::distributed {
 
@@ -43,9 +43,9 @@ void share_lines(Team& team, Value* lines, std::size_t length, const Made& made)
         return std::span<Value>(lines + some.first * length, some.count * length);
     };
     for (std::size_t process = 0; process < team.size(); ++process)
-        if (process != team.rank()) core::send_in_pieces<Value>(team, process, lines_of_process(team.rank()));
+        if (process != team.rank()) work::send_in_pieces<Value>(team, process, lines_of_process(team.rank()));
     for (std::size_t process = 0; process < team.size(); ++process)
-        if (process != team.rank()) core::receive_in_pieces(team, process, lines_of_process(process));
+        if (process != team.rank()) work::receive_in_pieces(team, process, lines_of_process(process));
 }
 
 /// Places in the own columns of a plane, [row][column].

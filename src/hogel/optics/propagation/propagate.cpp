@@ -16,11 +16,12 @@
 #include <vector>
 
 #include "hogel/core/rates.h"
-#include "hogel/core/shared_order.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/optics/distributed/shared_plane.h"
 #include "hogel/optics/lines.h"
 #include "hogel/optics/propagation/tile_plan.h"
 #include "hogel/optics/propagation/transfer.h"
+#include "hogel/work/shared_order.h"
 
 namespace hogel {
 namespace optics::propagation {
@@ -54,7 +55,7 @@ class TileWork {
     // Writes what the sink does not have already of the tile at `region`.
     void run(FieldSink& sink, const Region& region) {
         const std::vector<distributed::LineRange> missing = missing_rows(sink, region);
-        Team* const all = core::team_of_several();
+        Team* const all = work::team_of_several();
         if ((all != nullptr ? all->sum(missing.size()) : missing.size()) == 0) return;
         blocks_ = blocks_of(field_rows_.count, together_) + blocks_of(columns_.count) + missing.size();
         rows_to_frequencies();
@@ -93,7 +94,7 @@ class TileWork {
         const std::size_t width = plan_.x.field.count;
         kept_.begin_rows(plan_.y.field.count);
         const LineTransform inward(plan_.x.field, plan_.x.frequencies, -1, plan_.x.field.step, plan_.x.inward);
-        core::parallel_for(blocks_of(field_rows_.count, together_), [&](std::size_t block) {
+        work::parallel_for(blocks_of(field_rows_.count, together_), [&](std::size_t block) {
             const std::size_t y0 = field_rows_.first + block * together_,
                               rows = std::min(together_, field_rows_.end() - y0);
             Array<Complex, 2> samples({rows, width});
@@ -116,7 +117,7 @@ class TileWork {
                                       after = kept_.in_columns(y.output.count);
         const std::size_t blocks = blocks_of(columns_.count);
         std::vector<Transfer::Energy> energies(blocks);
-        core::parallel_for(blocks, [&](std::size_t block) {
+        work::parallel_for(blocks, [&](std::size_t block) {
             const std::size_t x0 = columns_.first + block * lines_together,
                               count = std::min(lines_together, columns_.end() - x0);
             Lines lines(count, std::max(inward.buffer(), outward.buffer()));
@@ -143,12 +144,12 @@ class TileWork {
     // Those of all processes are added in the order of the columns.
     void require_little_grazing_light(std::vector<Transfer::Energy> energies) const {
         double all = 0, grazing = 0;
-        if (Team* const others = core::team_of_several()) {
-            core::MessageWriter own;
+        if (Team* const others = work::team_of_several()) {
+            work::MessageWriter own;
             own.put(energies);
             energies.clear();
             for (const std::string& bytes : distributed::all_of(*others, own.take())) {
-                core::MessageReader message(bytes);
+                work::MessageReader message(bytes);
                 std::ranges::copy(message.get_vector<Transfer::Energy>(), std::back_inserter(energies));
             }
         }
@@ -166,7 +167,7 @@ class TileWork {
 
     void frequencies_to_rows(FieldSink& sink, const Region& region, std::span<const distributed::LineRange> blocks) {
         const LineTransform outward(plan_.x.frequencies, plan_.x.output, 1, 1, plan_.x.outward);
-        core::parallel_for(blocks.size(), [&](std::size_t block) {
+        work::parallel_for(blocks.size(), [&](std::size_t block) {
             const distributed::LineRange& rows = blocks[block];
             Lines line(1, outward.buffer());
             Array<Complex, 2> samples({rows.count, region.width});
@@ -216,7 +217,7 @@ void write_dark(FieldSink& sink, const Grid& output, const Region& lit) {
                             {0, lit.y0, lit.x0, lit.height},
                             {right, lit.y0, output.width - right, lit.height},
                             {0, below, output.width, output.height - below}};
-    Team* const all = core::team_of_several();
+    Team* const all = work::team_of_several();
     const bool alone = all == nullptr || sink.in_memory().size() > 0;
     constexpr std::size_t samples_at_once = 1 << 18;
     std::size_t block = 0;

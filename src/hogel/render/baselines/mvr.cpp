@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/render/oblique_triangle.h"
 #include "hogel/render/row_axes.h"
 #include "hogel/render/row_tile.h"

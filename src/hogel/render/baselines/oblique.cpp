@@ -4,7 +4,7 @@
 #include <limits>
 #include <span>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/render/baselines/oblique.h"
 #include "hogel/render/oblique_triangle.h"
 #include "hogel/render/region_memory.h"

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "hogel/core/parallel.h"
 #include "hogel/core/part.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/render/baselines/raytrace.h"
 #include "hogel/render/sample_store.h"
 #include "hogel/shading/triangles.h"

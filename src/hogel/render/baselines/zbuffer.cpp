@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/render/baselines/zbuffer.h"
 #include "hogel/render/sample_store.h"
 

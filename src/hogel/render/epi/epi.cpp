@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hogel/array.h"
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/render/epi/clusters.h"
 #include "hogel/render/epi/crossed.h"
 #include "hogel/render/epi/frame.h"

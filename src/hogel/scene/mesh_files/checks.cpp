@@ -5,7 +5,7 @@
 #include <cctype>
 #include <fstream>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/printable.h"
 #include "hogel/scene/mesh_files/checks.h"

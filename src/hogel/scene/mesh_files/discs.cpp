@@ -11,10 +11,10 @@
 #include <queue>
 #include <utility>
 
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
 #include "hogel/scene/mesh_files/points.h"
 #include "hogel/scenes.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::scene::mesh_files {
 namespace {
@@ -209,7 +209,7 @@ Mesh discs(const Points& points, double size) {
     std::vector<Vec3> normals = points.normals;
     const bool find_normals = normals.empty();
     if (find_normals) normals.resize(count);
-    core::parallel_for((count + points_per_task - 1) / points_per_task, [&](std::size_t task) {
+    work::parallel_for((count + points_per_task - 1) / points_per_task, [&](std::size_t task) {
         std::vector<Vec3> around;
         for (std::size_t i = task * points_per_task; i < std::min(count, (task + 1) * points_per_task); ++i) {
             nearest[i] = tree.nearest(static_cast<std::uint32_t>(i));

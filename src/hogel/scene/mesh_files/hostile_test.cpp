@@ -6,10 +6,10 @@
 #include <stop_token>
 #include <vector>
 
-#include "hogel/core/parallel.h"
 #include "hogel/scene/mesh_files/import_fixture.h"
 #include "hogel/scene/mesh_files/limits.h"
 #include "hogel/scene/mesh_files/obj.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::scene::mesh_files {
 namespace {
@@ -159,7 +159,7 @@ TEST_F(Hostile, memory_is_bounded_by_the_size_of_the_file) {
 
 TEST_F(Hostile, many_threads_may_read_at_once) {
     const fs::path good = write("good.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    core::parallel_for(8, [&](std::size_t) {
+    work::parallel_for(8, [&](std::size_t) {
         for (int i = 0; i < 10; ++i) EXPECT_EQ(triangle_count(import_scene(good)), 1u);
     });
 }

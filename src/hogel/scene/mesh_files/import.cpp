@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "hogel/core/child_process.h"
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/scene/edges.h"
 #include "hogel/scene/mesh_files/apply_looks.h"

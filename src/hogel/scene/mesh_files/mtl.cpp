@@ -8,7 +8,7 @@
 #include <cmath>
 #include <map>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/scene/edges.h"
 #include "hogel/scene/mesh_files/checks.h"
 #include "hogel/scene/mesh_files/files.h"

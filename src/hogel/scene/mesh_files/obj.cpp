@@ -10,7 +10,7 @@
 #include <optional>
 #include <string_view>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/scene/edges.h"
 
 namespace hogel::scene::mesh_files {

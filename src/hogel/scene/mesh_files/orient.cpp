@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 
 namespace hogel::scene::mesh_files {
 namespace {

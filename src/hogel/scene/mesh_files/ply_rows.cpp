@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cstring>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/scene/mesh_files/checks.h"
 #include "hogel/scene/mesh_files/ply.h"
 

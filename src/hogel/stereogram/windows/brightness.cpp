@@ -5,7 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include "hogel/core/parallel.h"
+#include "hogel/core/stop_scope.h"
 
 namespace hogel::stereogram::windows {
 namespace {

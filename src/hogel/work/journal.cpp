@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/core/journal.h"
+#include "hogel/work/journal.h"
 
 #include <utility>
 
 #include "hogel/error.h"
 
-namespace hogel::core {
+namespace hogel::work {
 namespace {
 
 // The time between writes, which is the maximum of work that is lost when the machine stops.
@@ -76,4 +76,4 @@ void Journal::remove() {
     file_.reset();
 }
 
-}  // namespace hogel::core
+}  // namespace hogel::work

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/core/result_log.h"
+#include "hogel/work/result_log.h"
 
 #include <atomic>
 
-#include "hogel/core/shared_order.h"
 #include "hogel/error.h"
 #include "hogel/resume.h"
 #include "hogel/team.h"
+#include "hogel/work/shared_order.h"
 
-namespace hogel::core {
+namespace hogel::work {
 namespace {
 
-std::atomic<ResultLog*> current = nullptr;
+std::atomic<ResultLog*> current_log = nullptr;
 
 }  // namespace
 
-ResultLog* result_log() { return current; }
+ResultLog* result_log() { return current_log; }
 
-void set_result_log(ResultLog* log) { current = log; }
+void set_result_log(ResultLog* log) { current_log = log; }
 
 ResultLog::~ResultLog() {
     if (results_ == 0) file_.remove();
@@ -43,26 +43,26 @@ void ResultLog::keep(std::string_view bytes) {
     ++results_;
 }
 
-}  // namespace hogel::core
+}  // namespace hogel::work
 
 namespace hogel {
 
 ResumeScope::ResumeScope(const std::filesystem::path& file, const std::vector<std::string>& work)
-    : log_(std::make_unique<core::ResultLog>(is_first_process() ? file : std::filesystem::path(), work)) {
-    if (core::result_log() != nullptr) throw Error(ErrorCode::usage, "only one work at a time can be resumed");
-    core::set_result_log(log_.get());
+    : log_(std::make_unique<work::ResultLog>(is_first_process() ? file : std::filesystem::path(), work)) {
+    if (work::result_log() != nullptr) throw Error(ErrorCode::usage, "only one work at a time can be resumed");
+    work::set_result_log(log_.get());
 }
 
-ResumeScope::~ResumeScope() { core::set_result_log(nullptr); }
+ResumeScope::~ResumeScope() { work::set_result_log(nullptr); }
 
 void ResumeScope::once(const std::function<void()>& work) {
-    core::shared_jobs<std::uint8_t>(
+    work::shared_jobs<std::uint8_t>(
         1, {},
         [&](std::size_t) {
             work();
             return std::uint8_t{1};
         },
-        [](std::size_t, std::uint8_t&) {}, core::DoneBy::whole_team);
+        [](std::size_t, std::uint8_t&) {}, work::DoneBy::whole_team);
 }
 
 void ResumeScope::complete() { log_->remove(); }

@@ -12,7 +12,7 @@
 #include "hogel/progress.h"
 #include "hogel/team.h"
 
-namespace hogel::core {
+namespace hogel::work {
 
 /// The tiles that a team's queue hands out to this process. Thread-safe.
 class TileQueue {
@@ -45,4 +45,4 @@ class SharedSink {
 void for_each_tile(std::size_t tiles, SharedSink* shared, const Progress& progress,
                    const std::function<void(std::size_t tile)>& body);
 
-}  // namespace hogel::core
+}  // namespace hogel::work

@@ -12,10 +12,12 @@
 #include <optional>
 #include <utility>
 
-#include "hogel/core/parallel.h"
 #include "hogel/error.h"
+#include "hogel/work/parallel.h"
 
-namespace hogel::core {
+#include "hogel/core/stop_scope.h"
+
+namespace hogel::work {
 
 /// A thread-safe cache of results by key, which keeps the results used last. The first thread that asks for a result
 /// computes it; other threads that ask for the same result wait.
@@ -99,9 +101,9 @@ class LruCache {
 
     // Waits for a result. Returns null if the thread that makes it was stopped but this one was not.
     static std::shared_ptr<const Result> wait(const Future& future) {
-        while (future.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) throw_if_stopped();
+        while (future.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) core::throw_if_stopped();
         std::shared_ptr<const Result> result = future.get();
-        if (!result) throw_if_stopped();
+        if (!result) core::throw_if_stopped();
         return result;
     }
 
@@ -111,4 +113,4 @@ class LruCache {
     std::uint64_t last_number_ = 0;
 };
 
-}  // namespace hogel::core
+}  // namespace hogel::work

@@ -5,7 +5,7 @@ namespace hogel {
 class Team;
 }
 
-namespace hogel::core {
+namespace hogel::work {
 
 class ResultLog;
 
@@ -25,4 +25,4 @@ class JobScope {
     ResultLog* log_;
 };
 
-}  // namespace hogel::core
+}  // namespace hogel::work

@@ -4,34 +4,11 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
-#include <stop_token>
 #include <vector>
 
-#include "hogel/progress.h"
 #include "hogel/resources.h"
 
-namespace hogel::core {
-
-/// While this object exists, parallel loops begun by this thread, and loops inside their bodies on any thread, end with
-/// Error(cancelled) when a stop is requested from the token. Every public function that takes a Progress begins with a
-/// StopScope, so that the token need not be passed down to loops. Scopes nest: a stop of any of them takes effect.
-class StopScope {
-  public:
-    explicit StopScope(const Progress& progress);
-    ~StopScope();
-    StopScope(const StopScope&) = delete;
-    StopScope& operator=(const StopScope&) = delete;
-
-    bool requested() const;
-
-  private:
-    std::stop_token stop_;
-    const StopScope* outer_;
-};
-
-/// Throws Error(cancelled) if a stop was requested in any scope of this thread. For long loops on one thread;
-/// parallel_for() calls it before each body.
-void throw_if_stopped();
+namespace hogel::work {
 
 /// Calls body(i) once for every i in [0, n), on as many threads as the process may use. The order is unspecified, so
 /// bodies must not write to the same memory. The first exception thrown by a body is rethrown. Returns only when all
@@ -65,4 +42,4 @@ void parallel_ordered(std::size_t n, std::size_t in_flight, const std::function<
     }
 }
 
-}  // namespace hogel::core
+}  // namespace hogel::work

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/core/journal.h"
+#include "hogel/work/journal.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 
 #include "hogel/error.h"
 
-namespace hogel::core {
+namespace hogel::work {
 namespace {
 
 class JournalTest : public testing::Test {
@@ -145,4 +145,4 @@ TEST_F(JournalTest, keeps_the_records_of_another_process) {
 }
 
 }  // namespace
-}  // namespace hogel::core
+}  // namespace hogel::work

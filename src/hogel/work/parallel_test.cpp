@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/core/parallel.h"
+#include "hogel/work/parallel.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,11 @@
 #include <chrono>
 #include <thread>
 
+#include "hogel/core/stop_scope.h"
 #include "hogel/core/test_errors.h"
 #include "hogel/core/test_stop.h"
 
-namespace hogel::core {
+namespace hogel::work {
 namespace {
 
 using std::chrono::milliseconds;
@@ -68,16 +69,16 @@ TEST(ParallelOrdered, merges_in_order_with_few_results_alive) {
 }
 
 TEST(StopScope, ends_a_long_loop_at_once) {
-    StoppedWork work(20 * thread_count());
-    const StopScope scope(work.progress());
-    EXPECT_TRUE(is_cancelled([&] { parallel_for(100000, [&](std::size_t) { work.item(); }); }));
+    core::StoppedWork work(20 * thread_count());
+    const core::StopScope scope(work.progress());
+    EXPECT_TRUE(core::is_cancelled([&] { parallel_for(100000, [&](std::size_t) { work.item(); }); }));
     EXPECT_LE(work.most_begun_later(), 1u);
 }
 
 TEST(StopScope, ends_loops_inside_the_bodies_of_loops) {
-    StoppedWork work(20 * thread_count());
-    const StopScope scope(work.progress());
-    EXPECT_TRUE(is_cancelled([&] {
+    core::StoppedWork work(20 * thread_count());
+    const core::StopScope scope(work.progress());
+    EXPECT_TRUE(core::is_cancelled([&] {
         parallel_for(4, [&](std::size_t) {
             parallel_for(4, [&](std::size_t) { parallel_for(100000, [&](std::size_t) { work.item(); }); });
         });
@@ -88,35 +89,35 @@ TEST(StopScope, ends_loops_inside_the_bodies_of_loops) {
 TEST(StopScope, of_a_verb_inside_another_obeys_both) {
     std::stop_source outer, inner;
     const auto loop = [] { parallel_for(1, [](std::size_t) {}); };
-    const StopScope whole{Progress(outer.get_token())};
+    const core::StopScope whole{Progress(outer.get_token())};
     {
-        const StopScope part{Progress(inner.get_token())};
-        const StopScope without{Progress()};
-        EXPECT_FALSE(is_cancelled(loop));
+        const core::StopScope part{Progress(inner.get_token())};
+        const core::StopScope without{Progress()};
+        EXPECT_FALSE(core::is_cancelled(loop));
         inner.request_stop();
-        EXPECT_TRUE(is_cancelled(loop));
+        EXPECT_TRUE(core::is_cancelled(loop));
     }
-    EXPECT_FALSE(is_cancelled(loop)) << "the inner work's stop ends with it";
+    EXPECT_FALSE(core::is_cancelled(loop)) << "the inner work's stop ends with it";
     outer.request_stop();
-    const StopScope again{Progress()};
-    EXPECT_TRUE(is_cancelled(loop));
-    EXPECT_TRUE(is_cancelled([] { throw_if_stopped(); }));
+    const core::StopScope again{Progress()};
+    EXPECT_TRUE(core::is_cancelled(loop));
+    EXPECT_TRUE(core::is_cancelled([] { core::throw_if_stopped(); }));
 }
 
 TEST(StopScope, leaves_other_threads_alone) {
     std::stop_source source;
     source.request_stop();
-    const StopScope scope{Progress(source.get_token())};
-    std::jthread([] { EXPECT_FALSE(is_cancelled([] { parallel_for(10, [](std::size_t) {}); })); }).join();
-    EXPECT_TRUE(is_cancelled([] { parallel_for(10, [](std::size_t) {}); }));
+    const core::StopScope scope{Progress(source.get_token())};
+    std::jthread([] { EXPECT_FALSE(core::is_cancelled([] { parallel_for(10, [](std::size_t) {}); })); }).join();
+    EXPECT_TRUE(core::is_cancelled([] { parallel_for(10, [](std::size_t) {}); }));
 }
 
 TEST(Isolate, lets_a_stop_through) {
     std::stop_source source;
     source.request_stop();
-    const StopScope scope{Progress(source.get_token())};
-    EXPECT_TRUE(is_cancelled([] { isolate([] { parallel_for(10, [](std::size_t) {}); }); }));
+    const core::StopScope scope{Progress(source.get_token())};
+    EXPECT_TRUE(core::is_cancelled([] { isolate([] { parallel_for(10, [](std::size_t) {}); }); }));
 }
 
 }  // namespace
-}  // namespace hogel::core
+}  // namespace hogel::work

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/core/shared_tiles.h"
+#include "hogel/work/shared_tiles.h"
 
-#include "hogel/core/parallel.h"
+#include "hogel/work/parallel.h"
 
-namespace hogel::core {
+namespace hogel::work {
 
 std::optional<std::size_t> TileQueue::next() {
     const std::lock_guard lock(mutex_);
@@ -30,4 +30,4 @@ void for_each_tile(std::size_t tiles, SharedSink* shared, const Progress& progre
     });
 }
 
-}  // namespace hogel::core
+}  // namespace hogel::work

@@ -7,13 +7,13 @@
 #include <string_view>
 #include <vector>
 
-#include "hogel/core/job_scope.h"
-#include "hogel/core/message.h"
-#include "hogel/core/parallel.h"
-#include "hogel/core/result_log.h"
 #include "hogel/team.h"
+#include "hogel/work/job_scope.h"
+#include "hogel/work/message.h"
+#include "hogel/work/parallel.h"
+#include "hogel/work/result_log.h"
 
-namespace hogel::core {
+namespace hogel::work {
 
 /// The team of this process, or null if no other process is in it, so that there is nobody to share work with.
 inline Team* team_of_several() {
@@ -119,4 +119,4 @@ void share_result(Result& result, const Sent<Result>& sent) {
     if (!all->is_first()) result = sent.read(reader);
 }
 
-}  // namespace hogel::core
+}  // namespace hogel::work

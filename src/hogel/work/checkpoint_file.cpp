@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/core/checkpoint_file.h"
+#include "hogel/work/checkpoint_file.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "hogel/core/checksum.h"
 #include "hogel/error.h"
 
-namespace hogel::core {
+namespace hogel::work {
 namespace {
 
 constexpr std::string_view first_line = "hogel checkpoint 1\n", last_line = "records\n", work_word = "work ";
@@ -21,7 +21,7 @@ constexpr std::uint64_t max_header = std::uint64_t{16} << 20;  // kilobytes, unl
 constexpr std::uint64_t max_key = 4096;                        // numbers
 
 std::uint32_t checksum_of(const void* data, std::size_t size) {
-    return checksum(std::span(static_cast<const std::uint8_t*>(data), size));
+    return core::checksum(std::span(static_cast<const std::uint8_t*>(data), size));
 }
 
 // What precedes the key and the bytes of a record.
@@ -43,7 +43,7 @@ std::string line_of(std::string text) {
 }
 
 // The lines of the work in a file, and where they end; nothing if it is no file of records.
-std::optional<std::vector<std::string>> read_work(const RawFile& file, std::uint64_t& end) {
+std::optional<std::vector<std::string>> read_work(const core::RawFile& file, std::uint64_t& end) {
     const std::uint64_t most = std::min(max_header, file.size());
     std::string text;
     do {
@@ -65,7 +65,7 @@ std::optional<std::vector<std::string>> read_work(const RawFile& file, std::uint
 }
 
 // The record at a place, which is moved to its end; nothing if it is damaged or incomplete.
-std::optional<CheckpointRecord> read_record(const RawFile& file, std::uint64_t& place, std::uint64_t max_bytes) {
+std::optional<CheckpointRecord> read_record(const core::RawFile& file, std::uint64_t& place, std::uint64_t max_bytes) {
     RecordHead head;
     std::uint64_t left = file.size() - place;
     if (left < sizeof head) return std::nullopt;
@@ -103,7 +103,7 @@ std::string checkpoint_header(const std::vector<std::string>& work) {
 }
 
 CheckpointReader::CheckpointReader(const std::filesystem::path& path, std::string_view kind)
-    : file_(path, RawFile::Mode::read, path) {
+    : file_(path, core::RawFile::Mode::read, path) {
     std::optional<std::vector<std::string>> work = read_work(file_, next_);
     if (!work) throw Error(ErrorCode::bad_input, fmt::format("cannot read '{}': it is no {}", path.string(), kind));
     work_ = std::move(*work);
@@ -119,7 +119,7 @@ std::optional<CheckpointRecord> CheckpointReader::read(std::uint64_t max_bytes) 
 
 CheckpointFile::CheckpointFile(const std::filesystem::path& path, const std::vector<std::string>& work) {
     if (path.empty()) return;
-    file_.emplace(path, RawFile::Mode::kept, path);
+    file_.emplace(path, core::RawFile::Mode::kept, path);
     if (!file_->lock())
         throw Error(ErrorCode::cannot_write, fmt::format("cannot write '{}': another process is", path.string()));
     at_end_ = file_->size() == 0;
@@ -178,4 +178,4 @@ void CheckpointFile::remove() {
     file_.reset();
 }
 
-}  // namespace hogel::core
+}  // namespace hogel::work

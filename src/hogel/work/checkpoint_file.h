@@ -11,7 +11,7 @@
 
 #include "hogel/core/raw_file.h"
 
-namespace hogel::core {
+namespace hogel::work {
 
 /// What a piece of work has done: a key that identifies the item, and the item's result, if the checkpoint keeps it.
 ///
@@ -54,7 +54,7 @@ class CheckpointReader {
     const std::filesystem::path& name() const { return file_.name(); }
 
   private:
-    RawFile file_;
+    core::RawFile file_;
     std::vector<std::string> work_;
     std::uint64_t next_ = 0;
 };
@@ -84,9 +84,9 @@ class CheckpointFile {
     void check_work(const std::vector<std::string>& work);
     void end_at(std::uint64_t place);
 
-    std::optional<RawFile> file_;
+    std::optional<core::RawFile> file_;
     std::uint64_t first_ = 0, next_ = 0;  // places of the first record, and of the next one
     bool at_end_ = true;                  // nothing is left to be read
 };
 
-}  // namespace hogel::core
+}  // namespace hogel::work

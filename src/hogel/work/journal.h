@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "hogel/core/checkpoint_file.h"
+#include "hogel/work/checkpoint_file.h"
 
-namespace hogel::core {
+namespace hogel::work {
 
 /// Which parts of a file of samples are written, in a CheckpointFile beside it. A part is listed only after its samples
 /// are on the disk.
@@ -64,4 +64,4 @@ class Journal {
     std::chrono::steady_clock::time_point written_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace hogel::core
+}  // namespace hogel::work

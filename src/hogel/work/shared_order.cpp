@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/core/shared_order.h"
+#include "hogel/work/shared_order.h"
+
+#include "hogel/core/stop_scope.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -10,7 +12,7 @@
 #include <thread>
 #include <utility>
 
-namespace hogel::core {
+namespace hogel::work {
 namespace {
 
 // How often the first process looks whether to stop while it waits for results of others.
@@ -69,7 +71,7 @@ class Merger {
         std::unique_lock lock(mutex_);
         while (!changed_.wait_for(lock, between_looks, [&] { return merged_ == n_ || failure_; })) {
             lock.unlock();
-            throw_if_stopped();
+            core::throw_if_stopped();
             lock.lock();
         }
         if (failure_) std::rethrow_exception(failure_);
@@ -174,7 +176,7 @@ void ordered_by_bytes(std::size_t n, std::size_t in_flight, const std::function<
     const auto rest = [&](std::size_t i) { return body(kept + i); };
     const auto merge_rest = [&](std::size_t i, std::string_view bytes) {
         merge(kept + i, bytes);
-        if (log != nullptr) log->keep(std::string(bytes));
+        if (log != nullptr) log->keep(bytes);
     };
     if (all != nullptr && by == DoneBy::one_process)
         return ordered_in_team(*all, n - kept, in_flight, rest, merge_rest);
@@ -182,9 +184,9 @@ void ordered_by_bytes(std::size_t n, std::size_t in_flight, const std::function<
         return parallel_ordered<std::string>(n - kept, in_flight, rest,
                                              [&](std::size_t i, const std::string& bytes) { merge_rest(i, bytes); });
     for (std::size_t i = 0; i < n - kept; ++i) {
-        throw_if_stopped();
+        core::throw_if_stopped();
         merge_rest(i, rest(i));
     }
 }
 
-}  // namespace hogel::core
+}  // namespace hogel::work

@@ -3,14 +3,14 @@
 
 #include <atomic>
 
-#include "hogel/core/job_scope.h"
-#include "hogel/core/result_log.h"
 #include "hogel/error.h"
+#include "hogel/work/job_scope.h"
+#include "hogel/work/result_log.h"
 
 namespace hogel {
 namespace {
 
-std::atomic<Team*> current = nullptr;
+std::atomic<Team*> current_team = nullptr;
 
 }  // namespace
 
@@ -23,23 +23,23 @@ std::string Team::share(const std::string& of_first) {
 
 TeamScope::TeamScope(Team& team) {
     Team* none = nullptr;
-    if (!current.compare_exchange_strong(none, &team))
+    if (!current_team.compare_exchange_strong(none, &team))
         throw Error(ErrorCode::usage, "this process is one of a team already");
 }
 
-TeamScope::~TeamScope() { current = nullptr; }
+TeamScope::~TeamScope() { current_team = nullptr; }
 
-core::JobScope::JobScope(DoneBy by) : team_(current), log_(result_log()) {
-    if (by == DoneBy::one_process) current = nullptr;
+work::JobScope::JobScope(DoneBy by) : team_(current_team), log_(result_log()) {
+    if (by == DoneBy::one_process) current_team = nullptr;
     set_result_log(nullptr);
 }
 
-core::JobScope::~JobScope() {
-    current = team_;
+work::JobScope::~JobScope() {
+    current_team = team_;
     set_result_log(log_);
 }
 
-Team* team() { return current; }
+Team* team() { return current_team; }
 
 bool is_first_process() { return team() == nullptr || team()->is_first(); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/core/lru_cache.h"
+#include "hogel/work/lru_cache.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "hogel/core/test_errors.h"
 
-namespace hogel::core {
+namespace hogel::work {
 namespace {
 
 using Cache = LruCache<int, int>;
@@ -32,8 +32,8 @@ std::shared_ptr<const int> endless() {
 std::jthread endless_maker(Cache& cache, std::stop_token stop) {
     auto begun = std::make_shared<std::latch>(1);
     std::jthread maker([&cache, stop, begun] {
-        const StopScope scope{Progress(stop)};
-        EXPECT_EQ(code_of([&] {
+        const core::StopScope scope{Progress(stop)};
+        EXPECT_EQ(core::code_of([&] {
                       cache.get(1, [&] {
                           begun->count_down();
                           return endless();
@@ -73,7 +73,7 @@ TEST(LruCache, makes_a_result_once_for_all_that_ask_together) {
 TEST(LruCache, forgets_what_could_not_be_made) {
     Cache cache(2);
     const auto fail = []() -> std::shared_ptr<const int> { throw Error(ErrorCode::bad_input, "no"); };
-    EXPECT_EQ(code_of([&] { cache.get(1, fail); }), ErrorCode::bad_input);
+    EXPECT_EQ(core::code_of([&] { cache.get(1, fail); }), ErrorCode::bad_input);
     EXPECT_EQ(*cache.get(1, [] { return of(10); }), 10);
 }
 
@@ -94,15 +94,15 @@ TEST(LruCache, work_that_waits_for_the_result_of_other_work_can_be_stopped) {
     std::stop_source of_maker, of_waiter;
     std::jthread maker = endless_maker(cache, of_maker.get_token());
     {
-        const StopScope scope{Progress(of_waiter.get_token())};
+        const core::StopScope scope{Progress(of_waiter.get_token())};
         std::jthread soon([&] {
             std::this_thread::sleep_for(milliseconds(30));
             of_waiter.request_stop();
         });
-        EXPECT_EQ(code_of([&] { cache.get(1, unwanted); }), ErrorCode::cancelled);
+        EXPECT_EQ(core::code_of([&] { cache.get(1, unwanted); }), ErrorCode::cancelled);
     }
     of_maker.request_stop();
 }
 
 }  // namespace
-}  // namespace hogel::core
+}  // namespace hogel::work

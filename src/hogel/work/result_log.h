@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "hogel/core/checkpoint_file.h"
+#include "hogel/work/checkpoint_file.h"
 
-namespace hogel::core {
+namespace hogel::work {
 
 /// The results of loops that merge in order (shared_ordered()), in the order in which they were merged, in a file. The
 /// key of a result is the number of its loop, the loop's number of results, and its own number.
@@ -43,4 +43,4 @@ class ResultLog {
 ResultLog* result_log();
 void set_result_log(ResultLog* log);
 
-}  // namespace hogel::core
+}  // namespace hogel::work

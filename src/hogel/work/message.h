@@ -12,7 +12,7 @@
 #include "hogel/array.h"
 #include "hogel/error.h"
 
-namespace hogel::core {
+namespace hogel::work {
 
 /// What goes with a message on its way is added at its end, where large ones have room, and taken from there. A message
 /// that is too short has the number 0.
@@ -99,4 +99,4 @@ class MessageReader {
     std::string_view bytes_;
 };
 
-}  // namespace hogel::core
+}  // namespace hogel::work

@@ -10,7 +10,7 @@
 #include "hogel/error.h"
 #include "hogel/team.h"
 
-namespace hogel::core {
+namespace hogel::work {
 
 /// The bytes of a message: a MiB, because the memory of larger ones is new each time.
 inline constexpr std::size_t piece_bytes = std::size_t{1} << 20;
@@ -44,4 +44,4 @@ void share_in_pieces(Team& team, std::span<Number> numbers) {
     for (std::size_t process = 1; process < team.size(); ++process) send_in_pieces<Number>(team, process, numbers);
 }
 
-}  // namespace hogel::core
+}  // namespace hogel::work

@@ -6,7 +6,7 @@
 
 #include "hogel/progress.h"
 
-namespace hogel::core {
+namespace hogel::work {
 
 /// The progress of equal steps that several threads do in any order.
 class Steps {
@@ -25,4 +25,4 @@ class Steps {
     std::mutex mutex_;
 };
 
-}  // namespace hogel::core
+}  // namespace hogel::work

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/core/result_log.h"
+#include "hogel/work/result_log.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,11 +9,11 @@
 #include <fstream>
 #include <string>
 
-#include "hogel/core/shared_order.h"
 #include "hogel/error.h"
 #include "hogel/resume.h"
+#include "hogel/work/shared_order.h"
 
-namespace hogel::core {
+namespace hogel::work {
 namespace {
 
 namespace fs = std::filesystem;
@@ -130,4 +130,4 @@ TEST_F(ResultLogs, leave_no_file_where_nothing_was_kept_or_all_is_done) {
 }
 
 }  // namespace
-}  // namespace hogel::core
+}  // namespace hogel::work

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/core/shared_tiles.h"
+#include "hogel/work/shared_tiles.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "hogel/error.h"
 
-namespace hogel::core {
+namespace hogel::work {
 namespace {
 
 // Gives this process two tiles of each six, as if two others had the rest.
@@ -69,4 +69,4 @@ TEST(SharedTiles, a_process_is_in_one_team_at_a_time) {
 }
 
 }  // namespace
-}  // namespace hogel::core
+}  // namespace hogel::work
