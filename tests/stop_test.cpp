@@ -12,6 +12,7 @@
 
 #include "hogel/bake.h"
 #include "hogel/compress.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/core/test_errors.h"
 #include "hogel/core/test_stop.h"
 #include "hogel/hologram.h"
@@ -26,8 +27,6 @@
 #include "hogel/shading.h"
 #include "hogel/units.h"
 #include "hogel/work/parallel.h"
-
-#include "hogel/core/stop_scope.h"
 
 namespace hogel {
 namespace {
@@ -149,7 +148,7 @@ std::vector<Verb> field_verbs() {
              const Camera camera = camera_of(grid.plane);
              photograph(waves, {&camera, 1}, BandCamera{.vertical_diffuser = true}, progress);
          }},
-        {"photograph_by_plane_waves",
+        {"photograph_with_plane_waves",
          [](const Progress& progress) {
              const Camera camera = camera_of(grid.plane);
              photograph(waves, {&camera, 1}, PlaneWaveCamera(), progress);

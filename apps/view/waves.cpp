@@ -16,7 +16,13 @@ void Waves::photograph(const Camera& camera, std::size_t looks, bool preview, co
                        const Progress& progress) {
     if (fields_.empty()) fields_ = make_();
     std::optional<EyePhotographer>& photographer = photographers_[preview ? 1 : 0];
-    if (!photographer) photographer.emplace(fields_, BandCamera{.memory = memory_, .preview = preview}, making_);
+    if (!photographer) {
+        const BandCamera model{.memory = memory_, .preview = preview};
+        if (const auto& other = photographers_[preview ? 0 : 1])
+            photographer.emplace(*other, model);
+        else
+            photographer.emplace(fields_, model, making_);
+    }
     const std::size_t wanted = looks == 0 ? looks_ : std::min(looks, looks_);
     // The photographer has one number of looks, and stops on request: here after the last one that is wanted.
     std::stop_source enough;

@@ -51,7 +51,8 @@ class HOGEL_API FieldSource {
     virtual std::size_t overlap() const { return 0; }
     /// Fills out[y][x] (shape: height × width of the region) with the region's samples in look number `look`.
     virtual void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const = 0;
-    /// This field as a stereogram that is made on demand, whose hogels photograph() uses; null for other fields.
+    /// For the library: this field as a stereogram that is made on demand, from whose hogels photograph() computes
+    /// light; null for other fields, also for those that a program defines.
     virtual const stereogram::Stereogram* stereogram() const { return nullptr; }
 };
 

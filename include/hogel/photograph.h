@@ -35,20 +35,17 @@ enum class BandSource {
 /// fewer at a time and the hologram in windows; then the thousandth of the light that falls more than 256 resolution
 /// cells from its point is lost at the seams of windows.
 ///
-/// Behind a vertical diffuser a line of samples is coherent along x, and its light of any two heights within the line
-/// is incoherent, as is that of two lines: the picture is the sum of the intensities of all heights, which are seen
-/// with the radiance of the field towards the eye, whatever the pitch in y. A hologram of lines that are too coarse to
-/// diffract up and down is seen from all heights. Cost: a photograph for each of so many lines, the light of which
-/// overlaps, of a hologram with thin rows, 12 to a resolution cell.
-///
 /// photograph() throws Error(usage) for a pupil that receives more directions than the field's pitch supports, for one
 /// that does not resolve two points on opposite edges of the hologram, and for a photograph that needs more memory than
 /// allowed.
 struct BandCamera {
     std::size_t memory = std::size_t{4} << 30;  ///< bytes that a photograph may use, without the pictures
     BandSource source = BandSource::automatic;
-    /// Whether the hologram stands behind a diffuser that spreads the light of each of its lines, a row of samples, to
-    /// all heights, as displays with horizontal parallax only do ([K] 3.9). Not from hogel spectra.
+    /// Whether the hologram stands behind a diffuser that spreads the light of each row of samples, a line, to all
+    /// heights, as displays with horizontal parallax only do ([K] 3.9). A line is coherent along x only: heights within
+    /// it, and different lines, add as intensities. All heights are seen with the radiance of the field towards the
+    /// eye, whatever the pitch in y. Cost: lines whose light overlaps are photographed one by one, each as a hologram
+    /// with 12 rows to a resolution cell. Not from hogel spectra.
     bool vertical_diffuser = false;
     /// A quick look from hogel spectra: it skips waves outside the pupil, which contribute only through edge
     /// diffraction, and films are coarser. No effect on samples.
@@ -90,8 +87,8 @@ struct DirectCamera {
 using CameraModel = std::variant<BandCamera, SpeckleFreeCamera, PlaneWaveCamera, DirectCamera>;
 
 /// Photographs a hologram by wave optics. Intensities are averaged over the source's looks and over each pixel's area.
-/// The images have one channel, in the field's units of radiance,
-/// and the order of `cameras`. Throws Error(usage) as the model says.
+/// The images have one channel, in the field's units of radiance, and the order of `cameras`. Throws Error(usage) for
+/// an invalid camera, and as the model says.
 HOGEL_API std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camera> cameras,
                                         const CameraModel& model = BandCamera(), const Progress& progress = {});
 
@@ -106,8 +103,8 @@ HOGEL_API void require_photographs(const FieldGrid& hologram, std::span<const Ca
                                    const CameraModel& model = BandCamera());
 
 /// Resources to photograph holograms that exist already, without the cost of reading them; behind a vertical diffuser
-/// too, where the time grows with the number of lines within 32 resolution cells and the blur. Other models than
-/// BandCamera are planned as if by that one. Throws Error(usage) as require_photographs() does.
+/// too, where the time grows with the number of lines within 32 resolution cells and the blur. Other models are planned
+/// as BandCamera(), with its default memory. Throws Error(usage) as require_photographs() does.
 HOGEL_API Plan plan_photographs(std::span<const FieldGrid> holograms, std::size_t looks,
                                 std::span<const Camera> cameras, const CameraModel& model = BandCamera());
 
@@ -136,11 +133,13 @@ HOGEL_API std::vector<Array<std::complex<float>, 2>> waves_in_focus(const FieldS
 /// same eye again continues with the others. For one thread at a time.
 class HOGEL_API EyePhotographer {
   public:
-    /// Computes what all eyes share, as far as the model's memory allows; half of that is for the light of the last
-    /// eye. A model other than BandCamera shares nothing but amplitudes. Throws Error(usage) for other numbers of
-    /// holograms.
-    explicit EyePhotographer(std::vector<std::shared_ptr<const FieldSource>> holograms,
-                             const CameraModel& model = BandCamera(), const Progress& progress = {});
+    /// Computes what all eyes share. Half of the model's memory is for it, half for the light of the last eye. Throws
+    /// Error(usage) for other numbers of holograms, and for models other than BandCamera, without a diffuser, and
+    /// SpeckleFreeCamera, which shows a picture once, as the mean of 0 looks.
+    explicit EyePhotographer(Fields holograms, const CameraModel& model = BandCamera(), const Progress& progress = {});
+    /// Photographs the holograms of another photographer by another model, and shares with it what all eyes share. Both
+    /// are for the same thread. Throws Error(usage) as the other constructor does.
+    EyePhotographer(const EyePhotographer& other, const CameraModel& model);
     ~EyePhotographer();
     EyePhotographer(EyePhotographer&&) noexcept;
     EyePhotographer& operator=(EyePhotographer&&) noexcept;

@@ -26,16 +26,16 @@ struct RayCamera {
 /// picture per camera and a tile of hogels. Cost: pupil samples × (hogels + pixels) per camera. Throws Error(usage) for
 /// a camera that makes no sense, and for a tilted plane in focus.
 HOGEL_API std::vector<Image> photograph(const LightField& light_field, std::span<const Camera> cameras,
-                                        const RayCamera& options = {}, const Progress& progress = {});
+                                        const RayCamera& model = {}, const Progress& progress = {});
 
 /// As photograph() into `pictures`, one per camera, whose memory is reused if they have the cameras' shapes. Also
 /// throws Error(usage) for another number of pictures.
-HOGEL_API void photograph_into(const LightField& light_field, std::span<const Camera> cameras, const RayCamera& options,
+HOGEL_API void photograph_into(const LightField& light_field, std::span<const Camera> cameras, const RayCamera& model,
                                std::span<Image> pictures, const Progress& progress = {});
 
 /// Resources to photograph a light field by rays, without the cost of reading it.
 HOGEL_API Plan plan_ray_photographs(std::span<const LightFieldGrid> faces, std::span<const Camera> cameras,
-                                    const RayCamera& options = {});
+                                    const RayCamera& model = {});
 
 /// Options of RayPhotographer.
 struct RayPhotographerOptions {
@@ -58,9 +58,9 @@ class HOGEL_API RayPhotographer {
     RayPhotographer& operator=(RayPhotographer&&) noexcept;
 
     /// Throws Error(usage) as hogel::photograph() does, and Error(cancelled).
-    Image photograph(const Camera& camera, const RayCamera& options = {}, const Progress& progress = {});
+    Image photograph(const Camera& camera, const RayCamera& model = {}, const Progress& progress = {});
     /// As photograph() into `picture`, whose memory is reused if it has the camera's shape.
-    void photograph_into(const Camera& camera, const RayCamera& options, Image& picture, const Progress& progress = {});
+    void photograph_into(const Camera& camera, const RayCamera& model, Image& picture, const Progress& progress = {});
 
   private:
     struct State;

@@ -122,8 +122,8 @@ void add_photographs(py::module_& module) {
     module.def(
         "choose_band_source",
         [](const LightField& light_field, const HologramRequest& request, const std::vector<Camera>& cameras,
-           const BandCamera& options) {
-            const BandSourceChoice choice = choose_band_source(light_field.grids(), request, cameras, options);
+           const CameraModel& model) {
+            const BandSourceChoice choice = choose_band_source(light_field.grids(), request, cameras, model);
             return py::make_tuple(choice.source, choice.reason);
         },
         arg("light_field"), arg("request"), arg("cameras"), arg("model"));

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "hogel/camera/models.h"
+#include "hogel/image/film.h"
 #include "hogel/math/quadrature.h"
 #include "hogel/photograph.h"
 #include "hogel/work/parallel.h"
@@ -89,8 +90,9 @@ void sum_directly(const FieldSource& hologram, const Camera& camera, const Direc
 
 }  // namespace
 
-void camera::add_light(const FieldSource& hologram, std::span<const Camera> cameras, const DirectCamera& model,
-                       std::span<Image> pictures, const Progress& progress) {
+void camera::photograph_by(const FieldSource& hologram, std::span<const Camera> cameras, const DirectCamera& model,
+                           std::span<Image> pictures, const Progress& progress) {
+    image::load_film(cameras, 1, hologram.provenance(), pictures);
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         sum_directly(hologram, cameras[i], model, pictures[i]);
         progress.report(static_cast<double>(i + 1) / static_cast<double>(cameras.size()));

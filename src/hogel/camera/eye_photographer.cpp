@@ -58,24 +58,41 @@ struct SeenEye {
 }  // namespace
 
 struct EyePhotographer::State {
-    std::vector<std::shared_ptr<const FieldSource>> holograms;
+    // What models and eyes share, and what was kept of it: the waves of the first look, [colour].
+    struct Shared {
+        Fields holograms;
+        std::vector<std::optional<hogel_spectra::KeptWaves>> kept_waves;
+    };
+    std::shared_ptr<Shared> shared;
     CameraModel model;
-    BandCamera band;                                                  // the model, if it is this one
-    std::vector<std::optional<hogel_spectra::KeptWaves>> kept_waves;  // [colour]
     SeenEye seen;
 
-    std::size_t looks() const { return holograms.front()->looks(); }
-    // Whether the light of the last eye is kept.
-    bool keeps_light() const { return std::holds_alternative<BandCamera>(model) && !band.vertical_diffuser; }
+    State(std::shared_ptr<Shared> of, const CameraModel& by) : shared(std::move(of)), model(by) {
+        const bool is_known =
+            band() != nullptr ? !band()->vertical_diffuser : std::holds_alternative<SpeckleFreeCamera>(by);
+        if (!is_known)
+            throw Error(ErrorCode::usage,
+                        "photographs from one eye after the other are those of the band camera without a diffuser, or "
+                        "without speckle; photograph() has the others");
+    }
+
+    const Fields& holograms() const { return shared->holograms; }
+    // Null: the model is without speckle.
+    const BandCamera* band() const { return std::get_if<BandCamera>(&model); }
+    std::size_t memory() const {
+        return band() != nullptr ? band()->memory : std::get<SpeckleFreeCamera>(model).memory;
+    }
+
+    std::size_t looks() const { return holograms().front()->looks(); }
 
     // Keeps the waves of the first look of a colour, if its amplitudes are kept and they take at most `memory` bytes;
     // then this look of another eye takes less time. Returns the bytes that are kept.
     std::size_t keep_waves(std::size_t colour, std::size_t memory) {
-        const stereogram::Hogels hogels = holograms[colour]->stereogram()->hogels();
+        const stereogram::Hogels hogels = holograms()[colour]->stereogram()->hogels();
         if (hogels.waves == nullptr || !hogels.waves->has_lanes() || hogels.kept.size() == 0) return 0;
         const std::size_t bytes = hogel_spectra::KeptWaves::bytes(hogels);
         if (bytes > memory) return 0;
-        kept_waves[colour].emplace(hogels, *hogels.waves, hogels.kept);
+        shared->kept_waves[colour].emplace(hogels, *hogels.waves, hogels.kept);
         return bytes;
     }
 
@@ -83,17 +100,17 @@ struct EyePhotographer::State {
     void look_from(const Camera& camera) {
         seen = {camera.eye, camera.pupil, 1.5 * defocus_blur(camera), {}};
         std::vector<SeenColour> colours;
-        for (std::size_t c = 0; c < holograms.size(); ++c) {
-            const auto& hologram = holograms[c];
+        for (std::size_t c = 0; c < holograms().size(); ++c) {
+            const auto& hologram = holograms()[c];
             const Grid& plane = hologram->grid().plane;
-            const Eye eye{camera.eye, camera.pupil, band.preview};
+            const Eye eye{camera.eye, camera.pupil, band()->preview};
             const Rectangle lit = lit_area(hologram->grid(), camera.eye, seen.pupil, seen.blur),
                             shown = film_area(plane, Rectangle(camera.picture), lit);
             SeenColour colour{{}, plane, lit, shown, {}, {}};
-            colour.drawing = draw_eyes(*hologram, {0, 0, plane.width, plane.height}, *hologram, {&eye, 1}, band.source,
-                                       kept_waves[c] ? &*kept_waves[c] : nullptr);
+            colour.drawing = draw_eyes(*hologram, {0, 0, plane.width, plane.height}, *hologram, {&eye, 1},
+                                       band()->source, shared->kept_waves[c] ? &*shared->kept_waves[c] : nullptr);
             colour.film.emplace(colour.drawing->band(0), hologram->grid(), shown, seen.pupil, seen.blur,
-                                film::film_samples(band.preview));
+                                film::film_samples(band()->preview));
             colours.push_back(std::move(colour));
         }
         seen.colours = std::move(colours);
@@ -106,7 +123,7 @@ struct EyePhotographer::State {
             for (const auto& kept : colour.waves)
                 bytes += static_cast<double>(sizeof(math::PackedComplex) * kept.size());
         return bytes + static_cast<double>(sizeof(math::PackedComplex) * wave.size()) <=
-               0.5 * static_cast<double>(band.memory);
+               0.5 * static_cast<double>(band()->memory);
     }
 
     // Adds a look to a colour's intensities.
@@ -120,7 +137,7 @@ struct EyePhotographer::State {
 
     Image blank(const Camera& camera) const {
         Image picture;
-        image::load_film({&camera, 1}, holograms.size(), holograms.front()->provenance(), {&picture, 1});
+        image::load_film({&camera, 1}, holograms().size(), holograms().front()->provenance(), {&picture, 1});
         return picture;
     }
 
@@ -132,7 +149,7 @@ struct EyePhotographer::State {
 
     Image develop(const std::vector<Array<float, 2>>& intensities, const Camera& camera, std::size_t looks) const {
         Image picture = blank(camera);
-        for (std::size_t c = 0; c < holograms.size(); ++c) {
+        for (std::size_t c = 0; c < holograms().size(); ++c) {
             Image one(camera.picture.width, camera.picture.height, 1);
             seen.colours[c].film->develop(intensities[c], camera, seen.colours[c].lit, 1 / static_cast<double>(looks),
                                           one);
@@ -142,27 +159,28 @@ struct EyePhotographer::State {
     }
 };
 
-EyePhotographer::EyePhotographer(std::vector<std::shared_ptr<const FieldSource>> holograms, const CameraModel& model,
-                                 const Progress& progress)
-    : state_(std::make_unique<State>()) {
+EyePhotographer::EyePhotographer(Fields holograms, const CameraModel& model, const Progress& progress) {
     const core::StopScope scope(progress);
     if (holograms.size() != 1 && holograms.size() != 3)
         throw Error(ErrorCode::usage,
                     fmt::format("a photograph takes holograms of one or three wavelengths, not {}", holograms.size()));
-    state_->holograms = std::move(holograms);
-    state_->kept_waves.resize(state_->holograms.size());
-    state_->model = model;
-    if (const auto* const band = std::get_if<BandCamera>(&model)) state_->band = *band;
-    const auto* const speckle_free = std::get_if<SpeckleFreeCamera>(&model);
+    const std::size_t colours = holograms.size();
+    state_ = std::make_unique<State>(
+        std::make_shared<State::Shared>(
+            State::Shared{std::move(holograms), std::vector<std::optional<hogel_spectra::KeptWaves>>(colours)}),
+        model);
     // Amplitudes of all colours first, which save more than waves.
-    std::size_t left = (speckle_free != nullptr ? speckle_free->memory : state_->band.memory) / 2;
-    const std::size_t colours = state_->holograms.size();
-    for (std::size_t step = 0; step < (state_->keeps_light() ? 2 : 1) * colours; ++step) {
-        if (const stereogram::Stereogram* const source = state_->holograms[step % colours]->stereogram())
+    std::size_t left = state_->memory() / 2;
+    const std::size_t steps = (state_->band() != nullptr ? 2 : 1) * colours;
+    for (std::size_t step = 0; step < steps; ++step) {
+        if (const stereogram::Stereogram* const source = state_->holograms()[step % colours]->stereogram())
             left -= step < colours ? source->keep_amplitudes(left) : state_->keep_waves(step % colours, left);
-        progress.report(static_cast<double>(step + 1) / static_cast<double>(2 * colours));
+        progress.report(static_cast<double>(step + 1) / static_cast<double>(steps));
     }
 }
+
+EyePhotographer::EyePhotographer(const EyePhotographer& other, const CameraModel& model)
+    : state_(std::make_unique<State>(other.state_->shared, model)) {}
 
 EyePhotographer::~EyePhotographer() = default;
 EyePhotographer::EyePhotographer(EyePhotographer&&) noexcept = default;
@@ -171,18 +189,18 @@ EyePhotographer& EyePhotographer::operator=(EyePhotographer&&) noexcept = defaul
 Image EyePhotographer::photograph(const Camera& camera, const Shown& shown, const Progress& progress) {
     const core::StopScope scope(progress);
     State& state = *state_;
-    const std::size_t colours = state.holograms.size();
-    if (!state.keeps_light()) {
+    const std::size_t colours = state.holograms().size();
+    if (state.band() == nullptr) {
         Image picture = state.blank(camera);
         for (std::size_t c = 0; c < colours; ++c) {
             const std::vector<Image> one =
-                hogel::photograph(*state.holograms[c], {&camera, 1}, state.model, progress.part(c, colours));
+                hogel::photograph(*state.holograms()[c], {&camera, 1}, state.model, progress.part(c, colours));
             State::put(one.front(), c, picture);
         }
         if (shown) shown(picture, 0);
         return picture;
     }
-    for (const auto& hologram : state.holograms) require_photographs(hologram->grid(), {&camera, 1}, state.model);
+    for (const auto& hologram : state.holograms()) require_photographs(hologram->grid(), {&camera, 1}, state.model);
     if (!state.seen.serves(camera)) state.look_from(camera);
     std::vector<Array<float, 2>> intensities;
     for (const SeenColour& colour : state.seen.colours) intensities.push_back(colour.film->unexposed());

@@ -175,6 +175,7 @@ void require_photographs_of_lines(const FieldGrid& hologram, std::span<const Cam
 void photograph_lines(const FieldSource& hologram, std::span<const Camera> cameras, const BandCamera& options,
                       std::span<Image> pictures, const Progress& progress, double apart) {
     require_photographs_of_lines(hologram.grid(), cameras, options);
+    image::load_film(cameras, 1, hologram.provenance(), pictures);
     const double line_height = hologram.grid().plane.pitch_y;
     const std::size_t rows = rows_in_line(hologram.grid(), cameras);
     const std::size_t every = lines_between(hologram.grid(), cameras, apart);

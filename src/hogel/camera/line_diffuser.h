@@ -10,7 +10,7 @@ namespace hogel::camera {
 /// The distance of lines, in resolution cells beside the blur, at which their light counts as not overlapping.
 inline constexpr double lines_apart = 32;
 
-/// Adds the light of a hologram's lines behind a vertical diffuser (docs/notation.md, section 4): the sum of the
+/// photograph_into() of a hologram's lines behind a vertical diffuser (docs/notation.md, section 4): the sum of the
 /// intensities of its lines, each of which sends its light to all heights.
 /// @param apart  see lines_apart: lines so far apart share a photograph; infinity: a photograph for each line
 void photograph_lines(const FieldSource& hologram, std::span<const Camera> cameras, const BandCamera& options,

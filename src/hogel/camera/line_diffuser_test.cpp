@@ -83,7 +83,7 @@ TEST(LineDiffuser, lines_that_are_far_apart_do_not_change_each_other) {
     const Field field = random_lines(grid, 2);
     const std::vector<Camera> cameras{camera_at({2_mm, 5_mm, 100_mm}, 3_mm, 0, {12, 14, 150_um, 150_um, 0, 0}),
                                       camera_at({2_mm, 5_mm, 100_mm}, 3_mm, 2_mm, {12, 14, 150_um, 150_um, 0, 0})};
-    std::vector<Image> together(2, Image(12, 14, 1)), alone = together;
+    std::vector<Image> together(2), alone(2);
     photograph_lines(field, cameras, diffuse, together, {});
     photograph_lines(field, cameras, diffuse, alone, {}, std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < 2; ++i) EXPECT_LT(relative_difference(together[i], alone[i]), 0.004) << i;

@@ -7,15 +7,15 @@
 
 namespace hogel::camera {
 
-/// photograph() by each model. They add the light of a hologram to pictures of the cameras' shapes.
-void add_light(const FieldSource& hologram, std::span<const Camera> cameras, const BandCamera& model,
-               std::span<Image> pictures, const Progress& progress);
-void add_light(const FieldSource& hologram, std::span<const Camera> cameras, const SpeckleFreeCamera& model,
-               std::span<Image> pictures, const Progress& progress);
-void add_light(const FieldSource& hologram, std::span<const Camera> cameras, const PlaneWaveCamera& model,
-               std::span<Image> pictures, const Progress& progress);
-void add_light(const FieldSource& hologram, std::span<const Camera> cameras, const DirectCamera& model,
-               std::span<Image> pictures, const Progress& progress);
+/// photograph_into() by each model. Pictures are changed only after what photograph() throws before it begins.
+void photograph_by(const FieldSource& hologram, std::span<const Camera> cameras, const BandCamera& model,
+                   std::span<Image> pictures, const Progress& progress);
+void photograph_by(const FieldSource& hologram, std::span<const Camera> cameras, const SpeckleFreeCamera& model,
+                   std::span<Image> pictures, const Progress& progress);
+void photograph_by(const FieldSource& hologram, std::span<const Camera> cameras, const PlaneWaveCamera& model,
+                   std::span<Image> pictures, const Progress& progress);
+void photograph_by(const FieldSource& hologram, std::span<const Camera> cameras, const DirectCamera& model,
+                   std::span<Image> pictures, const Progress& progress);
 
 /// Throws what photograph() throws for a PlaneWaveCamera before it begins.
 void require_by_plane_waves(const FieldGrid& hologram, std::span<const Camera> cameras, const PlaneWaveCamera& model);

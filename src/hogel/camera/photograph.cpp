@@ -11,7 +11,6 @@
 #include "hogel/camera/eye_drawings.h"
 #include "hogel/camera/line_diffuser.h"
 #include "hogel/camera/models.h"
-#include "hogel/camera/narrow_band/narrow_band.h"
 #include "hogel/camera/photograph_plan.h"
 #include "hogel/camera/speckle_free/speckle_free.h"
 #include "hogel/core/rates.h"
@@ -19,7 +18,6 @@
 #include "hogel/image/film.h"
 #include "hogel/optics/spectrum.h"
 #include "hogel/stereogram/stereogram.h"
-#include "hogel/team.h"
 #include "hogel/units.h"
 
 namespace hogel {
@@ -171,19 +169,21 @@ void photograph_into(const FieldSource& hologram, std::span<const Camera> camera
     const core::StopScope scope(progress);
     image::require_a_picture_for_each(cameras, pictures);
     for (const Camera& camera : cameras) validate(camera);
+    std::visit([&](const auto& own) { photograph_by(hologram, cameras, own, pictures, progress); }, model);
+}
+
+void camera::photograph_by(const FieldSource& hologram, std::span<const Camera> cameras, const SpeckleFreeCamera& model,
+                           std::span<Image> pictures, const Progress& progress) {
+    const speckle_free::WavePowers powers = powers_of(hologram);
     image::load_film(cameras, 1, hologram.provenance(), pictures);
-    std::visit([&](const auto& own) { add_light(hologram, cameras, own, pictures, progress); }, model);
+    speckle_free::photograph(hologram, powers, cameras, model, pictures, progress);
 }
 
-void camera::add_light(const FieldSource& hologram, std::span<const Camera> cameras, const SpeckleFreeCamera& model,
-                       std::span<Image> pictures, const Progress& progress) {
-    speckle_free::photograph(hologram, powers_of(hologram), cameras, model, pictures, progress);
-}
-
-void camera::add_light(const FieldSource& hologram, std::span<const Camera> cameras, const BandCamera& model,
-                       std::span<Image> pictures, const Progress& progress) {
+void camera::photograph_by(const FieldSource& hologram, std::span<const Camera> cameras, const BandCamera& model,
+                           std::span<Image> pictures, const Progress& progress) {
     if (model.vertical_diffuser) return photograph_lines(hologram, cameras, model, pictures, progress);
     const PhotographPlan plan = plan_photographs(hologram.grid(), cameras, static_cast<double>(model.memory));
+    image::load_film(cameras, 1, hologram.provenance(), pictures);
     const double parts = static_cast<double>(plan.passes.size()) * static_cast<double>(plan.windows.size());
     std::size_t done = 0;
     for (const std::vector<std::size_t>& pass : plan.passes)

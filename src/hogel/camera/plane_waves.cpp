@@ -13,6 +13,7 @@
 #include "hogel/camera/models.h"
 #include "hogel/camera/photograph_plan.h"
 #include "hogel/camera/sine_grid.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/image/film.h"
 #include "hogel/math/fft.h"
@@ -22,8 +23,6 @@
 #include "hogel/photograph.h"
 #include "hogel/units.h"
 #include "hogel/work/shared_order.h"
-
-#include "hogel/core/stop_scope.h"
 
 namespace hogel {
 
@@ -401,9 +400,10 @@ void camera::require_by_plane_waves(const FieldGrid& hologram, std::span<const C
     }
 }
 
-void camera::add_light(const FieldSource& hologram, std::span<const Camera> cameras, const PlaneWaveCamera& model,
-                       std::span<Image> images, const Progress& progress) {
+void camera::photograph_by(const FieldSource& hologram, std::span<const Camera> cameras, const PlaneWaveCamera& model,
+                           std::span<Image> images, const Progress& progress) {
     require_by_plane_waves(hologram.grid(), cameras, model);
+    image::load_film(cameras, 1, hologram.provenance(), images);
     const auto looks = static_cast<double>(hologram.looks());
     Team* const team = work::team_of_several();
     for (std::size_t look = 0; look < hologram.looks(); ++look) {

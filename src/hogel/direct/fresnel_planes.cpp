@@ -5,13 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "hogel/core/stop_scope.h"
 #include "hogel/direct/depth_planes.h"
 #include "hogel/error.h"
 #include "hogel/math/fft.h"
 #include "hogel/units.h"
 #include "hogel/work/parallel.h"
-
-#include "hogel/core/stop_scope.h"
 
 namespace hogel::direct {
 namespace {

@@ -4,10 +4,9 @@
 #include <complex>
 #include <numbers>
 
+#include "hogel/core/stop_scope.h"
 #include "hogel/direct/scene_points.h"
 #include "hogel/work/parallel.h"
-
-#include "hogel/core/stop_scope.h"
 
 namespace hogel::direct {
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
+#include "hogel/core/stop_scope.h"
 #include "hogel/direct/depth_planes.h"
 #include "hogel/direct/onward.h"
 #include "hogel/optics/spectrum.h"
 #include "hogel/work/parallel.h"
-
-#include "hogel/core/stop_scope.h"
 
 namespace hogel::direct {
 

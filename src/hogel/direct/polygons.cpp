@@ -5,12 +5,11 @@
 #include <numbers>
 #include <tuple>
 
+#include "hogel/core/stop_scope.h"
 #include "hogel/direct/onward.h"
 #include "hogel/direct/scene_points.h"
 #include "hogel/optics/tilt.h"
 #include "hogel/work/parallel.h"
-
-#include "hogel/core/stop_scope.h"
 
 namespace hogel::direct {
 namespace {

@@ -9,14 +9,13 @@
 
 #include "hogel/core/part.h"
 #include "hogel/core/random.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/direct/scene_points.h"
 #include "hogel/error.h"
 #include "hogel/shading/triangles.h"
 #include "hogel/units.h"
 #include "hogel/work/parallel.h"
 #include "hogel/work/steps.h"
-
-#include "hogel/core/stop_scope.h"
 
 namespace hogel::direct {
 namespace {

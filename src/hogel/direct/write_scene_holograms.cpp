@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/scene_hologram.h"
 #include "hogel/work/shared_order.h"
-
-#include "hogel/core/stop_scope.h"
 
 namespace hogel {
 namespace {

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hogel/core/stop_scope.h"
 #include "hogel/exchange/disparity.h"
 #include "hogel/exchange/parallax.h"
 #include "hogel/work/parallel.h"
-
-#include "hogel/core/stop_scope.h"
 
 namespace hogel::exchange {
 namespace {

@@ -7,12 +7,11 @@
 
 #include "hogel/core/output_file.h"
 #include "hogel/core/rates.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/exchange/transfer.h"
 #include "hogel/exchange/view_set.h"
 #include "hogel/work/parallel.h"
-
-#include "hogel/core/stop_scope.h"
 
 namespace hogel {
 namespace exchange {

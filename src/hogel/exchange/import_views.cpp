@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "hogel/core/rates.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/exchange/densify.h"
 #include "hogel/exchange/geometry.h"
@@ -16,8 +17,6 @@
 #include "hogel/exchange/sparse_views.h"
 #include "hogel/exchange/view_light_field.h"
 #include "hogel/work/parallel.h"
-
-#include "hogel/core/stop_scope.h"
 
 namespace hogel {
 namespace exchange {

@@ -8,13 +8,12 @@
 #include <system_error>
 #include <type_traits>
 
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/image.h"
 #include "hogel/image/picture_bytes.h"
 #include "hogel/image/texture_picture.h"
 #include "hogel/work/parallel.h"
-
-#include "hogel/core/stop_scope.h"
 
 namespace hogel {
 

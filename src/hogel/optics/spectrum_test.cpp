@@ -14,7 +14,6 @@
 #include "hogel/optics/phase_walk.h"
 #include "hogel/optics/tilt.h"
 #include "hogel/units.h"
-#include "hogel/work/parallel.h"
 
 namespace hogel::optics {
 namespace {

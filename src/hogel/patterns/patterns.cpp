@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "hogel/core/stop_scope.h"
 #include "hogel/pattern.h"
 #include "hogel/patterns/pattern_parts.h"
 #include "hogel/work/shared_order.h"
-
-#include "hogel/core/stop_scope.h"
 
 namespace hogel {
 namespace {

@@ -4,11 +4,10 @@
 #include <functional>
 #include <limits>
 
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/pipeline.h"
 #include "hogel/work/parallel.h"
-
-#include "hogel/core/stop_scope.h"
 
 namespace hogel {
 namespace {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/image/film.h"
 #include "hogel/pipeline.h"
@@ -15,8 +16,6 @@
 #include "hogel/stereogram/parallax.h"
 #include "hogel/work/pieces.h"
 #include "hogel/work/shared_order.h"
-
-#include "hogel/core/stop_scope.h"
 
 namespace hogel {
 

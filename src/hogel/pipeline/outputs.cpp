@@ -5,11 +5,10 @@
 #include <chrono>
 
 #include "hogel/core/output_file.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/pipeline.h"
 #include "hogel/work/parallel.h"
-
-#include "hogel/core/stop_scope.h"
 
 namespace hogel {
 namespace {

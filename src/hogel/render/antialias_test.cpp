@@ -9,8 +9,8 @@
 
 #include "hogel/error.h"
 #include "hogel/render/test_renderers.h"
+#include "hogel/resources.h"
 #include "hogel/units.h"
-#include "hogel/work/parallel.h"
 
 namespace hogel::render {
 namespace {

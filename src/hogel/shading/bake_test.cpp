@@ -10,7 +10,6 @@
 #include "hogel/scene/shapes.h"
 #include "hogel/shading.h"
 #include "hogel/shading/test_scenes.h"
-#include "hogel/work/parallel.h"
 
 namespace hogel::shading {
 namespace {

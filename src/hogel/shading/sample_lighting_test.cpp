@@ -7,9 +7,9 @@
 #include <random>
 
 #include "hogel/error.h"
+#include "hogel/resources.h"
 #include "hogel/shading.h"
 #include "hogel/shading/test_scenes.h"
-#include "hogel/work/parallel.h"
 
 namespace hogel::shading {
 namespace {

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "hogel/error.h"
+#include "hogel/resources.h"
 #include "hogel/shading/test_scenes.h"
-#include "hogel/work/parallel.h"
 
 namespace hogel::shading {
 namespace {

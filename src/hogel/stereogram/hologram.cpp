@@ -2,11 +2,9 @@
 #include "hogel/hologram.h"
 
 #include <algorithm>
-#include <array>
 #include <list>
 #include <mutex>
 #include <numeric>
-#include <optional>
 
 #include "hogel/core/object_pool.h"
 #include "hogel/lightfield/channel_source.h"

@@ -65,7 +65,7 @@ class Stereogram : public FieldSource {
     const Stereogram* stereogram() const final { return this; }
     /// Valid as long as this object, and until keep_amplitudes() keeps more.
     virtual Hogels hogels() const = 0;
-    /// Computes what all eyes and looks share, the amplitudes of the waves, and keeps it, if that takes at most
+    /// Computes what all looks share, the amplitudes of the waves, and keeps it, if that takes at most
     /// `memory` bytes. Not to be called while the field is read. Returns the bytes that are kept.
     virtual std::size_t keep_amplitudes(std::size_t /*memory*/) const { return 0; }
 };

@@ -12,10 +12,9 @@
 #include <optional>
 #include <utility>
 
+#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/work/parallel.h"
-
-#include "hogel/core/stop_scope.h"
 
 namespace hogel::work {
 

@@ -40,12 +40,6 @@ Sent<std::vector<Value>> sent_vector() {
             [](MessageReader& from) { return from.get_vector<Value>(); }};
 }
 
-template <class Value, std::size_t axes>
-Sent<Array<Value, axes>> sent_array() {
-    return {[](MessageWriter& to, const Array<Value, axes>& array) { to.put(array); },
-            [](MessageReader& from) { return from.get_array<Value, axes>(); }};
-}
-
 /// shared_ordered() in a team, for results as bytes.
 /// @param in_flight  as of parallel_ordered(); in a team tiles_in_flight() of each process, on the average, are alive,
 ///                   results in the first one. 1: each process computes one result at a time, on the calling thread

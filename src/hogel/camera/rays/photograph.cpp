@@ -59,14 +59,14 @@ std::vector<CameraRange> groups_of(std::size_t cameras) {
 
 }  // namespace
 
-std::vector<Image> photograph(const LightField& light_field, std::span<const Camera> cameras, const RayCamera& options,
+std::vector<Image> photograph(const LightField& light_field, std::span<const Camera> cameras, const RayCamera& model,
                               const Progress& progress) {
     std::vector<Image> pictures(cameras.size());
-    photograph_into(light_field, cameras, options, pictures, progress);
+    photograph_into(light_field, cameras, model, pictures, progress);
     return pictures;
 }
 
-void photograph_into(const LightField& light_field, std::span<const Camera> cameras, const RayCamera& options,
+void photograph_into(const LightField& light_field, std::span<const Camera> cameras, const RayCamera& model,
                      std::span<Image> pictures, const Progress& progress) {
     const core::StopScope scope(progress);
     image::require_a_picture_for_each(cameras, pictures);
@@ -77,7 +77,7 @@ void photograph_into(const LightField& light_field, std::span<const Camera> came
     std::vector<FaceBlock> list;
     for (std::size_t face = 0; face < faces.size(); ++face)
         for (const Block& block : camera::rays::blocks(grids[face])) list.push_back({face, block});
-    const std::size_t lens_points = std::max<std::size_t>(options.pupil_samples, 1);
+    const std::size_t lens_points = std::max<std::size_t>(model.pupil_samples, 1);
     const std::vector<CameraRange> groups = groups_of(cameras.size());
     work::shared_jobs<std::vector<Image>>(
         groups.size(), image::sent_pictures(),
@@ -108,11 +108,11 @@ void photograph_into(const LightField& light_field, std::span<const Camera> came
 }
 
 Plan plan_ray_photographs(std::span<const LightFieldGrid> faces, std::span<const Camera> cameras,
-                          const RayCamera& options) {
+                          const RayCamera& model) {
     namespace rates = core::rates;
     double hogels = 0;
     for (const LightFieldGrid& face : faces) hogels += static_cast<double>(face.hogels());
-    const auto points = static_cast<double>(std::max<std::size_t>(options.pupil_samples, 1));
+    const auto points = static_cast<double>(std::max<std::size_t>(model.pupil_samples, 1));
     Plan plan;
     plan.memory =
         static_cast<double>(thread_count() + 1) * camera::rays::max_block_bytes;  // hogels that are being read

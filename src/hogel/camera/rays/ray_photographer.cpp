@@ -10,11 +10,10 @@
 #include "hogel/camera/rays/exposure.h"
 #include "hogel/camera/rays/ray_blocks.h"
 #include "hogel/core/half.h"
+#include "hogel/core/stop_scope.h"
 #include "hogel/image/film.h"
 #include "hogel/ray_photograph.h"
 #include "hogel/work/parallel.h"
-
-#include "hogel/core/stop_scope.h"
 
 namespace hogel {
 
@@ -108,21 +107,21 @@ RayPhotographer::~RayPhotographer() = default;
 RayPhotographer::RayPhotographer(RayPhotographer&&) noexcept = default;
 RayPhotographer& RayPhotographer::operator=(RayPhotographer&&) noexcept = default;
 
-Image RayPhotographer::photograph(const Camera& camera, const RayCamera& options, const Progress& progress) {
+Image RayPhotographer::photograph(const Camera& camera, const RayCamera& model, const Progress& progress) {
     Image picture;
-    photograph_into(camera, options, picture, progress);
+    photograph_into(camera, model, picture, progress);
     return picture;
 }
 
-void RayPhotographer::photograph_into(const Camera& camera, const RayCamera& options, Image& picture,
+void RayPhotographer::photograph_into(const Camera& camera, const RayCamera& model, Image& picture,
                                       const Progress& progress) {
     const State& state = *state_;
     const core::StopScope scope(progress);
     if (state.read_by_each)
-        return hogel::photograph_into(*state.read_by_each, std::span(&camera, 1), options, std::span(&picture, 1),
+        return hogel::photograph_into(*state.read_by_each, std::span(&camera, 1), model, std::span(&picture, 1),
                                       progress);
     require_ray_camera(camera);
-    Exposure exposure({state.grid}, camera, std::max<std::size_t>(options.pupil_samples, 1));
+    Exposure exposure({state.grid}, camera, std::max<std::size_t>(model.pupil_samples, 1));
     image::load_film(std::span(&camera, 1), state.grid.channels, state.provenance, std::span(&picture, 1));
     const std::vector<Block> list = blocks(state.grid);
     for (std::size_t i = 0; i < list.size(); ++i) {

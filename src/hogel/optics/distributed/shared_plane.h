@@ -28,11 +28,6 @@ LineRange common_lines(const LineRange& a, const LineRange& b);
 /// The lines of one of several processes: about equally many, in groups of `together`.
 LineRange lines_of(std::size_t process, std::size_t processes, std::size_t lines, std::size_t together);
 
-/// Those of this process, one by one: all, where there is no team.
-inline LineRange own_lines(const Team* team, std::size_t lines) {
-    return team != nullptr ? lines_of(team->rank(), team->size(), lines, 1) : LineRange{0, lines};
-}
-
 /// Gives all processes of a team the lines that each has made of an array that each has room for.
 /// @param length  of a line
 /// @param made    the lines that a process has made
