@@ -62,7 +62,8 @@ Scene lit_wall() {
     for (int i = 0; i < 12; ++i) {
         Light light;
         light.kind = Light::Kind::point;
-        light.position = {(i % 4 - 1.5) * 4e-3, (i / 4 - 1.0) * 4e-3, 15e-3};
+        const int row = i / 4;
+        light.position = {(i % 4 - 1.5) * 4e-3, (row - 1.0) * 4e-3, 15e-3};
         light.intensity = {1e-5f, 1.2e-5f, 0.8e-5f};
         scene.lights.push_back(light);
     }

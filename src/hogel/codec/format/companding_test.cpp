@@ -209,7 +209,7 @@ std::string complaint(const std::filesystem::path& path) {
         read_stream_info(path);
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::bad_input);
-        const std::string message = error.what();
+        std::string message = error.what();
         EXPECT_EQ(message.find('\n'), std::string::npos);
         EXPECT_NE(message.find(path.string()), std::string::npos) << message;
         return message;
@@ -243,13 +243,13 @@ TEST(Companding, damaged_field_of_a_header_is_refused) {
     EXPECT_EQ(with(part), "");
     EXPECT_EQ(with({part.begin(), part.begin() + std::ptrdiff_t(chrominance)}), "");
     for (std::size_t length = 1; length < part.size(); length += length % 16 == 2 ? 12 : 1)
-        EXPECT_EQ(with({part.begin(), part.begin() + std::ptrdiff_t(length)}) == "", length == chrominance) << length;
+        EXPECT_EQ(with({part.begin(), part.begin() + std::ptrdiff_t(length)}).empty(), length == chrominance) << length;
     for (std::size_t at = 0; at<part.size(); at += at> 20 && at + 30 < chrominance ? 5 : 1)
         for (const int bit : {0, 7}) {
             std::vector<std::uint8_t> bad = part;
             bad[at] = static_cast<std::uint8_t>(bad[at] ^ 1 << bit);
             const bool number = (at >= 12 && at < chrominance) || at >= part.size() - 4;
-            EXPECT_TRUE(with(bad) != "" || number) << at;
+            EXPECT_TRUE(!with(bad).empty() || number) << at;
             if (!number) continue;
             // A damaged number may still be valid and give other samples.
             if (complaint(folder / "b.hgl").empty()) decoded(folder / "b.hgl");
