@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 #include "showpieces/billiards.h"
 #include "showpieces/showpieces.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 #include "showpieces/church.h"
 #include "showpieces/showpieces.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/bake.h"
+#include "hogel/shading.h"
 #include "showpieces/showpieces.h"
 
 namespace hogel::showpieces {

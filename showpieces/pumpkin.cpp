@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "hogel/scene.h"
 #include "hogel/scene/shapes.h"
-#include "hogel/scenes.h"
 #include "showpieces/carve.h"
 #include "showpieces/showpieces.h"
 

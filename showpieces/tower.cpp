@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "hogel/scene.h"
 #include "hogel/scene/shapes.h"
-#include "hogel/scenes.h"
 #include "showpieces/masonry.h"
 #include "showpieces/showpieces.h"
 

@@ -7,9 +7,8 @@
 #include "hogel/hologram.h"
 #include "hogel/image.h"
 #include "hogel/photograph.h"
-#include "hogel/ray_photograph.h"
 #include "hogel/renderer.h"
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 #include "hogel/shading.h"
 #include "hogel/units.h"
 

@@ -10,7 +10,6 @@
 #include <functional>
 #include <thread>
 
-#include "hogel/bake.h"
 #include "hogel/compress.h"
 #include "hogel/core/stop_scope.h"
 #include "hogel/core/test_errors.h"
@@ -19,11 +18,10 @@
 #include "hogel/pattern.h"
 #include "hogel/photograph.h"
 #include "hogel/propagate.h"
-#include "hogel/ray_photograph.h"
 #include "hogel/render/test_renderers.h"
 #include "hogel/renderer.h"
+#include "hogel/scene.h"
 #include "hogel/scene_hologram.h"
-#include "hogel/scenes.h"
 #include "hogel/shading.h"
 #include "hogel/units.h"
 #include "hogel/work/parallel.h"

@@ -9,7 +9,7 @@
 #include "hogel/files.h"
 #include "hogel/image.h"
 #include "hogel/printable.h"
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 #include "outputs.h"
 
 namespace hogel::cli {

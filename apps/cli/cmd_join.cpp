@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "commands.h"
-#include "hogel/file_part.h"
 #include "hogel/files.h"
 #include "hogel/pipeline.h"
 #include "hogel/units.h"

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "hogel/bake.h"
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
+#include "hogel/shading.h"
 
 namespace hogel::cli {
 

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "hogel/scene_model.h"
+#include "hogel/pipeline.h"
 #include "hogel/units.h"
 
 namespace hogel::cli {

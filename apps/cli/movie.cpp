@@ -11,9 +11,9 @@
 #include <cstdio>
 
 #include "hogel/error.h"
-#include "hogel/films.h"
+#include "hogel/exchange.h"
 #include "hogel/pipeline.h"
-#include "hogel/stop.h"
+#include "hogel/progress.h"
 
 namespace hogel::cli {
 namespace fs = std::filesystem;

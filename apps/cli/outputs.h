@@ -9,7 +9,6 @@
 
 #include "command_line.h"
 #include "hogel/error.h"
-#include "hogel/file_part.h"
 #include "hogel/pipeline.h"
 #include "hogel/resume.h"
 #include "run_record.h"

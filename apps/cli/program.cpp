@@ -13,8 +13,8 @@
 
 #include "hogel/error.h"
 #include "hogel/printable.h"
+#include "hogel/progress.h"
 #include "hogel/resources.h"
-#include "hogel/stop.h"
 #include "interrupts.h"
 #include "standard_output.h"
 

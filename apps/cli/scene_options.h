@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "command_line.h"
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 #include "run_record.h"
 
 namespace hogel::cli {

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "hogel/screen.h"
+#include "hogel/image.h"
 
 namespace hogel::view {
 namespace {

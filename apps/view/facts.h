@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "hogel/scene_model.h"
+#include "hogel/pipeline.h"
 #include "view/settings.h"
 
 namespace hogel::view {

@@ -13,7 +13,7 @@
 #include <string>
 #include <thread>
 
-#include "hogel/scene_model.h"
+#include "hogel/pipeline.h"
 #include "view/drop_folder.h"
 #include "view/facts.h"
 #include "view/light_field_subject.h"

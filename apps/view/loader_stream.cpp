@@ -6,7 +6,6 @@
 
 #include "hogel/compress.h"
 #include "hogel/error.h"
-#include "hogel/stream_rates.h"
 #include "view/loader.h"
 
 namespace hogel::view {

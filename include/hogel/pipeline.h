@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "hogel/bake.h"
 #include "hogel/camera.h"
 #include "hogel/compress.h"
 #include "hogel/exchange.h"
@@ -23,10 +24,9 @@
 #include "hogel/photograph.h"
 #include "hogel/progress.h"
 #include "hogel/propagate.h"
-#include "hogel/ray_photograph.h"
 #include "hogel/renderer.h"
 #include "hogel/resources.h"
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 #include "hogel/shading.h"
 
 namespace hogel {
@@ -267,5 +267,76 @@ HOGEL_API Plan plan_photographs(std::span<const LightFieldGrid> faces, const Hol
 /// Throws Error(usage), with the numbers, if `what` needs more memory than the machine has left or more disk space than
 /// is free at `file`.
 HOGEL_API void require_resources(const Plan& plan, const std::string& what, const std::filesystem::path& file = {});
+
+/// A scene before it is placed at a hologram, for programs that place and light it again and again: a mesh file is read
+/// once, and a built-in scene is made again only for another size. For one thread at a time.
+class HOGEL_API SceneModel {
+  public:
+    /// Reads a mesh file. Throws as load_scene() does.
+    explicit SceneModel(std::string name, const ImportOptions& options = {}, const Progress& progress = {});
+
+    /// Whether it comes from a mesh file, so that LightFieldRequest::fit and LightFieldRequest::front act.
+    bool is_file() const { return imported_.has_value(); }
+    /// The scene of load_scene() with this request, whose `import` is that of the constructor. Throws as that does.
+    Scene placed(const LightFieldRequest& request, const Progress& progress = {});
+
+  private:
+    std::string name_;
+    std::optional<Scene> imported_, made_;
+    double made_for_ = 0;  // side of the hologram of `made_`, metres
+};
+
+/// A parameter whose value keeps a hologram from showing a scene as it could, and the value that would do.
+struct Advice {
+    std::string parameter;  ///< "pitch", "directions" or "hogels", as options of the command line
+    std::string text;       ///< one sentence, with the numbers
+    double enough = 0;      ///< what would do with the other parameters as they are: metres, or a number across
+    bool refused = false;   ///< whether there is no such hologram at all; otherwise it is less sharp than its hogels
+};
+
+/// What of a scene a light field and its holograms cannot show with these parameters.
+///
+/// * pitch: samples of pitch p diffract the wavelength λ to sin θ = λ/(2p) at most; steeper rays would alias. The pitch
+///   is rounded so that a hogel has a whole number of samples, and `enough` is a pitch that needs no rounding.
+/// * directions: at depth ζ the rays of neighbouring directions are |ζ|ΔU apart. Where that is more than a hogel,
+/// details
+///   of a hogel's size are lost ([K] 2.3).
+/// * hogels: a hogel of width d diffracts light of wavelength λ into λ/d, which at depth ζ is |ζ|λ/d wide. Where that
+/// is
+///   more than the hogel itself, fewer and larger hogels, √(λ|ζ|) wide, show it more sharply.
+///
+/// @param scene  as it is placed; its nearest and farthest depths count
+HOGEL_API std::vector<Advice> advise(const Bounds& scene, const LightFieldRequest& light_field,
+                                     const HologramRequest& hologram);
+
+/// The pitch of a request, or where that does not diffract the field of view of the one face, the `enough` of advise(),
+/// metres. The sides of a hemicube show what no pitch diffracts: of several faces it is the pitch of the request.
+HOGEL_API double diffracting_pitch(std::span<const LightFieldGrid> faces, const HologramRequest& hologram);
+
+/// A part of a light field or hologram file that several programs write without knowing of each other: number `number`,
+/// from 1, of `count`. A part holds some of the rows of hogels of every face, or some of the rows of samples of every
+/// field, and the header of the whole file.
+struct FilePart {
+    std::size_t number = 1, count = 1;
+    /// What the parts must have in common beside the options in the metadata: the input.
+    std::string input = {};
+};
+
+/// Writes a part of what write_light_field() would write. Part files are no HDF5 files: join_parts() makes one of them
+/// all. Throws Error(usage) if there are more parts than rows of hogels, and what write_light_field() throws.
+HOGEL_API void write_light_field_part(const std::filesystem::path& path, const LightField& light_field,
+                                      const LightFieldFileOptions& options, const FilePart& part,
+                                      const Progress& progress = {});
+
+/// Writes a part of what write_holograms() would write, in rows of samples that begin and end with hogels. Throws
+/// Error(usage) if there are more parts than rows of hogels, and what write_holograms() throws.
+HOGEL_API void write_holograms_part(const std::filesystem::path& path, const Fields& holograms,
+                                    const HologramFileOptions& options, const FilePart& part,
+                                    const Progress& progress = {});
+
+/// Joins the parts of a file, in any order. The file has the same bytes as one that was written whole. Throws
+/// Error(bad_input) if a part is missing, given twice, of another file or damaged, and Error(cannot_write).
+HOGEL_API void join_parts(const std::filesystem::path& path, std::span<const std::filesystem::path> parts,
+                          const Progress& progress = {});
 
 }  // namespace hogel

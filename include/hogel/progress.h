@@ -3,10 +3,12 @@
 
 #include <concepts>
 #include <functional>
+#include <memory>
 #include <stop_token>
 #include <utility>
 
 #include "hogel/error.h"
+#include "hogel/export.h"
 
 namespace hogel {
 
@@ -62,6 +64,20 @@ class Progress {
   private:
     std::stop_token stop_;
     Callback callback_;
+};
+
+/// While this object exists, functions without a Progress that this thread calls, such as write_image(), end with
+/// Error(cancelled) when a stop is requested from the progress's token. It must be destroyed by the same thread.
+class HOGEL_API Stoppable {
+  public:
+    explicit Stoppable(const Progress& progress);
+    ~Stoppable();
+    Stoppable(const Stoppable&) = delete;
+    Stoppable& operator=(const Stoppable&) = delete;
+
+  private:
+    struct Scope;
+    std::unique_ptr<Scope> scope_;
 };
 
 }  // namespace hogel

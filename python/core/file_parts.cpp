@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files that several programs write together, each a part.
-#include "hogel/file_part.h"
+#include "hogel/pipeline.h"
 
 #include "core.h"
 

@@ -6,7 +6,6 @@
 
 #include "arrays.h"
 #include "core.h"
-#include "hogel/screen.h"
 
 namespace hogel::python {
 namespace {

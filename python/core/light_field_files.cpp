@@ -2,9 +2,9 @@
 // Light fields in files: HDF5, compressed ones, sets of views.
 #include "arrays.h"
 #include "core.h"
+#include "hogel/compress.h"
 #include "hogel/files.h"
 #include "hogel/pipeline.h"
-#include "hogel/stream_rates.h"
 
 namespace hogel::python {
 namespace {

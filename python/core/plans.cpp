@@ -2,7 +2,6 @@
 // What work needs, before it begins.
 #include "core.h"
 #include "hogel/pipeline.h"
-#include "hogel/scene_model.h"
 
 namespace hogel::python {
 namespace {

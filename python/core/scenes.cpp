@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenes: built-in ones and mesh files, and how they are placed.
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 
 #include <algorithm>
 
 #include "core.h"
-#include "hogel/bake.h"
 #include "hogel/pipeline.h"
+#include "hogel/shading.h"
 #include "vectors.h"
 
 namespace hogel::python {

@@ -2,7 +2,6 @@
 // Sets of views, pictures for printers, and films.
 #include "core.h"
 #include "hogel/exchange.h"
-#include "hogel/films.h"
 #include "hogel/pipeline.h"
 
 namespace hogel::python {

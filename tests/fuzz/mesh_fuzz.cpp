@@ -3,7 +3,7 @@
 #include <array>
 
 #include "fuzz_file.h"
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace hogel;

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "fuzz_file.h"
-#include "hogel/file_part.h"
+#include "hogel/pipeline.h"
 #include "hogel/work/checkpoint_file.h"
 
 namespace {

@@ -19,7 +19,7 @@
 
 #include "hogel/compress.h"
 #include "hogel/renderer.h"
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 #include "hogel/shading.h"
 #include "hogel/units.h"
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "hogel/error.h"
-#include "hogel/stop.h"
+#include "hogel/progress.h"
 
 namespace hogel::core {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/films.h"
+#include "hogel/exchange.h"
 
 #include <fmt/format.h>
 

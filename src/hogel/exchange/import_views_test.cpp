@@ -9,7 +9,7 @@
 #include "hogel/exchange/sparse_views.h"
 #include "hogel/exchange/test_views.h"
 #include "hogel/image.h"
-#include "hogel/ray_photograph.h"
+#include "hogel/photograph.h"
 #include "hogel/work/parallel.h"
 
 namespace hogel::exchange {

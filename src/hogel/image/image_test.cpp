@@ -12,7 +12,6 @@
 
 #include "hogel/error.h"
 #include "hogel/image/picture_formats.h"
-#include "hogel/screen.h"
 
 namespace hogel::image {
 namespace {

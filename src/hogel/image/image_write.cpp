@@ -11,7 +11,6 @@
 #include "hogel/image/display_value.h"
 #include "hogel/image/picture_bytes.h"
 #include "hogel/image/picture_formats.h"
-#include "hogel/screen.h"
 #include "hogel/work/parallel.h"
 
 namespace hogel {

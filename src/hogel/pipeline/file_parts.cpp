@@ -6,8 +6,8 @@
 
 #include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
-#include "hogel/file_part.h"
 #include "hogel/io/part_sinks.h"
+#include "hogel/pipeline.h"
 
 namespace hogel {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenes that are placed again and again, and what of them a hologram shows.
-#include "hogel/scene_model.h"
+#include "hogel/pipeline.h"
 
 #include <fmt/format.h>
 

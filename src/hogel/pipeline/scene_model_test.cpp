@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/scene_model.h"
+#include "hogel/pipeline.h"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

@@ -7,10 +7,9 @@
 #include <memory>
 #include <string>
 
-#include "hogel/bake.h"
 #include "hogel/render/test_renderers.h"
+#include "hogel/scene.h"
 #include "hogel/scene/analytic.h"
-#include "hogel/scenes.h"
 #include "hogel/shading.h"
 #include "hogel/units.h"
 

@@ -12,7 +12,7 @@
 #include "hogel/render/cache_spacing.h"
 #include "hogel/render/projected.h"
 #include "hogel/render/test_renderers.h"
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 #include "hogel/shading/radiance_cache.h"
 #include "hogel/units.h"
 

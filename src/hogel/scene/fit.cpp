@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "hogel/error.h"
+#include "hogel/scene.h"
 #include "hogel/scene/fit_scale.h"
-#include "hogel/scenes.h"
 
 namespace hogel {
 

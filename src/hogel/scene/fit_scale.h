@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 
 namespace hogel::scene {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "hogel/error.h"
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 
 namespace hogel {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // In place of the folder mesh_files in a build without assimp.
 #include "hogel/core/part.h"
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 
 namespace hogel {
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "hogel/error.h"
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 
 namespace hogel {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "hogel/error.h"
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 
 namespace hogel {
 namespace {

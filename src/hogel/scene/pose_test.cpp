@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "hogel/error.h"
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 
 namespace hogel {
 namespace {

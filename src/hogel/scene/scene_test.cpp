@@ -14,7 +14,6 @@
 #include "hogel/core/test_errors.h"
 #include "hogel/error.h"
 #include "hogel/scene/edges.h"
-#include "hogel/scenes.h"
 
 namespace hogel::scene {
 namespace {

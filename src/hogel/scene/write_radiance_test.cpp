@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 
 #include <gtest/gtest.h>
 

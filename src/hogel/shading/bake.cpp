@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/bake.h"
+#include "hogel/shading.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,6 @@
 #include "hogel/core/stop_scope.h"
 #include "hogel/scene/shapes.h"
 #include "hogel/scene/tessellate.h"
-#include "hogel/shading.h"
 #include "hogel/shading/lighting.h"
 #include "hogel/shading/triangles.h"
 #include "hogel/work/parallel.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/bake.h"
+#include "hogel/shading.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 
 #include "hogel/error.h"
 #include "hogel/scene/shapes.h"
-#include "hogel/shading.h"
 #include "hogel/shading/test_scenes.h"
 
 namespace hogel::shading {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 #include "hogel/shading/illumination.h"
 
 namespace hogel::shading {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 #include "hogel/shading/illumination.h"
 #include "hogel/shading/test_scenes.h"
 

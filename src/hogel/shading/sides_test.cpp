@@ -5,7 +5,7 @@
 #include <array>
 #include <numbers>
 
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 #include "hogel/shading.h"
 #include "hogel/shading/test_scenes.h"
 

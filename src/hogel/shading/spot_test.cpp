@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 #include "hogel/shading.h"
 #include "hogel/shading/illumination.h"
 #include "hogel/shading/test_scenes.h"

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <span>
 
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 #include "hogel/shading/illumination.h"
 #include "hogel/shading/lighting.h"
 #include "hogel/work/parallel.h"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 #include "hogel/shading/test_scenes.h"
 
 namespace hogel::shading {

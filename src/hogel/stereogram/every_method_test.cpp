@@ -10,7 +10,6 @@
 #include "hogel/error.h"
 #include "hogel/hologram.h"
 #include "hogel/photograph.h"
-#include "hogel/ray_photograph.h"
 #include "hogel/stereogram/parallax.h"
 #include "hogel/stereogram/points.h"
 #include "hogel/stereogram/surface_cells.h"

@@ -6,7 +6,6 @@
 
 #include "hogel/hologram.h"
 #include "hogel/photograph.h"
-#include "hogel/ray_photograph.h"
 #include "hogel/stereogram/frequency_grid.h"
 #include "hogel/stereogram/test_light_fields.h"
 #include "hogel/units.h"

@@ -16,7 +16,7 @@
 #include "hogel/core/half.h"
 #include "hogel/core/test_targets.h"
 #include "hogel/image/film.h"
-#include "hogel/ray_photograph.h"
+#include "hogel/photograph.h"
 #include "hogel/units.h"
 
 namespace hogel::camera::rays {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "hogel/photograph.h"
 #include "hogel/image/film.h"
-#include "hogel/ray_photograph.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/ray_photograph.h"
+#include "hogel/photograph.h"
 
 #include <gtest/gtest.h>
 

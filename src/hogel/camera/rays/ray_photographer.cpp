@@ -12,7 +12,7 @@
 #include "hogel/core/half.h"
 #include "hogel/core/stop_scope.h"
 #include "hogel/image/film.h"
-#include "hogel/ray_photograph.h"
+#include "hogel/photograph.h"
 #include "hogel/work/parallel.h"
 
 namespace hogel {

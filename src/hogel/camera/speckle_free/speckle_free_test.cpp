@@ -9,7 +9,6 @@
 #include "hogel/error.h"
 #include "hogel/hologram.h"
 #include "hogel/photograph.h"
-#include "hogel/ray_photograph.h"
 #include "hogel/stereogram/test_light_fields.h"
 #include "hogel/units.h"
 

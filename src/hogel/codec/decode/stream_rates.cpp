@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a stream's bytes are spread over hogels.
-#include "hogel/stream_rates.h"
+#include "hogel/compress.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hogel/stream_rates.h"
+#include "hogel/compress.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 
 #include "hogel/codec/test_damage.h"
 #include "hogel/codec/test_fields.h"
-#include "hogel/compress.h"
 #include "hogel/error.h"
 
 namespace hogel::codec::decode {

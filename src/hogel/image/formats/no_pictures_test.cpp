@@ -9,7 +9,6 @@
 
 #include "hogel/error.h"
 #include "hogel/image.h"
-#include "hogel/screen.h"
 
 namespace hogel::image {
 namespace {

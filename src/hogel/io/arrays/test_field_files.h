@@ -14,7 +14,6 @@
 #include "hogel/error.h"
 #include "hogel/files.h"
 #include "hogel/image.h"
-#include "hogel/screen.h"
 
 namespace hogel::io::arrays {
 

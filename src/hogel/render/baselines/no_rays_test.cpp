@@ -8,10 +8,10 @@
 #include <random>
 #include <string>
 
-#include "hogel/bake.h"
 #include "hogel/error.h"
 #include "hogel/render/test_renderers.h"
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
+#include "hogel/shading.h"
 #include "hogel/units.h"
 
 namespace hogel::render {

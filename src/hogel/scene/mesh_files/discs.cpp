@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "hogel/error.h"
+#include "hogel/scene.h"
 #include "hogel/scene/mesh_files/points.h"
-#include "hogel/scenes.h"
 #include "hogel/work/parallel.h"
 
 namespace hogel::scene::mesh_files {

@@ -9,6 +9,7 @@
 #include "hogel/core/child_process.h"
 #include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
+#include "hogel/scene.h"
 #include "hogel/scene/edges.h"
 #include "hogel/scene/mesh_files/apply_looks.h"
 #include "hogel/scene/mesh_files/assimp_import.h"
@@ -24,7 +25,6 @@
 #include "hogel/scene/mesh_files/read_ply.h"
 #include "hogel/scene/mesh_files/stl.h"
 #include "hogel/scene/mesh_files/transfer.h"
-#include "hogel/scenes.h"
 
 namespace hogel {
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "hogel/error.h"
-#include "hogel/scenes.h"
+#include "hogel/scene.h"
 
 namespace hogel::scene::mesh_files {
 
