@@ -312,11 +312,10 @@ std::ptrdiff_t NarrowBand::first_tap(std::size_t index) const {
     return static_cast<std::ptrdiff_t>(std::ceil(middle - 0.5 * static_cast<double>(taps.size() - 1)));
 }
 
-std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const FieldSource& hologram,
-                                                                          std::span<const NarrowBand> eyes,
-                                                                          std::size_t first_look, std::size_t looks,
-                                                                          const Progress& progress) {
-    const Grid& plane = hologram.grid().plane;
+namespace {
+
+// Eyes whose bands have the same columns are drawn together.
+std::vector<std::vector<std::size_t>> groups_of(std::span<const NarrowBand> eyes, const Grid& plane) {
     std::vector<std::vector<std::size_t>> groups;
     for (std::size_t eye = 0; eye < eyes.size(); ++eye) {
         const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& members) {
@@ -327,7 +326,25 @@ std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const 
         else
             group->push_back(eye);
     }
+    return groups;
+}
 
+void add(const Contribution& part, std::size_t look, Array<Complex, 2>& band) {
+    const std::size_t last_row = std::min(part.rows.end, band.extent(0));
+    const std::size_t last_column = std::min(part.columns.end, band.extent(1));
+    for (std::size_t m = part.rows.first; m < last_row; ++m)
+        for (std::size_t n = part.columns.first; n < last_column; ++n)
+            band(m, n) += part.looks[look](m - part.rows.first, n - part.columns.first);
+}
+
+}  // namespace
+
+std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const FieldSource& hologram,
+                                                                          std::span<const NarrowBand> eyes,
+                                                                          std::size_t first_look, std::size_t looks,
+                                                                          const Progress& progress) {
+    const Grid& plane = hologram.grid().plane;
+    const std::vector<std::vector<std::size_t>> groups = groups_of(eyes, plane);
     std::vector<std::vector<Array<Complex, 2>>> bands(eyes.size());
     for (std::size_t eye = 0; is_first_process() && eye < eyes.size(); ++eye)
         for (std::size_t look = 0; look < looks; ++look) {
@@ -365,17 +382,9 @@ std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const 
         },
         [&](std::size_t i, Contributions& contributions) {
             for (std::size_t g = 0; g < groups.size(); ++g)
-                for (std::size_t member = 0; member < groups[g].size(); ++member) {
-                    const Contribution& part = contributions[g][member];
-                    for (std::size_t look = 0; look < looks; ++look) {
-                        Array<Complex, 2>& band = bands[groups[g][member]][look];
-                        const std::size_t last_row = std::min(part.rows.end, band.extent(0));
-                        const std::size_t last_column = std::min(part.columns.end, band.extent(1));
-                        for (std::size_t m = part.rows.first; m < last_row; ++m)
-                            for (std::size_t n = part.columns.first; n < last_column; ++n)
-                                band(m, n) += part.looks[look](m - part.rows.first, n - part.columns.first);
-                    }
-                }
+                for (std::size_t member = 0; member < groups[g].size(); ++member)
+                    for (std::size_t look = 0; look < looks; ++look)
+                        add(contributions[g][member], look, bands[groups[g][member]][look]);
             progress.report(static_cast<double>(i + 1) / static_cast<double>(blocks.size()));
         });
     return bands;

@@ -315,6 +315,16 @@ class Photographer {
         }
     }
 
+    // Whether the pixels around two hogels have the same weights.
+    static bool are_alike(const Exposure& exposure, const LitHogel& one, const LitHogel& other) {
+        const auto places = exposure.columns.place.begin();
+        return other.count == one.count && other.left - other.base == one.left - one.base &&
+               other.right - other.base == one.right - one.base &&
+               std::equal(places + static_cast<std::ptrdiff_t>(one.column),
+                          places + static_cast<std::ptrdiff_t>(one.column + one.count),
+                          places + static_cast<std::ptrdiff_t>(other.column));
+    }
+
     void expose_row(const ExpectedEye& eye, const Exposure& exposure, std::size_t row, std::size_t first,
                     std::size_t end, Image& picture) const {
         const auto rows = static_cast<std::ptrdiff_t>(eye.numbers.extent(0));
@@ -330,18 +340,10 @@ class Photographer {
         const double down = position(exposure.rows.base[row], static_cast<double>(hogels_.plane.height));
         thread_local std::vector<LitHogel> lit;
         find_lit(exposure, first, end, lit);
-        const auto is_alike = [&](const LitHogel& one, const LitHogel& other) {
-            const auto places = exposure.columns.place.begin();
-            return other.count == one.count && other.left - other.base == one.left - one.base &&
-                   other.right - other.base == one.right - one.base &&
-                   std::equal(places + static_cast<std::ptrdiff_t>(one.column),
-                              places + static_cast<std::ptrdiff_t>(one.column + one.count),
-                              places + static_cast<std::ptrdiff_t>(other.column));
-        };
         for (auto begin = lit.begin(); begin != lit.end();) {
             const LitHogel one = *begin;
-            const auto same =
-                std::partition(begin, lit.end(), [&](const LitHogel& other) { return is_alike(one, other); });
+            const auto same = std::partition(begin, lit.end(),
+                                             [&](const LitHogel& other) { return are_alike(exposure, one, other); });
             while (begin != same) {
                 const std::span some(begin,
                                      std::min(static_cast<std::size_t>(same - begin), max_a_together(one.count)));
