@@ -29,11 +29,11 @@ memory.madvise(mmap.MADV_HUGEPAGE)
 for place in range(0, {MEMORY_AT_HAND}, 4096):
     memory[place] = 1
 """
-# Stages of which docs/cluster.md says less, and why; with a tenth for other work on the machine. Of two stages with three
+# Stages of which docs/cluster.md says less, and why; with a tenth for other work on the machine. Of three stages with three
 # jobs, a colour each, nothing is required.
 LIMITS = {"compress": 0.85, "hologram": 0.85, "photo by rays": 0.85, "photo, camera narrow": 0.85,
-          "photo, camera narrow, streamed": 0.85, "photo, camera eye": 0, "photo, looks expected": 0.85, "photo, camera full": 0.85,
-          "propagate": 0.85, "slm": 0, "make": 0.85}
+          "photo, camera narrow, streamed": 0.85, "photo, camera eye": 0, "photo, looks expected": 0, "photo, camera full": 0.85,
+          "propagate": 0.85, "slm": 0, "make": 0.75}
 
 
 # name: inputs, command
@@ -47,7 +47,7 @@ FULL = {
     "photo, camera narrow, streamed": (("wide",), "photo wide.h5 --wave --camera narrow --looks 1 --wavelength 532nm "
                                        "--pitch 1.25um --resolution 256 -o out.exr"),
     "photo, camera eye": (("wide",), "photo wide.h5 --wave --camera eye --looks 8 --resolution 256 -o out.exr"),
-    "photo, looks expected": (("wide",), "photo wide.h5 --wave --looks expected --frames 4 --to-eye 30mm,0,300mm --resolution 512 -o out####.png"),
+    "photo, looks expected": (("wide",), "photo wide.h5 --wave --looks expected --frames 4 --eye=-15mm,0,400mm --to-eye 15mm,0,400mm --resolution 512 -o out####.png"),
     "photo, camera full": (("field",), "photo field.h5 --camera full --resolution 256 -o out.exr"),
     "propagate": (("field",), "propagate field.h5 --distance 5mm -o out.h5"),
     "slm": (("colours",), "slm colours.h5 --pixels 2400x2000 --pixel-pitch 8um --encoding gradient --iterations 20 -o out.png"),

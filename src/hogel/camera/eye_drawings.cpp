@@ -38,12 +38,12 @@ class SampledEyes final : public EyeDrawing {
 }  // namespace
 
 std::unique_ptr<EyeDrawing> draw_eyes(const FieldSource& whole, const Region& part, const FieldSource& window,
-                                      std::span<const Eye> eyes, BandSource from,
+                                      std::span<const Eye> eyes, BandSource source,
                                       const hogel_spectra::KeptWaves* kept_waves) {
     std::unique_ptr<EyeDrawing> drawing;
-    if (from != BandSource::samples && whole.stereogram() != nullptr)
+    if (source != BandSource::samples && whole.stereogram() != nullptr)
         drawing = hogel_spectra::draw_hogels(*whole.stereogram(), part, eyes, kept_waves);
-    if (!drawing && from == BandSource::hogel_spectra)
+    if (!drawing && source == BandSource::hogel_spectra)
         throw Error(ErrorCode::usage,
                     "a photograph from hogels needs a stereogram that is made on demand, of hogels that are sums of as "
                     "many waves as they have samples, four times as many as the eye takes in; from samples would do");

@@ -138,13 +138,13 @@ struct FineRows {
     }
 };
 
-BandCamera without_diffuser(BandCamera options) {
-    options.vertical_diffuser = false;
-    return options;
+BandCamera without_diffuser(BandCamera model) {
+    model.vertical_diffuser = false;
+    return model;
 }
 
-void require_lines(const BandCamera& options) {
-    if (options.source == BandSource::hogel_spectra)
+void require_lines(const BandCamera& model) {
+    if (model.source == BandSource::hogel_spectra)
         throw Error(ErrorCode::usage, "behind a diffuser the light of samples is photographed, not that of hogels");
 }
 
@@ -165,16 +165,15 @@ double seconds_of_films(const FieldGrid& rows, std::span<const Camera> cameras) 
 
 }  // namespace
 
-void require_photographs_of_lines(const FieldGrid& hologram, std::span<const Camera> cameras,
-                                  const BandCamera& options) {
-    require_lines(options);
+void require_photographs_of_lines(const FieldGrid& hologram, std::span<const Camera> cameras, const BandCamera& model) {
+    require_lines(model);
     for (const Camera& camera : cameras) validate(camera);
-    require_photographs(thin_rows(hologram, rows_in_line(hologram, cameras)), cameras, without_diffuser(options));
+    require_photographs(thin_rows(hologram, rows_in_line(hologram, cameras)), cameras, without_diffuser(model));
 }
 
-void photograph_lines(const FieldSource& hologram, std::span<const Camera> cameras, const BandCamera& options,
+void photograph_lines(const FieldSource& hologram, std::span<const Camera> cameras, const BandCamera& model,
                       std::span<Image> pictures, const Progress& progress, double apart) {
-    require_photographs_of_lines(hologram.grid(), cameras, options);
+    require_photographs_of_lines(hologram.grid(), cameras, model);
     image::load_film(cameras, 1, hologram.provenance(), pictures);
     const double line_height = hologram.grid().plane.pitch_y;
     const std::size_t rows = rows_in_line(hologram.grid(), cameras);
@@ -186,7 +185,7 @@ void photograph_lines(const FieldSource& hologram, std::span<const Camera> camer
         fine_cameras.push_back(fine.back().camera);
     }
     std::vector<Image> fine_pictures(cameras.size());
-    photograph_into(ThinLines(hologram, rows, every), fine_cameras, without_diffuser(options), fine_pictures, progress);
+    photograph_into(ThinLines(hologram, rows, every), fine_cameras, without_diffuser(model), fine_pictures, progress);
     // A thin row stands for the whole line, whose amplitudes add up to as many times its own; and the picture is a mean
     // over the sets of lines, not their sum.
     const double factor = static_cast<double>(rows) * static_cast<double>(rows) * static_cast<double>(every);
@@ -194,14 +193,14 @@ void photograph_lines(const FieldSource& hologram, std::span<const Camera> camer
 }
 
 Plan plan_lines(const FieldGrid& hologram, std::size_t looks, std::span<const Camera> cameras,
-                const BandCamera& options) {
-    require_photographs_of_lines(hologram, cameras, options);
+                const BandCamera& model) {
+    require_photographs_of_lines(hologram, cameras, model);
     if (cameras.empty()) return {};
     const std::size_t photographs = looks * lines_between(hologram, cameras, lines_apart);
     const FieldGrid rows = thin_rows(hologram, rows_in_line(hologram, cameras));
     std::vector<Camera> fine_cameras;
     for (const Camera& camera : cameras) fine_cameras.push_back(FineRows(camera, hologram.plane.pitch_y).camera);
-    Plan plan = hogel::plan_photographs(std::span(&rows, 1), photographs, fine_cameras, without_diffuser(options));
+    Plan plan = hogel::plan_photographs(std::span(&rows, 1), photographs, fine_cameras, without_diffuser(model));
     for (const Camera& camera : fine_cameras)
         plan.memory += static_cast<double>(camera.picture.samples()) * sizeof(float);
     plan.seconds +=

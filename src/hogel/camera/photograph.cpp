@@ -83,19 +83,19 @@ Region whole_hogels(const Region& region, const FieldSource& source) {
 
 // One pass of cameras over one window: adds the window's light to their pictures.
 void photograph_window(const FieldSource& whole, const PhotographPlan::Window& part, std::span<const Camera> cameras,
-                       const std::vector<SharedEye>& eyes, const BandCamera& options, const PhotographPlan& plan,
+                       const std::vector<SharedEye>& eyes, const BandCamera& model, const PhotographPlan& plan,
                        std::span<Image> images, const Progress& progress) {
     const Region region = whole_hogels(part.region, whole);
     const Window window(whole, region);
-    const std::vector<Eye> looking = eyes_of(eyes, cameras, options.preview);
-    ColourBands bands{draw_eyes(whole, region, window, looking, options.source),
+    const std::vector<Eye> looking = eyes_of(eyes, cameras, model.preview);
+    ColourBands bands{draw_eyes(whole, region, window, looking, model.source),
                       {window.grid()},
                       eyes,
                       part.shown,
                       window.looks(),
                       1,
-                      options.preview};
-    bands.looks_at_once = plan.looks_at_once(static_cast<double>(options.memory), bands.looks,
+                      model.preview};
+    bands.looks_at_once = plan.looks_at_once(static_cast<double>(model.memory), bands.looks,
                                              share_of_bands(window, *bands.drawing, looking));
     expose(bands, cameras, {&images, 1}, progress);
 }
@@ -103,6 +103,11 @@ void photograph_window(const FieldSource& whole, const PhotographPlan::Window& p
 }  // namespace
 
 double resolution_cell(const Camera& camera, double wavelength) { return wavelength * camera.eye.z / camera.pupil; }
+
+BandCamera camera::planned_as(const CameraModel& model) {
+    const auto* const band = std::get_if<BandCamera>(&model);
+    return band != nullptr ? *band : BandCamera();
+}
 
 void require_photographs(const FieldGrid& hologram, std::span<const Camera> cameras, const CameraModel& model) {
     if (const auto* const band = std::get_if<BandCamera>(&model)) {
@@ -119,15 +124,14 @@ void require_photographs(const FieldGrid& hologram, std::span<const Camera> came
 
 Plan plan_photographs(std::span<const FieldGrid> holograms, std::size_t looks, std::span<const Camera> cameras,
                       const CameraModel& model) {
-    const auto* const band = std::get_if<BandCamera>(&model);
-    const BandCamera options = band != nullptr ? *band : BandCamera();
-    const auto memory = static_cast<double>(options.memory),
+    const BandCamera planned = camera::planned_as(model);
+    const auto memory = static_cast<double>(planned.memory),
                photographs = static_cast<double>(looks * group_by_eye(cameras).size());
     Plan sum;
     for (const FieldGrid& hologram : holograms) {
         const double samples = static_cast<double>(hologram.plane.samples()) * photographs;
-        const Plan plan = options.vertical_diffuser
-                              ? plan_lines(hologram, looks, cameras, options)
+        const Plan plan = planned.vertical_diffuser
+                              ? plan_lines(hologram, looks, cameras, planned)
                               : Plan{photograph_bytes(hologram, cameras, memory, looks), 0,
                                      core::rates::on_all_threads(samples * core::rates::sample_and_eye)};
         sum.memory = std::max(sum.memory, plan.memory);

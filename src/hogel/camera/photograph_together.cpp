@@ -15,12 +15,12 @@ namespace {
 // None where colours cannot share rays, or where their bands do not fit into memory together or take more time than
 // rays.
 std::optional<ColourBands> bands_of_colours(std::span<const std::shared_ptr<const FieldSource>> colours,
-                                            std::span<const Camera> cameras, const BandCamera& options) {
-    if (colours.size() < 2 || cameras.empty() || options.vertical_diffuser || options.source == BandSource::samples)
+                                            std::span<const Camera> cameras, const BandCamera& model) {
+    if (colours.size() < 2 || cameras.empty() || model.vertical_diffuser || model.source == BandSource::samples)
         return {};
     std::vector<const stereogram::Stereogram*> stereograms;
     PhotographPlan plan;
-    const auto memory = static_cast<double>(options.memory);
+    const auto memory = static_cast<double>(model.memory);
     for (const auto& colour : colours) {
         stereograms.push_back(colour->stereogram());
         if (stereograms.back() == nullptr || colour->looks() != colours.front()->looks()) return {};
@@ -34,11 +34,11 @@ std::optional<ColourBands> bands_of_colours(std::span<const std::shared_ptr<cons
                       plan.windows.front().shown,
                       colours.front()->looks(),
                       1,
-                      options.preview};
+                      model.preview};
     for (const auto& colour : colours) bands.colours.push_back(colour->grid());
     const Grid& plane = bands.colours.front().plane;
     bands.drawing = hogel_spectra::draw_hogels_of_colours(stereograms, {0, 0, plane.width, plane.height},
-                                                          eyes_of(bands.eyes, cameras, options.preview));
+                                                          eyes_of(bands.eyes, cameras, model.preview));
     if (!bands.drawing) return {};
     double a_look = 0;
     for (std::size_t band = 0; band < colours.size() * bands.eyes.size(); ++band)
@@ -53,9 +53,9 @@ std::optional<ColourBands> bands_of_colours(std::span<const std::shared_ptr<cons
 
 std::optional<std::vector<std::vector<Image>>> photograph_together(
     std::span<const std::shared_ptr<const FieldSource>> colours, std::span<const Camera> cameras,
-    const BandCamera& options, const Progress& progress) {
+    const BandCamera& model, const Progress& progress) {
     const core::StopScope scope(progress);
-    const std::optional<ColourBands> bands = bands_of_colours(colours, cameras, options);
+    const std::optional<ColourBands> bands = bands_of_colours(colours, cameras, model);
     if (!bands) return {};
     std::vector<std::vector<Image>> pictures(colours.size(), std::vector<Image>(cameras.size()));
     std::vector<std::span<Image>> films;

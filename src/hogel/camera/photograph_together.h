@@ -14,6 +14,6 @@ namespace hogel::camera {
 /// rays have to be made for each of them and all bands fit into memory together. Otherwise none.
 std::optional<std::vector<std::vector<Image>>> photograph_together(
     std::span<const std::shared_ptr<const FieldSource>> colours, std::span<const Camera> cameras,
-    const BandCamera& options, const Progress& progress);
+    const BandCamera& model, const Progress& progress);
 
 }  // namespace hogel::camera

@@ -19,13 +19,20 @@ std::vector<std::size_t> numbers_below(std::size_t count) {
     return numbers;
 }
 
-// Pictures without speckle by one eye do not depend on those by others. Those of looks do, where memory is short or
-// pictures show the hologram's surroundings.
+// Reading the hogels of a colour takes as long as the pictures of about two eyes.
+constexpr std::size_t eyes_per_job = 4;
+
+// The cameras of each job of one colour. Pictures of looks depend on the other cameras where memory is short or where
+// they show the surroundings of the hologram; pictures without speckle depend on those of the same eye only.
 std::vector<std::vector<std::size_t>> cameras_of_jobs(std::span<const Camera> cameras, const CameraModel& model) {
     if (!std::holds_alternative<SpeckleFreeCamera>(model)) return {numbers_below(cameras.size())};
-    std::vector<std::vector<std::size_t>> groups;
-    for (const camera::SharedEye& eye : camera::group_by_eye(cameras)) groups.push_back(eye.members);
-    return groups;
+    std::vector<std::vector<std::size_t>> jobs;
+    const std::vector<camera::SharedEye> eyes = camera::group_by_eye(cameras);
+    for (std::size_t e = 0; e < eyes.size(); ++e) {
+        if (e % eyes_per_job == 0) jobs.emplace_back();
+        jobs.back().insert(jobs.back().end(), eyes[e].members.begin(), eyes[e].members.end());
+    }
+    return jobs;
 }
 
 }  // namespace

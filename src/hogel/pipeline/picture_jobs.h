@@ -25,7 +25,7 @@ struct PictureJob {
 bool is_made_in_jobs(const Fields& holograms, const CameraModel& model);
 
 /// All pictures that are made in jobs. Where pictures are shared or kept, a job is a colour by all cameras, or by those
-/// of one eye where that changes no picture; otherwise all colours by all cameras, which may share rays.
+/// of four eyes where that changes no picture; otherwise all colours by all cameras, which may share rays.
 /// @param order  in which colours are photographed, those that take longest first
 std::vector<PictureJob> picture_jobs(const Fields& holograms, std::span<const std::size_t> order,
                                      std::span<const Camera> cameras, std::span<const CameraModel> ways);

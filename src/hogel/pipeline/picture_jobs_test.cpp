@@ -16,7 +16,7 @@ using namespace hogel::literals;
 
 const CameraModel looks = BandCamera(), expected = SpeckleFreeCamera();
 
-// Three eyes with two focuses each, of a hologram in three colours.
+// Five eyes with two focuses each, of a hologram in three colours.
 class PictureJobsTest : public testing::Test {
   protected:
     PictureJobsTest() {
@@ -26,7 +26,7 @@ class PictureJobsTest : public testing::Test {
         of.looks = 16;
         holograms_ = make_holograms(light_field_, of);
         for (const double depth : {-1_mm, 2_mm})
-            for (const double x : {-10_mm, 0_mm, 10_mm}) {
+            for (const double x : {-10_mm, -5_mm, 0_mm, 5_mm, 10_mm}) {
                 cameras_.push_back(camera_for(2_mm, 2_mm, 64));
                 cameras_.back().eye.x = x;
                 cameras_.back().focus_depth = depth;
@@ -49,19 +49,19 @@ class PictureJobsTest : public testing::Test {
 };
 
 TEST_F(PictureJobsTest, are_all_colours_in_order_where_pictures_are_neither_shared_nor_kept) {
-    const std::vector<std::size_t> cameras{0, 1, 2, 3, 4, 5};
+    const std::vector<std::size_t> cameras{0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
     const std::vector<PictureJob> all{{0, {2, 1, 0}, cameras}, {1, {2, 1, 0}, cameras}};
     EXPECT_EQ(jobs({looks, expected}), all);
 }
 
-TEST_F(PictureJobsTest, are_those_of_an_eye_where_pictures_without_speckle_are_kept) {
+TEST_F(PictureJobsTest, are_those_of_four_eyes_where_pictures_without_speckle_are_kept) {
     const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "picture_jobs.part";
     ResumeScope kept(file, {});
     const std::vector<PictureJob> all = jobs({looks, expected});
-    ASSERT_EQ(all.size(), 3u + 9u);
-    EXPECT_EQ(all[2], (PictureJob{0, {0}, {0, 1, 2, 3, 4, 5}}));
-    EXPECT_EQ(all[3], (PictureJob{1, {2}, {0, 3}}));
-    EXPECT_EQ(all[11], (PictureJob{1, {0}, {2, 5}}));
+    ASSERT_EQ(all.size(), 3u + 6u);
+    EXPECT_EQ(all[2], (PictureJob{0, {0}, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}}));
+    EXPECT_EQ(all[3], (PictureJob{1, {2}, {0, 5, 1, 6, 2, 7, 3, 8}}));
+    EXPECT_EQ(all[8], (PictureJob{1, {0}, {4, 9}}));
     kept.complete();
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hogel/camera/hogel_spectra/eye_cost.h"
+#include "hogel/camera/models.h"
 #include "hogel/camera/photograph_plan.h"
 #include "hogel/camera/speckle_free/speckle_free.h"
 #include "hogel/core/available_memory.h"
@@ -134,16 +135,16 @@ Plan plan_photographs(std::span<const LightFieldGrid> faces, const HologramReque
                       std::span<const Camera> cameras, const CameraModel& model) {
     const std::vector<FieldGrid> holograms = grids_of(faces, request);
     const auto* const speckle_free = std::get_if<SpeckleFreeCamera>(&model);
-    const auto* const band = std::get_if<BandCamera>(&model);
-    const BandCamera own = band != nullptr ? *band : BandCamera();
+    const BandCamera planned = camera::planned_as(model);
     Plan plan;
     if (speckle_free != nullptr) {
         plan = plan_speckle_free(holograms, faces.front(), cameras, *speckle_free);
-    } else if (choose_band_source(faces, request, cameras, own).source == BandSource::hogel_spectra) {
+    } else if (choose_band_source(faces, request, cameras, planned).source == BandSource::hogel_spectra) {
         plan = camera::hogel_spectra::plan_from_hogels(
-            camera::hogel_spectra::layouts_of(request.method, faces.front(), holograms), request.looks, cameras, own);
+            camera::hogel_spectra::layouts_of(request.method, faces.front(), holograms), request.looks, cameras,
+            planned);
     } else {
-        plan = plan_photographs(holograms, request.looks, cameras, own);
+        plan = plan_photographs(holograms, request.looks, cameras, planned);
         plan.seconds += static_cast<double>(request.looks) * seconds_of_synthesis(holograms);
     }
     plan.memory += stereogram::synthesis_bytes(holograms.front(), faces.front().hogels());
