@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "arguments.h"
-#include "concerns.h"
+#include "error_parameters.h"
 #include "hogel/error.h"
 #include "hogel/units.h"
 
@@ -43,12 +43,7 @@ Camera make_camera(const CameraOptions& options, double width, double height, do
         throw Error(ErrorCode::usage, fmt::format("--resolution: {}x{} pixels; expected at most {} in all",
                                                   options.resolution.columns, rows, max_pixels));
     camera.picture = {options.resolution.columns, rows, pixel, pixel, middle.x, middle.y};
-    with_options({{"focus at depth", options.moves_focus ? "--focus, --to-focus" : "--focus"},
-                  {"pupil", options.f_number > 0 ? "--f-number, --focal-length" : "--pupil"},
-                  {"pixel", "--resolution, --angle-of-view"},
-                  {"picture", "--gaze"},
-                  {"", "--focus-tilt"}},
-                 [&] { validate(camera); });
+    validate(camera);
     return camera;
 }
 
@@ -66,14 +61,20 @@ void add_camera_options(Command& command, CameraOptions& options) {
     command.number("--f-number", options.f_number, "NUMBER", "The same as a part of the focal length")
         .no_default()
         .positive()
-        .excludes(pupil);
-    command.positive_length("--focal-length", options.focal_length, "With --f-number");
-    command.angle("--angle-of-view", options.angle_of_view, "Across; 0deg: what shows the hologram");
+        .excludes(pupil)
+        .sets_parameter("pupil");
+    command.positive_length("--focal-length", options.focal_length, "With --f-number").sets_parameter("pupil");
+    command.angle("--angle-of-view", options.angle_of_view, "Across; 0deg: what shows the hologram")
+        .sets_parameter("resolution");
     command.resolution("--resolution", options.resolution, "Pixels across, or across and down");
-    command.point("--to-eye", options.last_eye, "The eye of the last frame").no_default().sets(options.moves_eye);
+    command.point("--to-eye", options.last_eye, "The eye of the last frame")
+        .no_default()
+        .sets(options.moves_eye)
+        .sets_parameter("eye");
     command.length("--to-focus", options.last_focus, "The depth in focus of the last frame")
         .no_default()
-        .sets(options.moves_focus);
+        .sets(options.moves_focus)
+        .sets_parameter("focus");
     command.count("--frames", options.frames, "Pictures on the way, for an output .mp4, .gif, .apng or name####.png");
     command.number("--frame-rate", options.frame_rate, "NUMBER", "Frames a second of a film").positive();
 }

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "concerns.h"
+#include "error_parameters.h"
 #include "hogel/pipeline.h"
 #include "hogel/units.h"
 #include "inputs.h"
@@ -31,11 +31,11 @@ int bake(const Options& options, const Session& session) {
     RunRecord record(session);
     record.acted({"scene", "rays", "bounces", "tessellate", "size", "seed"});
     const Scene scene = load_scene(session, options.scene, place, record);
-    with_options({{"memory", "--tessellate"}},
-                 [&] { state_plan(session, plan_bake(scene, bake_options), "baking", options.output); });
+    with_parameter("tessellate",
+                   [&] { state_plan(session, plan_bake(scene, bake_options), "baking", options.output); });
     Stage stage(session, "baking");
     const Scene baked =
-        with_options({{"", "--tessellate"}}, [&] { return hogel::bake_scene(scene, bake_options, stage.progress()); });
+        with_parameter("tessellate", [&] { return hogel::bake_scene(scene, bake_options, stage.progress()); });
     write_baked_scene(options.output, baked, record.metadata());
     session.say(fmt::format("{}: {} triangles, {}; render it with --as-is", options.output, triangle_count(baked),
                             format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "commands.h"
-#include "concerns.h"
+#include "error_parameters.h"
 #include "hogel/pipeline.h"
 #include "hogel/units.h"
 #include "outputs.h"
@@ -33,7 +33,7 @@ int cameras(const Options& options, const Session& session) {
     const Perspective range = field_of_view(options.field_of_view.across, options.field_of_view.down);
     grid.view = FocalPlane{range, -options.distance};
     const std::vector<std::string> notes =
-        with_options({{"", "--hogels, --directions, --size"}}, [&] { return write_cameras(grid, options.output); });
+        with_parameter("hogels, directions, size", [&] { return write_cameras(grid, options.output); });
     const double spacing = grid.step_u() * options.distance;
     session.say(
         fmt::format("{}: {}x{} cameras {} apart at {}, with axes parallel and pictures of {}x{} pixels that "

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "commands.h"
-#include "concerns.h"
 #include "hogel/compress.h"
 #include "inputs.h"
 #include "outputs.h"
@@ -47,10 +46,10 @@ CompressionTarget target_of(const Options& options) {
 
 // Throws Error(usage) for names that do not exist.
 void check_method(const CodingMethod& method) {
-    with_options({{"", "--coder"}}, [&] { coders().find(method.coder); });
+    coders().find(method.coder);
     const std::vector<std::string> known = transform_names();
     if (!method.transform.empty() && !std::ranges::count(known, method.transform))
-        with_options({{"", "--transform"}}, [&] { throw_unknown("transform", method.transform, known); });
+        throw_unknown("transform", method.transform, known, "transform");
 }
 
 // Throws Error(usage) for options of the three-pass coder that do not act.
@@ -132,18 +131,7 @@ int compress_file(Options options, const Session& session) {
         state_plan(session, plan_compression(light_field, compression), "compressing", options.output);
         return compress(light_field, options.output, compression, stage.progress());
     };
-    const CompressionResult result = kept.unless_refused([&] {
-        return with_options({{"tiles", "--tile"},
-                             {"transform", "--coder, --transform"},
-                             {"tone mapping and", "--tone, --chrominance"},
-                             {"chrominance", "--chrominance"},
-                             {"unfolded", "--hemicube"},
-                             {"be lossless", "--coder, --lossless, --max-error"},
-                             {"SQNR", "--sqnr"},
-                             {"rate", "--ppb"},
-                             {"step", "--step"}},
-                            work);
-    });
+    const CompressionResult result = kept.unless_refused(work);
     kept.complete();
     report_compressed(session, options.output, result);
     return 0;

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "concerns.h"
 #include "hogel/pipeline.h"
 #include "hogel/units.h"
 #include "inputs.h"
@@ -43,8 +42,7 @@ int decompress_file(const Options& options, const Session& session) {
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a compressed light field", options.input));
     require_writable(options.output, {&options.input, 1});
     require_hdf5(options.output);
-    const LightField light_field =
-        with_options({{"", "--layers"}}, [&] { return open_stream(options.input, {.layers = options.layers}); });
+    const LightField light_field = open_stream(options.input, {.layers = options.layers});
     LightFieldFileOptions file;
     // Exact coders keep their precision: their samples are not rounded to half floats.
     const std::string coder = read_stream_info(options.input).method.coder;

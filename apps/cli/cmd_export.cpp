@@ -3,7 +3,7 @@
 #include <fmt/ranges.h>
 
 #include "commands.h"
-#include "concerns.h"
+#include "error_parameters.h"
 #include "hogel/pipeline.h"
 #include "hogel/units.h"
 #include "inputs.h"
@@ -35,9 +35,7 @@ int export_walk(Options options, const LightField& light_field, const Session& s
     options.views.transfer = Transfer::srgb;
     state_plan(session, plan_export(light_field, options.views), "exporting", options.output);
     Stage stage(session, "exporting");
-    const ExportedViews exported = with_options({{"exposure", "--exposure"}}, [&] {
-        return export_views(light_field, folder.path(), options.views, stage.progress());
-    });
+    const ExportedViews exported = export_views(light_field, folder.path(), options.views, stage.progress());
     const std::uintmax_t bytes = write_film(options.output, folder, fmt::format("{:03}_%03d.png", exported.rows / 2),
                                             options.frame_rate, record.metadata(), stage.progress());
     session.say(fmt::format("{}: {} views{}", options.output, exported.columns,
@@ -65,8 +63,7 @@ int export_light_field(Options options, const Session& session) {
     const LightField light_field = open_light_field_or_views(options.input);
     if (is_film(options.output)) return export_walk(options, light_field, session);
     if (!session.command->given("--layout")) options.views.layout = layout_for(options.output, options.views.layout);
-    const ViewLayout layout =
-        with_options({{"", "--layout"}}, [&] { return view_layouts().find(options.views.layout); });
+    const ViewLayout layout = view_layouts().find(options.views.layout);
     const std::filesystem::path output = options.output;
     std::unique_ptr<const OutputFolder> folder;
     if (layout.is_folder) {
@@ -84,14 +81,8 @@ int export_light_field(Options options, const Session& session) {
     options.views.metadata = record.metadata();
     state_plan(session, plan_export(light_field, options.views), "exporting", options.output);
     Stage stage(session, "exporting");
-    const ExportedViews exported =
-        with_options({{"layout", "--layout"},
-                      {"picture format", "--pictures"},
-                      {"bits", "--bits, --pictures"},
-                      {"a quilt holds", "--layout"},
-                      {"exposure", "--exposure"},
-                      {"", "--layout"}},
-                     [&] { return export_views(light_field, options.output, options.views, stage.progress()); });
+    const ExportedViews exported = with_parameter(
+        "layout", [&] { return export_views(light_field, options.output, options.views, stage.progress()); });
     session.say(fmt::format("{}: {}x{} views, {}{}", options.output, exported.columns, exported.rows,
                             exported.files.front().filename().string(),
                             exported.files.size() > 1 ? " to " + exported.files.back().filename().string() : ""));

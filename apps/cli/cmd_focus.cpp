@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "commands.h"
-#include "concerns.h"
 #include "fields.h"
 #include "focus_plot.h"
 #include "hogel/focus.h"
@@ -124,8 +123,7 @@ int focus(const Options& options, const Session& session) {
     }
     state_parts(fields, chosen, request, session);
     Stage stage(session, "looking for planes in focus");
-    const FocusSearch search =
-        with_options({{"", "--from, --to, --planes"}}, [&] { return find_focus(chosen, request, stage.progress()); });
+    const FocusSearch search = find_focus(chosen, request, stage.progress());
     session.detail(fmt::format("{} depths from {} to {}, depth of focus {} of the samples, {} of the light",
                                search.depths.size(), format_length(search.depths.front()),
                                format_length(search.depths.back()), format_length(search.depth_of_focus),

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "commands.h"
-#include "concerns.h"
+#include "error_parameters.h"
 #include "hogel/pipeline.h"
 #include "hogel/scene_hologram.h"
 #include "hogel/units.h"
@@ -53,9 +53,7 @@ int straight_from_scene(const Options& options, const SceneHologramMethod& metho
         grids.push_back({{static_cast<std::size_t>(std::lround(width / pitch)),
                           static_cast<std::size_t>(std::lround(height / pitch)), pitch, pitch, 0, 0},
                          wavelength});
-    for (const FieldGrid& grid : grids)
-        with_options({{"the wavelength", "--wavelength"}, {"", "--size, --pitch"}},
-                     [&] { validate(grid, ErrorCode::usage, "hologram"); });
+    for (const FieldGrid& grid : grids) validate(grid, ErrorCode::usage, "hologram");
     RenderOptions render = options.render;
     render.cache_spacing = 0;  // it is in widths of a ray, and there are no rays
     RunRecord record(session);
@@ -79,8 +77,7 @@ int straight_from_scene(const Options& options, const SceneHologramMethod& metho
         of_each.push_back(how);
     }
     Stage stage(session, "hologram");
-    with_options({{"a spacing of", "--spacing"}, {"", "--method"}},
-                 [&] { write_scene_holograms(method, *scene, grids, of_each, sinks, stage.progress()); });
+    with_parameter("method", [&] { write_scene_holograms(method, *scene, grids, of_each, sinks, stage.progress()); });
     report_hologram(options, grids, session);
     return 0;
 }
@@ -135,9 +132,7 @@ int hologram(Options options, const Session& session) {
         const std::string name = options.part.file_for(options.output);
         {
             Stage stage(session, "hologram");
-            with_options({{"parts of", "--part"}}, [&] {
-                write_holograms_part(name, holograms, file, options.part.of(part_input), stage.progress());
-            });
+            write_holograms_part(name, holograms, file, options.part.of(part_input), stage.progress());
         }
         report_part(session, name, *options.part.part);
         return 0;

@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include "commands.h"
-#include "concerns.h"
 #include "hogel/pipeline.h"
 #include "hogel/units.h"
 #include "inputs.h"
@@ -108,24 +107,10 @@ int import(const Options& options, const Session& session) {
     options.output.require(options.source);
     ViewOptions view = view_options(options);
     view.spool = std::filesystem::absolute(options.output.file).parent_path();
-    const ImportedViews views = with_options({{"can be estimated", "--estimate-disparity"},
-                                              {"holds whole numbers", "--depth-scale"},
-                                              {"mirrored ones", "--mirror"},
-                                              {"layout", "--layout"},
-                                              {"disparity", "--disparity"},
-                                              {"spacing of cameras and the field of view", "--spacing, --fov"},
-                                              {"distance and spacing", "--distance, --spacing"},
-                                              {"columns and rows", "--views"},
-                                              {"densified", "--densify"},
-                                              {"the middle", "--middle"},
-                                              {"number of columns", "--views"},
-                                              {"views were asked for", "--views"},
-                                              {"field of view", "--fov"},
-                                              {"width", "--size"}},
-                                             [&] {
-                                                 Stage stage(session, "looking at the views");
-                                                 return import_views(options.source, view, stage.progress());
-                                             });
+    const ImportedViews views = [&] {
+        Stage stage(session, "looking at the views");
+        return import_views(options.source, view, stage.progress());
+    }();
     say_understood(session, options.source, views);
     RunRecord record(session);
     record_views(record, options, views);

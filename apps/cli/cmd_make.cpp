@@ -11,7 +11,7 @@
 
 #include "camera_options.h"
 #include "commands.h"
-#include "concerns.h"
+#include "error_parameters.h"
 #include "hogel/pipeline.h"
 #include "hogel/progress.h"
 #include "hogel/resources.h"
@@ -76,8 +76,7 @@ std::vector<PhotographPair> plan_photographs(const Options& options, const Scene
             pair.camera.eye = eye;
             pair.camera.focus_depth = focus.depth;
             pair.camera.pupil = options.pupil;
-            with_options({{"focus", "--eye-distance"}, {"pixel", "--resolution"}, {"", "--eye-distance, --pupil"}},
-                         [&] { validate(pair.camera); });
+            validate(pair.camera);
             pair.wave_file = fmt::format("photo_{}_{}", eye_name, focus.name);
             pair.geometric_file = pair.wave_file + "_geometric";
             pair.expected_file = pair.wave_file + "_expected";
@@ -288,8 +287,7 @@ int make(const Options& options, const Session& session) {
     const HologramRequest request =
         request_for(std::span(&report.light_field, 1), options.hologram, session, looks.count);
     say_pitch(request, options.hologram, session);
-    with_options({{"pupil", "--pupil, --pitch"}, {"the eye", "--eye-distance, --pitch"}, {"", "--fov, --pitch"}},
-                 [&] { require_holograms(std::span(&report.light_field, 1), request, cameras); });
+    require_holograms(std::span(&report.light_field, 1), request, cameras);
     const CameraModel with = camera_model(options.camera, looks.expected);
     const std::string camera = state_plan(report.light_field, request, cameras, with, session);
     report.expected = looks.expected || is_expected_cheap(report.light_field, request, cameras, with, session);
@@ -385,7 +383,9 @@ void add_make(Command& command, Session& session) {
                             "Distance of samples, rounded to divide a hogel; less by default where the field of view "
                             "needs it");
     command.group("Camera");
-    command.positive_length("--eye-distance", options->eye_distance, "Of the lens from the hologram's plane");
+    command.positive_length("--eye-distance", options->eye_distance, "Of the lens from the hologram's plane")
+        .sets_parameter("eye")
+        .sets_parameter("focus");
     command.positive_length("--pupil", options->pupil, "Diameter of the lens");
     add_wave_camera_option(command, options->camera, {"auto", "eye", "narrow"});
     command.count("--resolution", options->resolution, "Pixels across a photograph");

@@ -6,8 +6,8 @@
 
 #include "camera_options.h"
 #include "commands.h"
-#include "concerns.h"
 #include "display.h"
+#include "error_parameters.h"
 #include "fields.h"
 #include "hogel/pipeline.h"
 #include "hogel/team.h"
@@ -61,13 +61,8 @@ double parse_exposure(const std::string& text) {
 std::vector<Image> develop(Stage& stage, const Fields& fields, std::span<const Camera> cameras,
                            const Options& options) {
     if (options.display != "phase")
-        return with_options(
-            {{"tilted", "--focus-tilt"},
-             {"film", "--film-distance"},
-             {"pupil", "--pupil"},
-             {"infinitely", "--looks expected"},
-             {"", "--camera"}},
-            [&] { return photograph_colours(fields, cameras, options.camera_model(), stage.progress()); });
+        return with_parameter(
+            "camera", [&] { return photograph_colours(fields, cameras, options.camera_model(), stage.progress()); });
     if (fields.size() != 1)
         throw Error(ErrorCode::usage,
                     fmt::format("--display phase: a phase is that of one wavelength, but there are {}", fields.size()));
@@ -86,19 +81,17 @@ std::vector<Image> photographs_of_hologram(const Options& options, RunRecord& re
                                                       options.input, fields.size()));
     const Grid& plane = fields.front()->grid().plane;
     const std::vector<Camera> cameras = make_cameras(options.view, plane.size_x(), plane.size_y());
-    for (const auto& field : fields)
-        for (const Camera& camera : cameras)
-            with_options({{"", "--eye"}},
-                         [&] { require_light_towards(field->grid(), camera, options.has_diffuser()); });
     const CameraModel model = options.camera_model();
-    if (std::holds_alternative<BandCamera>(model)) {
+    with_renamed_parameter("pitch", "", [&] {  // it is that of the field
         std::vector<FieldGrid> grids;
-        for (const auto& field : fields) grids.push_back(field->grid());
-        with_options({{"pupil", "--pupil"}}, [&] {
+        for (const auto& field : fields) {
+            for (const Camera& camera : cameras) require_light_towards(field->grid(), camera, options.has_diffuser());
+            grids.push_back(field->grid());
+        }
+        if (std::holds_alternative<BandCamera>(model))
             state_plan(session, plan_photographs(grids, fields.front()->looks(), cameras, model),
                        "photographing the hologram");
-        });
-    }
+    });
     Stage stage(session, "wave photograph");
     std::vector<Image> pictures = develop(stage, fields, cameras, options);
     const auto black = [](const Image& picture) {
@@ -122,14 +115,12 @@ std::vector<Image> photographs_of_light_field(const Options& options, RunRecord&
     const std::vector<Camera> cameras =
         make_cameras(options.view, light_field.grid().width(), light_field.grid().height());
     if (geometric) {
-        with_options({{"", "--pupil-samples, --resolution"}}, [&] {
+        with_parameter("pupil_samples, resolution", [&] {
             state_plan(session, plan_ray_photographs(light_field.grids(), cameras, {options.pupil_samples}),
                        "photographing by rays");
         });
         Stage stage(session, "geometric photograph");
-        return with_options({{"", "--focus-tilt"}}, [&] {
-            return photograph(light_field, cameras, {options.pupil_samples}, stage.progress());
-        });
+        return photograph(light_field, cameras, {options.pupil_samples}, stage.progress());
     }
     light_field = with_common_directions(light_field);
     const HologramRequest request =
@@ -253,7 +244,7 @@ int photo(const Options& options, const Session& session) {
     if (!external) require_described(options.input, options.field);
     const InputKind kind = external ? InputKind::hologram : input_kind(options.input);
     if (options.view.frames > 1)
-        with_options({{"", "--frames"}}, [&] { require_movie(options.output); });
+        with_parameter("frames", [&] { require_movie(options.output); });
     else
         require_picture_name(options.output);
     require_writable(options.output, {&options.input, 1});

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "commands.h"
-#include "concerns.h"
 #include "display.h"
+#include "error_parameters.h"
 #include "fields.h"
 #include "hogel/pipeline.h"
 #include "hogel/propagate.h"
@@ -58,7 +58,7 @@ enum class OutputKind { hologram, array, picture };
 OutputKind output_kind(const std::filesystem::path& path, const std::string& display) {
     if (path.extension() == ".h5" || path.extension() == ".hdf5") return OutputKind::hologram;
     if (display == "field" || is_array_name(path)) {
-        with_options({{"fields are written as", "--display field"}}, [&] { require_fields_name(path); });
+        with_parameter("display", [&] { require_fields_name(path); });
         return OutputKind::array;
     }
     require_picture_name(path);
@@ -252,8 +252,8 @@ int propagate_fields(const Options& options, const Session& session) {
         propagations.push_back({.scratch = scratch, .output = output_grid(options, field->grid().plane)});
         grids.push_back({*propagations.back().output, field->grid().wavelength});
     }
-    std::vector<Result> methods = with_options({{"output", "--output-pitch, --output-samples, --offset-x, --offset-y"}},
-                                               [&] { return methods_of(fields, options, propagations, session); });
+    std::vector<Result> methods = with_renamed_parameter(
+        "pitch", "output_pitch", [&] { return methods_of(fields, options, propagations, session); });
     state_plan(session, plan_propagation(inputs, options.distance, propagations.front()), "propagation",
                options.output);
     Stage stage(session, "propagation");

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "commands.h"
-#include "concerns.h"
+#include "error_parameters.h"
 #include "hogel/pipeline.h"
 #include "hogel/resources.h"
 #include "hogel/units.h"
@@ -59,7 +59,7 @@ void state_plan(const Options& options, const LightField& rendered, const Scene&
         fmt::format("rendering by {} in regions of {}x{} hogels, {} at once,", options.render.algorithm, region.ns,
                     region.nt, std::min(thread_count(), regions));
     const bool chosen = options.region.columns > 0;
-    with_options({{"", chosen ? "--region" : "--hogels, --directions"}}, [&] {
+    with_parameter(chosen ? "region" : "hogels, directions", [&] {
         state_plan(session, plan, what, options.output.compressed() ? "" : options.output.file, chosen);
     });
 }
@@ -75,9 +75,7 @@ int write_hdf5(const Options& options, const LightField& light_field, const std:
     Stage stage(session, "rendering");
     if (options.part.part) {
         const std::string name = options.part.file_for(options.output.file);
-        with_options({{"parts of", "--part"}}, [&] {
-            write_light_field_part(name, light_field, file, options.part.of(input), stage.progress());
-        });
+        write_light_field_part(name, light_field, file, options.part.of(input), stage.progress());
         report_part(session, name, *options.part.part);
         return 0;
     }

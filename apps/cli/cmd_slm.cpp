@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "commands.h"
-#include "concerns.h"
 #include "fields.h"
 #include "hogel/image.h"
 #include "hogel/pattern.h"
@@ -47,8 +46,7 @@ Modulator modulator_of(const Options& options) {
     if (options.device.empty() == !described)
         throw Error(ErrorCode::usage,
                     "name a modulator with --device, or describe one with --pixels and --pixel-pitch");
-    if (!described)
-        return with_options({{"", "--device"}}, [&] { return modulators().find(device_name(options.device)); });
+    if (!described) return modulators().find(device_name(options.device));
     if (options.pixels.columns == 0 || options.pixel_pitch == 0)
         throw Error(ErrorCode::usage, "--pixels and --pixel-pitch: a modulator is described by both");
     if (std::max(options.pixels.columns, options.pixels.rows) > 65536)
@@ -79,16 +77,9 @@ Result result_of(const Pattern& pattern, double wavelength, double per_cycle, En
 // The patterns by the encoding that was asked for, or by the one that suits the fields of all wavelengths.
 SuitablePatterns encode(const Options& options, const Fields& fields, PatternOptions& pattern,
                         const Progress& progress) {
-    return with_options({{"reference", options.pattern.reference_angle != 0 ? "--reference" : "--encoding"},
-                         {"squares", "--window"},
-                         {"share", "--clip"},
-                         {"columns", "--encoding"},
-                         {"pixels", options.device.empty() ? "--pixel-pitch" : "--device"}},
-                        [&] {
-                            if (options.encoding == "auto") return encode_suitably(fields, pattern, progress);
-                            pattern.encoding = encodings().find(options.encoding).encoding;
-                            return SuitablePatterns{pattern.encoding, encode_patterns(fields, pattern, progress)};
-                        });
+    if (options.encoding == "auto") return encode_suitably(fields, pattern, progress);
+    pattern.encoding = encodings().find(options.encoding).encoding;
+    return SuitablePatterns{pattern.encoding, encode_patterns(fields, pattern, progress)};
 }
 
 constexpr double example_focal_length = 0.2;
@@ -206,8 +197,7 @@ int slm(const Options& options, const Session& session) {
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: has {} wavelengths; a pattern takes one or three", options.input, colours));
 
-    pattern_options.phase_code =
-        with_options({{"", "--phase-code"}}, [&] { return parse_phase_code(options.phase_code); });
+    pattern_options.phase_code = parse_phase_code(options.phase_code);
     const Modulator& modulator = pattern_options.modulator;
     Array<std::uint8_t, 3> levels({modulator.height, modulator.width, colours});
     Stage stage(session, "pattern");
@@ -283,7 +273,7 @@ void add_slm(Command& command, Session& session) {
         devices += fmt::format("\n{}: {}x{} at {}, {} levels", modulator.name, modulator.width, modulator.height,
                                format_length(modulator.pitch), modulator.levels);
     command.group("Modulator");
-    command.text("--device", options->device, "NAME", devices);
+    command.text("--device", options->device, "NAME", devices).sets_parameter("pixel_pitch");
     command.counts("--pixels", options->pixels, "Any other: pixels across and down");
     command.positive_length("--pixel-pitch", options->pixel_pitch, "Distance of its pixels");
     command.count("--levels", options->levels, "Levels of its pixels");

@@ -6,8 +6,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <ranges>
 #include <sstream>
 
+#include "error_parameters.h"
 #include "help.h"
 #include "hogel/error.h"
 #include "hogel/parts.h"
@@ -66,6 +68,11 @@ Option Option::positive() const {
 
 Option Option::sets(bool& given) const {
     option_->each([&given](const std::string&) { given = true; });
+    return *this;
+}
+
+Option Option::sets_parameter(const std::string& parameter) const {
+    command_->setters_.emplace(parameter, option_->get_name());
     return *this;
 }
 
@@ -143,6 +150,32 @@ Option Command::read_option(const std::string& name, const std::string& type, co
 }
 
 bool Command::given(const std::string& name) const { return app_.get_option(name)->count() > 0; }
+
+std::vector<std::string> Command::setters(const std::string& parameter) const {
+    std::string name = "--" + parameter;
+    std::ranges::replace(name, '_', '-');
+    std::vector<std::string> names;
+    if (app_.get_option_no_throw(name) != nullptr) names.push_back(name);
+    const auto [first, last] = setters_.equal_range(parameter);
+    for (auto each = first; each != last; ++each) names.push_back(each->second);
+    return names;
+}
+
+std::string Command::describe(const Error& error) const {
+    std::vector<std::string> options;
+    const auto take = [&](const std::string& option) {
+        if (!std::ranges::count(options, option)) options.push_back(option);
+    };
+    for (const std::string& parameter : names_of_parameters(error.parameter())) {
+        const std::vector<std::string> names = setters(parameter);
+        const auto is_given = [&](const std::string& name) { return given(name); };
+        if (std::ranges::any_of(names, is_given))
+            std::ranges::for_each(names | std::views::filter(is_given), take);
+        else if (!names.empty())
+            take(names.front());
+    }
+    return options.empty() ? error.what() : fmt::format("{}: {}", fmt::join(options, ", "), error.what());
+}
 
 Metadata Command::values() const {
     Metadata values;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "arguments.h"
+#include "hogel/error.h"
 #include "hogel/geometry.h"
 #include "hogel/image.h"
 
@@ -43,6 +45,8 @@ class Option {
     Option positive() const;
     /// A variable that becomes true if the option is given.
     Option sets(bool& given) const;
+    /// The option sets a parameter of another name, too, of which errors speak: --to-focus sets "focus".
+    Option sets_parameter(const std::string& parameter) const;
 
   private:
     Command* command_;
@@ -113,6 +117,10 @@ class Command {
     /// Whether an option ("--pitch") is on the command line.
     bool given(const std::string& name) const;
 
+    /// The message of an error. It begins with the options that set the error's parameters: those that were given, or
+    /// else the first one: "--eye, --pitch: the eye sees ...".
+    std::string describe(const Error& error) const;
+
     /// Every option, without dashes, and its value as text, as typed or the default; "yes" or "no" for a flag.
     Metadata values() const;
 
@@ -124,8 +132,11 @@ class Command {
                        const std::string& help, Read read);
     Option add(CLI::Option* option);
     Option option(const std::string& name);
+    /// The options that set a parameter.
+    std::vector<std::string> setters(const std::string& parameter) const;
 
     CLI::App& app_;
+    std::multimap<std::string, std::string> setters_;  // parameters and the options of other names that set them
     std::string group_ = default_group;
     std::function<int()> work_;
 };

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "concerns.h"
+#include "error_parameters.h"
 #include "hogel/error.h"
 #include "hogel/pipeline.h"
 #include "hogel/reconstruct.h"
@@ -16,19 +16,7 @@ namespace {
 // Work on another program's field, whose errors then name the options that say what is missing.
 template <class Work>
 auto with_field_options(const FieldOptions& options, const Work& work) {
-    return with_options({{"amplitudes or phases", "--values"},
-                         {"pairs of", "--values"},
-                         {"phase code", options.code_option},
-                         {"holds complex numbers", "--values"},
-                         {"holds amplitudes and phases", "--values"},
-                         {"says itself what", "--values"},
-                         {"which one is meant", "--variable"},
-                         {"zero level", "--zero"},
-                         {"imaginary parts", "--imaginary"},
-                         {"phases of their own", "--phases"},
-                         {"pitch", "--pitch"},
-                         {"wavelength", "--wavelength"}},
-                        work);
+    return with_renamed_parameter("phase_code", options.code_parameter(), work);
 }
 
 // Throws where options of other programs' fields are given for a hologram of hogel.
@@ -241,8 +229,7 @@ ExternalField external_field(const FieldOptions& options) {
                   : options.values.empty()              ? Values::complex
                                                         : Values::amplitude;
     if (!options.phase_code.empty()) {
-        what.phase_code =
-            with_options({{"", options.code_option}}, [&] { return parse_phase_code(options.phase_code); });
+        what.phase_code = with_field_options(options, [&] { return parse_phase_code(options.phase_code); });
         if (options.values.empty() && options.phases.empty()) what.values = Values::phase;
     }
     what.imaginary = options.imaginary;
@@ -318,19 +305,18 @@ Fields open_and_reconstruct(const Session& session, const std::string& name, con
     Stage stage(session, "reconstruction");
     for (std::size_t c = 0; c < fields.size(); ++c) {
         if (select) {
-            SelectedOrder order =
-                with_options({{"opening", "--aperture"}, {"source", "--reference-source"}, {"order", "--order"}},
-                             [&] { return select_order(*fields[c], selection, stage.progress(c, fields.size())); });
+            SelectedOrder order = select_order(*fields[c], selection, stage.progress(c, fields.size()));
             session.say(fmt::format("{}: the order at {:.4f}, {:.4f} cycles per sample, within {:.4f}",
                                     format_length(fields[c]->grid().wavelength), order.frequency_x, order.frequency_y,
                                     order.radius));
             fields[c] = std::make_shared<Field>(std::move(order.field));
         }
         if (image)
-            fields[c] = std::make_shared<Field>(with_options({{"", "--focal"}}, [&] {
-                return options.reconstruct == "fourier" ? fourier_image(*fields[c], options.focal)
-                                                        : fresnel_image(*fields[c], options.focal);
-            }));
+            fields[c] = with_parameter("focal", [&] {
+                return std::make_shared<Field>(options.reconstruct == "fourier"
+                                                   ? fourier_image(*fields[c], options.focal)
+                                                   : fresnel_image(*fields[c], options.focal));
+            });
     }
     return fields;
 }

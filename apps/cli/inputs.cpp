@@ -9,6 +9,7 @@
 #include <string>
 #include <variant>
 
+#include "error_parameters.h"
 #include "hogel/error.h"
 #include "hogel/scene_hologram.h"
 #include "hogel/units.h"
@@ -118,8 +119,7 @@ LightFieldGrid RenderOptions::grid() const {
     grid.directions_v = directions.rows;
     // The faces of a hemicube have ranges of their own, but for the height of a single row of directions.
     const Angles view = hemicube ? Angles{defaults.field_of_view, defaults.field_of_view} : field_of_view;
-    grid.view = with_options({{"full angle", "--fov"}, {"", "--fov, --toward"}},
-                             [&] { return hogel::field_of_view(view.across, view.down, toward.across, toward.down); });
+    grid.view = hogel::field_of_view(view.across, view.down, toward.across, toward.down);
     if (focal_plane_given) grid.view = FocalPlane{grid.range(), focal_plane};
     if (frequencies > 0) {
         // As many frequencies j/d as fit into the field of view.
@@ -130,9 +130,7 @@ LightFieldGrid RenderOptions::grid() const {
         grid.directions_v = static_cast<std::size_t>(down);
         grid.view = Frequencies{{0.5 * across * step, 0.5 * down * step}};
     }
-    with_options(
-        {{"focal plane", "--focal-plane"}, {"", frequencies > 0 ? "--frequencies" : "--hogels, --directions, --size"}},
-        [&] { validate(grid, ErrorCode::usage, "light field"); });
+    validate(grid, ErrorCode::usage, "light field");
     return grid;
 }
 
@@ -143,8 +141,8 @@ LightFieldRequest RenderOptions::request(const Scene& loaded) const {
 }
 
 LightFieldRequest RenderOptions::request() const {
-    with_options({{"", "--algorithm"}}, [&] { renderers().find(algorithm); });
-    with_options({{"", "--shading"}}, [&] { shading_models().find(shading); });
+    renderers().find(algorithm);
+    shading_models().find(shading);
     LightFieldRequest request;
     request.renderer = algorithm;
     request.shading.model = shading;
@@ -161,15 +159,15 @@ LightFieldRequest RenderOptions::request() const {
     if (interpolate_given) request.interpolate = interpolate;
     request.fit = !as_is;
     request.front = front;
-    with_options({{"spans", "--hemicube, --fov"}, {"", "--hemicube, --directions"}}, [&] { request.grids(); });
-    with_options({{"", "--samples"}}, [&] { finer(request.grid, request.samples); });
+    request.grids();
+    with_parameter("samples", [&] { finer(request.grid, request.samples); });
     return request;
 }
 
 HologramMethod HologramChoices::hologram_method() const {
     const std::vector<std::string> known = transform_names();
     if (!basis.empty() && basis != "pieces" && !std::ranges::count(known, basis))
-        with_options({{"", "--basis"}}, [&] { throw_unknown("transform", basis, known); });
+        throw_unknown("transform", basis, known, "basis");
     HologramMethod chosen = hologram_methods().find(method).method;
     if (lines > 0 && !line_pitch(chosen))
         throw Error(ErrorCode::usage,
@@ -215,17 +213,7 @@ bool HologramChoices::record(RunRecord& record, const HologramRequest& request, 
 
 void check_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request, bool rendered,
                      std::span<const Camera> cameras) {
-    with_options({{"a hemicube of", "--method"},
-                  {"a wavelength of", "--wavelength"},
-                  {"the wavelength", "--wavelength"},
-                  {"resolves no more", "--pupil"},
-                  {"pupil", "--pupil, --pitch"},
-                  {"the eye", "--eye, --pitch"},
-                  {"horizontal parallax", "--method"},
-                  {"added phases", "--method"},
-                  {"light field reaches", rendered ? "--fov, --pitch" : "--pitch"},
-                  {"", "--pitch"}},
-                 [&] { hogel::require_holograms(faces, request, cameras); });
+    with_renamed_parameter("fov", rendered ? "fov" : "", [&] { hogel::require_holograms(faces, request, cameras); });
 }
 
 void add_render_options(Command& command, RenderOptions& options) {
@@ -340,7 +328,7 @@ Scene load_scene(const Session& session, const std::string& name, const RenderOp
     }
     const LightFieldRequest request = scene_request(options);
     Stage stage(session, "scene");
-    Scene scene = placing_scene([&] { return hogel::load_scene(name, request, stage.progress()); });
+    Scene scene = hogel::load_scene(name, request, stage.progress());
     options.scene.record(record, scene);
     for (const std::string& note : scene.notes) session.say(fmt::format("{}: note: {}", name, note));
     return scene;
@@ -360,8 +348,7 @@ std::shared_ptr<const ShadedScene> light_scene(const Session& session, const Sce
         session.detail(fmt::format("shadow maps: {}", format_bytes(bytes)));
     }
     Stage stage(session, "lighting");
-    return with_options({{"shadow map", "--shadow-map"}, {"shading model", "--shading"}},
-                        [&] { return hogel::light_scene(scene, request, stage.progress()); });
+    return hogel::light_scene(scene, request, stage.progress());
 }
 
 LightField render_light_field(const Session& session, const Scene& scene, const RenderOptions& options,
@@ -383,18 +370,13 @@ LightField render_light_field(const Session& session, const Scene& scene, const 
             record.acted({"cache-spacing"});
             break;
         }
-    return with_options({{"sines", "--algorithm, --frequencies"},
-                         {"focal plane", "--algorithm, --focal-plane"},
-                         {"interpolation", "--interpolate"},
-                         {"", "--algorithm"}},
-                        [&] { return hogel::render_light_field(lit, options.request()); });
+    return with_parameter("algorithm", [&] { return hogel::render_light_field(lit, options.request()); });
 }
 
 void require_memory(const Session& session, const LightField& rendered, const RenderOptions& options,
                     const Scene& scene) {
     const Plan plan = plan_light_field(rendered, options.request(scene), triangle_count(scene));
-    with_options({{"", "--hogels, --directions"}},
-                 [&] { state_plan(session, plan, "rendering by " + options.algorithm); });
+    with_parameter("hogels, directions", [&] { state_plan(session, plan, "rendering by " + options.algorithm); });
 }
 
 LightField open_or_render(const Session& session, const std::string& name, const RenderOptions& options,

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "command_line.h"
-#include "concerns.h"
 #include "hogel/pipeline.h"
 #include "run_record.h"
 #include "scene_options.h"
@@ -84,12 +83,6 @@ void add_scene_hologram_options(Command& command, HologramChoices& options);
 
 /// The request of load_scene(), with how the scene is turned, placed and lit. Throws Error(usage).
 LightFieldRequest scene_request(const RenderOptions& options);
-/// Work that places a scene, whose Error(usage) then names the options.
-template <class Work>
-auto placing_scene(const Work& work) {
-    return with_options({{"texture coordinates", "--texture"}, {"camera", "--scene-camera"}}, work);
-}
-
 /// A built-in scene in the size of the hologram, or a mesh file, fitted to it if requested, with lights.
 Scene load_scene(const Session& session, const std::string& name, const RenderOptions& options, RunRecord& record);
 

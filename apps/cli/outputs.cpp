@@ -8,7 +8,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "concerns.h"
+#include "error_parameters.h"
 #include "hogel/compress.h"
 #include "hogel/error.h"
 #include "hogel/units.h"
@@ -151,10 +151,8 @@ void write_compressed(const LightFieldOutput& output, const LightField& made, Ru
     compression.metadata = record.metadata();
     Kept kept(session, kept_of.has_value(), output.file, kept_of.value_or(""));
     Stage stage(session, "compressing");
-    const CompressionResult result = kept.unless_refused([&] {
-        return with_options({{"", "--sqnr"}},
-                            [&] { return compress(light_field, output.file, compression, stage.progress()); });
-    });
+    const CompressionResult result =
+        kept.unless_refused([&] { return compress(light_field, output.file, compression, stage.progress()); });
     kept.complete();
     report_compressed(session, output.file, result);
 }

@@ -11,6 +11,7 @@
 #include <exception>
 #include <new>
 
+#include "command_line.h"
 #include "hogel/error.h"
 #include "hogel/printable.h"
 #include "hogel/progress.h"
@@ -36,7 +37,11 @@ int run(std::span<const CommandInfo> commands, int argc, char** argv, Session& s
     if (processes != nullptr) processes->begin(session);
     const ThreadLimit limit(session.threads);
     const Stoppable stoppable(Progress(session.stop.get_token()));
-    return session.command->run();
+    try {
+        return session.command->run();
+    } catch (const Error& error) {
+        throw Error(error.code(), session.command->describe(error));
+    }
 }
 
 Outcome failure(ErrorCode code, const std::string& message) { return {static_cast<int>(code), code, message}; }

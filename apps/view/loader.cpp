@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cli/error_parameters.h"
 #include "cli/fields.h"
 #include "cli/hologram_pitch.h"
 #include "cli/inputs.h"
@@ -130,7 +131,7 @@ void Loader::run(const std::stop_token& end) {
             viewer_.say("", 1);
         } catch (const Error& error) {
             if (error.code() == ErrorCode::cancelled) continue;  // for a newer task
-            give_up(error.what(), task->file);
+            give_up(now_->settings.session().command->describe(error), task->file);
         } catch (const std::exception& error) {
             give_up(error.what(), task->file);
         }
@@ -271,7 +272,7 @@ void Loader::show_scene(bool moving) {
     viewer_.say("lighting", 0);
     if (!now_->model) now_->model.emplace(now_->settings.input(), request.import, progress("reading"));
     const Clock::time_point began = Clock::now();
-    const Scene scene = cli::placing_scene([&] { return now_->model->placed(request, progress("placing")); });
+    const Scene scene = now_->model->placed(request, progress("placing"));
     if (!now_->made)
         for (const std::string& note : scene.notes)
             now_->settings.session().say(fmt::format("{}: note: {}", now_->settings.name(), note));
@@ -326,12 +327,11 @@ void Loader::require_memory_for(const LightFieldGrid& grid) const {
 }
 
 std::shared_ptr<const ShadedScene> Loader::light(const Scene& scene, const LightFieldRequest& request) {
-    return cli::with_options({{"shadow map", "--shadow-map"}, {"shading model", "--shading"}},
-                             [&] { return hogel::light_scene(scene, request, progress("lighting")); });
+    return hogel::light_scene(scene, request, progress("lighting"));
 }
 
 LightField Loader::renderer_of(const std::shared_ptr<const ShadedScene>& lit, const LightFieldRequest& request) {
-    return cli::with_options({{"", "--algorithm"}}, [&] { return hogel::render_light_field(lit, request); });
+    return cli::with_parameter("algorithm", [&] { return hogel::render_light_field(lit, request); });
 }
 
 }  // namespace hogel::view

@@ -33,8 +33,7 @@ void Loader::show_stream() {
     const cli::ViewOptions& options = now_->settings.options();
     const StreamInfo info = read_stream_info(input);
     const std::size_t layers = options.layers > 0 ? options.layers : info.layers_there;
-    const LightField light_field =
-        cli::with_options({{"", "--layers"}}, [&] { return open_stream(input, {.layers = layers}); });
+    const LightField light_field = open_stream(input, {.layers = layers});
     const LightField original =
         options.original.empty() ? *now_->file : open_original(options.original, light_field.grid());
     now_->stream = StreamFacts{

@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "hogel/export.h"
 
@@ -22,11 +23,20 @@ enum class ErrorCode {
 /// expected.
 class HOGEL_API Error : public std::runtime_error {
   public:
-    Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+    Error(ErrorCode code, const std::string& message) : Error(code, "", message) {}
+    /// An error about a parameter of the request, which is kept for ErrorCode::usage alone: files have no parameters.
+    /// @param parameter  its name on the command line with '_' for '-', "focal_plane"; several are "eye, pitch"
+    Error(ErrorCode code, std::string parameter, const std::string& message)
+        : std::runtime_error(message),
+          code_(code),
+          parameter_(code == ErrorCode::usage ? std::move(parameter) : std::string()) {}
     ErrorCode code() const noexcept { return code_; }
+    /// The parameter that the error is about, or several, or an empty text.
+    const std::string& parameter() const noexcept { return parameter_; }
 
   private:
     ErrorCode code_;
+    std::string parameter_;
 };
 
 }  // namespace hogel

@@ -21,8 +21,9 @@ HOGEL_API std::string nearest_word(std::string_view word, std::span<const std::s
 
 /// Throws Error(usage) because no `kind` ("renderer") of that name exists. The message gives the nearest name and all
 /// names that exist.
+/// @param parameter  of which the name is a value, see Error::parameter()
 [[noreturn]] HOGEL_API void throw_unknown(std::string_view kind, std::string_view name,
-                                          std::span<const std::string> known);
+                                          std::span<const std::string> known, const std::string& parameter = "");
 
 /// Throws Error(usage) because a `kind` of that name already exists.
 [[noreturn]] HOGEL_API void throw_known(std::string_view kind, std::string_view name);
@@ -32,8 +33,10 @@ HOGEL_API std::string nearest_word(std::string_view word, std::span<const std::s
 template <class Row>
 class Table {
   public:
-    /// @param kind  what a row is, in the singular, for messages: "renderer"
-    Table(std::string kind, std::vector<Row> rows) : kind_(std::move(kind)) {
+    /// @param kind       what a row is, in the singular, for messages: "renderer"
+    /// @param parameter  of which the names are values, for errors: "algorithm"
+    Table(std::string kind, std::vector<Row> rows, std::string parameter = "")
+        : kind_(std::move(kind)), parameter_(std::move(parameter)) {
         for (Row& row : rows) rows_.push_back(std::move(row));
     }
 
@@ -58,7 +61,7 @@ class Table {
     /// The row of that name. Throws Error(usage) for an unknown name, with the nearest one and all that exist.
     const Row& find(std::string_view name) const {
         if (const Row* row = look_up(name)) return *row;
-        throw_unknown(kind_, name, names());
+        throw_unknown(kind_, name, names(), parameter_);
     }
     /// Adds a row. Throws Error(usage) if the name is taken.
     void add(Row row) {
@@ -69,7 +72,7 @@ class Table {
     }
 
   private:
-    std::string kind_;
+    std::string kind_, parameter_;
     mutable std::mutex mutex_;
     std::deque<Row> rows_;
 };

@@ -19,7 +19,8 @@ void add_errors(py::module_&) {
             if (thrown) std::rethrow_exception(thrown);
         } catch (const Error& error) {
             const py::object errors = py::module_::import("hogel.errors");
-            const py::object raised = errors.attr("of")(static_cast<int>(error.code()), printable(error.what()));
+            const py::object raised =
+                errors.attr("of")(static_cast<int>(error.code()), printable(error.what()), error.parameter());
             PyErr_SetObject(py::type::handle_of(raised).ptr(), raised.ptr());
         }
     });
@@ -35,10 +36,9 @@ void add_units(py::module_& module) {
     module.def("format_duration", &format_duration, arg("seconds"));
     module.def(
         "throw_unknown",
-        [](const std::string& kind, const std::string& name, const std::vector<std::string>& known) {
-            throw_unknown(kind, name, known);
-        },
-        arg("kind"), arg("name"), arg("known"));
+        [](const std::string& kind, const std::string& name, const std::vector<std::string>& known,
+           const std::string& parameter) { throw_unknown(kind, name, known, parameter); },
+        arg("kind"), arg("name"), arg("known"), arg("parameter"));
     module.def(
         "throw_known", [](const std::string& kind, const std::string& name) { throw_known(kind, name); }, arg("kind"),
         arg("name"));

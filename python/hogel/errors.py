@@ -21,6 +21,7 @@ class Error(Exception):
 
     name = "internal"  #: of the exit status of the command line
     status = 70  #: the exit status of the command line
+    parameter = ""  #: the parameter that the error is about, "pitch", or several, "eye, pitch"; or an empty text
 
 
 class UsageError(Error, ValueError):
@@ -64,6 +65,8 @@ _CLASSES = {
 }
 
 
-def of(status: int, message: str) -> Error:
+def of(status: int, message: str, parameter: str = "") -> Error:
     """The error of an exit status."""
-    return _CLASSES.get(status, InternalError)(message)
+    error = _CLASSES.get(status, InternalError)(message)
+    error.parameter = parameter
+    return error

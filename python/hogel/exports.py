@@ -61,7 +61,7 @@ def export_views(
         layout = {".npy": "npy", ".mat": "mat"}.get(ending, "quilt" if quilt else "rows-columns")
     known = {row[0]: row[2] for row in _core.view_layouts()}
     if layout not in known:
-        _core.throw_unknown("layout", layout, list(known))
+        _core.throw_unknown("layout", layout, list(known), "layout")
     how.layout = layout
     how.format = pictures or (ending[1:] if layout == "quilt" else "")
     how.bits, how.exposure = bits, exposure

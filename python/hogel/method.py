@@ -26,7 +26,7 @@ def _method(
 ) -> Any:
     method = _core.hologram_method(name)
     if basis is not None and basis != "pieces" and basis not in _core.transform_names():
-        _core.throw_unknown("transform", basis, _core.transform_names())
+        _core.throw_unknown("transform", basis, _core.transform_names(), "basis")
     if line_pitch is not None:
         if not hasattr(method, "line_pitch") or method.line_pitch is None:
             raise UsageError(f"line_pitch: belongs to the methods lines and basis-lines, not {name}")

@@ -44,9 +44,11 @@ def request(
         raise UsageError("hogels, size: positive numbers were expected")
     made = _core.LightFieldRequest()
     if algorithm is not None:
-        made.renderer = _known("renderer", algorithm, _core.renderers())
+        made.renderer = _known("renderer", "algorithm", algorithm, _core.renderers())
     lighting = _core.ShadingOptions()
-    lighting.model = _core.defaults["shading"] if shading is None else _known("shading model", shading, _core.shading_models())
+    lighting.model = _core.defaults["shading"]
+    if shading is not None:
+        lighting.model = _known("shading model", "shading", shading, _core.shading_models())
     lighting.shadow_map = defaults["shadow_map"] if shadow_map is None else int(shadow_map)
     made.shading = lighting
     if cache_spacing is not None:
@@ -86,9 +88,9 @@ def request(
     return made
 
 
-def _known(kind: str, name: str, known: list[str]) -> str:
+def _known(kind: str, parameter: str, name: str, known: list[str]) -> str:
     if name not in known:
-        _core.throw_unknown(kind, name, known)
+        _core.throw_unknown(kind, name, known, parameter)
     return name
 
 

@@ -30,7 +30,7 @@ def scene_hologram(
     says, if they are known."""
     known = {name: (uses_spacing, uses_planes) for name, _, uses_spacing, uses_planes in _core.scene_hologram_methods()}
     if method not in known:
-        _core.throw_unknown("method", method, list(known))
+        _core.throw_unknown("method", method, list(known), "method")
     defaults = _core.defaults
     step = units.optional_length(pitch, defaults["pitch"], "pitch")
     apart = units.optional_length(spacing, defaults["spacing"], "spacing")

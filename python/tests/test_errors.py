@@ -29,6 +29,20 @@ class Errors(InFolder):
             self.assertEqual((caught.exception.name, caught.exception.status), (name, status))
             self.assertEqual(len(str(caught.exception).splitlines()), 1)
 
+    def test_parameters(self):
+        lf, _ = light_field()
+        cases = [
+            (lambda: lf.photograph(pupil=-1), "pupil"),
+            (lambda: lf.save("a.hgl", sqnr=-1), "sqnr"),
+            (lambda: hogel.Scene.load("sphere").render(algorithm="magic"), "algorithm"),
+            (lambda: lf.hologram(pitch="50um"), "fov, pitch"),
+            (lambda: hogel.open("nothing.h5"), ""),
+        ]
+        for work, parameter in cases:
+            with self.subTest(parameter), self.assertRaises(hogel.Error) as caught:
+                work()
+            self.assertEqual(caught.exception.parameter, parameter)
+
     def test_texts_of_strangers_are_one_plain_line(self):
         name = "torn\x1b[31m\n" + 200 * "x" + ".h5"
         with self.assertRaises(hogel.UsageError) as caught:

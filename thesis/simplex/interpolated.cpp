@@ -59,8 +59,10 @@ class InterpolatingRenderer final : public Renderer, public CountsVisits {
         : grid_(grid), region_(region) {
         require_perspective(grid, ErrorCode::usage, "interpolation between viewpoints");
         if (grid.face() != Face::front)
-            throw Error(ErrorCode::usage, "interpolation between viewpoints is for the front face alone");
-        if (region == 0) throw Error(ErrorCode::usage, "interpolation needs regions of one hogel or more");
+            throw Error(ErrorCode::usage, "interpolate",
+                        "interpolation between viewpoints is for the front face alone");
+        if (region == 0)
+            throw Error(ErrorCode::usage, "interpolate", "interpolation needs regions of one hogel or more");
         InterpolatingRenderer::set_scene(std::move(scene));
     }
 

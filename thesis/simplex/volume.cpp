@@ -104,7 +104,7 @@ double near_plane(const ShadedScene& scene, std::string_view renderer) {
             nearest = std::min(nearest, -p.z);
         }
     if (nearest <= 0)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "algorithm",
                     fmt::format("renderer '{}' needs the whole scene behind the hologram plane, but its nearest point "
                                 "is at z = {:g} m; 'raytrace' has no such limit",
                                 renderer, -nearest));

@@ -148,8 +148,9 @@ Transform transform(std::string_view name) {
     if (name == "dct8") return Transform(nullptr);
     for (const Wavelet& wavelet : wavelets())
         if (wavelet.name == name) return Transform(&wavelet);
-    throw Error(ErrorCode::usage, fmt::format("transform '{}' is not known, expected one of {}", name,
-                                              fmt::join(transform_names(), ", ")));
+    throw Error(
+        ErrorCode::usage, "transform",
+        fmt::format("transform '{}' is not known, expected one of {}", name, fmt::join(transform_names(), ", ")));
 }
 
 }  // namespace hogel::wavelets

@@ -237,8 +237,9 @@ class Jpeg4dCoder final : public ClassicCoder {
 // Throws Error(usage) unless the method's transform is a wavelet, or the cosine transform of blocks.
 void require_transform(const CodingMethod& method, bool wavelet) {
     if (wavelets::transform(method.transform).is_wavelet() == wavelet) return;
-    throw Error(ErrorCode::usage, fmt::format("coder {} does not go with transform {}; expected {}", method.coder,
-                                              method.transform, wavelet ? "a wavelet" : "dct8"));
+    throw Error(ErrorCode::usage, "coder, transform",
+                fmt::format("coder {} does not go with transform {}; expected {}", method.coder, method.transform,
+                            wavelet ? "a wavelet" : "dct8"));
 }
 
 std::unique_ptr<TileCoder> make_threepass(const CodingMethod& method, const LightFieldGrid&,

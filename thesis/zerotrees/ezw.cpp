@@ -135,7 +135,7 @@ std::vector<std::uint8_t> ezw_encode(const wavelets::Pyramid& pyramid, std::span
                                      const EzwLimit& limit) {
     check_ezw_size(pyramid, values.size());
     if (limit.sqnr && !(*limit.sqnr > 0))
-        throw Error(ErrorCode::usage, fmt::format("EZW: an SQNR of {} dB, expected more than 0", *limit.sqnr));
+        throw Error(ErrorCode::usage, "sqnr", fmt::format("EZW: an SQNR of {} dB, expected more than 0", *limit.sqnr));
     const float max_value = coding::max_magnitude(values);
     std::vector<std::uint8_t> bytes;
     put_float(bytes, max_value);

@@ -95,7 +95,7 @@ std::vector<std::uint8_t> jpeg4d_encode(const wavelets::Pyramid& pyramid, std::s
     check_jpeg4d_size(pyramid, values.size());
     const float max_value = coding::max_magnitude(values), stored_scale = static_cast<float>(scale);
     const auto impossible = [&] {
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "step",
                     fmt::format("jpeg4d: a scale of {} for magnitudes up to {}, expected levels of 1 to 30 bits", scale,
                                 max_value));
     };

@@ -28,7 +28,7 @@ double squared_error(std::span<const float> values, double step) {
 
 double step_for_sqnr(std::span<const float> values, double sqnr) {
     if (!(sqnr > 0 && sqnr <= 130))
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "sqnr",
                     fmt::format("coding: an SQNR of {} dB, expected more than 0 and at most 130", sqnr));
     const double max_value = coding::max_magnitude(values);
     if (max_value == 0) return 1;

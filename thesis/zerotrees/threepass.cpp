@@ -38,7 +38,7 @@ std::vector<std::uint8_t> three_pass_encode(const wavelets::Pyramid& pyramid, st
     const float max_value = coding::max_magnitude(values), stored_step = static_cast<float>(step);
     if (!(stored_step > 0) || !std::isfinite(stored_step) || max_value / stored_step > std::ldexp(1.0f, max_planes))
         throw Error(
-            ErrorCode::usage,
+            ErrorCode::usage, "step",
             fmt::format("three-pass coder: a step of {} for magnitudes up to {}, expected one from 2^-30 of that", step,
                         max_value));
     const Quantiser quantiser(stored_step);

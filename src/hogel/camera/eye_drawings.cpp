@@ -44,7 +44,7 @@ std::unique_ptr<EyeDrawing> draw_eyes(const FieldSource& whole, const Region& pa
     if (source != BandSource::samples && whole.stereogram() != nullptr)
         drawing = hogel_spectra::draw_hogels(*whole.stereogram(), part, eyes, kept_waves);
     if (!drawing && source == BandSource::hogel_spectra)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "camera",
                     "a photograph from hogels needs a stereogram that is made on demand, of hogels that are sums of as "
                     "many waves as they have samples, four times as many as the eye takes in; from samples would do");
     if (!drawing) drawing = std::make_unique<SampledEyes>(window, eyes);

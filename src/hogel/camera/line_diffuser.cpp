@@ -145,7 +145,8 @@ BandCamera without_diffuser(BandCamera model) {
 
 void require_lines(const BandCamera& model) {
     if (model.source == BandSource::hogel_spectra)
-        throw Error(ErrorCode::usage, "behind a diffuser the light of samples is photographed, not that of hogels");
+        throw Error(ErrorCode::usage, "camera",
+                    "behind a diffuser the light of samples is photographed, not that of hogels");
 }
 
 // The films of one set of lines.

@@ -54,7 +54,7 @@ speckle_free::WavePowers powers_of(const FieldSource& hologram) {
     const stereogram::Stereogram* const source = hologram.stereogram();
     const stereogram::Hogels hogels = source != nullptr ? source->hogels() : stereogram::Hogels();
     if (hogels.waves == nullptr || !hogels.waves->independent())
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "looks",
                     "the mean of infinitely many looks needs a stereogram that is made on demand and whose waves have "
                     "independent random phases: the method fourier with random phases; a number of looks would do");
     return speckle_free::WavePowers(hogels);
@@ -148,7 +148,7 @@ void require_light_towards(const FieldGrid& hologram, const Camera& camera, bool
         if (frequency * pitch <= 0.5) return;
         const double degrees = 180 / std::numbers::pi;
         throw Error(
-            ErrorCode::usage,
+            ErrorCode::usage, "eye, pitch",
             fmt::format("the eye sees the hologram from up to {:.2f} degrees in {}, but a pitch of {} sends light "
                         "of {} no farther than {:.2f}; an eye farther away or nearer to the middle, or a pitch of {} "
                         "or less would do",

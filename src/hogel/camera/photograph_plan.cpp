@@ -194,7 +194,7 @@ void require_resolution(const FieldGrid& hologram, const Camera& camera, double 
     const double cell = resolution_cell(camera, hologram.wavelength);
     const double side = std::max(hologram.plane.size_x(), hologram.plane.size_y());
     if (cells * cell <= side) return;
-    throw Error(ErrorCode::usage,
+    throw Error(ErrorCode::usage, "pupil",
                 fmt::format("a pupil of {} at {} resolves no more than {} in light of {}; expected at most {}, as the "
                             "hologram is {} wide; a pupil of {} would do",
                             format_length(camera.pupil), format_length(camera.eye.z), format_length(cell),
@@ -224,7 +224,7 @@ PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camer
     }
     double widest = 0;
     for (const Camera& camera : cameras) widest = std::max(widest, camera.pupil);
-    throw Error(ErrorCode::usage,
+    throw Error(ErrorCode::usage, "pupil",
                 fmt::format("a photograph through a pupil of {} takes more than the {} of memory that it may; {}",
                             format_length(widest), format_bytes(memory),
                             fits > 0 ? fmt::format("a pupil of {} would do", format_length(widest * fits))

@@ -386,16 +386,17 @@ void camera::require_by_plane_waves(const FieldGrid& hologram, std::span<const C
                                     const PlaneWaveCamera& model) {
     const double film = model.film_distance;
     if (!std::isfinite(film) || film < 0)
-        throw Error(ErrorCode::usage, fmt::format("a film {} m behind its lens: it must be positive and finite", film));
+        throw Error(ErrorCode::usage, "film_distance",
+                    fmt::format("a film {} m behind its lens: it must be positive and finite", film));
     for (const Camera& camera : cameras) {
         require_light_towards(hologram, camera);
         require_resolution(hologram, camera, min_cells);
         if (film > 0 && film < camera.pupil)
-            throw Error(ErrorCode::usage,
+            throw Error(ErrorCode::usage, "film_distance",
                         fmt::format("a film {} behind a thin lens of {}: nearer than the lens is wide",
                                     format_length(film), format_length(camera.pupil)));
         if (film > 0 && is_tilted(camera))
-            throw Error(ErrorCode::usage,
+            throw Error(ErrorCode::usage, "focus_tilt",
                         "behind a thin lens the film is parallel to the hologram; it cannot be tilted");
     }
 }
@@ -424,7 +425,8 @@ std::vector<Array<std::complex<float>, 2>> waves_in_focus(const FieldSource& hol
                                                           const Progress& progress) {
     const core::StopScope scope(progress);
     if (model.film_distance != 0)
-        throw Error(ErrorCode::usage, "waves in focus are those of a perfect lens, which has no film distance");
+        throw Error(ErrorCode::usage, "film_distance",
+                    "waves in focus are those of a perfect lens, which has no film distance");
     require_by_plane_waves(hologram.grid(), cameras, model);
     std::vector<Array<std::complex<float>, 2>> waves(cameras.size());
     Team* const team = work::team_of_several();

@@ -277,10 +277,11 @@ class HogelCoder final : public TileCoder {
 
     Encoded encode(LightFieldTile& tile, double step, std::size_t) const override {
         if (!decode::hogel_tile_fits(grid_, tile.range))
-            throw Error(ErrorCode::usage, fmt::format("tiles of {} × {} hogels were asked for, expected at most {} × "
-                                                      "{} and {} samples in whole blocks",
-                                                      tile.range.ns, tile.range.nt, decode::max_hogel_tile_side,
-                                                      decode::max_hogel_tile_side, decode::max_hogel_tile_samples));
+            throw Error(ErrorCode::usage, "tile",
+                        fmt::format("tiles of {} × {} hogels were asked for, expected at most {} × "
+                                    "{} and {} samples in whole blocks",
+                                    tile.range.ns, tile.range.nt, decode::max_hogel_tile_side,
+                                    decode::max_hogel_tile_side, decode::max_hogel_tile_samples));
         TileEncoder encoder(tile, grid_, counted_, static_cast<float>(step), best_references(tile, grid_, step));
         return *encoder.run(encoder.estimate());
     }

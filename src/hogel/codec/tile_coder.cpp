@@ -25,7 +25,7 @@ class DecodedTile final : public TileDecoder {
 std::unique_ptr<TileCoder> make_hogel(const CodingMethod& method, const LightFieldGrid& grid,
                                       const DirectionCross& counted) {
     if (!method.transform.empty())
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "coder, transform",
                     fmt::format("coder hogel has a transform of its own; expected none, not {}", method.transform));
     return make_hogel_coder(grid, counted);
 }
@@ -44,11 +44,14 @@ void TileCoder::decode_coefficients(std::span<const std::uint8_t>, LightFieldTil
 }
 
 Table<CoderInfo>& coders() {
-    static Table<CoderInfo> table("coder", [] {
-        std::vector<CoderInfo> rows = thesis_coders();
-        rows.insert(rows.begin(), {"hogel", "prediction along disparities between hogels", "", false, make_hogel});
-        return rows;
-    }());
+    static Table<CoderInfo> table(
+        "coder",
+        [] {
+            std::vector<CoderInfo> rows = thesis_coders();
+            rows.insert(rows.begin(), {"hogel", "prediction along disparities between hogels", "", false, make_hogel});
+            return rows;
+        }(),
+        "coder");
     return table;
 }
 

@@ -44,11 +44,13 @@ std::string nearest_word(std::string_view word, std::span<const std::string> wor
     return begins != words.end() ? *begins : std::string();
 }
 
-void throw_unknown(std::string_view kind, std::string_view name, std::span<const std::string> known) {
+void throw_unknown(std::string_view kind, std::string_view name, std::span<const std::string> known,
+                   const std::string& parameter) {
     const std::string nearest = nearest_word(name, known);
-    throw Error(ErrorCode::usage, fmt::format("no {} '{}'{}; expected one of {}", kind, name,
-                                              nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest),
-                                              fmt::join(known, ", ")));
+    throw Error(
+        ErrorCode::usage, parameter,
+        fmt::format("no {} '{}'{}; expected one of {}", kind, name,
+                    nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest), fmt::join(known, ", ")));
 }
 
 void throw_known(std::string_view kind, std::string_view name) {

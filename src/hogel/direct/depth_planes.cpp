@@ -13,7 +13,7 @@
 namespace hogel::direct {
 
 std::vector<Slice> slices_of(const ShadedScene& scene, std::size_t count) {
-    if (count == 0) throw Error(ErrorCode::usage, "a scene must be cut into at least one plane");
+    if (count == 0) throw Error(ErrorCode::usage, "planes", "a scene must be cut into at least one plane");
     double near = std::numeric_limits<double>::infinity(), far = -near;
     for (const ShadedScene::Triangle& triangle : scene.triangles)
         for (const std::uint32_t vertex : triangle.vertices) {

@@ -96,7 +96,7 @@ Reach reach_of(const ShadedScene& scene, const Grid& plane, const Slice& slice) 
 void require_fit(const Reach& reach, const Grid& object, double depth) {
     const double wider = std::max(2 * reach.x / object.size_x(), 2 * reach.y / object.size_y());
     if (wider <= 1) return;
-    throw Error(ErrorCode::usage,
+    throw Error(ErrorCode::usage, "method",
                 fmt::format("a plane at a depth of {} has room for {}x{}, and the scene is {}x{} there; expected a "
                             "depth of {} or more, or a pitch {:.2g} times finer",
                             format_length(std::abs(depth)), format_length(object.size_x()),
@@ -114,7 +114,7 @@ Field add_planes(const ShadedScene& scene, const FieldGrid& grid, const std::vec
         // The method needs a distance over which to propagate.
         const double depth = slices[i].depth();
         if (std::abs(depth) < nearest_depth(grid))
-            throw Error(ErrorCode::usage,
+            throw Error(ErrorCode::usage, "method",
                         fmt::format("a plane of the scene lies on the hologram; expected at least {} between them",
                                     format_length(nearest_depth(grid))));
         const PlaneTransform transform(grid, depth, far);
@@ -144,7 +144,7 @@ Field fraunhofer_plane(const ShadedScene& scene, const FieldGrid& grid, const Sc
     const double corner = reach_of(scene, grid.plane, slices[0]).corner;
     const double needed = 4 * corner * corner / grid.wavelength;
     if (std::abs(slices[0].depth()) < needed)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "method",
                     fmt::format("an object that reaches {} from the axis is in the far field from {} on, not at {}",
                                 format_length(corner), format_length(needed), format_length(slices[0].depth())));
     return add_planes(scene, grid, slices, true, options, progress);

@@ -18,7 +18,7 @@ std::vector<SceneHologramMethod> of_opaque_scenes(std::vector<SceneHologramMetho
                                                                const Progress& progress) {
             if (scene.layers)
                 throw Error(
-                    ErrorCode::usage,
+                    ErrorCode::usage, "method",
                     fmt::format("{} shows no masks and no surfaces that blend; expected a scene without them, or "
                                 "a method that works on light fields",
                                 name));
@@ -46,7 +46,8 @@ Table<SceneHologramMethod>& scene_hologram_methods() {
             {"planes", "depth planes from back to front, each hiding those behind it", occluding_planes, false, true},
             {"polygons", "tilted polygons, rotated in frequency space, without occlusion", tilted_polygons},
             {"polygons-visible", "tilted polygons from back to front, each hiding those behind it", occluding_polygons},
-        }));
+        }),
+        "method");
     return methods;
 }
 

@@ -38,9 +38,10 @@ std::array<Vec3, 3> corners(const ShadedScene& scene, const ShadedScene::Triangl
 constexpr double max_points = 1e8;
 
 [[noreturn]] void throw_too_many(double points, double spacing, double wider) {
-    throw Error(ErrorCode::usage, fmt::format("a spacing of {} makes {:.2g} points; expected at most {:.2g}, which a "
-                                              "spacing of {} makes",
-                                              format_length(spacing), points, max_points, format_length(wider)));
+    throw Error(ErrorCode::usage, "spacing",
+                fmt::format("a spacing of {} makes {:.2g} points; expected at most {:.2g}, which a "
+                            "spacing of {} makes",
+                            format_length(spacing), points, max_points, format_length(wider)));
 }
 
 // The parts into which an edge is cut.

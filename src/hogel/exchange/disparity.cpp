@@ -111,7 +111,7 @@ std::optional<DisparityMap> read_codes(const fs::path& path, double scale) {
     if (scale == 0 && !std::holds_alternative<Array<std::uint16_t, 3>>(picture.samples)) return {};
     if (scale == 0)
         throw Error(
-            ErrorCode::usage,
+            ErrorCode::usage, "depth_scale",
             fmt::format("{}: holds whole numbers; how many of them are a metre of depth or a pixel of disparity is "
                         "needed",
                         path.string()));

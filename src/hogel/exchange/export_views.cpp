@@ -28,7 +28,7 @@ unsigned bits_for(const LightField& light_field, const ViewExportOptions& option
     if (format == "pfm" || format == "exr") {
         if (options.bits != 0)
             throw Error(
-                ErrorCode::usage,
+                ErrorCode::usage, "bits, pictures",
                 fmt::format("the format {} holds floating-point numbers, which have no choice of bits", format));
         return 32;
     }
@@ -81,12 +81,12 @@ ViewGeometry geometry_of(const LightFieldGrid& grid) {
 void require_views(const LightField& light_field, const ViewLayout& layout) {
     const LightFieldGrid& grid = light_field.grid();
     if (layout.create == nullptr)
-        throw Error(ErrorCode::usage, fmt::format("the layout '{}' is read, but not written", layout.name));
+        throw Error(ErrorCode::usage, "layout", fmt::format("the layout '{}' is read, but not written", layout.name));
     if (light_field.has_sides())
-        throw Error(ErrorCode::usage, "a hemicube's sides are no views of one set; its front alone would do");
+        throw Error(ErrorCode::usage, "layout", "a hemicube's sides are no views of one set; its front alone would do");
     if (grid.focal_plane() == nullptr && layout.cameras_only)
         throw Error(
-            ErrorCode::usage,
+            ErrorCode::usage, "layout",
             fmt::format("the layout '{}' is for cameras, but the directions of this light field are the same at all "
                         "hogels, which makes orthographic views; rows-columns and numbered hold these",
                         layout.name));
@@ -190,7 +190,8 @@ ViewTarget target_of(const LightFieldGrid& grid, const std::filesystem::path& pa
     const FocalPlane* plane = grid.focal_plane();
     if (plane == nullptr) require_perspective(grid, ErrorCode::usage, "a set of views");
     if (plane != nullptr && plane->depth > 0)
-        throw Error(ErrorCode::usage, "the fixed focal plane lies behind the hologram; cameras stand in front of it");
+        throw Error(ErrorCode::usage, "layout",
+                    "the fixed focal plane lies behind the hologram; cameras stand in front of it");
     ViewTarget target;
     target.path = path;
     target.columns = grid.directions_u;
@@ -211,10 +212,10 @@ ExportedViews export_views(const LightField& light_field, const std::filesystem:
     const ViewLayout layout = view_layouts().find(options.layout);
     require_views(light_field, layout);
     if (!(std::isfinite(options.exposure) && options.exposure > 0))
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "exposure",
                     fmt::format("the exposure is {}, but must be positive and finite", options.exposure));
     if (options.bits != 0 && (options.bits < 8 || options.bits > 16))
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "bits",
                     fmt::format("{} bits a sample were asked for, but 8 to 16 can be written", options.bits));
     const LightFieldGrid& grid = light_field.grid();
     ViewTarget target = target_of(grid, path);
@@ -223,7 +224,7 @@ ExportedViews export_views(const LightField& light_field, const std::filesystem:
     target.bits = bits_for(light_field, options, target.format);
     if (target.format == "png" && target.bits != 8 && target.bits != 16)
         throw Error(
-            ErrorCode::usage,
+            ErrorCode::usage, "bits, pictures",
             fmt::format("PNG files hold 8 or 16 bits a sample, not {}; ppm holds any from 8 to 16", target.bits));
     target.transfer = transfer_for(light_field, options, target.bits);
     if (!layout.is_folder) return write_views(light_field, target, options, progress);

@@ -209,12 +209,13 @@ PictureGrid counted(const NumberedFiles& group, std::size_t number, std::size_t 
     if (columns == 0) {
         columns = rows = static_cast<std::size_t>(std::llround(std::sqrt(static_cast<double>(count))));
         if (columns * rows != count)
-            throw Error(ErrorCode::usage, fmt::format("{}: {} are not as many rows as columns; the number of columns "
-                                                      "and rows of views is needed",
-                                                      folder, pictures));
+            throw Error(ErrorCode::usage, "views",
+                        fmt::format("{}: {} are not as many rows as columns; the number of columns "
+                                    "and rows of views is needed",
+                                    folder, pictures));
     }
     if (columns * rows != count)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "views",
                     fmt::format("{}: {}x{} views were asked for, but there are {}", folder, columns, rows, pictures));
     PictureGrid grid{rows, columns, {}};
     for (NumberedFile& file : files) grid.files.push_back(std::move(file.path));

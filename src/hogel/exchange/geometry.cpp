@@ -21,7 +21,8 @@ double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 double field_of_view(const ViewOptions& options) {
     const double field = options.field_of_view.value_or(assumed_field);
     if (!(field > 0 && field < std::numbers::pi))
-        throw Error(ErrorCode::usage, fmt::format("a field of view of {:.6g} degrees is impossible", degrees(field)));
+        throw Error(ErrorCode::usage, "fov",
+                    fmt::format("a field of view of {:.6g} degrees is impossible", degrees(field)));
     return field;
 }
 
@@ -33,7 +34,7 @@ Shear shear_of(const ViewSet& set, const ViewOptions& options) {
         const double lost = std::abs(step) * static_cast<double>(views - 1);
         const double left = std::floor(static_cast<double>(pixels) - lost + 1e-9);
         if (!(left >= 1))
-            throw Error(ErrorCode::usage,
+            throw Error(ErrorCode::usage, "disparity",
                         fmt::format("a disparity of {} leaves no pixel that all {} views show", std::abs(step), views));
         // The middles of the cropped pictures lie in the middle of the hologram.
         const double middle = 0.5 * (static_cast<double>(pixels) - left) - 0.5 * step * static_cast<double>(views - 1);
@@ -58,10 +59,10 @@ double half_range(std::size_t views, double step, double other) {
 
 void place_orthographic(const ViewSet& set, const ViewOptions& options, Placement& placement) {
     if (options.distance || options.spacing)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "distance, spacing",
                     "orthographic views have directions instead of a distance and spacing of cameras");
     if (options.disparity != 0)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "disparity",
                     "orthographic views show the plane at infinity alike everywhere; no disparity selects another");
     double step = set.geometry.spacing;
     if (options.field_of_view || step == 0) {
@@ -79,7 +80,7 @@ void place_orthographic(const ViewSet& set, const ViewOptions& options, Placemen
 double own_distance(const ViewGeometry& g, const ViewOptions& options) {
     if (g.distance == 0) return 0;
     if (options.disparity == 0 && std::isinf(g.distance))
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "disparity",
                     "the cameras are parallel and their pictures not shifted: they agree at infinity; a "
                     "disparity says which plane is to be the hologram");
     if (options.disparity == 0) return g.distance;
@@ -87,7 +88,7 @@ double own_distance(const ViewGeometry& g, const ViewOptions& options) {
     const double inverse = 1 / g.distance + options.disparity * g.pixel_tangent / g.spacing;
     if (!(inverse > 0))
         throw Error(
-            ErrorCode::usage,
+            ErrorCode::usage, "disparity",
             fmt::format("a disparity of {} pixels belongs to no plane in front of the cameras", options.disparity));
     return 1 / inverse;
 }
@@ -95,7 +96,7 @@ double own_distance(const ViewGeometry& g, const ViewOptions& options) {
 void place_cameras(const ViewSet& set, const ViewOptions& options, Placement& placement) {
     const ViewGeometry& g = set.geometry;
     if (options.spacing && options.field_of_view)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "spacing, fov",
                     "the spacing of cameras and the field of view say the same; one of them is enough");
     const double own = own_distance(g, options);
     const auto columns = static_cast<double>(std::max(set.columns, set.rows));

@@ -28,19 +28,19 @@ constexpr std::size_t max_densify = 64;
 std::shared_ptr<const Disparities> disparities_of(const std::filesystem::path& source, const ViewSet& set,
                                                   const ViewOptions& options, std::vector<std::string>& notes) {
     if (!(options.depth_scale >= 0 && std::isfinite(options.depth_scale)))
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "depth_scale",
                     fmt::format("the scale of depth is {}, but must be positive and finite", options.depth_scale));
     const double map_bytes = static_cast<double>(set.width * set.height) * sizeof(float);
     const auto kept = static_cast<std::size_t>(std::clamp(options.memory / map_bytes, 16.0, 1e4));
     if (options.mirror_columns || options.mirror_rows)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "mirror",
                     "maps of disparity belong to views in the order of the layout, not to mirrored ones");
     std::error_code none;
     if (std::filesystem::is_directory(source, none) || source.extension() == ".json")
         if (auto disparities = find_disparities(source, set, kept, options.depth_scale)) return disparities;
     if (!options.estimate_disparity)
         throw Error(
-            ErrorCode::usage,
+            ErrorCode::usage, "estimate_disparity",
             fmt::format("views are interpolated, and rays get depth, by disparity, and {} has no map of it; it can be "
                         "estimated",
                         source.string()));
@@ -97,8 +97,9 @@ ImportedViews import_views(const std::filesystem::path& source, const ViewOption
     require_rectified(set, options.disparity == 0 ? evidence : parallax_of(set));
     note_dark_corners(set);
     if (options.densify < 1 || options.densify > max_densify)
-        throw Error(ErrorCode::usage, fmt::format("views can be densified by factors from 1 to {}, not by {}",
-                                                  max_densify, options.densify));
+        throw Error(
+            ErrorCode::usage, "densify",
+            fmt::format("views can be densified by factors from 1 to {}, not by {}", max_densify, options.densify));
     std::shared_ptr<const Disparities> disparities;
     if (options.densify > 1 || options.with_depth) disparities = disparities_of(source, set, options, set.notes);
     const bool estimated = disparities != nullptr && disparities->is_estimate();

@@ -16,9 +16,10 @@ namespace hogel {
 
 Table<ViewLayout>& view_layouts() {
     using namespace exchange;
-    static Table<ViewLayout> table(
-        "layout", {transforms_layout(), hci_layout(), stanford_layout(), quilt_layout(), npy_layout(), mat_layout(),
-                   film_layout(), rows_columns_layout(), numbered_layout()});
+    static Table<ViewLayout> table("layout",
+                                   {transforms_layout(), hci_layout(), stanford_layout(), quilt_layout(), npy_layout(),
+                                    mat_layout(), film_layout(), rows_columns_layout(), numbered_layout()},
+                                   "layout");
     return table;
 }
 
@@ -149,7 +150,7 @@ ViewSet middle_of(ViewSet set, std::size_t columns, std::size_t rows) {
     if (columns == 0 || rows == 0) return set;
     if (columns > set.columns || rows > set.rows || (set.columns - columns) % 2 != 0 || (set.rows - rows) % 2 != 0)
         throw Error(
-            ErrorCode::usage,
+            ErrorCode::usage, "middle",
             fmt::format("the middle {}x{} of {}x{} views were asked for; as many must be left out on both sides",
                         columns, rows, set.columns, set.rows));
     const std::size_t left = (set.columns - columns) / 2, top = (set.rows - rows) / 2;

@@ -96,7 +96,8 @@ ImageComparison compare(const Image& a, const Image& b, double exposure) {
                     fmt::format("pictures of {}x{} pixels in {} channels and of {}x{} in {} cannot be compared",
                                 a.width(), a.height(), a.channels(), b.width(), b.height(), b.channels()));
     if (!(std::isfinite(exposure) && exposure > 0))
-        throw Error(ErrorCode::usage, fmt::format("the exposure is {}, but must be positive and finite", exposure));
+        throw Error(ErrorCode::usage, "exposure",
+                    fmt::format("the exposure is {}, but must be positive and finite", exposure));
     const auto has_nan = [](const Image& image) {
         return std::ranges::any_of(image.pixels.elements(), [](float value) { return std::isnan(value); });
     };

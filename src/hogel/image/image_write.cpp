@@ -28,7 +28,8 @@ void check_writable(const Image& image, double exposure, const std::string& name
         fail_write(picture_named(name),
                    fmt::format("{}x{} pixels in {} channels", image.width(), image.height(), image.channels()));
     if (!(std::isfinite(exposure) && exposure > 0))
-        throw Error(ErrorCode::usage, fmt::format("the exposure is {}, but must be positive and finite", exposure));
+        throw Error(ErrorCode::usage, "exposure",
+                    fmt::format("the exposure is {}, but must be positive and finite", exposure));
 }
 
 // The 8-bit display values of a picture.

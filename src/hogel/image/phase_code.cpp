@@ -29,9 +29,10 @@ std::vector<PhaseCodeInfo> known_codes() {
 }
 
 [[noreturn]] void fail(const std::string& text, const std::string& why) {
-    throw Error(ErrorCode::usage, fmt::format("the phase code '{}' {}; expected {}, or e.g. "
-                                              "range=2pi,offset=-180deg,invert",
-                                              text, why, fmt::join(phase_codes().names(), ", ")));
+    throw Error(ErrorCode::usage, "phase_code",
+                fmt::format("the phase code '{}' {}; expected {}, or e.g. "
+                            "range=2pi,offset=-180deg,invert",
+                            text, why, fmt::join(phase_codes().names(), ", ")));
 }
 
 std::optional<double> parse_angle_of_code(std::string_view text) {
@@ -71,7 +72,7 @@ unsigned PhaseCode::level(double phase, unsigned largest) const {
 }
 
 Table<PhaseCodeInfo>& phase_codes() {
-    static Table<PhaseCodeInfo> table("phase code", known_codes());
+    static Table<PhaseCodeInfo> table("phase code", known_codes(), "phase_code");
     return table;
 }
 

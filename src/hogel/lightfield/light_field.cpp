@@ -20,13 +20,15 @@ namespace {
 constexpr std::size_t tile_bytes = std::size_t{16} << 20;
 constexpr std::size_t max_bytes = std::numeric_limits<std::size_t>::max() >> 1;
 
-void require_positive(double value, ErrorCode code, const std::string& what, const char* member) {
+void require_positive(double value, const char* parameter, ErrorCode code, const std::string& what,
+                      const char* member) {
     if (!(std::isfinite(value) && value > 0))
-        throw Error(code, fmt::format("{}: {} is {}, but must be positive and finite", what, member, value));
+        throw Error(code, parameter, fmt::format("{}: {} is {}, but must be positive and finite", what, member, value));
 }
 
-void require_finite(double value, ErrorCode code, const std::string& what, const char* member) {
-    if (!std::isfinite(value)) throw Error(code, fmt::format("{}: {} is {}, but must be finite", what, member, value));
+void require_finite(double value, const char* parameter, ErrorCode code, const std::string& what, const char* member) {
+    if (!std::isfinite(value))
+        throw Error(code, parameter, fmt::format("{}: {} is {}, but must be finite", what, member, value));
 }
 
 // Throws unless all cells of a side face are at ζ > 0.
@@ -37,22 +39,25 @@ void require_in_front_half(const LightFieldGrid& grid, ErrorCode code, const std
                       (grid.face() == Face::right && u_high <= 0) || (grid.face() == Face::top && v_high <= 0) ||
                       (grid.face() == Face::bottom && v_low >= 0);
     if (!good)
-        throw Error(code, fmt::format("{}: the {} face reaches beyond the hologram plane; its directions are {} in U "
-                                      "and {} in V, but must lie where ζ > 0",
-                                      what, face_name(grid.face()), fmt::format("{:g} to {:g}", u_low, u_high),
-                                      fmt::format("{:g} to {:g}", v_low, v_high)));
+        throw Error(code, "fov, toward",
+                    fmt::format("{}: the {} face reaches beyond the hologram plane; its directions are {} in U "
+                                "and {} in V, but must lie where ζ > 0",
+                                what, face_name(grid.face()), fmt::format("{:g} to {:g}", u_low, u_high),
+                                fmt::format("{:g} to {:g}", v_low, v_high)));
 }
 
 // Throws unless the focal plane is at a depth to which all hogels have directions.
 void require_depth(const LightFieldGrid& grid, const FocalPlane& plane, ErrorCode code, const std::string& what) {
     if (!std::isfinite(plane.depth) || plane.depth == 0)
-        throw Error(code, fmt::format("{}: the depth of the fixed focal plane is {}, but must be finite and not zero",
-                                      what, plane.depth));
+        throw Error(code, "focal_plane",
+                    fmt::format("{}: the depth of the fixed focal plane is {}, but must be finite and not zero", what,
+                                plane.depth));
     const LightFieldGrid first = grid.of_hogel(0, 0);
     if (!std::isfinite(first.center_u()) || !std::isfinite(first.center_v()))
-        throw Error(code, fmt::format("{}: the fixed focal plane at a depth of {} m is too close to the hologram plane "
-                                      "for its hogels to have directions",
-                                      what, plane.depth));
+        throw Error(code, "focal_plane",
+                    fmt::format("{}: the fixed focal plane at a depth of {} m is too close to the hologram plane "
+                                "for its hogels to have directions",
+                                what, plane.depth));
 }
 
 Shape<5> radiance_shape(const LightFieldGrid& grid, const HogelRange& range) {
@@ -75,12 +80,12 @@ void copy_row(const float* from, float* to, std::size_t hogels, std::size_t dire
 std::size_t directions_aside(std::size_t front, double angle) {
     using std::numbers::pi;
     if (!(angle > pi / 2 && angle <= pi))
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "hemicube, fov",
                     fmt::format("a hemicube spans more than 90 degrees and at most 180, not {:.6g}", angle * 180 / pi));
     const double count = 0.5 * static_cast<double>(front) * (1 - 1 / std::tan(angle / 2));
     const auto aside = static_cast<std::size_t>(std::ceil(count - 1e-9));
     if (2 * aside > front)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "hemicube, directions",
                     fmt::format("a hemicube of {:.6g} degrees needs an even number of directions in front, not {}",
                                 angle * 180 / pi, front));
     return std::max<std::size_t>(aside, 1);
@@ -95,40 +100,43 @@ void require_metres(const LightFieldGrid& grid, ErrorCode code, const std::strin
     if (std::max(width, height) <= max_hologram_size) return;
     const char* side = width > max_hologram_size ? "wide" : "high";
     const double size = width > max_hologram_size ? width : height;
-    throw Error(code, fmt::format("{}: the hologram is {:g} m {}; expected at most {}: lengths are in metres, and {:g} "
-                                  "millimetres are {:g}*mm",
-                                  what, size, side, format_length(max_hologram_size), size, size));
+    throw Error(code, "size",
+                fmt::format("{}: the hologram is {:g} m {}; expected at most {}: lengths are in metres, and {:g} "
+                            "millimetres are {:g}*mm",
+                            what, size, side, format_length(max_hologram_size), size, size));
 }
 
 }  // namespace
 
 void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& what) {
     if (grid.hogels_s == 0 || grid.hogels_t == 0)
-        throw Error(code,
+        throw Error(code, "hogels",
                     fmt::format("{}: {}x{} hogels, but at least 1x1 are needed", what, grid.hogels_s, grid.hogels_t));
     if (grid.directions_u == 0 || grid.directions_v == 0)
-        throw Error(code, fmt::format("{}: {}x{} directions, but at least 1x1 are needed", what, grid.directions_u,
-                                      grid.directions_v));
+        throw Error(code, "directions",
+                    fmt::format("{}: {}x{} directions, but at least 1x1 are needed", what, grid.directions_u,
+                                grid.directions_v));
     if (grid.channels != 1 && grid.channels != 3)
         throw Error(code, fmt::format("{}: {} channels, but 1 or 3 were expected", what, grid.channels));
-    require_positive(grid.pitch, code, what, "hogel pitch");
-    require_positive(grid.half_u(), code, what, "tan_half_u");
-    require_positive(grid.half_v(), code, what, "tan_half_v");
-    require_finite(grid.center_u(), code, what, "center_u");
-    require_finite(grid.center_v(), code, what, "center_v");
+    require_positive(grid.pitch, "size", code, what, "hogel pitch");
+    require_positive(grid.half_u(), "fov", code, what, "tan_half_u");
+    require_positive(grid.half_v(), "fov", code, what, "tan_half_v");
+    require_finite(grid.center_u(), "toward", code, what, "center_u");
+    require_finite(grid.center_v(), "toward", code, what, "center_v");
     require_in_front_half(grid, code, what);
-    require_positive(grid.step_u(), code, what, "the step between directions in u");
-    require_positive(grid.step_v(), code, what, "the step between directions in v");
-    require_positive(static_cast<double>(grid.hogels_s) * grid.pitch, code, what, "the width of the hologram");
-    require_positive(static_cast<double>(grid.hogels_t) * grid.pitch, code, what, "the height of the hologram");
+    require_positive(grid.step_u(), "fov, directions", code, what, "the step between directions in u");
+    require_positive(grid.step_v(), "fov, directions", code, what, "the step between directions in v");
+    require_positive(static_cast<double>(grid.hogels_s) * grid.pitch, "size", code, what, "the width of the hologram");
+    require_positive(static_cast<double>(grid.hogels_t) * grid.pitch, "size", code, what, "the height of the hologram");
     if (const FocalPlane* plane = grid.focal_plane()) require_depth(grid, *plane, code, what);
     std::size_t budget = max_bytes / sizeof(float);
     for (std::size_t extent : radiance_shape(grid, all_hogels(grid))) budget /= extent;
     if (budget == 0)
         throw Error(
-            code, fmt::format("{}: {}x{} hogels of {}x{} directions in {} channels are more samples than can "
-                              "be addressed",
-                              what, grid.hogels_s, grid.hogels_t, grid.directions_u, grid.directions_v, grid.channels));
+            code, "hogels, directions",
+            fmt::format("{}: {}x{} hogels of {}x{} directions in {} channels are more samples than can "
+                        "be addressed",
+                        what, grid.hogels_s, grid.hogels_t, grid.directions_u, grid.directions_v, grid.channels));
     // A file may say what it likes; whoever asks for such a size means another unit.
     if (code == ErrorCode::usage) require_metres(grid, code, what);
 }
@@ -144,21 +152,23 @@ void require_common_directions(const LightFieldGrid& grid, ErrorCode code, const
 void require_perspective(const LightFieldGrid& grid, ErrorCode code, const std::string& what) {
     require_common_directions(grid, code, what);
     if (!grid.is_perspective())
-        throw Error(code, fmt::format("{} needs directions in perspective, uniform in tangents; these are uniform in "
-                                      "sines, on the frequency grid of a hologram",
-                                      what));
+        throw Error(code, "algorithm, frequencies",
+                    fmt::format("{} needs directions in perspective, uniform in tangents; these are uniform in "
+                                "sines, on the frequency grid of a hologram",
+                                what));
 }
 
 Perspective field_of_view(double across, double down, double toward_right, double toward_up) {
     constexpr double quarter = std::numbers::pi / 2;
     const auto span = [](double angle, double toward) -> std::pair<double, double> {
         if (!(angle > 0 && angle < 2 * quarter))
-            throw Error(ErrorCode::usage, fmt::format("field of view: the full angle is {:.6g} degrees; expected one "
-                                                      "between 0 and 180",
-                                                      angle * 90 / quarter));
+            throw Error(ErrorCode::usage, "fov",
+                        fmt::format("field of view: the full angle is {:.6g} degrees; expected one "
+                                    "between 0 and 180",
+                                    angle * 90 / quarter));
         if (toward == 0) return {0, std::tan(angle / 2)};
         if (!(std::abs(toward) + angle / 2 < quarter))
-            throw Error(ErrorCode::usage, "field of view: it must end before 90 degrees on either side");
+            throw Error(ErrorCode::usage, "fov, toward", "field of view: it must end before 90 degrees on either side");
         const double low = std::tan(toward - angle / 2), high = std::tan(toward + angle / 2);
         return {(low + high) / 2, (high - low) / 2};
     };

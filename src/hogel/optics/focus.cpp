@@ -128,7 +128,7 @@ struct DepthRange {
 DepthRange range_of(const Fields& fields, const FocusOptions& options, double depth_of_focus) {
     double from = options.from, to = options.to;
     if (!std::isfinite(from) || !std::isfinite(to))
-        throw Error(ErrorCode::usage, "the depths to search are not finite");
+        throw Error(ErrorCode::usage, "from, to", "the depths to search are not finite");
     if (from > to) std::swap(from, to);
     if (from == to) {
         to = farthest(fields);
@@ -140,8 +140,9 @@ DepthRange range_of(const Fields& fields, const FocusOptions& options, double de
                                   ? options.planes
                                   : std::max<std::size_t>(33, static_cast<std::size_t>(std::min(wanted, 1e9)));
     if (count < least || count > most)
-        throw Error(ErrorCode::usage, fmt::format("{} depths from {} to {} m were asked for; {} to {} are searched",
-                                                  count, from, to, least, most));
+        throw Error(ErrorCode::usage, "from, to, planes",
+                    fmt::format("{} depths from {} to {} m were asked for; {} to {} are searched", count, from, to,
+                                least, most));
     return {from, to, count};
 }
 

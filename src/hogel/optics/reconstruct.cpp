@@ -189,7 +189,8 @@ SelectedOrder select_order(const FieldSource& hologram, const OrderSelection& se
     if (selection.reference_source) {
         const Vec3 source = *selection.reference_source;
         if (source.z == 0)
-            throw Error(ErrorCode::usage, "the source of the reference wave lies in the hologram's plane");
+            throw Error(ErrorCode::usage, "reference_source",
+                        "the source of the reference wave lies in the hologram's plane");
         const double k = (source.z < 0 ? 2 : -2) * pi / order.field.grid().wavelength;
         turn(order.field, [&](double x, double y) { return k * std::hypot(x - source.x, y - source.y, source.z); });
     }
@@ -209,13 +210,14 @@ SelectedOrder select_order(const FieldSource& hologram, const OrderSelection& se
     constexpr double all = 0.75;  // beyond the corners of the spectrum, with the soft rim
     order.radius = selection.radius > 0 ? selection.radius : away > 0 ? away / 2 : all / 0.9;
     if (!(std::abs(order.frequency_x) <= 0.5 && std::abs(order.frequency_y) <= 0.5) || !std::isfinite(order.radius))
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "order",
                     fmt::format("an order at {:.4g}, {:.4g} cycles per sample lies beyond half a cycle per sample",
                                 order.frequency_x, order.frequency_y));
     if (order.radius * static_cast<double>(std::min(width, height)) < 1)
-        throw Error(ErrorCode::usage, fmt::format("an opening with the radius {:.4g} cycles per sample holds no "
-                                                  "frequency",
-                                                  order.radius));
+        throw Error(ErrorCode::usage, "aperture",
+                    fmt::format("an opening with the radius {:.4g} cycles per sample holds no "
+                                "frequency",
+                                order.radius));
     cut_out(samples, order);
     fft.backward(samples);
     progress.report(1);
@@ -225,7 +227,7 @@ SelectedOrder select_order(const FieldSource& hologram, const OrderSelection& se
 Field fourier_image(const FieldSource& hologram, double focal_length, const Progress& progress) {
     const core::StopScope scope(progress);
     if (!(std::isfinite(focal_length) && focal_length > 0))
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "focal",
                     fmt::format("a lens of focal length {} was asked for; it must be positive", focal_length));
     Field image = transformed(whole(hologram), focal_length);
     progress.report(1);

@@ -23,7 +23,7 @@ double column_carrier(double band, std::size_t columns, double pitch) {
     const double carrier = 1.0 / static_cast<double>(columns);
     if (2 * band > carrier)
         throw Error(
-            ErrorCode::usage,
+            ErrorCode::usage, "encoding",
             fmt::format("at a pitch of {} the light of the hologram reaches {:.3f} cycles a pixel, but groups "
                         "of {} columns have room for {:.3f}; a pitch of {} would do",
                         format_length(pitch), band, columns, carrier / 2, format_length(pitch * carrier / (2 * band))));
@@ -38,16 +38,17 @@ double degrees(double sine) { return std::asin(std::min(sine, 1.0)) * 180 / std:
 double reference_carrier(double band, const PatternOptions& options, double wavelength) {
     const double pitch = options.modulator.pitch, to_sine = wavelength / pitch;
     const double min_carrier = (options.encoding == Encoding::intensity ? 3 : 1) * band;
+    const char* const parameter = options.reference_angle == 0 ? "encoding" : "reference";
     const double asked = std::sin(options.reference_angle) / to_sine;
     const double carrier =
         options.reference_angle == 0 ? std::max(min_carrier, 0.5 * (min_carrier + 0.5 - band)) : asked;
     if (carrier < min_carrier * (1 - 1e-9))
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, parameter,
                     fmt::format("a reference beam at {:.2f} degrees overlaps the object, whose light reaches {:.2f} "
                                 "degrees; one at {:.2f} degrees would do",
                                 degrees(asked * to_sine), degrees(band * to_sine), degrees(min_carrier * to_sine)));
     if (carrier + band > 0.5)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, parameter,
                     fmt::format("the fringe of light to {:.2f} degrees with a reference beam at {:.2f} degrees is too "
                                 "fine for a pitch of {}; {} would do",
                                 degrees(band * to_sine), degrees(carrier * to_sine), format_length(pitch),

@@ -34,8 +34,9 @@ std::vector<std::size_t> squares_along(std::size_t side, std::size_t length) {
 void require_squares_fit(View<const Complex, 2> field, std::size_t side) {
     const std::size_t max_side = std::min(field.extent(0), field.extent(1));
     if (side < 2 || side > max_side)
-        throw Error(ErrorCode::usage, fmt::format("squares of {} pixels do not fit a modulator of {}x{}; 2 to {} do",
-                                                  side, field.extent(1), field.extent(0), max_side));
+        throw Error(ErrorCode::usage, "window",
+                    fmt::format("squares of {} pixels do not fit a modulator of {}x{}; 2 to {} do", side,
+                                field.extent(1), field.extent(0), max_side));
 }
 
 // Each square independently alternates between unit modulus and the moduli of the field's spectrum there, which are its

@@ -26,19 +26,19 @@ void require_fitting(const FieldGrid& grid, const PatternOptions& options) {
     const Modulator& modulator = options.modulator;
     if (modulator.width == 0 || modulator.height == 0 || !(modulator.pitch > 0) || modulator.levels < 2 ||
         modulator.levels > 256)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "pixel_pitch",
                     fmt::format("a modulator of {}x{} pixels at {} with {} levels cannot be; pixels "
                                 "need a pitch, and 2 to 256 levels",
                                 modulator.width, modulator.height, format_length(modulator.pitch), modulator.levels));
     for (double pitch : {grid.plane.pitch_x, grid.plane.pitch_y})
         if (std::abs(pitch - modulator.pitch) > 1e-3 * modulator.pitch)
             throw Error(
-                ErrorCode::usage,
+                ErrorCode::usage, "pixel_pitch",
                 fmt::format("the hologram's samples are {} apart, but the modulator's pixels {}; make the "
                             "hologram with hogels of whole pixels and a pitch of {}",
                             format_length(pitch), format_length(modulator.pitch), format_length(modulator.pitch)));
     if (!(options.clip >= 0 && options.clip < 1))
-        throw Error(ErrorCode::usage, "the share of samples that may be cut must lie in 0..1");
+        throw Error(ErrorCode::usage, "clip", "the share of samples that may be cut must lie in 0..1");
 }
 
 // The middle of the field, or the whole field with a dark border, in the size of the modulator.
@@ -220,7 +220,8 @@ Table<EncodingInfo>& encodings() {
             row("burckhardt", "amplitudes of three real components in successive columns", Encoding::burckhardt),
             row("lee", "amplitudes of four real components in successive columns", Encoding::lee),
             row("binary", "amplitudes 0 and 1 by the sign of the real part with a reference wave", Encoding::binary),
-        });
+        },
+        "encoding");
     return table;
 }
 

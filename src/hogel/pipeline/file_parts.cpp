@@ -15,11 +15,12 @@ namespace {
 // The rows of a part if `units` rows or groups of rows are divided as evenly as they can be.
 io::Rows rows_of(const FilePart& part, std::size_t units, const char* what) {
     if (part.number == 0 || part.number > part.count)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "part",
                     fmt::format("part {} of {} was asked for; expected one from 1", part.number, part.count));
     if (part.count > units)
-        throw Error(ErrorCode::usage, fmt::format("{} parts of {} rows of {} were asked for; expected at most {}",
-                                                  part.count, units, what, units));
+        throw Error(ErrorCode::usage, "part",
+                    fmt::format("{} parts of {} rows of {} were asked for; expected at most {}", part.count, units,
+                                what, units));
     const auto begin = [&](std::size_t number) {
         return units / part.count * number + units % part.count * number / part.count;
     };

@@ -35,7 +35,7 @@ LightField::Source interpolated(const std::shared_ptr<const ShadedScene>& scene,
                                 const LightFieldRequest& request) {
     if (request.renderer != "simplex")
         throw Error(
-            ErrorCode::usage,
+            ErrorCode::usage, "interpolate",
             fmt::format("interpolation between viewpoints is for the renderer simplex, not {}", request.renderer));
     std::shared_ptr<const LightFieldSource> fine =
         make_interpolating_renderer(scene, finer(grid, request.samples), request.interpolate * request.samples.hogel);

@@ -28,7 +28,7 @@ std::vector<std::filesystem::path> write_printer_images(const std::filesystem::p
                                                         const PrinterImageOptions& options, const Progress& progress) {
     const core::StopScope scope(progress);
     const LightField light_field = with_common_directions(rays);  // the same optics show every hogel
-    if (!(options.exposure > 0)) throw Error(ErrorCode::usage, "exposure: a positive number was expected");
+    if (!(options.exposure > 0)) throw Error(ErrorCode::usage, "exposure", "exposure: a positive number was expected");
     const LightFieldGrid& grid = light_field.grid();
     const std::size_t pictures = options.rows ? grid.hogels_t : grid.hogels();
     const std::size_t digits = std::to_string(pictures).size();

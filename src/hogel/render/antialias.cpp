@@ -117,9 +117,10 @@ class AveragedRenderer final : public Renderer {
 LightFieldGrid finer(const LightFieldGrid& grid, const SamplesPerRay& samples) {
     constexpr std::size_t max_factor = 64;
     if (samples.hogel < 1 || samples.direction < 1 || samples.hogel > max_factor || samples.direction > max_factor)
-        throw Error(ErrorCode::usage, fmt::format("{}x{} samples a ray; expected 1 to {} along a hogel and along a "
-                                                  "direction's cell",
-                                                  samples.hogel, samples.direction, max_factor));
+        throw Error(ErrorCode::usage, "samples",
+                    fmt::format("{}x{} samples a ray; expected 1 to {} along a hogel and along a "
+                                "direction's cell",
+                                samples.hogel, samples.direction, max_factor));
     LightFieldGrid fine = grid;
     fine.hogels_s *= samples.hogel;
     fine.hogels_t *= samples.hogel;

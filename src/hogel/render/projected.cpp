@@ -178,7 +178,7 @@ std::shared_ptr<const ShadedScene> projected_scene(const std::shared_ptr<const S
         cache = cache || triangle.mesh == cached;
         for (const std::uint32_t vertex : triangle.vertices)
             if (!(w_at(-scene->positions[vertex].z, focal) >= min_w))
-                throw Error(ErrorCode::usage,
+                throw Error(ErrorCode::usage, "algorithm, focal_plane",
                             fmt::format("{} needs a scene that does not reach the fixed focal plane; this one has a "
                                         "point at a depth of {}, and the plane is at {}",
                                         renderer, format_length(-scene->positions[vertex].z), format_length(focal)));

@@ -59,12 +59,15 @@ std::unique_ptr<Renderer> make_as_it_is(const RendererInfo& info, std::shared_pt
 
 Table<RendererInfo>& renderers() {
     using namespace render::baselines;
-    static Table<RendererInfo> table("renderer", [] {
-        std::vector<RendererInfo> rows{render::epi::epi_renderer(), raytrace_renderer(), zbuffer_renderer(),
-                                       oblique_renderer(), mvr_renderer()};
-        for (RendererInfo& row : render::thesis_renderers()) rows.push_back(std::move(row));
-        return rows;
-    }());
+    static Table<RendererInfo> table(
+        "renderer",
+        [] {
+            std::vector<RendererInfo> rows{render::epi::epi_renderer(), raytrace_renderer(), zbuffer_renderer(),
+                                           oblique_renderer(), mvr_renderer()};
+            for (RendererInfo& row : render::thesis_renderers()) rows.push_back(std::move(row));
+            return rows;
+        }(),
+        "algorithm");
     return table;
 }
 

@@ -147,8 +147,8 @@ const SceneCamera& find_camera(const Scene& scene, const std::string& name) {
     for (std::size_t i = 0; i < scene.cameras.size(); ++i)
         known += fmt::format("{}{}{}", i == 0 ? "" : ", ", i + 1,
                              scene.cameras[i].name.empty() ? "" : fmt::format(" '{}'", scene.cameras[i].name));
-    throw Error(ErrorCode::usage, scene.cameras.empty()
-                                      ? fmt::format("camera '{}': the scene '{}' has no cameras", name, scene.name)
+    throw Error(ErrorCode::usage, "scene_camera",
+                scene.cameras.empty() ? fmt::format("camera '{}': the scene '{}' has no cameras", name, scene.name)
                                       : fmt::format("camera '{}': unknown; expected one of {}", name, known));
 }
 

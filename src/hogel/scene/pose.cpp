@@ -39,7 +39,7 @@ Rotation with_up(Vec3 up) {
     if (up == Vec3{0, 0, -1}) return {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
     if (up == Vec3{1, 0, 0}) return {{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}};
     if (up == Vec3{-1, 0, 0}) return {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
-    throw Error(ErrorCode::usage, "up: no axis; expected x, y or z, or its opposite");
+    throw Error(ErrorCode::usage, "up", "up: no axis; expected x, y or z, or its opposite");
 }
 
 void scale_and_move(Scene& scene, double scale, Vec3 shift) {
@@ -67,7 +67,7 @@ void color(Scene& scene, const ScenePose& pose) {
         any = true;
     }
     if (!any)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "texture",
                     fmt::format("scene '{}': no texture coordinates; expected some for a texture", scene.name));
 }
 
@@ -114,7 +114,7 @@ void turn_scene(Scene& scene, const ScenePose& pose) {
 
 void place_scene(Scene& scene, const ScenePose& pose, double hologram_width) {
     if (!(pose.scale > 0 && std::isfinite(pose.scale)))
-        throw Error(ErrorCode::usage, fmt::format("scale: {}; expected a number above zero", pose.scale));
+        throw Error(ErrorCode::usage, "scale", fmt::format("scale: {}; expected a number above zero", pose.scale));
     scale_and_move(scene, pose.scale, pose.shift);
     if (pose.color || pose.texture) color(scene, pose);
     if (!pose.lights.empty()) scene.lights = pose.lights;

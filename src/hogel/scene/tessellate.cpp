@@ -95,7 +95,7 @@ class Cutter {
         append(to_.normal_coordinates, from_.normal_coordinates);
         append(to_.occlusion_coordinates, from_.occlusion_coordinates);
         if (to_.positions.size() > std::numeric_limits<Index>::max())
-            throw Error(ErrorCode::usage,
+            throw Error(ErrorCode::usage, "tessellate",
                         fmt::format("mesh '{}' with triangles cut {} times along an edge: more than 2^32 vertices",
                                     from_.name, n_));
         return static_cast<Index>(to_.positions.size() - 1);
@@ -110,7 +110,9 @@ class Cutter {
 }  // namespace
 
 Scene tessellate(const Scene& scene, std::size_t n) {
-    if (n == 0) throw Error(ErrorCode::usage, "triangles cannot be cut into 0 parts; expected 1 or more along an edge");
+    if (n == 0)
+        throw Error(ErrorCode::usage, "tessellate",
+                    "triangles cannot be cut into 0 parts; expected 1 or more along an edge");
     Scene fine = scene;
     if (n == 1) return fine;
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) fine.meshes[i] = Cutter(scene.meshes[i], n).cut();

@@ -182,7 +182,7 @@ void require_normals_to_bake(const Scene& scene) {
 Scene bake_scene(const Scene& scene, const BakeOptions& options, const Progress& progress) {
     const core::StopScope scope(progress);
     core::require_part("Embree", "baking");
-    if (options.rays == 0) throw Error(ErrorCode::usage, "baking with 0 rays a vertex; expected 1 or more");
+    if (options.rays == 0) throw Error(ErrorCode::usage, "rays", "baking with 0 rays a vertex; expected 1 or more");
     validate(scene);
     require_normals_to_bake(scene);
     if (unlit(scene).layers)

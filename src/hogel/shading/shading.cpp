@@ -61,11 +61,11 @@ void require_normals(const Scene& scene) {
 
 void require_memory(const Scene& scene, const ShadingOptions& options, double bytes) {
     if (options.shadow_map < 1 || options.shadow_map > max_texels)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "shadow_map",
                     fmt::format("shadow maps of {} texels a side; expected 1 to {}", options.shadow_map, max_texels));
     if (bytes > options.max_shadow_bytes)
         throw Error(
-            ErrorCode::usage,
+            ErrorCode::usage, "shadow_map",
             fmt::format("shadow maps of {} texels a side for {} lights take {:.3g} GB; expected at most {:.3g} GB",
                         options.shadow_map, scene.lights.size(), bytes / 1e9, options.max_shadow_bytes / 1e9));
 }
@@ -130,8 +130,9 @@ void set_geometry(const Scene& scene, bool filter_textures, ShadedScene& shaded)
 }  // namespace
 
 Table<ShadingInfo>& shading_models() {
-    static Table<ShadingInfo> table("shading model", {automatic_shading(), vertex_shading(), direct_shading(),
-                                                      shadowed_shading(), given_shading()});
+    static Table<ShadingInfo> table(
+        "shading model", {automatic_shading(), vertex_shading(), direct_shading(), shadowed_shading(), given_shading()},
+        "shading");
     return table;
 }
 

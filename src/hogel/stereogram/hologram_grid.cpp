@@ -19,15 +19,16 @@ namespace {
 // two; and it needs a sample.
 void require_hogels_that_diffract(const LightFieldGrid& light_field, double wavelength, double pitch) {
     if (wavelength > 2 * light_field.pitch)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "wavelength",
                     fmt::format("a wavelength of {} has no two directions that a hogel of {} tells apart; expected at "
                                 "most twice the hogel, {}",
                                 format_length(wavelength), format_length(light_field.pitch),
                                 format_length(2 * light_field.pitch)));
     if (pitch > 2 * light_field.pitch)
-        throw Error(ErrorCode::usage, fmt::format("a pitch of {} leaves a hogel of {} without samples; expected at "
-                                                  "most the hogel",
-                                                  format_length(pitch), format_length(light_field.pitch)));
+        throw Error(ErrorCode::usage, "pitch",
+                    fmt::format("a pitch of {} leaves a hogel of {} without samples; expected at "
+                                "most the hogel",
+                                format_length(pitch), format_length(light_field.pitch)));
 }
 
 // The method gives every ray one wave, so rays farther apart than a hogel's lobes would leave gaps.
@@ -35,7 +36,7 @@ void require_enough_directions(const LightFieldGrid& light_field, double wavelen
     const double step = wavelength / light_field.pitch;
     if (std::max(light_field.step_u(), light_field.step_v()) <= step) return;
     const auto enough = [&](double half) { return std::ceil(2 * half / step); };
-    throw Error(ErrorCode::usage,
+    throw Error(ErrorCode::usage, "method",
                 fmt::format("a hogel of {} shows directions {:.4f} apart at {}, but the light field's are {:.4f} "
                             "apart; added phases need {}x{} directions or more",
                             format_length(light_field.pitch), step, format_length(wavelength),
@@ -48,7 +49,7 @@ void require_diffraction(const LightFieldGrid& light_field, double wavelength, d
     if (needed <= possible) return;
     const auto degrees = [](double sine) { return std::asin(std::min(sine, 1.0)) * 180 / std::numbers::pi; };
     throw Error(
-        ErrorCode::usage,
+        ErrorCode::usage, "fov, pitch",
         fmt::format("a pitch of {} diffracts {} no farther than {:.2f} degrees, but the light field reaches {:.2f}; "
                     "a field of view within {:.2f} degrees of the axis or a pitch of {} or less would do",
                     format_length(pitch), format_length(wavelength), degrees(possible), degrees(needed),
@@ -59,20 +60,22 @@ void require_diffraction(const LightFieldGrid& light_field, double wavelength, d
 void require_one_row(std::span<const LightFieldGrid> faces) {
     for (const LightFieldGrid& face : faces) {
         if (face.directions_v != 1)
-            throw Error(ErrorCode::usage,
+            throw Error(ErrorCode::usage, "method",
                         fmt::format("a hologram with horizontal parallax only is made of one row of directions, but "
                                     "the light field has {}; {}x1 directions would do",
                                     face.directions_v, face.directions_u));
         if (face.face() == Face::top || face.face() == Face::bottom)
-            throw Error(ErrorCode::usage, fmt::format("a hologram with horizontal parallax only has no use for the {} "
-                                                      "face; front, left and right would do",
-                                                      face_name(face.face())));
+            throw Error(ErrorCode::usage, "method",
+                        fmt::format("a hologram with horizontal parallax only has no use for the {} "
+                                    "face; front, left and right would do",
+                                    face_name(face.face())));
     }
 }
 
 // The number of lines of a hogel that has `samples` along each line.
 std::size_t lines_per_hogel(std::span<const LightFieldGrid> faces, double line_pitch, std::size_t samples) {
-    if (!(line_pitch >= 0)) throw Error(ErrorCode::usage, "the distance of a hologram's lines must be positive");
+    if (!(line_pitch >= 0))
+        throw Error(ErrorCode::usage, "line_pitch", "the distance of a hologram's lines must be positive");
     require_one_row(faces);
     if (line_pitch == 0) return samples;
     return samples_per_hogel(faces.front(), line_pitch);
@@ -83,7 +86,7 @@ void require_supported(std::span<const LightFieldGrid> faces, const HologramOpti
     const bool sides = std::holds_alternative<Fourier>(options.method) ||
                        std::holds_alternative<Lines>(options.method) || std::holds_alternative<Basis>(options.method);
     if (faces.size() > 1 && !sides)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "method",
                     fmt::format("a hemicube of {} faces needs the method fourier, lines, basis or basis-lines; others "
                                 "take a light field of one face",
                                 faces.size()));
@@ -100,7 +103,7 @@ FieldGrid hologram_grid(std::span<const LightFieldGrid> faces, const HologramOpt
     require_common_directions(front, ErrorCode::usage, "a hologram");
     const auto& [wavelength, channel] = options.channel;
     if (!(options.pitch > 0) || !(wavelength > 0))
-        throw Error(ErrorCode::usage, "a hologram needs a positive pitch and wavelength");
+        throw Error(ErrorCode::usage, "pitch, wavelength", "a hologram needs a positive pitch and wavelength");
     validate(FieldGrid{{1, 1, options.pitch, options.pitch, 0, 0}, wavelength}, ErrorCode::usage, "hologram");
     if (channel >= front.channels)
         throw Error(ErrorCode::usage,

@@ -33,7 +33,8 @@ Table<HologramMethodInfo>& hologram_methods() {
             row("phase-added", "a wave a ray in the phase of its point, on the nearest frequency", PhaseAdded{false}),
             row("phase-added-exact", "a wave a ray in the phase of its point, on its own frequency", PhaseAdded{true}),
             row("olas", "overlapping windows around the hogels, added up", OverlapAdd{}),
-        });
+        },
+        "method");
     return methods;
 }
 

@@ -269,7 +269,7 @@ NarrowBand::NarrowBand(const FieldGrid& hologram, Vec3 eye, double pupil)
     const double pitch = std::max(full.pitch_x, full.pitch_y);
     const double fits = 1 / (pitch * needed);
     if (fits < 1)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "pupil, pitch",
                     fmt::format("a pupil of {} at {} takes in more than a hologram with a pitch of {} can hold; "
                                 "a pupil of {} or a pitch of {} would do",
                                 format_length(pupil), format_length(eye.z), format_length(pitch),

@@ -101,7 +101,8 @@ class DecodedStream {
         const StreamInfo& info = reader.info();
         const std::size_t all = info.layer_ends.size();
         if (wanted > all)
-            throw Error(ErrorCode::usage, fmt::format("{} layers were asked for, expected 1 to {}", wanted, all));
+            throw Error(ErrorCode::usage, "layers",
+                        fmt::format("{} layers were asked for, expected 1 to {}", wanted, all));
         if (wanted == 0) wanted = all;
         if (wanted > info.layers_there)
             reader.damaged(fmt::format("it is truncated: it has {} of {} layers", info.layers_there, all));

@@ -38,7 +38,7 @@ Array<double, 2> bytes_of_hogels(const std::filesystem::path& path, std::size_t 
     const StreamReader reader(path);
     const StreamInfo& info = reader.info();
     if (layers > info.layers_there)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "layers",
                     fmt::format("{}: {} layers were asked for; it has {}", path.string(), layers, info.layers_there));
     if (layers == 0) layers = info.layers_there;
     Array<double, 2> of_hogels(Shape<2>{info.grid.hogels_t, info.grid.hogels_s});

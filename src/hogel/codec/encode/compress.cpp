@@ -74,7 +74,7 @@ CodingMethod method_for(const CompressionOptions& options) {
     CodingMethod method = options.method;
     if (is_exact(options.target)) {
         if (method != CodingMethod{})
-            throw Error(ErrorCode::usage,
+            throw Error(ErrorCode::usage, "coder, lossless, max_error",
                         fmt::format("coder {} can neither bound the error of every sample nor be lossless; expected "
                                     "hogel",
                                     method.coder));
@@ -86,13 +86,15 @@ CodingMethod method_for(const CompressionOptions& options) {
     if (coder.three_pass) return method;
     const auto* const rate = std::get_if<PixelsPerBit>(&options.target);
     if (rate && rate->rule != RateRule::search)
-        throw Error(ErrorCode::usage, fmt::format("coder {} has no rule that finds a step for a rate; expected "
-                                                  "threepass or fringes, or the search",
-                                                  coder.name));
+        throw Error(ErrorCode::usage, "rule",
+                    fmt::format("coder {} has no rule that finds a step for a rate; expected "
+                                "threepass or fringes, or the search",
+                                coder.name));
     if (method.symbols != ZerotreeSymbols::bits)
-        throw Error(ErrorCode::usage, fmt::format("coder {} has no alphabets of zerotrees; expected threepass or "
-                                                  "fringes",
-                                                  coder.name));
+        throw Error(ErrorCode::usage, "symbols",
+                    fmt::format("coder {} has no alphabets of zerotrees; expected threepass or "
+                                "fringes",
+                                coder.name));
     return method;
 }
 
@@ -109,18 +111,20 @@ Companding companding_for(const LightField& light_field, const CompressionOption
     Companding companding;
     if (!options.tone_decades && options.chrominance == 1) return companding;
     if (is_exact(options.target))
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "tone, chrominance",
                     "tone mapping and coarser chrominance neither bound the error of every sample nor are lossless; "
                     "expected an SQNR, a rate or a step");
     if (!(options.chrominance >= 1 && options.chrominance <= Companding::max_chrominance))
-        throw Error(ErrorCode::usage, fmt::format("chrominance {} times as coarse was asked for, expected 1 to {}",
-                                                  options.chrominance, Companding::max_chrominance));
+        throw Error(ErrorCode::usage, "chrominance",
+                    fmt::format("chrominance {} times as coarse was asked for, expected 1 to {}", options.chrominance,
+                                Companding::max_chrominance));
     if (options.chrominance != 1 && light_field.grid().channels != 3)
-        throw Error(ErrorCode::usage, "coarser chrominance was asked for of a light field of one channel, expected 3");
+        throw Error(ErrorCode::usage, "chrominance",
+                    "coarser chrominance was asked for of a light field of one channel, expected 3");
     companding.chrominance = static_cast<float>(options.chrominance);
     if (!options.tone_decades) return companding;
     if (!(*options.tone_decades >= 0.1 && *options.tone_decades <= 20))
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "tone_decades",
                     fmt::format("tone mapping to {} decades was asked for, expected 0.1 to 20", *options.tone_decades));
     companding.tone = tone_curve_of(luminance_histogram(light_field, progress), *options.tone_decades);
     return companding;

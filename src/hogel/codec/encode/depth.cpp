@@ -110,7 +110,7 @@ StreamInfo::Depth compress_depth(
     if (!light_field.has_depth()) throw Error(ErrorCode::usage, "depth was asked for, but the light field has none");
     std::optional<double> bound = options.depth_error;
     if (bound && !(*bound >= 0 && std::isfinite(*bound)))
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "depth_error",
                     fmt::format("an error of depth of {} m was asked for, expected 0 or a positive one", *bound));
     if (!bound && std::holds_alternative<Lossless>(options.target)) bound = 0;
     const DepthCoding coding = depth_coding(light_field, bound);

@@ -34,13 +34,21 @@ std::string describe(const CompressionTarget& target) {
         target);
 }
 
+const char* parameter_of(const CompressionTarget& target) {
+    return std::visit(Overloaded{[](const Sqnr&) { return "sqnr"; }, [](const PixelsPerBit&) { return "ppb"; },
+                                 [](const Step&) { return "step"; }, [](const MaxError&) { return "max_error"; },
+                                 [](const Lossless&) { return "lossless"; }},
+                      target);
+}
+
 bool positive(double value) { return value > 0 && std::isfinite(value); }
 
 }  // namespace
 
 void check(const CompressionTarget& target) {
     const auto refuse = [&](const char* expected) {
-        throw Error(ErrorCode::usage, fmt::format("{} was asked for; expected {}", describe(target), expected));
+        throw Error(ErrorCode::usage, parameter_of(target),
+                    fmt::format("{} was asked for; expected {}", describe(target), expected));
     };
     std::visit(Overloaded{[&](const Sqnr& t) {
                               if (!(t.decibels > 0 && t.decibels <= 120)) refuse("more than 0 and at most 120 dB");
@@ -48,11 +56,11 @@ void check(const CompressionTarget& target) {
                           [&](const PixelsPerBit& t) {
                               if (!positive(t.rate)) refuse("a positive number");
                               if (t.overhead && !(*t.overhead >= 0 && *t.overhead <= max_overhead))
-                                  throw Error(ErrorCode::usage,
+                                  throw Error(ErrorCode::usage, "overhead",
                                               fmt::format("an overhead of {} bits was asked for, expected 0 to {}",
                                                           *t.overhead, max_overhead));
                               if (t.overhead && t.rule == RateRule::search)
-                                  throw Error(ErrorCode::usage,
+                                  throw Error(ErrorCode::usage, "overhead",
                                               "an overhead was asked for of a rate that is searched for; expected the "
                                               "rule of a histogram");
                           },
@@ -85,7 +93,7 @@ double likely_step(const CompressionTarget& target, double rms) {
 double bytes_of_rate(const PixelsPerBit& target, double rays, double samples) {
     const double bytes = std::floor(rays / target.rate / 8);
     if (8 * bytes > max_bits_of_sample * samples)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "ppb",
                     fmt::format("{} was asked for, which is more than {} bits a sample; expected at least {:.3g} "
                                 "pixels per bit, or lossless coding",
                                 describe(target), max_bits_of_sample, rays / (max_bits_of_sample * samples)));
@@ -100,7 +108,7 @@ double step_by_rule(const PixelsPerBit& target, ZerotreeSymbols symbols, const c
 
 void refuse_rate(const PixelsPerBit& target, double bytes, std::uint64_t nearest) {
     const bool larger = static_cast<double>(nearest) < bytes;
-    throw Error(ErrorCode::usage,
+    throw Error(ErrorCode::usage, "ppb",
                 fmt::format("{} was asked for, which is {} bytes; the {} file of this light field has {} bytes{}",
                             describe(target), bytes, larger ? "largest" : "smallest", nearest,
                             larger ? " unless it is coded without loss" : ""));
@@ -112,7 +120,7 @@ void check_quality(const CompressionTarget& target, const CodingOutcome& outcome
     const bool too_fine = outcome.error > max_steps * max_steps * step * step * outcome.samples;
     const auto* const sqnr = std::get_if<Sqnr>(&target);
     if (!too_fine && !(sqnr && outcome.sqnr() < sqnr->decibels)) return;
-    throw Error(ErrorCode::usage,
+    throw Error(ErrorCode::usage, parameter_of(target),
                 fmt::format("{} was asked for, which is finer than coder {} can be here: it would have {:.2f} dB; "
                             "expected a coarser target, or lossless coding",
                             describe(target), coder, outcome.sqnr()));

@@ -119,7 +119,7 @@ coding::MagnitudeHistogram TileCompression::magnitudes() {
     for (const CodedPart& part : parts_) {
         counters.push_back(dynamic_cast<const CountsMagnitudes*>(part.coder.get()));
         if (!counters.back())
-            throw Error(ErrorCode::usage,
+            throw Error(ErrorCode::usage, "rule",
                         "a rate by the rule of a histogram was asked for; expected coder threepass or fringes, and "
                         "another layout than stacked");
     }

@@ -77,7 +77,7 @@ StreamWriter::StreamWriter(const std::filesystem::path& path, const StreamHeader
       depth_(depth) {
     for (const LightFieldGrid& part : coded_parts(info))
         if (!tile_fits(part, info.tile))
-            throw Error(ErrorCode::usage,
+            throw Error(ErrorCode::usage, "tile",
                         fmt::format("{}: tiles of {}x{} hogels; expected at least 1x1, no more than the light field "
                                     "has, and at most {} samples in each",
                                     path.string(), info.tile.ns, info.tile.nt, max_tile_samples));

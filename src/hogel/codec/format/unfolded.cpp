@@ -13,7 +13,8 @@ namespace {
 const LightFieldGrid& face_of(std::span<const LightFieldGrid> faces, Face face) {
     const auto found = std::ranges::find(faces, face, &LightFieldGrid::face);
     if (found == faces.end())
-        throw Error(ErrorCode::usage, "only a hemicube of five faces can be unfolded; expected the layout faces");
+        throw Error(ErrorCode::usage, "hemicube",
+                    "only a hemicube of five faces can be unfolded; expected the layout faces");
     return *found;
 }
 
@@ -114,7 +115,7 @@ Unfolding::Unfolding(std::span<const LightFieldGrid> faces) {
         if (const bool beside = side == &left || side == &right;
             faces.size() != all_faces.size() || !same_hogels(*side, front) ||
             (beside ? side->directions_v != front.directions_v : side->directions_u != front.directions_u))
-            throw Error(ErrorCode::usage,
+            throw Error(ErrorCode::usage, "hemicube",
                         "only a hemicube whose sides are as long as the edges of its front can be unfolded; expected "
                         "the layout faces");
     cross_ = {left.directions_u, left.directions_u + front.directions_u, top.directions_v,

@@ -159,8 +159,9 @@ ViewSet open(const fs::path& source, const ViewOptions& options) {
     set.geometry.orthographic = options.orthographic.value_or(false);
     if (options.columns == 0) return set;
     if (options.columns * options.rows != set.columns)
-        throw Error(ErrorCode::usage, fmt::format("{}: {}x{} views were asked for, but there are {}", source.string(),
-                                                  options.columns, options.rows, set.columns));
+        throw Error(ErrorCode::usage, "views",
+                    fmt::format("{}: {}x{} views were asked for, but there are {}", source.string(), options.columns,
+                                options.rows, set.columns));
     return reordered(std::move(set), options.rows, options.columns, [=](std::size_t row, std::size_t column) {
         return std::pair(std::size_t{0}, row * options.columns + column);
     });

@@ -114,7 +114,7 @@ ViewSet open(const fs::path& source, const ViewOptions& options) {
     std::optional<Tiling> tiling = tiling_of(source);
     if (options.columns > 0) tiling = Tiling{options.columns, options.rows, tiling ? tiling->aspect : 0};
     if (!tiling)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "views",
                     fmt::format("{}: the name of a quilt ends like _qs8x6a0.75; with another name the "
                                 "number of columns and rows of views is needed",
                                 source.string()));
@@ -204,7 +204,7 @@ class Writer final : public ViewWriter {
 std::unique_ptr<ViewWriter> create(const ViewTarget& target) {
     if (target.rows > 1)
         throw Error(
-            ErrorCode::usage,
+            ErrorCode::usage, "layout",
             fmt::format("a quilt holds one row of cameras; this light field has {} rows of views", target.rows));
     return std::make_unique<Writer>(target);
 }

@@ -59,10 +59,11 @@ std::shared_ptr<const FieldSource> open_external_field(const std::filesystem::pa
     const Format format = format_of(path);
     if (format == Format::picture) return open_picture_field(path, what);
     if (!what.imaginary.empty() || !what.phases.empty())
-        throw Error(ErrorCode::usage, fmt::format("'{}' holds whole fields; {} of their own go with a picture",
-                                                  path.string(), what.phases.empty() ? "imaginary parts" : "phases"));
+        throw Error(ErrorCode::usage, what.phases.empty() ? "imaginary" : "phases",
+                    fmt::format("'{}' holds whole fields; {} of their own go with a picture", path.string(),
+                                what.phases.empty() ? "imaginary parts" : "phases"));
     if (what.zero)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "zero",
                     fmt::format("'{}' holds whole fields; a zero level is one of pictures", path.string()));
     switch (format) {
         case Format::npy:

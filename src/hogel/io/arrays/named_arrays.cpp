@@ -103,7 +103,7 @@ Chosen chosen(const std::filesystem::path& path, const std::string& variable, co
     // One complex array among real ones, such as the picture that a hologram was made of.
     if (std::ranges::count_if(fields, [](const NumberArray* array) { return array->complex; }) == 1)
         return of_one(**std::ranges::find_if(fields, [](const NumberArray* a) { return a->complex; }));
-    throw Error(ErrorCode::usage,
+    throw Error(ErrorCode::usage, "variable",
                 fmt::format("'{}' holds several arrays; which one is meant of {}?", path.string(), names_of(fields)));
 }
 

@@ -87,20 +87,20 @@ SampleConverter::SampleConverter(const std::filesystem::path& path, const Extern
       code_(what.phase_code) {
     using Values = ExternalField::Values;
     if (content != Content::real && what.values != Values::complex)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "values",
                     fmt::format("'{}' holds {}, not {}", path.string(),
                                 content == Content::complex ? "complex numbers" : "amplitudes and phases",
                                 what.values == Values::phase       ? "phases"
                                 : what.values == Values::amplitude ? "amplitudes"
                                                                    : "pairs of real numbers"));
     if (content == Content::real && what.values == Values::complex)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "values",
                     fmt::format("'{}' holds real numbers: are they amplitudes or phases?", path.string()));
     if (content == Content::real && (what.values == Values::real_imaginary || what.values == Values::amplitude_phase))
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "values",
                     fmt::format("'{}' holds one real number a sample, not pairs of them", path.string()));
     if (!phases_ && code_)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "phase_code",
                     fmt::format("'{}' is not read as phases, so no phase code applies to it", path.string()));
     const Number number = content == Content::real ? first : second;
     if (!phases_ || !is_whole(number)) return;
@@ -109,7 +109,7 @@ SampleConverter::SampleConverter(const std::filesystem::path& path, const Extern
                       "whole numbers with a sign or of more than 16 bits do not say which one is a whole turn of "
                       "phase; uint8, uint16 and floats from 0 to 1 do");
     if (!code_)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "phase_code",
                     fmt::format("'{}' holds phases as whole numbers: in which phase code are they?", path.string()));
     largest_ = number == Number::boolean ? 1 : number == Number::uint8 ? 255 : 65535;
 }
@@ -134,9 +134,10 @@ std::complex<float> SampleConverter::operator()(double first, double second) con
 Content take_pairs(const std::filesystem::path& path, ExternalField& what) {
     using Values = ExternalField::Values;
     if (what.values != Values::real_imaginary && what.values != Values::amplitude_phase)
-        throw Error(ErrorCode::usage, fmt::format("'{}' holds pairs of real numbers: are they real and imaginary "
-                                                  "parts, or amplitudes and phases?",
-                                                  path.string()));
+        throw Error(ErrorCode::usage, "values",
+                    fmt::format("'{}' holds pairs of real numbers: are they real and imaginary "
+                                "parts, or amplitudes and phases?",
+                                path.string()));
     const bool complex = what.values == Values::real_imaginary;
     what.values = Values::complex;
     return complex ? Content::complex : Content::amplitude_phase;

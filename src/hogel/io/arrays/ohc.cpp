@@ -104,7 +104,7 @@ std::unique_ptr<FieldSource> open_ohc(const std::filesystem::path& path, const E
     const std::vector<unsigned char> bytes = all_bytes(path);
     const OhcFile file = parse(path, bytes);
     if (what.values != ExternalField::Values::complex || what.phase_code)
-        throw Error(ErrorCode::usage, fmt::format("'{}' says itself what its numbers are", path.string()));
+        throw Error(ErrorCode::usage, "values", fmt::format("'{}' says itself what its numbers are", path.string()));
     ExternalField meant = what;
     if (file.parts == Parts::amplitude) meant.values = ExternalField::Values::amplitude;
     if (file.parts == Parts::phase) meant.values = ExternalField::Values::phase;

@@ -43,7 +43,7 @@ ExternalFacts facts_of(const RawChannels& picture) {
 
 std::filesystem::path second_picture(const std::filesystem::path& path, const ExternalField& what) {
     if (!what.imaginary.empty() && !what.phases.empty())
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "imaginary, phases",
                     fmt::format("'{}': a field has either imaginary parts or phases beside it", path.string()));
     return what.imaginary.empty() ? what.phases : what.imaginary;
 }
@@ -92,7 +92,7 @@ std::unique_ptr<FieldSource> open_picture_field(const std::filesystem::path& pat
     const std::filesystem::path second_path = second_picture(path, what);
     const bool two = !second_path.empty();
     if (what.zero && what.imaginary.empty())
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "zero",
                     fmt::format("'{}': a zero level is one of real and imaginary parts", path.string()));
     const RawChannels first = read_raw_channels(path), second = two ? read_raw_channels(second_path) : first;
     if (second.values.extent(0) != first.values.extent(0) || second.values.extent(1) != first.values.extent(1))

@@ -283,12 +283,12 @@ Tiling tiling_of(const FieldGrid& field, double distance, const Grid& output) {
 Grid output_of(const FieldGrid& field, double distance, const PropagateOptions& options) {
     validate(field, ErrorCode::usage, "propagated field");
     if (!std::isfinite(distance))
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "distance",
                     fmt::format("a field cannot be propagated by {} m; the distance must be finite", distance));
     const Grid output = options.output.value_or(field.plane);
     validate(FieldGrid{output, field.wavelength}, ErrorCode::usage, "output of the propagation");
     if (!std::isfinite(output.center_x) || !std::isfinite(output.center_y))
-        throw Error(ErrorCode::usage, "the centre of the propagation's output must be finite");
+        throw Error(ErrorCode::usage, "offset_x, offset_y", "the centre of the propagation's output must be finite");
     return output;
 }
 

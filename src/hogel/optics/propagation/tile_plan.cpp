@@ -99,7 +99,7 @@ void set_period(const TilePlan& plan, AxisPlan& axis, double other_frequency) {
                                (edge.high - edge.low) / max_edge_path});
     const double samples = wanted / axis.field.step;
     if (!(samples < 1e12))
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "output_pitch, output_samples, offset_x, offset_y",
                     fmt::format("an output {} from the field's middle and {} wide is too large to compute",
                                 format_length(axis.middle),
                                 format_length(static_cast<double>(axis.output.count) * axis.output.step)));
@@ -177,7 +177,7 @@ std::pair<std::size_t, std::size_t> lit_samples(const TilePlan& plan, const Axis
     const std::size_t next = std::min(first_from(output, 0), output.count - 1);
     const double nearest = std::min(position(next), position(next == 0 ? 0 : next - 1));
     if (!plan.evanescent && nearest > cone)
-        throw Error(ErrorCode::usage,
+        throw Error(ErrorCode::usage, "output_pitch, output_samples, offset_x, offset_y",
                     fmt::format("no light reaches the output: samples {} apart diffract by at most {} {} over {}, and "
                                 "the output begins {} from the field",
                                 format_length(axis.field.step), format_length(widest), across,

@@ -199,7 +199,7 @@ void add_disc(Vec3 middle, Vec3 normal, double radius, Mesh& mesh) {
 
 Mesh discs(const Points& points, double size) {
     if (!(size > 0 && std::isfinite(size)))
-        throw Error(ErrorCode::usage, fmt::format("points of size {}; expected a size above zero", size));
+        throw Error(ErrorCode::usage, "point_size", fmt::format("points of size {}; expected a size above zero", size));
     const std::size_t count = points.positions.size();
     for (std::size_t i = 0; i < count; ++i)
         if (const Vec3 p = points.positions[i]; !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))

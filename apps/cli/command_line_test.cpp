@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "command_line.h"
+
+#include <gtest/gtest.h>
+
+#include "error_parameters.h"
+#include "session.h"
+
+namespace hogel::cli {
+namespace {
+
+double pupil = 0, f_number = 0, depth = 0;
+
+void add_photo(Command& command, Session&) {
+    command.positive_length("--pupil", pupil, "");
+    command.number("--f-number", f_number, "NUMBER", "").sets_parameter("pupil");
+    command.length("--focal-plane", depth, "");
+    command.work([] { return 0; });
+}
+
+// What `hogel photo` of these arguments says of an error.
+std::string description(std::vector<const char*> arguments, const Error& error) {
+    const CommandInfo photo{"photo", "", add_photo};
+    Session session;
+    CommandLine line({&photo, 1}, session);
+    arguments.insert(arguments.begin(), {"hogel", "photo"});
+    return line.parse(static_cast<int>(arguments.size()), arguments.data())->describe(error);
+}
+
+TEST(Command, names_the_option_of_the_name_of_a_parameter_whether_given_or_not) {
+    const Error error(ErrorCode::usage, "focal_plane", "too near");
+    EXPECT_EQ(description({}, error), "--focal-plane: too near");
+    EXPECT_EQ(description({"--focal-plane", "1mm"}, error), "--focal-plane: too near");
+}
+
+TEST(Command, names_those_options_that_were_given_and_set_a_parameter) {
+    const Error error(ErrorCode::usage, "pupil", "too wide");
+    EXPECT_EQ(description({}, error), "--pupil: too wide");
+    EXPECT_EQ(description({"--f-number", "2"}, error), "--f-number: too wide");
+    EXPECT_EQ(description({"--f-number", "2", "--pupil", "4mm"}, error), "--pupil, --f-number: too wide");
+}
+
+TEST(Command, names_options_of_all_parameters_and_no_others) {
+    EXPECT_EQ(description({}, Error(ErrorCode::usage, "pupil, focal_plane, pitch", "no")),
+              "--pupil, --focal-plane: no");
+    EXPECT_EQ(description({}, Error(ErrorCode::usage, "no")), "no");
+    EXPECT_EQ(description({}, Error(ErrorCode::bad_input, "pupil", "no")), "no");
+}
+
+// The parameter of the error that the work throws.
+template <class Work>
+std::string parameter_of(const Work& work) {
+    try {
+        work();
+    } catch (const Error& error) {
+        return error.parameter();
+    }
+    return "no error";
+}
+
+TEST(ErrorParameters, are_added_where_there_is_none) {
+    const auto throws = [](const char* parameter) { throw Error(ErrorCode::usage, parameter, "no"); };
+    EXPECT_EQ(parameter_of([&] { with_parameter("size", [&] { throws(""); }); }), "size");
+    EXPECT_EQ(parameter_of([&] { with_parameter("size", [&] { throws("fov"); }); }), "fov");
+}
+
+TEST(ErrorParameters, are_renamed_or_dropped) {
+    const auto throws = [] { throw Error(ErrorCode::usage, "fov, pitch", "no"); };
+    EXPECT_EQ(parameter_of([&] { with_renamed_parameter("pitch", "output_pitch", throws); }), "fov, output_pitch");
+    EXPECT_EQ(parameter_of([&] { with_renamed_parameter("fov", "", throws); }), "pitch");
+    EXPECT_EQ(parameter_of([&] { with_renamed_parameter("size", "", throws); }), "fov, pitch");
+}
+
+}  // namespace
+}  // namespace hogel::cli
