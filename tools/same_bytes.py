@@ -76,7 +76,7 @@ of_scene.h5     hologram pumpkin {SIZE}
 points.h5       hologram tower --hogels 8x8 --size 1mm --method points --spacing 60um
 visible.h5      hologram tower --hogels 8x8 --size 1mm --method points-visible --spacing 60um
 planes.h5       hologram tower --hogels 8x8 --size 1mm --method planes
-polygons.h5     hologram tower --hogels 8x8 --size 1mm --method polygons
+polygons.h5     hologram plane --hogels 8x8 --size 1mm --method polygons
 rays.exr        photo rays.h5 {CAMERA} --pupil-samples 16 --focus 20mm
 scene.exr       photo tower {SIZE} {CAMERA} --geometric --pupil-samples 8
 eye.exr         photo rays.h5 {CAMERA} --wave --looks 3 --camera eye
@@ -124,7 +124,7 @@ int main() { for (const int64_t target : hwy::SupportedAndGeneratedTargets()) st
 """
 # Scripts whose subject is time, the network, or files that are made with the time of day.
 NOT_COMPARED = {"view.txt", "json.txt", "manual.txt", "options.txt", "provenance.txt", "provenance_photo.txt"}
-TIMES = re.compile(r"\b[\d.]+ ?(s|ms|min|minutes?|seconds?|h)\b|\d[\d.,]* [kMG]?B/s|\"seconds\": *[\d.e+-]+")
+TIMES = re.compile(r"\b[\d.]+ ?(s|ms|min|minutes?|seconds?|h)\b|\d[\d.,]* [kMG]?B/s|\"(seconds|threads)\": *[\d.e+-]+|\d+ threads")
 
 
 def png_pixels(data):

@@ -63,7 +63,7 @@ void add_camera_options(Command& command, CameraOptions& options) {
         .positive()
         .excludes(pupil)
         .sets_parameter("pupil");
-    command.positive_length("--focal-length", options.focal_length, "With --f-number").sets_parameter("pupil");
+    command.positive_length("--focal-length", options.focal_length, "With --f-number");
     command.angle("--angle-of-view", options.angle_of_view, "Across; 0deg: what shows the hologram")
         .sets_parameter("resolution");
     command.resolution("--resolution", options.resolution, "Pixels across, or across and down");

@@ -67,7 +67,8 @@ void add_cameras(Command& command, Session& session) {
     command.counts("--directions", options->directions, "Columns and rows of cameras");
     command.angles("--fov", options->field_of_view,
                    "Full angles that rows and columns of cameras span from the hologram");
-    command.positive_length("--distance", options->distance, "From the cameras to the hologram");
+    command.positive_length("--distance", options->distance, "From the cameras to the hologram")
+        .sets_parameter("focal_plane");
     add_json_flag(command, session);
     command.work([options, &session] { return cameras(*options, session); });
 }

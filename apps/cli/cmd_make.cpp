@@ -287,7 +287,8 @@ int make(const Options& options, const Session& session) {
     const HologramRequest request =
         request_for(std::span(&report.light_field, 1), options.hologram, session, looks.count);
     say_pitch(request, options.hologram, session);
-    require_holograms(std::span(&report.light_field, 1), request, cameras);
+    with_renamed_parameters({{"wavelength", "hogels, size"}},
+                            [&] { require_holograms(std::span(&report.light_field, 1), request, cameras); });
     const CameraModel with = camera_model(options.camera, looks.expected);
     const std::string camera = state_plan(report.light_field, request, cameras, with, session);
     report.expected = looks.expected || is_expected_cheap(report.light_field, request, cameras, with, session);

@@ -82,7 +82,7 @@ std::vector<Image> photographs_of_hologram(const Options& options, RunRecord& re
     const Grid& plane = fields.front()->grid().plane;
     const std::vector<Camera> cameras = make_cameras(options.view, plane.size_x(), plane.size_y());
     const CameraModel model = options.camera_model();
-    with_renamed_parameter("pitch", "", [&] {  // it is that of the field
+    with_renamed_parameters({{"pitch", ""}}, [&] {  // it is that of the field
         std::vector<FieldGrid> grids;
         for (const auto& field : fields) {
             for (const Camera& camera : cameras) require_light_towards(field->grid(), camera, options.has_diffuser());

@@ -252,8 +252,8 @@ int propagate_fields(const Options& options, const Session& session) {
         propagations.push_back({.scratch = scratch, .output = output_grid(options, field->grid().plane)});
         grids.push_back({*propagations.back().output, field->grid().wavelength});
     }
-    std::vector<Result> methods = with_renamed_parameter(
-        "pitch", "output_pitch", [&] { return methods_of(fields, options, propagations, session); });
+    std::vector<Result> methods = with_renamed_parameters(
+        {{"pitch", "output_pitch"}}, [&] { return methods_of(fields, options, propagations, session); });
     state_plan(session, plan_propagation(inputs, options.distance, propagations.front()), "propagation",
                options.output);
     Stage stage(session, "propagation");

@@ -66,9 +66,9 @@ TEST(ErrorParameters, are_added_where_there_is_none) {
 
 TEST(ErrorParameters, are_renamed_or_dropped) {
     const auto throws = [] { throw Error(ErrorCode::usage, "fov, pitch", "no"); };
-    EXPECT_EQ(parameter_of([&] { with_renamed_parameter("pitch", "output_pitch", throws); }), "fov, output_pitch");
-    EXPECT_EQ(parameter_of([&] { with_renamed_parameter("fov", "", throws); }), "pitch");
-    EXPECT_EQ(parameter_of([&] { with_renamed_parameter("size", "", throws); }), "fov, pitch");
+    EXPECT_EQ(parameter_of([&] { with_renamed_parameters({{"pitch", "output_pitch"}}, throws); }), "fov, output_pitch");
+    EXPECT_EQ(parameter_of([&] { with_renamed_parameters({{"fov", ""}}, throws); }), "pitch");
+    EXPECT_EQ(parameter_of([&] { with_renamed_parameters({{"size", ""}}, throws); }), "fov, pitch");
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "error_parameters.h"
 
+#include <algorithm>
+
 namespace hogel::cli {
 
 std::vector<std::string> names_of_parameters(const std::string& parameters) {
@@ -12,6 +14,18 @@ std::vector<std::string> names_of_parameters(const std::string& parameters) {
         begin = end + separator.size();
     }
     return names;
+}
+
+std::string renamed_parameters(const std::string& parameters,
+                               std::span<const std::pair<std::string_view, std::string_view>> names) {
+    std::string renamed;
+    for (const std::string& name : names_of_parameters(parameters)) {
+        std::string_view local = name;
+        for (const auto& [from, to] : names)
+            if (from == name) local = to;
+        if (!local.empty()) renamed.append(renamed.empty() ? "" : ", ").append(local);
+    }
+    return renamed;
 }
 
 }  // namespace hogel::cli

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "hogel/error.h"
@@ -11,6 +14,10 @@ namespace hogel::cli {
 
 /// The names in Error::parameter().
 std::vector<std::string> names_of_parameters(const std::string& parameters);
+
+/// The same with other names, see with_renamed_parameters().
+std::string renamed_parameters(const std::string& parameters,
+                               std::span<const std::pair<std::string_view, std::string_view>> names);
 
 /// Calls the work. An Error(usage) that names no parameter gets this one: "hogels, directions".
 template <class Work>
@@ -23,19 +30,15 @@ auto with_parameter(const std::string& parameter, const Work& work) {
     }
 }
 
-/// Calls the work. An Error about the parameter `name` becomes one about `local`, which is what the command calls it,
-/// or empty if the command does not set it here.
+/// Calls the work. In parameters of an Error the first name of each pair becomes the second, which is what the command
+/// calls it, or several, "hogels, size", or empty if the command does not set it here.
 template <class Work>
-auto with_renamed_parameter(std::string_view name, std::string_view local, const Work& work) {
+auto with_renamed_parameters(std::initializer_list<std::pair<std::string_view, std::string_view>> names,
+                             const Work& work) {
     try {
         return work();
     } catch (const Error& error) {
-        std::string renamed;
-        for (const std::string& each : names_of_parameters(error.parameter())) {
-            const std::string_view called = each == name ? local : std::string_view(each);
-            if (!called.empty()) renamed.append(renamed.empty() ? "" : ", ").append(called);
-        }
-        throw Error(error.code(), renamed, error.what());
+        throw Error(error.code(), renamed_parameters(error.parameter(), names), error.what());
     }
 }
 

@@ -130,7 +130,8 @@ LightFieldGrid RenderOptions::grid() const {
         grid.directions_v = static_cast<std::size_t>(down);
         grid.view = Frequencies{{0.5 * across * step, 0.5 * down * step}};
     }
-    validate(grid, ErrorCode::usage, "light field");
+    with_renamed_parameters({{"directions", frequencies > 0 ? "frequencies" : "directions"}},
+                            [&] { validate(grid, ErrorCode::usage, "light field"); });
     return grid;
 }
 
@@ -160,7 +161,7 @@ LightFieldRequest RenderOptions::request() const {
     request.fit = !as_is;
     request.front = front;
     request.grids();
-    with_parameter("samples", [&] { finer(request.grid, request.samples); });
+    with_renamed_parameters({{"directions", "directions, samples"}}, [&] { finer(request.grid, request.samples); });
     return request;
 }
 
@@ -213,7 +214,9 @@ bool HologramChoices::record(RunRecord& record, const HologramRequest& request, 
 
 void check_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request, bool rendered,
                      std::span<const Camera> cameras) {
-    with_renamed_parameter("fov", rendered ? "fov" : "", [&] { hogel::require_holograms(faces, request, cameras); });
+    const auto check = [&] { hogel::require_holograms(faces, request, cameras); };
+    if (rendered) return check();
+    with_renamed_parameters({{"fov", ""}, {"toward", ""}, {"size", ""}, {"hogels", ""}, {"directions", ""}}, check);
 }
 
 void add_render_options(Command& command, RenderOptions& options) {
@@ -370,7 +373,8 @@ LightField render_light_field(const Session& session, const Scene& scene, const 
             record.acted({"cache-spacing"});
             break;
         }
-    return with_parameter("algorithm", [&] { return hogel::render_light_field(lit, options.request()); });
+    return with_parameter(options.frequencies > 0 ? "algorithm, frequencies" : "algorithm",
+                          [&] { return hogel::render_light_field(lit, options.request()); });
 }
 
 void require_memory(const Session& session, const LightField& rendered, const RenderOptions& options,

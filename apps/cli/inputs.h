@@ -71,7 +71,7 @@ struct HologramChoices {
     /// so that their number acts on a photograph.
     bool record(RunRecord& record, const HologramRequest& request, const LightFieldGrid& front) const;
 };
-/// As hogel::require_holograms(), whose errors then name the options.
+/// As hogel::require_holograms(), whose errors name only parameters that act here.
 /// @param rendered  whether a scene becomes the light field by options, too
 void check_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request, bool rendered,
                      std::span<const Camera> cameras = {});

@@ -44,7 +44,8 @@ unsigned bits_for(const LightField& light_field, const ViewExportOptions& option
 std::string format_for(const LightField& light_field, const ViewExportOptions& options) {
     static const std::vector<std::string> known{"png", "ppm", "pfm", "exr"};
     if (!options.format.empty()) {
-        if (std::ranges::count(known, options.format) == 0) throw_unknown("picture format", options.format, known);
+        if (std::ranges::count(known, options.format) == 0)
+            throw_unknown("picture format", options.format, known, "pictures");
         return options.format;
     }
     const std::string bits = options.bits != 0 ? fmt::format("{}", options.bits) : stored(light_field, "views bits");

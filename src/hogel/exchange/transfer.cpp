@@ -16,7 +16,7 @@ const std::vector<std::string>& transfer_names() {
 std::optional<Transfer> transfer_named(const std::string& name) {
     if (name.empty()) return {};
     const auto found = std::ranges::find(transfer_names(), name);
-    if (found == transfer_names().end()) throw_unknown("transfer", name, transfer_names());
+    if (found == transfer_names().end()) throw_unknown("transfer", name, transfer_names(), "transfer");
     return static_cast<Transfer>(found - transfer_names().begin());
 }
 

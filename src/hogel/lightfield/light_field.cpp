@@ -152,10 +152,9 @@ void require_common_directions(const LightFieldGrid& grid, ErrorCode code, const
 void require_perspective(const LightFieldGrid& grid, ErrorCode code, const std::string& what) {
     require_common_directions(grid, code, what);
     if (!grid.is_perspective())
-        throw Error(code, "algorithm, frequencies",
-                    fmt::format("{} needs directions in perspective, uniform in tangents; these are uniform in "
-                                "sines, on the frequency grid of a hologram",
-                                what));
+        throw Error(code, fmt::format("{} needs directions in perspective, uniform in tangents; these are uniform in "
+                                      "sines, on the frequency grid of a hologram",
+                                      what));
 }
 
 Perspective field_of_view(double across, double down, double toward_right, double toward_up) {
