@@ -91,9 +91,10 @@ double band_along_x(View<const Complex, 2> field) {
         }
     }
     double within = 0;
-    for (std::size_t j = 0; j < power.size(); ++j)
-        if ((within += power[j]) >= share_within_band * all)
-            return (static_cast<double>(j) + 0.5) / static_cast<double>(width);
+    for (std::size_t j = 0; j < power.size(); ++j) {
+        within += power[j];
+        if (within >= share_within_band * all) return (static_cast<double>(j) + 0.5) / static_cast<double>(width);
+    }
     return 0.5;
 }
 
