@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "arguments.h"
-#include "error_parameters.h"
 #include "hogel/error.h"
 #include "hogel/units.h"
 

@@ -45,7 +45,7 @@ class Option {
     Option positive() const;
     /// A variable that becomes true if the option is given.
     Option sets(bool& given) const;
-    /// The option sets a parameter of another name, too, of which errors speak: --to-focus sets "focus".
+    /// The option also sets a parameter of another name, see Error::parameter(): --to-focus sets "focus".
     Option sets_parameter(const std::string& parameter) const;
 
   private:
@@ -117,8 +117,8 @@ class Command {
     /// Whether an option ("--pitch") is on the command line.
     bool given(const std::string& name) const;
 
-    /// The message of an error. It begins with the options that set the error's parameters: those that were given, or
-    /// else the first one: "--eye, --pitch: the eye sees ...".
+    /// The message of an error, after the options that set its parameters: "--eye, --pitch: the eye sees ...". Of the
+    /// options that set one parameter it names the given ones, or the first one if none is given.
     std::string describe(const Error& error) const;
 
     /// Every option, without dashes, and its value as text, as typed or the default; "yes" or "no" for a flag.

@@ -16,7 +16,7 @@ namespace {
 // Work on another program's field, whose errors then name the options that say what is missing.
 template <class Work>
 auto with_field_options(const FieldOptions& options, const Work& work) {
-    return with_renamed_parameters({{"phase_code", options.code_parameter()}}, work);
+    return with_renamed_parameters({{"phase_code", std::string_view(options.code_option).substr(2)}}, work);
 }
 
 // Throws where options of other programs' fields are given for a hologram of hogel.

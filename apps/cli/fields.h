@@ -17,9 +17,6 @@ struct FieldOptions {
     double aperture = 0, focal = 0;
     Vec3 reference_source;
 
-    /// The name of `code_option` in errors.
-    std::string code_parameter() const { return code_option == "--phase-code" ? "phase_code" : "input_phase_code"; }
-
     double pitch = 0;                 ///< where the command has no --pitch of its own
     std::vector<double> wavelengths;  ///< likewise
 };

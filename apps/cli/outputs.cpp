@@ -8,7 +8,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "error_parameters.h"
 #include "hogel/compress.h"
 #include "hogel/error.h"
 #include "hogel/units.h"

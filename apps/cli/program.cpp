@@ -39,7 +39,7 @@ int run(std::span<const CommandInfo> commands, int argc, char** argv, Session& s
     const Stoppable stoppable(Progress(session.stop.get_token()));
     try {
         return session.command->run();
-    } catch (const Error& error) {
+    } catch (const Error& error) {  // here, because the command ends with its command line
         throw Error(error.code(), session.command->describe(error));
     }
 }

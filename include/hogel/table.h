@@ -21,7 +21,7 @@ HOGEL_API std::string nearest_word(std::string_view word, std::span<const std::s
 
 /// Throws Error(usage) because no `kind` ("renderer") of that name exists. The message gives the nearest name and all
 /// names that exist.
-/// @param parameter  of which the name is a value, see Error::parameter()
+/// @param parameter  the parameter whose value the name is, see Error::parameter()
 [[noreturn]] HOGEL_API void throw_unknown(std::string_view kind, std::string_view name,
                                           std::span<const std::string> known, const std::string& parameter = "");
 
@@ -34,7 +34,7 @@ template <class Row>
 class Table {
   public:
     /// @param kind       what a row is, in the singular, for messages: "renderer"
-    /// @param parameter  of which the names are values, for errors: "algorithm"
+    /// @param parameter  the parameter whose values the names are, for errors: "algorithm"
     Table(std::string kind, std::vector<Row> rows, std::string parameter = "")
         : kind_(std::move(kind)), parameter_(std::move(parameter)) {
         for (Row& row : rows) rows_.push_back(std::move(row));

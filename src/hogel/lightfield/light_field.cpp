@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 
+#include "hogel/core/require_positive.h"
 #include "hogel/core/stop_scope.h"
 #include "hogel/units.h"
 #include "hogel/work/parallel.h"
@@ -19,12 +20,6 @@ namespace {
 
 constexpr std::size_t tile_bytes = std::size_t{16} << 20;
 constexpr std::size_t max_bytes = std::numeric_limits<std::size_t>::max() >> 1;
-
-void require_positive(double value, const char* parameter, ErrorCode code, const std::string& what,
-                      const char* member) {
-    if (!(std::isfinite(value) && value > 0))
-        throw Error(code, parameter, fmt::format("{}: {} is {}, but must be positive and finite", what, member, value));
-}
 
 void require_finite(double value, const char* parameter, ErrorCode code, const std::string& what, const char* member) {
     if (!std::isfinite(value))
@@ -118,16 +113,18 @@ void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& wha
                                 grid.directions_v));
     if (grid.channels != 1 && grid.channels != 3)
         throw Error(code, fmt::format("{}: {} channels, but 1 or 3 were expected", what, grid.channels));
-    require_positive(grid.pitch, "size", code, what, "hogel pitch");
-    require_positive(grid.half_u(), "fov", code, what, "tan_half_u");
-    require_positive(grid.half_v(), "fov", code, what, "tan_half_v");
+    core::require_positive(grid.pitch, "size", code, what, "hogel pitch");
+    core::require_positive(grid.half_u(), "fov", code, what, "tan_half_u");
+    core::require_positive(grid.half_v(), "fov", code, what, "tan_half_v");
     require_finite(grid.center_u(), "toward", code, what, "center_u");
     require_finite(grid.center_v(), "toward", code, what, "center_v");
     require_in_front_half(grid, code, what);
-    require_positive(grid.step_u(), "fov, directions", code, what, "the step between directions in u");
-    require_positive(grid.step_v(), "fov, directions", code, what, "the step between directions in v");
-    require_positive(static_cast<double>(grid.hogels_s) * grid.pitch, "size", code, what, "the width of the hologram");
-    require_positive(static_cast<double>(grid.hogels_t) * grid.pitch, "size", code, what, "the height of the hologram");
+    core::require_positive(grid.step_u(), "fov, directions", code, what, "the step between directions in u");
+    core::require_positive(grid.step_v(), "fov, directions", code, what, "the step between directions in v");
+    core::require_positive(static_cast<double>(grid.hogels_s) * grid.pitch, "size", code, what,
+                           "the width of the hologram");
+    core::require_positive(static_cast<double>(grid.hogels_t) * grid.pitch, "size", code, what,
+                           "the height of the hologram");
     if (const FocalPlane* plane = grid.focal_plane()) require_depth(grid, *plane, code, what);
     std::size_t budget = max_bytes / sizeof(float);
     for (std::size_t extent : radiance_shape(grid, all_hogels(grid))) budget /= extent;

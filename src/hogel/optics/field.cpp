@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "hogel/core/object_pool.h"
+#include "hogel/core/require_positive.h"
 #include "hogel/core/stop_scope.h"
 #include "hogel/units.h"
 #include "hogel/work/shared_tiles.h"
@@ -20,17 +21,11 @@ constexpr std::size_t region_samples = std::size_t{1} << 20;  // 8 MiB
 constexpr std::size_t min_rows = 64;
 constexpr std::size_t max_samples = (std::numeric_limits<std::size_t>::max() >> 1) / sizeof(std::complex<float>);
 
-void require_positive(double value, const char* parameter, ErrorCode code, const std::string& what,
-                      const char* member) {
-    if (!(std::isfinite(value) && value > 0))
-        throw Error(code, parameter, fmt::format("{}: {} is {}, but must be positive and finite", what, member, value));
-}
-
 // A longer wavelength was given in other units.
 constexpr double max_wavelength = 0.1e-3;
 
 void require_wavelength(double wavelength, ErrorCode code, const std::string& what) {
-    require_positive(wavelength, "wavelength", code, what, "the wavelength");
+    core::require_positive(wavelength, "wavelength", code, what, "the wavelength");
     if (wavelength <= max_wavelength) return;
     double nanometres = wavelength;
     while (nanometres < 100) nanometres *= 1000;
@@ -65,10 +60,10 @@ void validate(const FieldGrid& grid, ErrorCode code, const std::string& what) {
         throw Error(code, "size, pitch",
                     fmt::format("{}: {}x{} samples, but at least 1x1 are needed", what, plane.width, plane.height));
     require_wavelength(grid.wavelength, code, what);
-    require_positive(plane.pitch_x, "pitch", code, what, "the pitch in x");
-    require_positive(plane.pitch_y, "pitch", code, what, "the pitch in y");
-    require_positive(plane.size_x(), "size, pitch", code, what, "the width");
-    require_positive(plane.size_y(), "size, pitch", code, what, "the height");
+    core::require_positive(plane.pitch_x, "pitch", code, what, "the pitch in x");
+    core::require_positive(plane.pitch_y, "pitch", code, what, "the pitch in y");
+    core::require_positive(plane.size_x(), "size, pitch", code, what, "the width");
+    core::require_positive(plane.size_y(), "size, pitch", code, what, "the height");
     if (!std::isfinite(plane.center_x) || !std::isfinite(plane.center_y))
         throw Error(code, fmt::format("{}: its centre ({}, {}) is not finite", what, plane.center_x, plane.center_y));
     if (plane.width > max_samples / plane.height)
