@@ -25,6 +25,19 @@ if(TARGET hogel_cli)
       COMMENT "Writing manual pages" VERBATIM)
     add_custom_target(hogel_manual ALL DEPENDS ${manual}/hogel.1.gz)
     install(DIRECTORY ${manual}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+    # So do the completions of shells.
+    set(completions ${PROJECT_BINARY_DIR}/completions)
+    add_custom_command(
+      OUTPUT ${completions}/hogel ${completions}/_hogel ${completions}/hogel.fish
+      COMMAND ${CMAKE_COMMAND} -E make_directory ${completions}
+      COMMAND hogel_cli completion bash > ${completions}/hogel
+      COMMAND hogel_cli completion zsh > ${completions}/_hogel
+      COMMAND hogel_cli completion fish > ${completions}/hogel.fish
+      DEPENDS hogel_cli COMMENT "Writing completions" VERBATIM)
+    add_custom_target(hogel_completions ALL DEPENDS ${completions}/hogel)
+    install(FILES ${completions}/hogel DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
+    install(FILES ${completions}/_hogel DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)
+    install(FILES ${completions}/hogel.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
   endif()
 endif()
 hogel_install_headers(${CMAKE_INSTALL_INCLUDEDIR})

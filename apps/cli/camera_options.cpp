@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "arguments.h"
 #include "hogel/error.h"
 #include "hogel/units.h"
 
@@ -56,13 +55,18 @@ void add_camera_options(Command& command, CameraOptions& options) {
     command.angles("--focus-tilt", options.focus_tilt,
                    "Tilt of the plane in focus, as by a tilted film: its depth grows to the right and upwards, by one "
                    "angle for both or by one each");
-    const Option pupil = command.positive_length("--pupil", options.pupil, "Diameter of the lens");
+    const Parameter& pupil =
+        command.positive_length("--pupil", options.pupil, "Diameter of the lens").acts_if([&options] {
+            return options.f_number == 0;
+        });
     command.number("--f-number", options.f_number, "NUMBER", "The same as a part of the focal length")
         .no_default()
         .positive()
         .excludes(pupil)
         .sets_parameter("pupil");
-    command.positive_length("--focal-length", options.focal_length, "With --f-number");
+    command.positive_length("--focal-length", options.focal_length, "With --f-number").acts_if([&options] {
+        return options.f_number > 0;
+    });
     command.angle("--angle-of-view", options.angle_of_view, "Across; 0deg: what shows the hologram")
         .sets_parameter("resolution");
     command.resolution("--resolution", options.resolution, "Pixels across, or across and down");
@@ -74,8 +78,11 @@ void add_camera_options(Command& command, CameraOptions& options) {
         .no_default()
         .sets(options.moves_focus)
         .sets_parameter("focus");
-    command.count("--frames", options.frames, "Pictures on the way, for an output .mp4, .gif, .apng or name####.png");
-    command.number("--frame-rate", options.frame_rate, "NUMBER", "Frames a second of a film").positive();
+    command.count("--frames", options.frames, "Pictures on the way, for an output .mp4, .gif, .apng or name####.png")
+        .acts_if([&options] { return options.frames > 1; });
+    command.number("--frame-rate", options.frame_rate, "NUMBER", "Frames a second of a film")
+        .positive()
+        .acts_if([&options] { return options.is_film; });
 }
 
 std::vector<Camera> make_cameras(const CameraOptions& options, double width, double height) {
@@ -94,17 +101,18 @@ std::vector<Camera> make_cameras(const CameraOptions& options, double width, dou
     return cameras;
 }
 
-void add_wave_camera_option(Command& command, std::string& camera, const std::vector<std::string>& names) {
+Parameter& add_wave_camera_option(Command& command, std::string& camera, const std::vector<std::string>& names) {
     const bool full = std::ranges::count(names, "full") > 0;
     std::vector<std::string> words = names;
     words.insert(words.end(), {"hogel-spectra", "samples"});
     if (full) words.emplace_back("plane-waves");
-    command.choice("--camera", camera, words, fmt::format("{}", fmt::join(names, "|")),
-                   std::string("How waves are photographed:"
-                               "\nauto: eye where the hogels are known and that is cheaper, otherwise narrow"
-                               "\neye, hogel-spectra: the few numbers of each hogel that enter the lens"
-                               "\nnarrow, samples: the band that enters the lens, from all samples, tile by tile") +
-                       (full ? "\nfull, plane-waves: plane waves to the lens and back, exact and slow" : ""));
+    return command.choice(
+        "--camera", camera, words, fmt::format("{}", fmt::join(names, "|")),
+        std::string("How waves are photographed:"
+                    "\nauto: eye where the hogels are known and that is cheaper, otherwise narrow"
+                    "\neye, hogel-spectra: the few numbers of each hogel that enter the lens"
+                    "\nnarrow, samples: the band that enters the lens, from all samples, tile by tile") +
+            (full ? "\nfull, plane-waves: plane waves to the lens and back, exact and slow" : ""));
 }
 
 std::string camera_name(const std::string& word) {
@@ -131,7 +139,7 @@ std::string say_camera(const Session& session, std::span<const LightFieldGrid> f
     return name;
 }
 
-Option add_looks_option(Command& command, const std::string& names, std::string& text, const std::string& help) {
+Parameter& add_looks_option(Command& command, const std::string& names, std::string& text, const std::string& help) {
     return command.text(names, text, "NUMBER|expected",
                         help + "\nexpected: the mean of infinitely many, without speckle");
 }
@@ -145,18 +153,6 @@ Looks parse_looks(const std::string& text) {
                                                   "expected",
                                                   text, max_looks));
     return {static_cast<std::size_t>(*number), false};
-}
-
-void record_camera(RunRecord& record, const CameraOptions& options, bool film) {
-    record.acted({"eye", "gaze", "focus", "focus-tilt", "angle-of-view", "resolution"});
-    if (options.f_number > 0)
-        record.acted({"f-number", "focal-length"});
-    else
-        record.acted({"pupil"});
-    if (options.moves_eye) record.acted({"to-eye"});
-    if (options.moves_focus) record.acted({"to-focus"});
-    if (options.frames > 1) record.acted({"frames"});
-    if (film) record.acted({"frame-rate"});
 }
 
 }  // namespace hogel::cli

@@ -8,7 +8,6 @@
 #include "command_line.h"
 #include "hogel/camera.h"
 #include "hogel/pipeline.h"
-#include "run_record.h"
 #include "session.h"
 
 namespace hogel::cli {
@@ -21,6 +20,7 @@ struct CameraOptions {
     double pupil = defaults.pupil, f_number = 0, focal_length = defaults.focal_length;
     double angle_of_view = 0;  ///< horizontal; 0: the angle that frames the hologram
     Counts resolution{defaults.resolution, 0};
+    bool is_film = false;  ///< whether the frame rate acts
 
     Vec3 last_eye;
     double last_focus = 0;
@@ -34,7 +34,7 @@ void add_camera_options(Command& command, CameraOptions& options);
 std::vector<Camera> make_cameras(const CameraOptions& options, double width, double height);
 
 /// --camera, the way in which waves are photographed.
-void add_wave_camera_option(Command& command, std::string& camera, const std::vector<std::string>& names);
+Parameter& add_wave_camera_option(Command& command, std::string& camera, const std::vector<std::string>& names);
 /// A word of --camera as auto, eye, narrow or full: the library's words are hogel-spectra, samples and plane-waves.
 std::string camera_name(const std::string& word);
 /// The model that --camera auto, eye or narrow, and --looks ask for.
@@ -50,11 +50,8 @@ struct Looks {
     bool expected = false;
 };
 /// Adds --looks, whose text is parsed by parse_looks().
-Option add_looks_option(Command& command, const std::string& names, std::string& text, const std::string& help);
+Parameter& add_looks_option(Command& command, const std::string& names, std::string& text, const std::string& help);
 /// Throws Error(usage).
 Looks parse_looks(const std::string& text);
-
-/// Records the camera's options; that of the frame rate acts on films alone.
-void record_camera(RunRecord& record, const CameraOptions& options, bool film);
 
 }  // namespace hogel::cli

@@ -60,7 +60,8 @@ void add_cameras(Command& command, Session& session) {
         "  hogel cameras -o walk/transforms.json --size 2m --distance 10m --hogels 800x600 --directions 45x1");
     command
         .text("-o,--output", options->output, "FILE", "transforms.json to write, as nerfstudio and instant-ngp read it")
-        .required();
+        .required()
+        .never_acts();
     command.positive_length("--size", options->size,
                             "Width of the hologram in the scene that is to be rendered; import scales it");
     command.counts("--hogels", options->hogels, "Columns and rows of hogels, the pixels of each picture");
@@ -69,7 +70,6 @@ void add_cameras(Command& command, Session& session) {
                    "Full angles that rows and columns of cameras span from the hologram");
     command.positive_length("--distance", options->distance, "From the cameras to the hologram")
         .sets_parameter("focal_plane");
-    add_json_flag(command, session);
     command.work([options, &session] { return cameras(*options, session); });
 }
 

@@ -22,9 +22,9 @@ SampleComparison compare_samples(const Options& options, FileKind kind, const Se
     if (kind == FileKind::light_field)
         return compare(open_light_field_or_views(options.a), open_light_field_or_views(options.b), stage.progress());
     const auto open = [&](const std::string& name) {
-        RunRecord unused(session);
         if (!is_external(name, options.field)) return open_hologram(name);
-        return open_fields(session, name, options.field, options.field.pitch, options.field.wavelengths, unused);
+        FieldOptions field = options.field;
+        return open_fields(session, name, field, field.pitch, field.wavelengths);
     };
     const Fields a = open(options.a), b = open(options.b);
     return compare(a, b, stage.progress());
@@ -102,7 +102,6 @@ void add_compare(Command& command, Session& session) {
     command.number(
         "--exposure", options->exposure, "NUMBER",
         "What linear values of pictures are multiplied by (default: 1, or less where A is brighter than white)");
-    add_json_flag(command, session);
     add_field_options(command, options->field, true, true);
     command.work([options, &session] { return compare_files(*options, session); });
 }

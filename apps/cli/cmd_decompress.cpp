@@ -37,7 +37,7 @@ void copy_together(const LightField& light_field, const std::vector<std::unique_
     for (const auto& sink : sinks) sink->finish();
 }
 
-int decompress_file(const Options& options, const Session& session) {
+int decompress_file(Options& options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field || !is_stream(options.input))
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a compressed light field", options.input));
     require_writable(options.output, {&options.input, 1});
@@ -48,11 +48,9 @@ int decompress_file(const Options& options, const Session& session) {
     const std::string coder = read_stream_info(options.input).method.coder;
     const bool exact = coder == "lossless" || coder == "bounded";
     file.type = options.single || (exact && !options.half) ? SampleType::single : SampleType::half;
-    RunRecord record(session);
-    record.acted({"input"});
-    if (options.layers > 0) record.acted({"layers"});
-    record.acted(file.type == SampleType::single ? "float" : "half", "yes");
-    file.metadata = with_history(record.metadata(), to_metadata(light_field.provenance()));
+    options.single = file.type == SampleType::single;
+    options.half = !options.single;
+    file.metadata = with_history(run_metadata(session), to_metadata(light_field.provenance()));
     file.with_depth = light_field.has_depth();
     if (options.resume) file.resume = describe_input(options.input);
     const auto sinks = create_light_field(options.output, light_field.grids(), file);
@@ -73,17 +71,21 @@ void add_decompress(Command& command, Session& session) {
     auto options = std::make_shared<Options>();
     command.examples("  hogel decompress pumpkin.hgl -o pumpkin.h5");
     command.positional("input", options->input, "X.hgl", "Compressed light field");
-    command.text("-o,--output", options->output, "FILE", "Light field to write, HDF5").required();
+    command.text("-o,--output", options->output, "FILE", "Light field to write, HDF5").required().never_acts();
     command
         .count("--layers", options->layers,
                "Decode the first layers alone: coarser, and the rest of the file may be missing (hogel info says "
                "how many there are; default: all)")
         .no_default();
-    const Option single = command.flag("--float", options->single, "Store 32-bit floats rather than 16-bit ones");
+    const Parameter& single =
+        command.flag("--float", options->single, "Store 32-bit floats rather than 16-bit ones").acts_if([options] {
+            return options->single;
+        });
     command.flag("--half", options->half, "Store 16-bit floats even where every bit was kept, or an error kept to")
-        .excludes(single);
+        .excludes(single)
+        .acts_if([options] { return options->half; });
     add_resume_flag(command, options->resume);
-    add_json_flag(command, session);
+    command.add_like_option();
     command.work([options, &session] { return decompress_file(*options, session); });
 }
 

@@ -23,11 +23,9 @@ struct Options {
 };
 
 // The middle row of cameras as a film, one frame a camera from the left.
-int export_walk(Options options, const LightField& light_field, const Session& session) {
+int export_walk(Options& options, const LightField& light_field, const Session& session) {
     require_writable(options.output, {&options.input, 1});
     require_movie(options.output);
-    RunRecord record(session);
-    record.acted({"input", "exposure", "frame-rate"});
     const FrameFolder folder(options.output);
     options.views.layout = "rows-columns";
     options.views.format = "png";
@@ -37,7 +35,7 @@ int export_walk(Options options, const LightField& light_field, const Session& s
     Stage stage(session, "exporting");
     const ExportedViews exported = export_views(light_field, folder.path(), options.views, stage.progress());
     const std::uintmax_t bytes = write_film(options.output, folder, fmt::format("{:03}_%03d.png", exported.rows / 2),
-                                            options.frame_rate, record.metadata(), stage.progress());
+                                            options.frame_rate, run_metadata(session), stage.progress());
     session.say(fmt::format("{}: {} views{}", options.output, exported.columns,
                             exported.rows > 1 ? fmt::format(" of the middle one of {} rows", exported.rows) : ""));
     session.result({{"file", options.output},
@@ -57,7 +55,7 @@ std::string layout_for(const std::filesystem::path& output, const std::string& o
     return output.has_extension() && output.stem().string().find("_qs") != std::string::npos ? "quilt" : otherwise;
 }
 
-int export_light_field(Options options, const Session& session) {
+int export_light_field(Options& options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a light field", options.input));
     const LightField light_field = open_light_field_or_views(options.input);
@@ -75,10 +73,7 @@ int export_light_field(Options options, const Session& session) {
     if (layout.name == "quilt" && options.views.format.empty() && output.has_extension())
         options.views.format = output.extension().string().substr(1);
     options.views.transfer = transfer_named(options.transfer);
-    RunRecord record(session);
-    record.acted({"input", "exposure"});
-    record.acted("layout", options.views.layout);
-    options.views.metadata = record.metadata();
+    options.views.metadata = run_metadata(session);
     state_plan(session, plan_export(light_field, options.views), "exporting", options.output);
     Stage stage(session, "exporting");
     const ExportedViews exported = with_parameter(
@@ -113,29 +108,38 @@ void add_export(Command& command, Session& session) {
         .text("-o,--output", options->output, "FOLDER|FILE",
               "Folder for the views, or the file of layouts that are one; .mp4, .gif or .apng: a film of the "
               "middle row of views, by ffmpeg")
-        .required();
+        .required()
+        .never_acts();
     add_force_flag(command, options->force);
-    add_json_flag(command, session);
+    command.add_like_option();
+    const auto is_set = [options] { return !is_film(options->output); };
     command.group("Views");
     std::string layouts;
     for (const ViewLayout& layout : view_layouts().rows())
         if (layout.create != nullptr) layouts += fmt::format("\n{}: {}", layout.name, layout.text);
-    command.text("--layout", options->views.layout, "NAME",
-                 "How they are stored (by the ending .npy, .mat or _qs8x6a0.75.png: as that says)" + layouts);
+    command
+        .text("--layout", options->views.layout, "NAME",
+              "How they are stored (by the ending .npy, .mat or _qs8x6a0.75.png: as that says)" + layouts)
+        .acts_if(is_set);
     command
         .choice("--pictures", options->views.format, {"png", "ppm", "pfm", "exr"}, "FORMAT",
                 "png, ppm (8 to 16 bits), pfm or exr (floating-point numbers; default: as imported, else png)")
-        .no_default();
+        .no_default()
+        .acts_if(is_set);
     command.count("--bits", options->bits, "Of whole numbers, 8 to 16; png: 8 or 16 (default: as imported, else 8)")
-        .no_default();
+        .no_default()
+        .acts_if(is_set);
     command
         .choice("--transfer", options->transfer, transfer_names(), "NAME",
                 fmt::format("{}: the curve of the stored numbers (default: as imported, else srgb, or linear for "
                             "floating-point ones)",
                             fmt::join(transfer_names(), ", ")))
-        .no_default();
+        .no_default()
+        .acts_if(is_set);
     command.number("--exposure", options->views.exposure, "NUMBER", "What linear values are multiplied by").positive();
-    command.number("--frame-rate", options->frame_rate, "NUMBER", "Of films, views a second").positive();
+    command.number("--frame-rate", options->frame_rate, "NUMBER", "Of films, views a second")
+        .positive()
+        .acts_if([is_set] { return !is_set(); });
     command.work([options, &session] { return export_light_field(*options, session); });
 }
 

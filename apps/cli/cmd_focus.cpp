@@ -10,6 +10,7 @@
 #include "hogel/pipeline.h"
 #include "hogel/units.h"
 #include "inputs.h"
+#include "run_record.h"
 
 namespace hogel::cli {
 namespace {
@@ -99,7 +100,7 @@ Result result_of(const FocusSearch& search, const Fields& fields, double seconds
             {"seconds", seconds}};
 }
 
-int focus(const Options& options, const Session& session) {
+int focus(Options& options, const Session& session) {
     const FocusOptions request = focus_options(options, *session.command);
     if (!options.plot.empty()) {
         require_plot_name(options.plot);
@@ -110,10 +111,8 @@ int focus(const Options& options, const Session& session) {
         if (input_kind(options.input) != InputKind::hologram)
             throw Error(ErrorCode::bad_input, fmt::format("{}: is not a hologram", options.input));
     }
-    RunRecord record(session);
-    record.acted({"input", "from", "to", "planes", "region", "colour"});
-    const Fields fields = open_and_reconstruct(session, options.input, options.field, options.field.pitch,
-                                               options.field.wavelengths, record);
+    const Fields fields =
+        open_and_reconstruct(session, options.input, options.field, options.field.pitch, options.field.wavelengths);
     Fields chosen = fields;
     if (session.command->given("--colour")) {
         if (options.colour > fields.size())
@@ -130,7 +129,7 @@ int focus(const Options& options, const Session& session) {
                                format_length(search.light_depth_of_focus)));
     if (!options.plot.empty())
         write_focus_plot(options.plot, search, std::filesystem::path(options.input).filename().string(),
-                         record.metadata());
+                         run_metadata(session));
     state_doubt(search, session);
     session.result(result_of(search, chosen, session.seconds()), words_of(search));
     return 0;
@@ -143,8 +142,10 @@ void add_focus(Command& command, Session& session) {
     command.examples(
         "  hogel focus hologram.h5 --from -20mm --to 20mm\n"
         "  hogel focus phase.png -o sharpness.svg --phase-code odak --pitch 8um --wavelength 515nm");
+    command.basics(
+        {"from", "to", "planes", "region", "pitch", "wavelength", "values", "phase-code", "order", "reconstruct"});
     command.positional("input", options->input, "F.h5|F.npy|P.png", "Hologram, or another program's field");
-    command.text("-o,--output", options->plot, "PLOT.svg", "Plot of the contrasts against depth");
+    command.text("-o,--output", options->plot, "PLOT.svg", "Plot of the contrasts against depth").never_acts();
     command.length("--from", options->from, "Where the search begins, behind the hologram; negative: in front of it")
         .default_text("as far as samples and size resolve alike");
     command.length("--to", options->to, "Where it ends").default_text("likewise");
@@ -152,7 +153,6 @@ void add_focus(Command& command, Session& session) {
     command.counts("--region", options->region, "Samples of the middle that are looked at")
         .default_text("1024x1024, or all");
     command.count("--colour", options->colour, "Which of several fields, from 1").default_text("all together");
-    add_json_flag(command, session);
     add_field_options(command, options->field, true);
     add_reconstruction_options(command, options->field);
     command.work([options, &session] { return focus(*options, session); });

@@ -35,7 +35,7 @@ void report_hologram(const Options& options, const std::vector<FieldGrid>& grids
 }
 
 // Computes the field of a scene by a method without a light field.
-int straight_from_scene(const Options& options, const SceneHologramMethod& method, const Session& session) {
+int straight_from_scene(Options& options, const SceneHologramMethod& method, const Session& session) {
     if (options.resume) throw Error(ErrorCode::usage, fmt::format("--resume: method {} cannot", method.name));
     if (options.part.part) throw Error(ErrorCode::usage, fmt::format("--part: method {} cannot", method.name));
     if (options.render.fronts_only)
@@ -54,26 +54,24 @@ int straight_from_scene(const Options& options, const SceneHologramMethod& metho
                           static_cast<std::size_t>(std::lround(height / pitch)), pitch, pitch, 0, 0},
                          wavelength});
     for (const FieldGrid& grid : grids) validate(grid, ErrorCode::usage, "hologram");
-    RenderOptions render = options.render;
+    RenderOptions& render = options.render;
     render.cache_spacing = 0;  // it is in widths of a ray, and there are no rays
-    RunRecord record(session);
-    record.acted({"input", "half", "wavelength", "pitch", "method", "hogels", "size", "seed"});
-    if (method.uses_spacing) record.acted({"spacing"});
-    if (method.uses_planes) record.acted({"planes"});
-    const auto scene = light_scene(session, load_scene(session, options.input, render, record), render, record);
-    // What no surface sends out is not seen.
-    record.idle("background");
+    const auto scene = light_scene(session, load_scene(session, options.input, render), render);
+    render.scene.has_background = false;  // what no surface sends out is not seen
+    options.hologram.is_made = options.hologram.is_seeded = true;
+    options.hologram.has_spacing = method.uses_spacing;
+    options.hologram.has_planes = method.uses_planes;
     Metadata made_of = scene->provenance;
     std::erase_if(made_of, [](const auto& entry) { return entry.first == "background"; });
-    const auto sinks = create_hologram(options.output, grids,
-                                       {.type = options.type(), .metadata = with_history(record.metadata(), made_of)});
+    const auto sinks = create_hologram(
+        options.output, grids, {.type = options.type(), .metadata = with_history(run_metadata(session), made_of)});
     SceneHologramOptions how;
     how.seed = session.seed;
     how.spacing = options.hologram.spacing;
     how.planes = options.hologram.planes;
     std::vector<SceneHologramOptions> of_each;
     for (const FieldGrid& grid : grids) {
-        how.channel = colour_of(grid.wavelength);
+        how.channel = channel_of(grid.wavelength);
         of_each.push_back(how);
     }
     Stage stage(session, "hologram");
@@ -82,7 +80,7 @@ int straight_from_scene(const Options& options, const SceneHologramMethod& metho
     return 0;
 }
 
-int hologram(Options options, const Session& session) {
+int hologram(Options& options, const Session& session) {
     const InputKind kind = input_kind(options.input);
     if (const SceneHologramMethod* method = scene_hologram_methods().look_up(options.hologram.method)) {
         if (kind == InputKind::scene) return straight_from_scene(options, *method, session);
@@ -96,8 +94,6 @@ int hologram(Options options, const Session& session) {
     require_hdf5(options.output);
     HologramFileOptions file;
     file.type = options.type();
-    RunRecord record(session);
-    record.acted({"input", "half"});
     HologramRequest request = options.hologram.request(session, 1);
     const auto check = [&](std::span<const LightFieldGrid> faces) {
         // Other members may be those of the file that is opened.
@@ -117,16 +113,16 @@ int hologram(Options options, const Session& session) {
             return opened;
         }
         check(options.render.request().grids());
-        const Scene scene = load_scene(session, options.input, options.render, record);
+        const Scene scene = load_scene(session, options.input, options.render);
         if (options.resume || options.part.part) part_input = describe_input(options.input, scene);
         if (options.resume) file.resume = part_input;
-        const LightField rendered = render_light_field(session, scene, options.render, record);
+        const LightField rendered = render_light_field(session, scene, options.render);
         require_memory(session, rendered, options.render, scene);
         return prepare_for_reading(session, rendered, request.channels.size(), needs_depth(request.method));
     }();
     if (const std::string warning = warning_about(light_field, request); !warning.empty()) session.say(warning);
-    options.hologram.record(record, request, light_field.grid());
-    file.metadata = record.metadata();
+    options.hologram.resolve(request, light_field.grid());
+    file.metadata = run_metadata(session);
     const auto holograms = make_holograms(light_field, request);
     if (options.part.part) {
         const std::string name = options.part.file_for(options.output);
@@ -154,15 +150,17 @@ void add_hologram(Command& command, Session& session) {
     command.examples(
         "  hogel hologram pumpkin.h5 -o hologram.h5 --wavelength 633nm\n"
         "  hogel hologram pumpkin -o hologram.h5 --hogels 64x64 --size 4mm");
+    command.basics(
+        {"wavelength", "pitch", "method", "phase", "hogels", "directions", "size", "fov", "rotate", "light"});
     command.positional("input", options->input, "X.h5|SCENE", "Light field, mesh file or built-in scene");
-    command.text("-o,--output", options->output, "FILE", "Hologram to write, HDF5").required();
+    command.text("-o,--output", options->output, "FILE", "Hologram to write, HDF5").required().never_acts();
     command.flag("--half", options->half, "Store 16-bit floats rather than 32-bit ones");
     add_resume_flag(command, options->resume);
     add_part_option(command, options->part);
     add_scene_hologram_options(command, options->hologram);
     add_render_options(command, options->render);
     add_hemicube_option(command, options->render);
-    add_json_flag(command, session);
+    command.add_like_option();
     command.work([options, &session] { return hologram(*options, session); });
 }
 

@@ -22,6 +22,10 @@ struct Options {
     std::size_t densify = 1;
     double depth_scale = 0;
     bool estimate_disparity = false;
+    bool is_estimated = false;
+
+    bool has_columns() const { return views.layout == "rows-columns" || views.layout == "mat"; }
+    bool has_depth_scale() const { return (densify > 1 || output.with_depth) && !is_estimated; }
 };
 
 ViewOptions view_options(const Options& options) {
@@ -47,24 +51,12 @@ ViewOptions view_options(const Options& options) {
     return views;
 }
 
-void record_views(RunRecord& record, const Options& options, const ImportedViews& views) {
-    record.acted({"source", "mirror"});
-    record.acted("layout", views.layout);
-    record.acted("transfer", transfer_names()[static_cast<std::size_t>(views.transfer)]);
-    record.acted("size", compact_length(views.light_field.grid().width()));
-    if (options.distance_given) record.acted({"distance"});
-    if (options.spacing_given) record.acted({"spacing"});
-    if (options.field_given) record.acted({"fov"});
-    if (!options.projection.empty()) record.acted({"projection"});
-    if (!options.column.empty() && (views.layout == "rows-columns" || views.layout == "mat")) record.acted({"column"});
-    if (options.counts.columns > 0) record.acted({"views"});
-    if (options.disparity != 0) record.acted({"disparity"});
-    if (options.densify > 1) record.acted({"densify"});
-    if (options.output.with_depth) record.acted({"depth"});
-    if (options.depth_scale > 0 && (options.densify > 1 || options.output.with_depth) && !views.estimated)
-        record.acted({"depth-scale"});
-    if (options.middle.columns > 0) record.acted({"middle"});
-    if (views.estimated) record.acted({"estimate-disparity"});
+// Sets the values that act on these views where they are not given, and what decides which act.
+void resolve(Options& options, const ImportedViews& views) {
+    options.views.layout = views.layout;
+    options.transfer = transfer_names()[static_cast<std::size_t>(views.transfer)];
+    options.size = views.light_field.grid().width();
+    options.is_estimated = options.estimate_disparity = views.estimated;
 }
 
 void say_understood(const Session& session, const std::string& source, const ImportedViews& views) {
@@ -103,7 +95,7 @@ int write_hdf5(const Options& options, const ImportedViews& views, const LightFi
     return 0;
 }
 
-int import(const Options& options, const Session& session) {
+int import(Options& options, const Session& session) {
     options.output.require(options.source);
     ViewOptions view = view_options(options);
     view.spool = std::filesystem::absolute(options.output.file).parent_path();
@@ -112,8 +104,7 @@ int import(const Options& options, const Session& session) {
         return import_views(options.source, view, stage.progress());
     }();
     say_understood(session, options.source, views);
-    RunRecord record(session);
-    record_views(record, options, views);
+    resolve(options, views);
     LightFieldFileOptions file;
     // Half floats hold codes of up to 11 bits so that they come back as they were.
     constexpr unsigned max_bits_of_half = 11;
@@ -121,12 +112,12 @@ int import(const Options& options, const Session& session) {
     state_plan(session, plan_import(views, view, file), "importing",
                options.output.compressed() ? "" : options.output.file);
     if (options.output.compressed()) {
-        write_compressed(options.output, views.light_field, record, session);
+        write_compressed(options.output, views.light_field, session);
         return 0;
     }
-    record.acted("float", file.type == SampleType::single ? "yes" : "no");
+    options.output.single = file.type == SampleType::single;
     file.with_depth = options.output.with_depth;
-    file.metadata = record.metadata();
+    file.metadata = run_metadata(session);
     return write_hdf5(options, views, file, session);
 }
 
@@ -138,7 +129,7 @@ void add_geometry_options(Command& command, Options& options) {
                          "From the cameras to the hologram (default: as the set says, else 300mm)")
         .no_default()
         .sets(options.distance_given);
-    const Option spacing =
+    const Parameter& spacing =
         command
             .positive_length(
                 "--spacing", options.spacing,
@@ -173,7 +164,8 @@ void add_view_options(Command& command, Options& options) {
         .choice("--column", options.column, {"first", "second"}, "first|second",
                 "Which of the two numbers in the names of files, or axes of views, is the column (default: what the "
                 "parallax says)")
-        .no_default();
+        .no_default()
+        .acts_if([&options] { return options.has_columns(); });
     command.choice("--mirror", options.mirror, {"none", "columns", "rows", "both"}, "WHICH",
                    "none, columns, rows or both: run the other way than the layout says");
     command
@@ -197,9 +189,12 @@ void add_disparity_options(Command& command, Options& options) {
                 "How many of the whole numbers in PNG maps are a metre of depth, or a pixel of disparity: 1000 for "
                 "millimetres; 0 is not known")
         .positive()
-        .no_default();
-    command.flag("--estimate-disparity", options.estimate_disparity,
-                 "Where no map comes with the set, estimate the disparity from the views");
+        .no_default()
+        .acts_if([&options] { return options.has_depth_scale(); });
+    command
+        .flag("--estimate-disparity", options.estimate_disparity,
+              "Where no map comes with the set, estimate the disparity from the views")
+        .acts_if([&options] { return options.is_estimated; });
 }
 
 }  // namespace
@@ -212,10 +207,12 @@ void add_import(Command& command, Session& session) {
         "  hogel import head_qs8x6a0.75.png -o head.h5 --fov 40deg\n"
         "  hogel import lytro.mat -o lytro.h5 --size 40mm --fov 5deg\n"
         "  hogel import sockets -o sockets.h5 --projection orthographic --views 20x20");
+    command.basics({"layout", "views", "column", "projection", "spacing", "fov", "disparity", "depth", "size", "sqnr"});
     command.positional("source", options->source, "SOURCE", "Folder of pictures, or a file: a quilt, an array, a film");
     add_light_field_output(command, options->output, "Store the depth of rays, by the disparity or depth of the set",
                            "Store 32-bit floats rather than 16-bit ones, as for pictures of more than 11 bits");
-    add_json_flag(command, session);
+    command.look_up("depth")->acts_if([options] { return options->output.with_depth; });
+    command.add_like_option();
     command.group("Views");
     add_view_options(command, *options);
     command.group("Geometry");

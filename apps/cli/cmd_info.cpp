@@ -141,7 +141,6 @@ void add_info(Command& command, Session& session) {
     command.examples("  hogel info pumpkin.h5\n  hogel info hologram.h5 --json");
     command.positional("file", *path, "FILE",
                        "Light field, hologram, set of views, another program's field, picture or mesh");
-    add_json_flag(command, session);
     add_field_options(command, *options, true, true);
     command.work([path, options, &session] { return info(*path, *options, session); });
 }

@@ -36,6 +36,16 @@ struct Options {
     std::size_t pupil_samples = defaults.pupil_samples;
     std::string camera = "auto";
     bool store_hologram = false, keep_light_field = false, force = false, resume = false;
+
+    /// What is made, which decides which options act. The report lists those of all.
+    enum class Output { light_field, hologram, photographs, expected_photographs, ray_photographs, report };
+    Output made = Output::report;
+    bool is_one_of(std::initializer_list<Output> outputs) const {
+        return made == Output::report || std::ranges::count(outputs, made) > 0;
+    }
+    bool is_photograph() const {
+        return is_one_of({Output::photographs, Output::expected_photographs, Output::ray_photographs});
+    }
 };
 
 struct Focus {
@@ -161,26 +171,22 @@ bool is_expected_cheap(const LightFieldGrid& grid, const HologramRequest& reques
     return false;
 }
 
-// The command that renders the light field again, from the options that describe the run.
+// The command that renders the light field again.
+// @param run  what the light field says of the run
 std::string render_command(const Metadata& run, const std::string& scene) {
-    constexpr std::array<std::string_view, 25> names{
-        "algorithm",    "shading", "shadow-map", "cache-spacing", "cull-back-faces", "hogels", "directions", "samples",
-        "size",         "fov",     "toward",     "front",         "as-is",           "fit",    "up",         "rotate",
-        "scene-camera", "scale",   "move",       "colour",        "texture",         "light",  "background", "ground",
-        "point-size"};
     std::string command = "hogel render " + scene + " -o lightfield.h5";
-    for (const auto& [key, value] : run)
-        for (const std::string_view name : names) {
-            if (key != fmt::format("option {}", name) || value == "no") continue;
-            if (name == "light") {
-                std::istringstream lights(value);
-                for (std::string light; lights >> light;) command += fmt::format(" --light '{}'", light);
-                continue;
-            }
-            command += fmt::format(" --{}", name);
-            if (value == "yes") continue;
-            command += value.find_first_of("# ") == std::string::npos ? " " + value : fmt::format(" '{}'", value);
+    for (const auto& [key, value] : run) {
+        if (!key.starts_with("option ") || key == "option scene" || value == "no") continue;
+        const std::string name = key.substr(std::string_view("option ").size());
+        if (name == "light") {
+            std::istringstream lights(value);
+            for (std::string light; lights >> light;) command += fmt::format(" --light '{}'", light);
+            continue;
         }
+        command += fmt::format(" --{}", name);
+        if (value == "yes") continue;
+        command += value.find_first_of("# ") == std::string::npos ? " " + value : fmt::format(" '{}'", value);
+    }
     return command;
 }
 
@@ -261,7 +267,7 @@ int report_done(const Session& session, const std::string& folder) {
     return 0;
 }
 
-int make(const Options& options, const Session& session) {
+int make(Options& options, const Session& session) {
     if (input_kind(options.scene) != InputKind::scene)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
     require_folder_name(options.output);
@@ -274,9 +280,13 @@ int make(const Options& options, const Session& session) {
     report.light_field = options.render.request().grid;
     report.pupil_samples = options.pupil_samples;
     report.threads = thread_count();
-    RunRecord rendering(session);
-    rendering.acted({"scene"});
-    const Scene scene = load_scene(session, options.scene, options.render, rendering);
+    using Output = Options::Output;
+    const auto run_of = [&](Output output) {
+        options.made = output;
+        options.render.scene.is_loaded = options.is_one_of({Output::light_field});
+        return run_metadata(session);
+    };
+    const Scene scene = load_scene(session, options.scene, options.render);
     report.triangles = triangle_count(scene);
     report.pairs = plan_photographs(options, scene, report.light_field);
     const Looks looks =
@@ -305,32 +315,24 @@ int make(const Options& options, const Session& session) {
     PassingFile light_field_file(folder.path() / "lightfield.h5", options.keep_light_field || options.resume);
 
     timed(session, report, "light field", [&](Stage& stage) {
-        const LightField rendered = render_light_field(session, scene, options.render, rendering);
+        const LightField rendered = render_light_field(session, scene, options.render);
         require_memory(session, rendered, options.render, scene);
         kept.once([&] {
-            write_light_field(light_field_file.path(), rendered, {.metadata = rendering.metadata(), .resume = resume},
-                              stage.progress());
+            write_light_field(light_field_file.path(), rendered,
+                              {.metadata = run_of(Output::light_field), .resume = resume}, stage.progress());
         });
     });
-    report.render_command = render_command(rendering.metadata(), options.scene);
+    report.render_command = render_command(run_of(Output::light_field), options.scene);
     if (options.keep_light_field) report.light_field_bytes = std::filesystem::file_size(light_field_file.path());
     const LightField light_field = open_light_field(light_field_file.path());
-    RunRecord synthesis(session), rays(session);
-    const bool looks_differ = options.hologram.record(synthesis, request, light_field.grid());
-    rays.acted({"eye-distance", "pupil", "resolution"});
-    RunRecord waves = synthesis;
-    waves.add(rays);
-    RunRecord expected = waves;
-    expected.idle("seed");
-    expected.acted("looks", "expected");
-    waves.acted("camera", camera);
-    if (looks_differ) waves.acted("looks", fmt::format("{}", report.looks));
-    rays.acted({"pupil-samples"});
-    report.waves_run = waves.metadata();
-    report.expected_run = expected.metadata();
-    report.rays_run = rays.metadata();
-    for (const RunRecord& other : {waves, rays}) rendering.add(other);
-    report.run = rendering.metadata();
+    options.hologram.resolve(request, light_field.grid());
+    options.camera = camera;
+    options.looks = "expected";
+    report.expected_run = run_of(Output::expected_photographs);
+    options.looks = looks.expected ? "expected" : fmt::format("{}", report.looks);
+    report.waves_run = run_of(Output::photographs);
+    report.rays_run = run_of(Output::ray_photographs);
+    report.run = run_of(Output::report);
     const auto holograms = make_holograms(light_field, request);
     for (const auto& hologram : holograms) report.holograms.push_back(hologram->grid());
 
@@ -342,7 +344,7 @@ int make(const Options& options, const Session& session) {
         timed(session, report, "hologram file", [&](Stage& stage) {
             kept.once([&] {
                 write_holograms(folder.path() / "hologram.h5", holograms,
-                                {.metadata = synthesis.metadata(), .resume = resume}, stage.progress());
+                                {.metadata = run_of(Output::hologram), .resume = resume}, stage.progress());
             });
         });
     photograph_waves(session, report, holograms, cameras, looks.expected ? nullptr : &with);
@@ -365,37 +367,59 @@ int make(const Options& options, const Session& session) {
 }  // namespace
 
 void add_make(Command& command, Session& session) {
+    using Output = Options::Output;
     auto options = std::make_shared<Options>();
     options->hologram.wavelengths = {defaults.red, defaults.green, defaults.blue};
     command.examples(
         "  hogel make pumpkin -o pumpkin\n"
         "  hogel make bunny.ply -o bunny --hogels 128x128 --size 8mm --looks 4");
-    command.positional("scene", options->scene, "SCENE", "Mesh file or built-in scene");
-    command.text("-o,--output", options->output, "DIR", "Folder for everything that is made").required();
+    command.basics(
+        {"hogels", "directions", "size", "fov", "rotate", "light", "pupil", "eye-distance", "resolution", "looks"});
+    command.positional("scene", options->scene, "SCENE", "Mesh file or built-in scene").acts_if([options] {
+        return options->is_one_of({Output::light_field});
+    });
+    command.text("-o,--output", options->output, "DIR", "Folder for everything that is made").required().never_acts();
     add_force_flag(command, options->force);
-    command.flag("--store-hologram", options->store_hologram,
-                 "Keep hologram.h5 too; otherwise it streams through and is never stored");
-    command.flag("--keep-light-field", options->keep_light_field,
-                 "Keep lightfield.h5 too; the report has the command that renders it again");
-    command.flag("--resume", options->resume,
-                 "Keep what is done when interrupted, in DIR, and go on from there the next time");
+    command
+        .flag("--store-hologram", options->store_hologram,
+              "Keep hologram.h5 too; otherwise it streams through and is never stored")
+        .never_acts();
+    command
+        .flag("--keep-light-field", options->keep_light_field,
+              "Keep lightfield.h5 too; the report has the command that renders it again")
+        .never_acts();
+    command
+        .flag("--resume", options->resume,
+              "Keep what is done when interrupted, in DIR, and go on from there the next time")
+        .never_acts();
     command.group("Hologram");
-    command.positive_length("--pitch", options->hologram.pitch,
-                            "Distance of samples, rounded to divide a hogel; less by default where the field of view "
-                            "needs it");
-    command.group("Camera");
+    command
+        .positive_length("--pitch", options->hologram.pitch,
+                         "Distance of samples, rounded to divide a hogel; less by default where the field of view "
+                         "needs it")
+        .acts_if([options] {
+            return options->is_one_of({Output::hologram, Output::photographs, Output::expected_photographs});
+        });
+    command.look_up("seed")->acts_if([options] { return options->is_one_of({Output::hologram, Output::photographs}); });
+    command.group("Camera", [options] { return options->is_photograph(); });
     command.positive_length("--eye-distance", options->eye_distance, "Of the lens from the hologram's plane")
         .sets_parameter("eye")
         .sets_parameter("focus");
     command.positive_length("--pupil", options->pupil, "Diameter of the lens");
-    add_wave_camera_option(command, options->camera, {"auto", "eye", "narrow"});
+    add_wave_camera_option(command, options->camera, {"auto", "eye", "narrow"}).acts_if([options] {
+        return options->is_one_of({Output::photographs});
+    });
     command.count("--resolution", options->resolution, "Pixels across a photograph");
     add_looks_option(command, "--looks", options->looks,
                      "Photographs averaged against speckle; fewer are enough where a pixel holds much of it")
-        .default_text(fmt::format("up to {}", defaults.looks));
-    command.count("--pupil-samples", options->pupil_samples, "Points of the pupil in a photograph by rays");
+        .default_text(fmt::format("up to {}", defaults.looks))
+        .acts_if([options] {
+            return options->is_one_of({Output::photographs, Output::expected_photographs});
+        });
+    command.count("--pupil-samples", options->pupil_samples, "Points of the pupil in a photograph by rays")
+        .acts_if([options] { return options->is_one_of({Output::ray_photographs}); });
     add_render_options(command, options->render);
-    add_json_flag(command, session);
+    command.add_like_option();
     command.work([options, &session] {
         options->camera = camera_name(options->camera);
         return make(*options, session);

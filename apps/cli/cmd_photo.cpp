@@ -34,6 +34,12 @@ struct Options {
 
     double film_distance = 0;
 
+    // What decides which options act.
+    InputKind kind = InputKind::scene;
+    bool is_expected() const { return parse_looks(looks).expected; }
+    // EXR files hold linear values, which no exposure multiplies.
+    bool is_exposed() const { return display == "intensity" && std::filesystem::path(output).extension() != ".exr"; }
+
     // The full camera's scratch files are in the picture's folder.
     CameraModel camera_model() const {
         if (camera == "full")
@@ -73,15 +79,17 @@ std::vector<Image> develop(Stage& stage, const Fields& fields, std::span<const C
     return pictures;
 }
 
-std::vector<Image> photographs_of_hologram(const Options& options, RunRecord& record, const Session& session) {
+std::vector<Image> photographs_of_hologram(Options& options, const Session& session) {
     const Fields fields = open_and_reconstruct(session, options.input, options.field, options.hologram.pitch,
-                                               options.hologram.wavelengths, record);
+                                               options.hologram.wavelengths);
+    options.hologram.is_sampled = options.field.is_external;
     if (fields.size() != 1 && fields.size() != 3)
         throw Error(ErrorCode::bad_input, fmt::format("{}: has {} wavelengths; a photograph takes one or three",
                                                       options.input, fields.size()));
     const Grid& plane = fields.front()->grid().plane;
     const std::vector<Camera> cameras = make_cameras(options.view, plane.size_x(), plane.size_y());
     const CameraModel model = options.camera_model();
+    if (options.camera == "auto") options.camera = "narrow";
     with_renamed_parameters({{"pitch", ""}}, [&] {  // it is that of the field
         std::vector<FieldGrid> grids;
         for (const auto& field : fields) {
@@ -109,9 +117,9 @@ std::vector<Image> photographs_of_hologram(const Options& options, RunRecord& re
     return pictures;
 }
 
-std::vector<Image> photographs_of_light_field(const Options& options, RunRecord& record, const Session& session,
-                                              InputKind kind, bool geometric) {
-    LightField light_field = open_or_render(session, options.input, options.render, record);
+std::vector<Image> photographs_of_light_field(Options& options, const Session& session, InputKind kind,
+                                              bool geometric) {
+    LightField light_field = open_or_render(session, options.input, options.render);
     const std::vector<Camera> cameras =
         make_cameras(options.view, light_field.grid().width(), light_field.grid().height());
     if (geometric) {
@@ -129,12 +137,11 @@ std::vector<Image> photographs_of_light_field(const Options& options, RunRecord&
     check_holograms(light_field.grids(), request, kind == InputKind::scene, cameras);
     const CameraModel model = options.camera_model();
     if (!std::holds_alternative<PlaneWaveCamera>(model))
-        record.acted("camera", say_camera(session, light_field.grids(), request, cameras, model));
+        options.camera = say_camera(session, light_field.grids(), request, cameras, model);
     state_plan(session, plan_photographs(light_field.grids(), request, cameras, model), "photographing the hologram");
     if (kind == InputKind::scene)
         light_field = prepare_for_reading(session, light_field, request.channels.size(), needs_depth(request.method));
-    if (options.hologram.record(record, request, light_field.grid())) record.acted({"looks"});
-    if (parse_looks(options.looks).expected) record.idle("seed");
+    options.hologram.resolve(request, light_field.grid());
     const auto holograms = make_holograms(light_field, request);
     Stage stage(session, "wave photograph");
     return develop(stage, holograms, cameras, options);
@@ -191,28 +198,11 @@ double exposure_of(const Options& options, double given, std::span<const Image> 
     return exposure;
 }
 
-// Records the options that act on the picture of any input; those of the input itself are recorded where it is opened.
-void record_photograph(RunRecord& record, const Options& options, InputKind kind, bool geometric) {
-    record.acted({"input", "display"});
-    const std::filesystem::path output = options.output;
-    record_camera(record, options.view, options.view.frames > 1 && is_film(output));
-    // EXR files hold linear values, which no exposure multiplies.
-    if (options.display == "intensity" && output.extension() != ".exr") record.acted({"exposure"});
-    if (kind != InputKind::hologram) record.acted(geometric ? "geometric" : "wave", "yes");
-    if (geometric)
-        record.acted({"pupil-samples"});
-    else
-        record.acted("camera", kind == InputKind::hologram && options.camera == "auto" ? "narrow" : options.camera);
-    if (kind == InputKind::hologram && options.camera != "full") record.acted({"diffuser"});
-    if (!geometric && options.camera == "full") record.acted({"film-distance"});
-    if (options.preview) record.acted({"preview"});
-}
-
 // Writes the pictures and reports them.
 void write_photographs(const Options& options, std::span<const Image> pictures, double exposure, bool geometric,
-                       const RunRecord& record, const Session& session) {
+                       const Session& session) {
     if (!is_first_process()) return;
-    Metadata metadata = record.metadata();
+    Metadata metadata = run_metadata(session);
     metadata.emplace_back("exposure", fmt::format("{:.9g}", exposure));
     const Image& first = pictures.front();
     std::uintmax_t bytes = 0;
@@ -238,7 +228,7 @@ void write_photographs(const Options& options, std::span<const Image> pictures, 
                     {"seconds", session.seconds()}});
 }
 
-int photo(const Options& options, const Session& session) {
+int photo(Options& options, const Session& session) {
     const double given = options.exposure == "auto" ? 0 : parse_exposure(options.exposure);
     const bool external = is_external(options.input, options.field);
     if (!external) require_described(options.input, options.field);
@@ -250,15 +240,17 @@ int photo(const Options& options, const Session& session) {
     require_writable(options.output, {&options.input, 1});
     const bool geometric = options.geometric || (kind == InputKind::light_field && !options.wave);
     require_sense(options, kind, geometric);
-    RunRecord record(session);
-    record_photograph(record, options, kind, geometric);
+    options.kind = kind;
+    options.geometric = geometric;
+    options.wave = !geometric;
+    options.view.is_film = options.view.frames > 1 && is_film(options.output);
     Kept kept(session, options.resume, options.output, options.resume ? describe_input(options.input) : "");
     std::vector<Image> pictures = kind == InputKind::hologram
-                                      ? photographs_of_hologram(options, record, session)
-                                      : photographs_of_light_field(options, record, session, kind, geometric);
+                                      ? photographs_of_hologram(options, session)
+                                      : photographs_of_light_field(options, session, kind, geometric);
     if (options.display == "log")
         for (Image& picture : pictures) picture = logarithmic(picture);
-    write_photographs(options, pictures, exposure_of(options, given, pictures), geometric, record, session);
+    write_photographs(options, pictures, exposure_of(options, given, pictures), geometric, session);
     kept.complete();
     return 0;
 }
@@ -266,25 +258,39 @@ int photo(const Options& options, const Session& session) {
 void add_photo_options(Command& command, Options& options) {
     command.group("Camera");
     add_looks_option(command, "--looks,--average", options.looks,
-                     "Photographs averaged against speckle, unless of a hologram file");
-    command.text("--exposure", options.exposure, "NUMBER|auto", "What linear values are multiplied by in PNG, or auto");
+                     "Photographs averaged against speckle, unless of a hologram file")
+        .acts_if([&options] { return options.hologram.is_made && options.hologram.is_seeded; });
+    command.text("--exposure", options.exposure, "NUMBER|auto", "What linear values are multiplied by in PNG, or auto")
+        .acts_if([&options] { return options.is_exposed(); });
     command.choice("--display", options.display, {"intensity", "log", "phase"}, "intensity|log|phase",
                    "What a photograph by waves shows:"
                    "\nintensity: linear light"
                    "\nlog: four decades of it from black to white"
                    "\nphase: its phase beside that of light through the middle of the lens, from -pi to pi");
-    add_wave_camera_option(command, options.camera, {"auto", "eye", "narrow", "full"});
-    command.flag("--preview", options.preview,
-                 "Without waves that pass far from the lens: a quick look, for the camera eye");
-    command.length("--film-distance", options.film_distance,
-                   "From a thin lens to its film, for the full camera, with its aberrations; 0mm: a perfect lens");
-    command.choice("--diffuser", options.diffuser, {"none", "vertical"}, "none|vertical",
-                   "What stands before a hologram with horizontal parallax only:"
-                   "\nvertical: a diffuser that spreads the light of each line to all heights");
-    const Option geometric =
-        command.flag("--geometric", options.geometric, "By rays rather than waves (default for a light field)");
-    command.flag("--wave", options.wave, "By waves, through the hologram (default for a scene)").excludes(geometric);
-    command.count("--pupil-samples", options.pupil_samples, "Points of the pupil in a geometric photograph");
+    add_wave_camera_option(command, options.camera, {"auto", "eye", "narrow", "full"}).acts_if([&options] {
+        return !options.geometric;
+    });
+    command
+        .flag("--preview", options.preview,
+              "Without waves that pass far from the lens: a quick look, for the camera eye")
+        .acts_if([&options] { return options.preview; });
+    command
+        .length("--film-distance", options.film_distance,
+                "From a thin lens to its film, for the full camera, with its aberrations; 0mm: a perfect lens")
+        .acts_if([&options] { return !options.geometric && options.camera == "full"; });
+    command
+        .choice("--diffuser", options.diffuser, {"none", "vertical"}, "none|vertical",
+                "What stands before a hologram with horizontal parallax only:"
+                "\nvertical: a diffuser that spreads the light of each line to all heights")
+        .acts_if([&options] { return options.kind == InputKind::hologram && options.camera != "full"; });
+    const Parameter& geometric =
+        command.flag("--geometric", options.geometric, "By rays rather than waves (default for a light field)")
+            .acts_if([&options] { return options.geometric; });
+    command.flag("--wave", options.wave, "By waves, through the hologram (default for a scene)")
+        .excludes(geometric)
+        .acts_if([&options] { return options.wave && options.kind != InputKind::hologram; });
+    command.count("--pupil-samples", options.pupil_samples, "Points of the pupil in a geometric photograph")
+        .acts_if([&options] { return options.geometric; });
 }
 
 }  // namespace
@@ -297,18 +303,22 @@ void add_photo(Command& command, Session& session) {
         "  hogel photo pumpkin -o wave.png --hogels 128x128 --size 8mm --looks 8\n"
         "  hogel photo hologram.h5 -o stack.mp4 --focus -6mm --to-focus 6mm --frames 24\n"
         "  hogel photo phase.png -o p.png --phase-code slmsuite --pitch 8um --wavelength 532nm");
+    command.basics({"eye", "gaze", "focus", "pupil", "resolution", "looks", "exposure", "camera", "wave", "frames"});
     command.positional("input", options->input, "F.h5|X.h5|SCENE",
                        "Hologram, light field, mesh file, built-in scene, another program's field or picture");
-    command.text("-o,--output", options->output, "FILE", "Picture to write: .png (sRGB) or .exr (linear)").required();
+    command.text("-o,--output", options->output, "FILE", "Picture to write: .png (sRGB) or .exr (linear)")
+        .required()
+        .never_acts();
     add_resume_flag(command, options->resume);
     add_camera_options(command, options->view);
     add_photo_options(command, *options);
     add_hologram_options(command, options->hologram);
     add_render_options(command, options->render);
     add_hemicube_option(command, options->render);
+    command.look_up("seed")->acts_if([options] { return options->hologram.is_seeded && !options->is_expected(); });
     add_field_options(command, options->field, false);
     add_reconstruction_options(command, options->field);
-    add_json_flag(command, session);
+    command.add_like_option();
     command.work([options, &session] {
         options->camera = camera_name(options->camera);
         return photo(*options, session);

@@ -19,15 +19,13 @@ int print(const Options& options, const Session& session) {
     if (input_kind(options.input) != InputKind::light_field)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a light field", options.input));
     const LightField light_field = open_light_field_or_views(options.input);
-    RunRecord record(session);
-    record.acted({"input", "strips", "order", "exposure"});
     const OutputFolder folder(options.output, options.force);
     Stage stage(session, "pictures");
     const auto names = write_printer_images(folder.path(), light_field,
                                             {.rows = options.rows,
                                              .serpentine = options.order == "serpentine",
                                              .exposure = options.exposure,
-                                             .metadata = record.metadata()},
+                                             .metadata = run_metadata(session)},
                                             stage.progress());
     session.say(fmt::format("{}: {} pictures, {} to {}", options.output, names.size(),
                             names.front().filename().string(), names.back().filename().string()));
@@ -52,7 +50,8 @@ void add_print(Command& command, Session& session) {
         "  hogel print pumpkin.h5 -o strips --strips --order rows");
     command.positional("input", options->input, "X.h5", "Light field");
     command.text("-o,--output", options->output, "FOLDER", "Folder for the pictures, numbered in the order of printing")
-        .required();
+        .required()
+        .never_acts();
     add_force_flag(command, options->force);
     command.flag("--strips", options->rows, "One picture a row of hogels, side by side, instead of one a hogel");
     command.choice("--order", options->order, {"serpentine", "rows"}, "NAME",
@@ -61,7 +60,7 @@ void add_print(Command& command, Session& session) {
         .number("--exposure", options->exposure, "NUMBER",
                 "What linear values are multiplied by, the same in all pictures")
         .positive();
-    add_json_flag(command, session);
+    command.add_like_option();
     command.work([options, &session] { return print(*options, session); });
 }
 

@@ -31,6 +31,7 @@ struct Options {
     Counts output_samples;    // none: as many as the input has
     double offset_x = 0, offset_y = 0;
     bool resume = false;
+    bool is_picture = false;  // which the display acts on
 };
 
 // The samples of the output, by default those of the field.
@@ -226,18 +227,16 @@ std::vector<Result> methods_of(const Fields& fields, const Options& options,
     return methods;
 }
 
-int propagate_fields(const Options& options, const Session& session) {
+int propagate_fields(Options& options, const Session& session) {
     const OutputKind kind = output_kind(options.output, options.display);
     require_writable(options.output, {&options.input, 1});
     if (options.resume && kind != OutputKind::hologram)
         throw Error(
             ErrorCode::usage,
             fmt::format("--resume: {} is written at once; give -o a name in .h5, or leave it out", options.output));
-    RunRecord record(session);
-    record.acted({"input", "distance", "offset-x", "offset-y"});
-    if (kind == OutputKind::picture) record.acted({"display"});
+    options.is_picture = kind == OutputKind::picture;
     const Fields fields =
-        open_and_reconstruct(session, options.input, options.field, options.pitch, options.wavelengths, record);
+        open_and_reconstruct(session, options.input, options.field, options.pitch, options.wavelengths);
     if (kind == OutputKind::picture && options.display == "phase") require_one_wavelength(fields, "--display phase");
     if (kind == OutputKind::picture && fields.size() != 1 && fields.size() != 3)
         throw Error(ErrorCode::bad_input,
@@ -265,9 +264,9 @@ int propagate_fields(const Options& options, const Session& session) {
     };
     const Grid& plane = grids.front().plane;
     // No value of the option says that the samples of the input are farther apart in one direction.
-    if (plane.pitch_x == plane.pitch_y) record.acted("output-pitch", compact_length(plane.pitch_x));
-    record.acted("output-samples", fmt::format("{}x{}", plane.width, plane.height));
-    Metadata metadata = with_history(record.metadata(), to_metadata(fields.front()->provenance()));
+    options.output_pitch = plane.pitch_x == plane.pitch_y ? plane.pitch_x : 0;
+    options.output_samples = {plane.width, plane.height};
+    Metadata metadata = with_history(run_metadata(session), to_metadata(fields.front()->provenance()));
     if (kind == OutputKind::hologram) {
         HologramFileOptions file{.metadata = metadata};
         if (options.resume) file.resume = describe_input(options.input);
@@ -310,29 +309,38 @@ void add_propagate(Command& command, Session& session) {
         "  hogel propagate hologram.h5 -o nearer.h5 --distance 20mm\n"
         "  hogel propagate hologram.h5 -o eye.png --distance 300mm --output-pitch 20um --output-samples 512\n"
         "  hogel propagate slm.npy -o there.npy --distance 0.2m --pitch 8um --wavelength 532nm");
+    command.basics({"display", "output-pitch", "output-samples", "pitch", "wavelength", "values", "phase-code", "order",
+                    "reconstruct", "focal"});
     command.positional("input", options->input, "F.h5|F.npy|P.png", "Hologram, or another program's field");
     command
         .text("-o,--output", options->output, "FILE",
               "Hologram (.h5), array (.npy, .npz, .mat) or picture (.png, .exr)")
-        .required();
+        .required()
+        .never_acts();
     command.length("--distance", options->distance, "Towards the viewer; negative goes back behind the hologram")
         .required();
-    command.choice("--display", options->display, {"intensity", "amplitude", "log", "phase", "field"},
-                   "intensity|amplitude|log|phase|field",
-                   "What a picture shows; log: four decades, phase: black at -pi to white at pi,\n"
-                   "field: real and imaginary parts, in a file (.exr) of channels");
+    command
+        .choice("--display", options->display, {"intensity", "amplitude", "log", "phase", "field"},
+                "intensity|amplitude|log|phase|field",
+                "What a picture shows; log: four decades, phase: black at -pi to white at pi,\n"
+                "field: real and imaginary parts, in a file (.exr) of channels")
+        .acts_if([options] { return options->is_picture; });
     command.positive_length("--output-pitch", options->output_pitch, "Of the output's samples")
-        .default_text("that of the input");
+        .default_text("that of the input")
+        .acts_if([options] { return options->output_pitch > 0; });
     command.counts("--output-samples", options->output_samples, "Of the output, across and down")
         .default_text("as many as the input has");
     command.length("--offset-x", options->offset_x, "Of the output's middle from that of the input, to the right");
     command.length("--offset-y", options->offset_y, "Of the output's middle from that of the input, upwards");
-    command.positive_length("--pitch", options->pitch, "Of another program's samples");
-    command.wavelengths(options->wavelengths);
+    const auto is_external = [options] { return options->field.is_external; };
+    command.positive_length("--pitch", options->pitch, "Of another program's samples").acts_if([options] {
+        return options->field.is_external && options->pitch > 0;
+    });
+    command.wavelengths(options->wavelengths).acts_if(is_external);
     add_field_options(command, options->field, false);
     add_reconstruction_options(command, options->field);
     add_resume_flag(command, options->resume);
-    add_json_flag(command, session);
+    command.add_like_option();
     command.work([options, &session] { return propagate_fields(*options, session); });
 }
 

@@ -66,11 +66,10 @@ void state_plan(const Options& options, const LightField& rendered, const Scene&
 
 // Writes the light field or a part of it.
 // @param input  what a part or an unfinished file remembers of the scene
-int write_hdf5(const Options& options, const LightField& light_field, const std::string& input, RunRecord& record,
+int write_hdf5(const Options& options, const LightField& light_field, const std::string& input,
                const Session& session) {
     LightFieldFileOptions file = options.file();
-    record.acted({"float"});
-    file.metadata = record.metadata();
+    file.metadata = run_metadata(session);
     if (options.resume) file.resume = input;
     Stage stage(session, "rendering");
     if (options.part.part) {
@@ -92,7 +91,7 @@ int write_hdf5(const Options& options, const LightField& light_field, const std:
     return 0;
 }
 
-int render(const Options& options, const Session& session) {
+int render(Options& options, const Session& session) {
     if (input_kind(options.scene) != InputKind::scene)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
     options.output.require(options.scene);
@@ -100,17 +99,15 @@ int render(const Options& options, const Session& session) {
         throw Error(ErrorCode::usage,
                     fmt::format("--part: belongs to HDF5 files; {} is a compressed one", options.output.file));
     static_cast<void>(options.render.request());  // throws before a scene is made
-    RunRecord record(session);
-    record.acted({"scene", "depth"});
-    const Scene scene = load_scene(session, options.scene, options.render, record);
+    const Scene scene = load_scene(session, options.scene, options.render);
     const std::string input = options.resume || options.part.part ? describe_input(options.scene, scene) : "";
-    LightField rendered = render_light_field(session, scene, options.render, record);
+    LightField rendered = render_light_field(session, scene, options.render);
     if (options.region.columns > 0)
         rendered = rendered.wrapped(
             [&](const LightField::Source& face) { return std::make_shared<const InRegions>(face, options.region); });
     state_plan(options, rendered, scene, session);
-    if (!options.output.compressed()) return write_hdf5(options, rendered, input, record, session);
-    write_compressed(options.output, rendered, record, session, options.resume ? std::optional(input) : std::nullopt);
+    if (!options.output.compressed()) return write_hdf5(options, rendered, input, session);
+    write_compressed(options.output, rendered, session, options.resume ? std::optional(input) : std::nullopt);
     return 0;
 }
 
@@ -123,6 +120,7 @@ void add_render(Command& command, Session& session) {
         "  hogel render bunny.ply -o bunny.h5 --hogels 128x128 --size 20mm --depth\n"
         "  hogel render tower -o all.h5 --hemicube --directions 128x128\n"
         "  hogel render pumpkin -o pumpkin.hgl --sqnr 35");
+    command.basics({"hogels", "directions", "size", "fov", "algorithm", "shading", "rotate", "light", "depth", "sqnr"});
     command.positional("scene", options->scene, "SCENE", "Mesh file or built-in scene");
     add_light_field_output(command, options->output, "Store the depth of every ray too",
                            "Store 32-bit floats rather than 16-bit ones");
@@ -130,10 +128,11 @@ void add_render(Command& command, Session& session) {
     add_part_option(command, options->part);
     add_render_options(command, options->render);
     command.counts("--region", options->region, "Hogels that a renderer is given at once (default: what it prefers)")
-        .no_default();
+        .no_default()
+        .never_acts();
     add_hemicube_option(command, options->render);
     add_direction_options(command, options->render);
-    add_json_flag(command, session);
+    command.add_like_option();
     command.work([options, &session] { return render(*options, session); });
 }
 

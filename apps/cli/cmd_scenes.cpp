@@ -24,7 +24,6 @@ int list_scenes(const Session& session) {
 
 void add_scenes(Command& command, Session& session) {
     command.examples("  hogel scenes");
-    add_json_flag(command, session);
     command.work([&session] { return list_scenes(session); });
 }
 

@@ -32,6 +32,11 @@ struct Options {
     std::string phase_code = "hogel";
     FieldOptions field;
     bool resume = false;
+
+    /// Whether the encoding, once it is chosen, is one of these.
+    bool is_one_of(std::initializer_list<Encoding> these) const {
+        return std::ranges::count(these, encodings().find(encoding).encoding) > 0;
+    }
 };
 
 // A device as the table writes it, typed in small letters or capitals.
@@ -157,28 +162,7 @@ std::string name_of(Encoding encoding) {
     return "";
 }
 
-// Records the options that act with an encoding.
-void record_pattern(RunRecord& record, const Options& options, const std::string& name) {
-    const Encoding encoding = encodings().find(name).encoding;
-    record.acted({"input"});
-    record.acted("encoding", name);
-    if (is_phase_only(encoding)) record.acted({"phase-code"});
-    if (options.device.empty())
-        record.acted({"pixels", "pixel-pitch"});
-    else
-        record.acted("device", device_name(options.device));
-    // The two values of binary patterns are levels of every modulator.
-    if (options.device.empty() && encoding != Encoding::binary) record.acted({"levels"});
-    const bool iterated = encoding == Encoding::gerchberg_saxton || encoding == Encoding::gradient;
-    if (encoding == Encoding::gerchberg_saxton) record.acted({"window"});
-    if (iterated && options.pattern.iterations > 0) record.acted({"iterations"});
-    // The encodings of phases and signs use it for the power alone.
-    record.acted({"clip"});
-    if (encoding == Encoding::intensity || encoding == Encoding::bipolar || encoding == Encoding::binary)
-        record.acted({"reference"});
-}
-
-int slm(const Options& options, const Session& session) {
+int slm(Options& options, const Session& session) {
     PatternOptions pattern_options = options.pattern;
     pattern_options.modulator = modulator_of(options);
     require_raw_pixels_name(options.output);
@@ -189,9 +173,8 @@ int slm(const Options& options, const Session& session) {
         if (input_kind(options.input) != InputKind::hologram)
             throw Error(ErrorCode::bad_input, fmt::format("{}: is not a hologram", options.input));
     }
-    RunRecord record(session);
-    const Fields fields = open_and_reconstruct(session, options.input, options.field, options.field.pitch,
-                                               options.field.wavelengths, record);
+    const Fields fields =
+        open_and_reconstruct(session, options.input, options.field, options.field.pitch, options.field.wavelengths);
     const std::size_t colours = fields.size();
     if (colours != 1 && colours != 3)
         throw Error(ErrorCode::bad_input,
@@ -204,8 +187,9 @@ int slm(const Options& options, const Session& session) {
     const SuitablePatterns encoded = encode(options, fields, pattern_options, stage.progress());
     const std::string encoding = name_of(encoded.encoding);
     if (options.encoding == "auto") session.detail(fmt::format("encoding {} suits the field", encoding));
-    record_pattern(record, options, encoding);
-    Metadata metadata = record.metadata();
+    options.encoding = encoding;
+    if (!options.device.empty()) options.device = device_name(options.device);
+    Metadata metadata = run_metadata(session);
     ResultList patterns;
     for (std::size_t c = 0; c < colours; ++c) {
         const Pattern& pattern = encoded.patterns[c];
@@ -240,9 +224,12 @@ void add_slm(Command& command, Session& session) {
         "  hogel hologram pumpkin -o f.h5 --hogels 60x33 --size 12.288mm --pitch 6.4um \\\n"
         "    --fov 2.5deg --wavelength 532nm\n"
         "  hogel slm f.h5 -o pattern.png --device leto --encoding double-phase");
+    command.basics({"device", "pixels", "pixel-pitch", "levels", "encoding", "reference", "window", "phase-code",
+                    "pitch", "wavelength"});
     command.positional("input", options->input, "F.h5|F.npy|P.png", "Hologram, or another program's field");
     command.text("-o,--output", options->output, "FILE", "Pattern to write: .png or .bmp, 8 bits as they are")
-        .required();
+        .required()
+        .never_acts();
     add_resume_flag(command, options->resume);
     std::vector<std::string> names = encodings().names();
     names.insert(names.begin(), "auto");
@@ -258,33 +245,50 @@ void add_slm(Command& command, Session& session) {
         "bipolar: 2 Re(F R*), raised to be positive\n"
         "burckhardt, lee: three or four real components, in columns by turns\n"
         "binary: where Re(F R*) is positive");
-    command.angle("--reference", options->pattern.reference_angle,
-                  "Angle of the reference beam; 0: between the least and the most that will do");
+    command
+        .angle("--reference", options->pattern.reference_angle,
+               "Angle of the reference beam; 0: between the least and the most that will do")
+        .acts_if([options] {
+            return options->is_one_of({Encoding::intensity, Encoding::bipolar, Encoding::binary});
+        });
     command.number("--clip", options->pattern.clip, "0..1",
                    "Share of the samples whose modulus may be cut to the largest");
-    command.count("--window", options->pattern.window, "Gerchberg-Saxton: pixels of a hogel's side");
+    command.count("--window", options->pattern.window, "Gerchberg-Saxton: pixels of a hogel's side").acts_if([options] {
+        return options->is_one_of({Encoding::gerchberg_saxton});
+    });
     command
         .count("--iterations", options->pattern.iterations,
                "Gerchberg-Saxton: how many steps (default: 40); gradient: at most (default: 200), until the\n"
                "correlation with the field no longer gains")
-        .no_default();
+        .no_default()
+        .acts_if([options] {
+            return options->is_one_of({Encoding::gerchberg_saxton, Encoding::gradient});
+        });
     std::string devices = "Modulator:";
     for (const Modulator& modulator : modulators().rows())
         devices += fmt::format("\n{}: {}x{} at {}, {} levels", modulator.name, modulator.width, modulator.height,
                                format_length(modulator.pitch), modulator.levels);
     command.group("Modulator");
     command.text("--device", options->device, "NAME", devices).sets_parameter("pixel_pitch");
-    command.counts("--pixels", options->pixels, "Any other: pixels across and down");
-    command.positive_length("--pixel-pitch", options->pixel_pitch, "Distance of its pixels");
-    command.count("--levels", options->levels, "Levels of its pixels");
+    command.counts("--pixels", options->pixels, "Any other: pixels across and down").acts_if([options] {
+        return options->device.empty();
+    });
+    command.positive_length("--pixel-pitch", options->pixel_pitch, "Distance of its pixels").acts_if([options] {
+        return options->device.empty();
+    });
+    command.count("--levels", options->levels, "Levels of its pixels").acts_if([options] {
+        return options->device.empty() && !options->is_one_of({Encoding::binary});
+    });
     std::string codes = "Levels of phases as this program writes them:";
     for (const PhaseCodeInfo& code : phase_codes().rows()) codes += fmt::format("\n{}: {}", code.name, code.text);
-    command.text("--phase-code", options->phase_code, "CODE",
-                 codes + "\nany other: range=ANGLE,offset=ANGLE,invert, in deg, rad or pi (2pi)");
+    command
+        .text("--phase-code", options->phase_code, "CODE",
+              codes + "\nany other: range=ANGLE,offset=ANGLE,invert, in deg, rad or pi (2pi)")
+        .acts_if([options] { return is_phase_only(encodings().find(options->encoding).encoding); });
     options->field.code_option = "--input-phase-code";
     add_field_options(command, options->field, true);
     add_reconstruction_options(command, options->field);
-    add_json_flag(command, session);
+    command.add_like_option();
     command.work([options, &session] { return slm(*options, session); });
 }
 

@@ -37,7 +37,7 @@ int view(const ViewOptions& options, const Session& session) {
 
 void add_view(Command& command, Session& session) {
     auto options = std::make_shared<ViewOptions>();
-    add_view_options(command, *options, session);
+    add_view_options(command, *options);
     command.work([options, &session] { return view(*options, session); });
 }
 

@@ -6,186 +6,102 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdint>
+#include <map>
 #include <ranges>
 #include <sstream>
+#include <vector>
 
 #include "error_parameters.h"
 #include "help.h"
 #include "hogel/error.h"
 #include "hogel/parts.h"
 #include "hogel/version.h"
+#include "like.h"
 #include "session.h"
 #include "standard_output.h"
 
 namespace hogel::cli {
 namespace {
 
-// What is wrong with a number, or nothing.
-std::string finite_number(const std::string& text) {
-    return parse_number(text) ? "" : fmt::format("'{}' is not a number", text);
+// What a parameter is called on the command line: "-o,--output".
+std::string option_names(const Parameter& parameter) {
+    if (parameter.is_positional) return parameter.name;
+    return (parameter.letter.empty() ? "" : "-" + parameter.letter + ",") + "--" + parameter.name +
+           (parameter.alias.empty() ? "" : ",--" + parameter.alias);
+}
+
+// What a parameter is called in messages.
+std::string option_name(const Parameter& parameter) { return (parameter.is_positional ? "" : "--") + parameter.name; }
+
+CLI::Option* add_option(CLI::App& app, Parameter& parameter) {
+    const std::string names = option_names(parameter);
+    const std::string what = option_name(parameter);
+    if (parameter.kind == ParameterKind::flag)
+        return app.add_flag_function(
+            names, [&parameter, what](std::int64_t count) { parameter.read({count > 0 ? "yes" : "no"}, what); },
+            parameter.help);
+    CLI::Option* option = nullptr;
+    if (parameter.kind == ParameterKind::texts)
+        option =
+            app.add_option_function<std::vector<std::string>>(
+                   names, [&parameter, what](const std::vector<std::string>& texts) { parameter.read(texts, what); },
+                   parameter.help)
+                ->allow_extra_args(parameter.is_positional);
+    else
+        option = app.add_option_function<std::string>(
+            names, [&parameter, what](const std::string& text) { parameter.read({text}, what); }, parameter.help);
+    return option->type_name(parameter.type);
+}
+
+// Makes options of the parameters of a command.
+void add_options(CLI::App& app, Command& command) {
+    std::map<std::string, CLI::Option*> options;
+    for (Parameter& parameter : command.all()) {
+        CLI::Option* option = options[parameter.name] = add_option(app, parameter);
+        for (const std::string& other : parameter.excluded) option->excludes(options.at(other));
+        for (const std::string& other : parameter.needed) option->needs(options.at(other));
+    }
 }
 
 }  // namespace
 
-Option Option::required() const {
-    option_->required()->default_str("");  // the help shows no default, which would never be used
-    return *this;
+bool Command::is_basic(const Parameter& parameter) const {
+    return parameter.is_required || std::ranges::count(basics_, parameter.name) > 0;
 }
 
-Option Option::excludes(const Option& other) const {
-    option_->excludes(other.option_);
-    return *this;
+void Command::add_like_option() {
+    text("--like", like_, "FILE", "Take the options that made this file, but for those that are given here")
+        .no_default()
+        .never_acts();
 }
 
-Option Option::excludes(const std::string& name) const { return excludes(command_->option(name)); }
-
-Option Option::needs(const Option& other) const {
-    option_->needs(other.option_);
-    return *this;
-}
-
-Option Option::default_text(const std::string& text) const {
-    option_->default_str(text);
-    return *this;
-}
-
-Option Option::range(double low, double high) const {
-    option_->check([low, high](const std::string& text) {
-        const std::optional<double> number = parse_number(text);
-        const bool inside = number && *number >= low && *number <= high;
-        return inside ? "" : fmt::format("'{}' is not a number from {} to {}", text, low, high);
-    });
-    return *this;
-}
-
-Option Option::positive() const {
-    option_->check([](const std::string& text) {
-        const std::optional<double> number = parse_number(text);
-        return number && *number > 0 ? "" : fmt::format("'{}' is not a positive number", text);
-    });
-    return *this;
-}
-
-Option Option::sets(bool& given) const {
-    option_->each([&given](const std::string&) { given = true; });
-    return *this;
-}
-
-Option Option::sets_parameter(const std::string& parameter) const {
-    command_->setters_.emplace(parameter, option_->get_name());
-    return *this;
-}
-
-Command::Command(CLI::App& app) : app_(app) { app_.get_option("--help")->group(Command::last_group); }
-
-std::string Command::name() const { return app_.get_name(); }
-
-void Command::examples(const std::string& lines) { app_.footer("Examples:\n" + lines); }
-
-Option Command::add(CLI::Option* option) {
-    option->group(group_);
-    return {*this, option};
-}
-
-Option Command::option(const std::string& name) { return {*this, app_.get_option(name)}; }
-
-Option Command::positional(const std::string& name, std::string& value, const std::string& type,
-                           const std::string& help) {
-    return add(app_.add_option(name, value, help)->type_name(type)->required());
-}
-
-Option Command::positionals(const std::string& name, std::vector<std::string>& values, const std::string& type,
-                            const std::string& help) {
-    return add(app_.add_option(name, values, help)->type_name(type)->required());
-}
-
-Option Command::text(const std::string& name, std::string& value, const std::string& type, const std::string& help) {
-    return add(app_.add_option(name, value, help)->type_name(type)->capture_default_str());
-}
-
-Option Command::texts(const std::string& name, std::vector<std::string>& values, const std::string& type,
-                      const std::string& help) {
-    return add(app_.add_option(name, values, help)->type_name(type)->allow_extra_args(false));
-}
-
-Option Command::parsed(const std::string& name, const std::string& type, const std::string& help,
-                       std::function<void(const std::string& text)> read) {
-    return read_option(name, type, "", help,
-                       [read = std::move(read)](const std::string& text, const std::string&) { read(text); });
-}
-
-Option Command::number(const std::string& name, double& value, const std::string& type, const std::string& help) {
-    return add(app_.add_option(name, value, help)->type_name(type)->capture_default_str()->check(finite_number));
-}
-
-Option Command::number(const std::string& name, std::optional<double>& value, const std::string& type,
-                       const std::string& help) {
-    return add(app_.add_option(name, value, help)->type_name(type)->check(finite_number));
-}
-
-Option Command::flag(const std::string& name, bool& value, const std::string& help) {
-    return add(app_.add_flag(name, value, help));
-}
-
-Option Command::flag(const std::string& name, const std::string& help) {
-    return add(app_.add_flag_function(
-        name, [](std::int64_t) {}, help));
-}
-
-Option Command::choice(const std::string& name, std::string& value, const std::vector<std::string>& words,
-                       const std::string& type, const std::string& help) {
-    return add(app_.add_option(name, value, help)
-                   ->type_name(type)
-                   ->check(CLI::IsMember(words).description(""))
-                   ->capture_default_str());
-}
-
-Option Command::read_option(const std::string& name, const std::string& type, const std::string& shown,
-                            const std::string& help, Read read) {
-    const std::string called = name.substr(0, name.find(','));
-    return add(app_.add_option_function<std::string>(
-                       name, [called, read = std::move(read)](const std::string& text) { read(text, called); }, help)
-                   ->type_name(type)
-                   ->default_str(shown));
-}
-
-bool Command::given(const std::string& name) const { return app_.get_option(name)->count() > 0; }
-
-std::vector<std::string> Command::setters(const std::string& parameter) const {
-    std::string name = "--" + parameter;
-    std::ranges::replace(name, '_', '-');
-    std::vector<std::string> names;
-    if (app_.get_option_no_throw(name) != nullptr) names.push_back(name);
-    const auto [first, last] = setters_.equal_range(parameter);
-    for (auto each = first; each != last; ++each) names.push_back(each->second);
-    return names;
+void Command::complete() {
+    if (!like_.empty()) take_like(*this, like_);
+    for (const Parameter& each : all())
+        if (each.is_required && !each.is_given())
+            throw Error(ErrorCode::usage,
+                        fmt::format("{} is required; see 'hogel {} --help'", option_name(each), name()));
 }
 
 std::string Command::describe(const Error& error) const {
     std::vector<std::string> options;
-    const auto take = [&](const std::string& option) {
+    const auto take = [&](const Parameter* parameter) {
+        const std::string option = option_name(*parameter);
         if (!std::ranges::count(options, option)) options.push_back(option);
     };
-    for (const std::string& parameter : names_of_parameters(error.parameter())) {
-        const std::vector<std::string> names = setters(parameter);
-        const auto is_given = [&](const std::string& name) { return given(name); };
-        if (std::ranges::any_of(names, is_given))
-            std::ranges::for_each(names | std::views::filter(is_given), take);
-        else if (!names.empty())
-            take(names.front());
+    for (std::string name : names_of_parameters(error.parameter())) {
+        std::vector<const Parameter*> setters;
+        for (const Parameter& each : all())
+            if (std::ranges::count(each.other_names, name)) setters.push_back(&each);
+        std::ranges::replace(name, '_', '-');
+        if (const Parameter* own = look_up(name)) setters.insert(setters.begin(), own);
+        if (std::ranges::any_of(setters, &Parameter::is_given))
+            std::ranges::for_each(setters | std::views::filter(&Parameter::is_given), take);
+        else if (!setters.empty())
+            take(setters.front());
     }
     return options.empty() ? error.what() : fmt::format("{}: {}", fmt::join(options, ", "), error.what());
-}
-
-Metadata Command::values() const {
-    Metadata values;
-    for (const CLI::Option* option : app_.get_options()) {
-        const bool is_flag = option->get_expected_min() == 0, is_given = option->count() > 0;
-        std::string value = is_given ? CLI::detail::join(option->results(), " ") : option->get_default_str();
-        if (is_flag) value = is_given ? "yes" : "no";
-        values.emplace_back(option->get_single_name(), value);
-    }
-    return values;
 }
 
 namespace {
@@ -221,9 +137,25 @@ struct CommandLine::Impl {
             "  hogel make pumpkin -o pumpkin");
     }
 
-    const Command* find(const std::string& name) const {
+    Command* find(const std::string& name) const {
         const auto found = std::ranges::find(commands, name, [](const auto& command) { return command->name(); });
         return found != commands.end() ? found->get() : nullptr;
+    }
+
+    // The help or the version, for which these words ask.
+    std::string what_is_asked(const CLI::ParseError& error, const std::vector<std::string>& words) const {
+        const auto chosen = app.get_subcommands();
+        if (chosen.empty()) {
+            std::ostringstream text;
+            app.exit(error, text);
+            return text.str();
+        }
+        const Command& command = *find(chosen.front()->get_name());
+        if (std::ranges::count(words, "--json") > 0) return schema(command);
+        const auto asked =
+            std::ranges::find_if(words, [](const std::string& word) { return word == "--help" || word == "-h"; });
+        const bool has_part = asked != words.end() && asked + 1 != words.end() && !(asked + 1)->starts_with('-');
+        return help(command, has_part ? *(asked + 1) : "");
     }
 };
 
@@ -231,35 +163,42 @@ CommandLine::CommandLine(std::span<const CommandInfo> commands, Session& session
     for (const CommandInfo& info : commands) {
         CLI::App* app = impl_->app.add_subcommand(info.name, info.text);
         app->group("Commands");
-        Command& command = *impl_->commands.emplace_back(std::make_unique<Command>(*app));
+        Command& command = *impl_->commands.emplace_back(std::make_unique<Command>(info.name, info.text));
         add_common_options(command, session);
         info.add(command, session);
+        add_options(*app, command);
     }
 }
 
 CommandLine::~CommandLine() = default;
 
+std::vector<const Command*> CommandLine::commands() const {
+    std::vector<const Command*> all;
+    for (const auto& command : impl_->commands) all.push_back(command.get());
+    return all;
+}
+
 const Command* CommandLine::parse(int argc, const char* const* argv) {
     std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
-    // "help render" is "render --help".
+    // "help render all" is "render --help all".
     if (!words.empty() && words.front() == "help") {
         words.erase(words.begin());
-        words.resize(std::min<std::size_t>(words.size(), 1));
-        words.emplace_back("--help");
+        words.insert(words.begin() + (words.empty() ? 0 : 1), "--help");
     }
     if (!words.empty() && !words.front().starts_with('-') && impl_->find(words.front()) == nullptr)
         throw Error(ErrorCode::usage, explain_unknown_command(impl_->app, words.front()));
+    const std::vector<std::string> given = words;
     std::ranges::reverse(words);  // CLI11 expects them in reverse order
     try {
         impl_->app.parse(std::move(words));
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) throw Error(ErrorCode::usage, explain(impl_->app, error));
-        std::ostringstream help;
-        impl_->app.exit(error, help);
-        write_standard_output(help.str());
+        write_standard_output(impl_->what_is_asked(error, given));
         return nullptr;
     }
-    return impl_->find(impl_->app.get_subcommands().front()->get_name());
+    Command* const command = impl_->find(impl_->app.get_subcommands().front()->get_name());
+    command->complete();
+    return command;
 }
 
 }  // namespace hogel::cli

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "commands.h"
 #include "error_parameters.h"
 #include "session.h"
 
@@ -45,6 +46,14 @@ TEST(Command, names_options_of_all_parameters_and_no_others) {
               "--pupil, --focal-plane: no");
     EXPECT_EQ(description({}, Error(ErrorCode::usage, "no")), "no");
     EXPECT_EQ(description({}, Error(ErrorCode::bad_input, "pupil", "no")), "no");
+}
+
+TEST(CommandLine, has_the_basic_options_of_each_command) {
+    Session session;
+    const CommandLine line(commands(), session);
+    for (const Command* command : line.commands())
+        for (const std::string& name : command->basics())
+            EXPECT_NE(command->look_up(name), nullptr) << command->name() << " --" << name;
 }
 
 // The parameter of the error that the work throws.

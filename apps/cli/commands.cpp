@@ -26,6 +26,7 @@ std::span<const CommandInfo> commands() {
         {"info", "Say what a file is and what made it, in SI units", add_info},
         {"bake", "Light a scene for good, reflected light included", add_bake},
         {"scenes", "List the built-in scenes", add_scenes},
+        {"completion", "Print what completes command lines in bash, zsh or fish", add_completion},
     };
     return table;
 }

@@ -31,5 +31,6 @@ void add_join(Command& command, Session& session);
 void add_info(Command& command, Session& session);
 void add_scenes(Command& command, Session& session);
 void add_view(Command& command, Session& session);
+void add_completion(Command& command, Session& session);
 
 }  // namespace hogel::cli

@@ -38,9 +38,10 @@ bool are_described(const FieldOptions& options) {
            !options.phases.empty();
 }
 
-std::string compact_lengths(const std::vector<double>& lengths) {
+// Lengths as messages say them.
+std::string short_lengths(const std::vector<double>& lengths) {
     std::vector<std::string> texts;
-    for (const double length : lengths) texts.push_back(compact_length(length));
+    for (const double length : lengths) std::erase(texts.emplace_back(format_length(length)), ' ');
     return fmt::format("{}", fmt::join(texts, ","));
 }
 
@@ -56,56 +57,51 @@ void state_contradictions(const Session& session, const std::string& name, const
                           const ExternalFacts& facts, const ExternalField& what,
                           const std::vector<double>& wavelengths) {
     if (facts.pitch_x > 0 && (facts.pitch_x != what.pitch_x || facts.pitch_y != what.pitch_y))
-        state_contradiction(
-            session, name, "--pitch", compact_lengths({what.pitch_x}),
-            compact_lengths(facts.pitch_x == facts.pitch_y ? std::vector{facts.pitch_x}
-                                                           : std::vector{facts.pitch_x, facts.pitch_y}));
-    state_contradiction(session, name, "--wavelength", compact_lengths(wavelengths),
-                        compact_lengths(facts.wavelengths));
+        state_contradiction(session, name, "--pitch", short_lengths({what.pitch_x}),
+                            short_lengths(facts.pitch_x == facts.pitch_y ? std::vector{facts.pitch_x}
+                                                                         : std::vector{facts.pitch_x, facts.pitch_y}));
+    state_contradiction(session, name, "--wavelength", short_lengths(wavelengths), short_lengths(facts.wavelengths));
     state_contradiction(session, name, "--values", options.values, facts.values);
     if (facts.phase_code.empty() || !what.phase_code || *what.phase_code == parse_phase_code(facts.phase_code)) return;
     state_contradiction(session, name, options.code_option, options.phase_code, facts.phase_code);
 }
 
-// Records the options that say what numbers are, or what the file says instead.
-void record_values(const FieldOptions& options, const ExternalFacts& facts, const Command& command, RunRecord& record) {
-    const std::string_view code = std::string_view(options.code_option).substr(2);
+// Sets the options that say what numbers are to what the file says where they are not given.
+void complete_values(FieldOptions& options, const ExternalFacts& facts, const ExternalField& what,
+                     const Command& command) {
     const bool phases = options.values.empty() || options.values == "phase";
-    if (command.given(options.code_option))
-        record.acted({code});
-    else if (phases && !facts.phase_code.empty())
-        record.acted(code, facts.phase_code);
-    // A phase code alone says that numbers are phases.
-    else if (command.given("--values"))
-        record.acted({"values"});
-    else if (!facts.values.empty())
-        record.acted("values", facts.values);
+    if (!command.given(options.code_option)) {
+        if (phases && !facts.phase_code.empty())
+            options.phase_code = facts.phase_code;
+        else if (!command.given("--values"))
+            options.values = facts.values;
+    }
+    // Numbers that are not whole have the zero 0 by default.
+    const bool whole = facts.numbers.starts_with("whole");
+    if (!what.imaginary.empty() && !whole && !command.given("--zero")) options.zero = "0";
 }
 
 // The pitch and the wavelengths of a field, from the options or else from the file.
-void complete_sampling(const std::string& name, const ExternalFacts& facts, const Command& command, double pitch,
-                       std::vector<double>& wavelengths, ExternalField& what, RunRecord& record) {
+void complete_sampling(const std::string& name, const ExternalFacts& facts, const Command& command, double& pitch,
+                       std::vector<double>& wavelengths, ExternalField& what) {
     const std::string why = facts.complaint.empty() ? "" : fmt::format(": {}", facts.complaint);
     if (command.given("--pitch")) {
         what.pitch_x = what.pitch_y = pitch;
-        record.acted({"pitch"});
     } else if (facts.pitch_x > 0 && facts.pitch_y > 0) {
         what.pitch_x = facts.pitch_x;
         what.pitch_y = facts.pitch_y;
-        if (facts.pitch_x == facts.pitch_y) record.acted("pitch", compact_length(facts.pitch_x));
+        pitch = facts.pitch_x == facts.pitch_y ? facts.pitch_x : 0;
     } else {
         throw Error(
             ErrorCode::usage,
             fmt::format("--pitch: is needed, because {} does not say how far its samples are apart{}", name, why));
     }
-    if (command.given("--wavelength")) {
-        record.acted({"wavelength"});
-    } else if (!facts.wavelengths.empty()) {
+    if (!command.given("--wavelength")) {
+        if (facts.wavelengths.empty())
+            throw Error(
+                ErrorCode::usage,
+                fmt::format("--wavelength: is needed, because {} does not say of which light it is{}", name, why));
         wavelengths = facts.wavelengths;
-        record.acted("wavelength", compact_lengths(wavelengths));
-    } else {
-        throw Error(ErrorCode::usage,
-                    fmt::format("--wavelength: is needed, because {} does not say of which light it is{}", name, why));
     }
     if (wavelengths.size() != facts.colours)
         throw Error(ErrorCode::usage,
@@ -144,10 +140,12 @@ OrderSelection selection_of(const FieldOptions& options, const Command& command)
 }  // namespace
 
 void add_field_options(Command& command, FieldOptions& options, bool sampling, bool brief) {
-    command.group(brief ? "Fields of other programs (see 'hogel help photo')" : "Fields of other programs");
+    command.group(brief ? "Fields of other programs (see 'hogel help photo')" : "Fields of other programs",
+                  [&options] { return options.is_external; });
     if (sampling) {
         command.positive_length("--pitch", options.pitch, "Of another program's samples")
-            .default_text("what the file says");
+            .default_text("what the file says")
+            .acts_if([&options] { return options.pitch > 0; });  // one number says nothing of two
         command.wavelengths(options.wavelengths).default_text("what the file says");
     }
     std::string values = "What real numbers are", codes = "How numbers stand for phases";
@@ -168,8 +166,10 @@ void add_field_options(Command& command, FieldOptions& options, bool sampling, b
     command.text(options.code_option, options.phase_code, "CODE", codes);
     command.text("--imaginary", options.imaginary, "P", "Picture of imaginary parts; the input has the real ones");
     command.text("--phases", options.phases, "P", "Picture of phases; the input has the amplitudes");
-    command.text("--zero", options.zero, "LEVEL|median",
-                 "Level of 0 in pictures of real and imaginary parts; median: that of each");
+    command
+        .text("--zero", options.zero, "LEVEL|median",
+              "Level of 0 in pictures of real and imaginary parts; median: that of each")
+        .acts_if([&options] { return !options.imaginary.empty(); });
     command.text("--variable", options.variable, "NAME", "Array of a file that has several, or two: re,im");
     command.flag("--conjugate", options.conjugate, "Its waves go as e^(+iwt)");
 }
@@ -244,8 +244,8 @@ ExternalField external_field(const FieldOptions& options) {
     return what;
 }
 
-Fields open_fields(const Session& session, const std::string& name, const FieldOptions& options, double pitch,
-                   const std::vector<double>& given_wavelengths, RunRecord& record) {
+Fields open_fields(const Session& session, const std::string& name, FieldOptions& options, double& pitch,
+                   std::vector<double>& wavelengths) {
     const Command& command = *session.command;
     if (!is_external(name, options)) {
         require_described(name, options);
@@ -265,19 +265,10 @@ Fields open_fields(const Session& session, const std::string& name, const FieldO
         const ExternalFacts facts = external_facts(name, what);
         if (!what.variable.empty() && facts.format != "npz" && facts.format != "mat" && facts.format != "exr")
             throw Error(ErrorCode::usage, fmt::format("--variable: {} has no variables with names", name));
-        std::vector<double> wavelengths = given_wavelengths;
-        complete_sampling(name, facts, command, pitch, wavelengths, what, record);
+        options.is_external = true;
+        complete_sampling(name, facts, command, pitch, wavelengths, what);
         state_contradictions(session, name, options, facts, what, wavelengths);
-        for (const char* option : {"--imaginary", "--phases", "--variable"})
-            if (command.given(option)) record.acted({std::string_view(option).substr(2)});
-        record_values(options, facts, command, record);
-        record.acted({"conjugate"});
-        // Numbers that are not whole have the zero 0 by default.
-        const bool whole = facts.numbers.starts_with("whole");
-        if (!what.imaginary.empty() && (whole || command.given("--zero")))
-            record.acted({"zero"});
-        else if (!what.imaginary.empty())
-            record.acted("zero", "0");
+        complete_values(options, facts, what, command);
         Fields fields;
         for (what.colour = 0; what.colour < facts.colours; ++what.colour) {
             what.wavelength = wavelengths[what.colour];
@@ -287,10 +278,10 @@ Fields open_fields(const Session& session, const std::string& name, const FieldO
     });
 }
 
-Fields open_and_reconstruct(const Session& session, const std::string& name, const FieldOptions& options, double pitch,
-                            const std::vector<double>& wavelengths, RunRecord& record) {
+Fields open_and_reconstruct(const Session& session, const std::string& name, FieldOptions& options, double& pitch,
+                            std::vector<double>& wavelengths) {
     const Command& command = *session.command;
-    Fields fields = open_fields(session, name, options, pitch, wavelengths, record);
+    Fields fields = open_fields(session, name, options, pitch, wavelengths);
     const bool image = options.reconstruct != "none";
     if (image != command.given("--focal"))
         throw Error(ErrorCode::usage, image ? "--reconstruct: needs the focal length or distance; give --focal"
@@ -299,8 +290,6 @@ Fields open_and_reconstruct(const Session& session, const std::string& name, con
     const bool select =
         !options.order.empty() || options.aperture != 0 || selection.without_mean || selection.reference_source;
     if (options.aperture < 0) throw Error(ErrorCode::usage, "--aperture: a positive radius was expected");
-    for (const char* option : {"order", "aperture", "reference-source", "reconstruct", "focal"})
-        if (command.given(fmt::format("--{}", option))) record.acted({option});
     if (!select && !image) return fields;
     Stage stage(session, "reconstruction");
     for (std::size_t c = 0; c < fields.size(); ++c) {

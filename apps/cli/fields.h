@@ -3,7 +3,6 @@
 
 #include "command_line.h"
 #include "hogel/files.h"
-#include "run_record.h"
 #include "session.h"
 
 namespace hogel::cli {
@@ -17,6 +16,7 @@ struct FieldOptions {
     double aperture = 0, focal = 0;
     Vec3 reference_source;
 
+    bool is_external = false;         ///< whether a field of another program is read, so that the options act
     double pitch = 0;                 ///< where the command has no --pitch of its own
     std::vector<double> wavelengths;  ///< likewise
 };
@@ -41,14 +41,14 @@ ExternalField external_field(const FieldOptions& options);
 
 /// Opens a hologram, or another program's field with the --pitch and the --wavelength, one for each of its colours,
 /// that are given to the command or that the file holds. Says in a line where the file says something else than an
-/// option. Throws Error(usage) if they are missing, or if they are given for a hologram, which has its own. Records the
-/// options that acted.
-Fields open_fields(const Session& session, const std::string& name, const FieldOptions& options, double pitch,
-                   const std::vector<double>& wavelengths, RunRecord& record);
+/// option. Throws Error(usage) if they are missing, or if they are given for a hologram, which has its own. Sets the
+/// values that the file says.
+Fields open_fields(const Session& session, const std::string& name, FieldOptions& options, double& pitch,
+                   std::vector<double>& wavelengths);
 
 /// As open_fields(), and then as add_reconstruction_options() say: the order of a recorded hologram, and the image
 /// behind a lens. Says in a line what order was found.
-Fields open_and_reconstruct(const Session& session, const std::string& name, const FieldOptions& options, double pitch,
-                            const std::vector<double>& wavelengths, RunRecord& record);
+Fields open_and_reconstruct(const Session& session, const std::string& name, FieldOptions& options, double& pitch,
+                            std::vector<double>& wavelengths);
 
 }  // namespace hogel::cli

@@ -7,10 +7,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <vector>
 
 #include "command_line.h"
+#include "hogel/error.h"
 #include "hogel/table.h"
+#include "result.h"
 
 namespace hogel::cli {
 namespace {
@@ -19,11 +22,6 @@ std::vector<std::string> command_names(const CLI::App& app) {
     std::vector<std::string> names;
     for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
     return names;
-}
-
-// The name of an option with its dashes: "-o" or "--output".
-std::string written_name(const CLI::Option& option) {
-    return option.get_snames().empty() ? "--" + option.get_lnames().front() : "-" + option.get_snames().front();
 }
 
 // The message for an unknown option such as "--hogel" or "--hogel=4x4".
@@ -72,57 +70,192 @@ std::string wrap(std::string_view text, std::size_t columns) {
     }
 }
 
-}  // namespace
+constexpr std::size_t name_columns = 24;  // the descriptions stand to the right of them
 
-std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
-    if (mode != CLI::AppFormatMode::Normal) return make_expanded(app);
-    std::vector<std::string> groups = app->get_groups();
-    std::ranges::stable_partition(groups, [](const std::string& group) { return group != Command::last_group; });
-    std::string text = make_description(app) + make_usage(app, std::move(name)) + make_positionals(app);
-    for (const std::string& group : groups) {
-        const auto options = app->get_options(
-            [&](const CLI::Option* option) { return option->get_group() == group && option->nonpositional(); });
-        if (!options.empty()) text += make_group(group, false, options);
-    }
-    return text + make_subcommands(app, mode) + "\n" + make_footer(app);
+// A name and its description beside it, or below it if the name is long.
+std::string entry(const std::string& name, const std::string& description) {
+    const std::string margin = "\n" + std::string(name_columns, ' ');
+    std::string words = wrap(description, help_columns() - name_columns);
+    for (std::size_t at = 0; (at = words.find('\n', at)) != std::string::npos; at += margin.size())
+        words.replace(at, 1, margin);
+    const bool is_long = name.size() + 3 > name_columns;
+    return fmt::format("  {:<{}}{}{}\n", name, name_columns - 2, is_long && !words.empty() ? margin : "", words);
 }
 
-std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) const {
-    std::string usage = "\nUsage: " + name;
-    if (app->get_parent() == nullptr) return usage + " COMMAND ...\n";
-    for (const CLI::Option* option : app->get_options())
-        if (option->get_positional()) usage += " " + option->get_type_name();
-    for (const CLI::Option* option : app->get_options())
-        if (!option->get_positional() && option->get_required())
-            usage += fmt::format(" {} {}", written_name(*option), option->get_type_name());
-    return usage + " [OPTIONS]\n";
+std::string entry(const Parameter& parameter) {
+    if (parameter.is_positional) return entry(parameter.type, parameter.help);
+    std::string name = parameter.letter.empty() ? "" : fmt::format("-{},", parameter.letter);
+    name += "--" + parameter.name + (parameter.alias.empty() ? "" : ",--" + parameter.alias);
+    if (!parameter.type.empty()) name += " " + parameter.type;
+    std::string words = parameter.help;
+    // The default is appended to the first line; the following lines explain the choices.
+    if (!parameter.shown_default.empty())
+        words.insert(std::min(words.find('\n'), words.size()), fmt::format(" [{}]", parameter.shown_default));
+    return entry(name, words);
 }
 
-std::string HelpFormatter::make_positionals(const CLI::App* app) const {
+std::string usage(const Command& command) {
+    std::string usage = "hogel " + command.name();
+    for (const Parameter& each : command.all())
+        if (each.is_positional) usage += " " + each.type;
+    for (const Parameter& each : command.all())
+        if (!each.is_positional && each.is_required)
+            usage += fmt::format(" {} {}", each.letter.empty() ? "--" + each.name : "-" + each.letter, each.type);
+    return usage + " [OPTIONS]";
+}
+
+// The headings of a command's options, the one that all commands share last.
+std::vector<std::string> headings(const Command& command) {
+    std::vector<std::string> headings;
+    for (const Parameter& each : command.all())
+        if (!each.is_positional && !std::ranges::count(headings, each.group)) headings.push_back(each.group);
+    std::ranges::stable_partition(headings, [](const std::string& each) { return each != Parameters::last_group; });
+    return headings;
+}
+
+// What a group is called after --help: "light-field-of-a-scene".
+std::string word_of(std::string heading) {
+    heading.resize(std::min(heading.find(" ("), heading.size()));
+    for (char& c : heading) c = c == ' ' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return heading;
+}
+
+std::string group_help(const Command& command, const std::string& heading) {
+    std::string text = fmt::format("\n{}:\n", heading);
+    if (heading == Parameters::last_group) text += entry("-h,--help [all|GROUP]", "Print this help and exit");
+    for (const Parameter& each : command.all())
+        if (!each.is_positional && each.group == heading) text += entry(each);
+    return text;
+}
+
+std::string operands(const Command& command) {
     std::string text;
-    const std::size_t width = get_column_width() - 2;
-    for (const CLI::Option* option : app->get_options()) {
-        if (!option->get_positional()) continue;
-        std::string type = option->get_type_name();
-        if (type.size() >= width) type += "\n" + std::string(width + 2, ' ');
-        std::string words = wrap(option->get_description(), help_columns() - width - 2);
-        for (std::size_t at = 0; (at = words.find('\n', at)) != std::string::npos; at += width + 3)
-            words.insert(at + 1, width + 2, ' ');
-        text += fmt::format("  {:<{}}{}\n", type, width, words);
-    }
+    for (const Parameter& each : command.all())
+        if (each.is_positional) text += entry(each);
     return text.empty() ? text : "\n" + text;
 }
 
-std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
-    return option->get_type_size() == 0 ? "" : " " + option->get_type_name();
+// The first lines of a text.
+std::string first_lines(const std::string& text, std::size_t count) {
+    std::size_t end = 0;
+    for (std::size_t i = 0; i < count && end != std::string::npos; ++i) end = text.find('\n', end + (i > 0 ? 1 : 0));
+    return text.substr(0, end);
 }
 
-std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
-    const std::string shown = option->get_default_str();
-    std::string words = option->get_description();
-    // The default is appended to the first line; the following lines explain the choices.
-    if (!shown.empty()) words.insert(std::min(words.find('\n'), words.size()), fmt::format(" [{}]", shown));
-    return wrap(words, help_columns() - get_column_width());
+std::string complete_help(const Command& command) {
+    std::string text = operands(command);
+    for (const std::string& heading : headings(command)) text += group_help(command, heading);
+    return command.examples().empty() ? text : fmt::format("{}\nExamples:\n{}\n", text, command.examples());
+}
+
+// Three examples, the options that most runs need, and how to see the others.
+std::string short_help(const Command& command) {
+    std::string text =
+        command.examples().empty() ? "" : fmt::format("\nExamples:\n{}\n", first_lines(command.examples(), 3));
+    text += operands(command) + fmt::format("\n{}:\n", Parameters::default_group);
+    std::size_t options = 0, shown = 0;
+    for (const Parameter& each : command.all()) {
+        if (each.is_positional) continue;
+        ++options;
+        if (!command.is_basic(each)) continue;
+        text += entry(each);
+        ++shown;
+    }
+    std::vector<std::string> words;
+    for (const std::string& heading : headings(command)) words.push_back(word_of(heading));
+    text += fmt::format("\n{} of {} options; the others:\n  hogel {} --help all\n", shown, options, command.name());
+    return text +
+           wrap_line(fmt::format("  hogel {} --help {}", command.name(), fmt::join(words, " | ")), help_columns(),
+                     "    ") +
+           "\n";
+}
+
+// The heading of which this is the word or its beginning.
+std::string find_heading(const Command& command, const std::string& word) {
+    std::vector<std::string> words;
+    for (const std::string& heading : headings(command)) {
+        if (word_of(heading).starts_with(word)) return heading;
+        words.push_back(word_of(heading));
+    }
+    throw Error(ErrorCode::usage, fmt::format("{} has no options '{}'; expected all or one of {}", command.name(), word,
+                                              fmt::join(words, ", ")));
+}
+
+const char* kind_name(ParameterKind kind) {
+    switch (kind) {
+        case ParameterKind::flag:
+            return "flag";
+        case ParameterKind::text:
+            return "text";
+        case ParameterKind::texts:
+            return "texts";
+        case ParameterKind::choice:
+            return "choice";
+        case ParameterKind::number:
+            return "number";
+        case ParameterKind::count:
+            return "count";
+        case ParameterKind::whole:
+            return "whole";
+        case ParameterKind::counts:
+            return "counts";
+        case ParameterKind::resolution:
+            return "resolution";
+        case ParameterKind::length:
+            return "length";
+        case ParameterKind::positive_length:
+            return "positive_length";
+        case ParameterKind::wavelengths:
+            return "wavelengths";
+        case ParameterKind::angle:
+            return "angle";
+        case ParameterKind::angles:
+            return "angles";
+        case ParameterKind::point:
+            return "point";
+    }
+    return "";
+}
+
+ResultList list_of(const std::vector<std::string>& texts) { return {texts.begin(), texts.end()}; }
+
+Result schema_of(const Parameter& parameter) {
+    Result schema{{"name", parameter.name}, {"kind", kind_name(parameter.kind)}, {"help", parameter.help}};
+    const auto add = [&](const char* name, const std::string& text) {
+        if (!text.empty()) schema.emplace_back(name, text);
+    };
+    add("letter", parameter.letter);
+    add("alias", parameter.alias);
+    add("type", parameter.type);
+    add("group", parameter.is_positional ? "" : parameter.group);
+    add("default", parameter.shown_default);
+    if (parameter.is_positional) schema.emplace_back("positional", true);
+    if (parameter.is_required) schema.emplace_back("required", true);
+    if (parameter.low) schema.emplace_back("least", *parameter.low);
+    if (parameter.high) schema.emplace_back("greatest", *parameter.high);
+    if (!parameter.choices.empty()) schema.emplace_back("choices", list_of(parameter.choices));
+    if (!parameter.excluded.empty()) schema.emplace_back("excludes", list_of(parameter.excluded));
+    if (!parameter.needed.empty()) schema.emplace_back("needs", list_of(parameter.needed));
+    return schema;
+}
+
+}  // namespace
+
+std::string HelpFormatter::make_usage(const CLI::App* /*app*/, std::string name) const {
+    return "\nUsage: " + name + " COMMAND ...\n";
+}
+
+std::string help(const Command& command, const std::string& part) {
+    const std::string begin = fmt::format("{}\n\nUsage: {}\n", command.summary(), usage(command));
+    if (part.empty() && !command.basics().empty()) return begin + short_help(command);
+    if (part.empty() || part == "all") return begin + complete_help(command);
+    return begin + group_help(command, find_heading(command, part));
+}
+
+std::string schema(const Command& command) {
+    ResultList parameters;
+    for (const Parameter& each : command.all()) parameters.emplace_back(schema_of(each));
+    return to_json({{"command", command.name()}, {"help", command.summary()}, {"parameters", parameters}}) + "\n";
 }
 
 std::string explain_unknown_command(const CLI::App& app, const std::string& word) {

@@ -6,17 +6,20 @@
 
 namespace hogel::cli {
 
-/// The layout of --help: the usage on one line, groups of options with those shared by all commands last, and defaults
-/// in brackets after the description.
+class Command;
+
+/// The layout of the help of the whole program.
 class HelpFormatter final : public CLI::Formatter {
   public:
     HelpFormatter() { column_width(24); }
-    std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;
     std::string make_usage(const CLI::App* app, std::string name) const override;
-    std::string make_positionals(const CLI::App* app) const override;
-    std::string make_option_opts(const CLI::Option* option) const override;
-    std::string make_option_desc(const CLI::Option* option) const override;
 };
+
+/// The help of a command. @param part  empty: three examples and the basic options; "all"; or the beginning of a
+/// group's heading in small letters, with '-' for blanks: "light-field". Throws Error(usage) for another.
+std::string help(const Command& command, const std::string& part);
+/// Its parameters as a JSON object.
+std::string schema(const Command& command);
 
 /// A one-line message on what is wrong with a command line, with a reference to the help.
 std::string explain(const CLI::App& app, const CLI::ParseError& error);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <variant>
 
@@ -27,30 +28,53 @@ constexpr const char* light_field_group = "Light field of a scene";
 void add_hologram_options(Command& command, HologramChoices& options, const std::vector<std::string>& names,
                           const std::string& help) {
     command.group("Hologram");
-    command.wavelengths(options.wavelengths);
-    command.positive_length("--pitch", options.pitch,
-                            "Distance of samples, rounded to divide a hogel; less by default where the field of view "
-                            "needs it");
-    command.positive_length(
-        "--line-pitch", options.lines,
-        "Distance of the lines of --method lines or basis-lines (default: as far apart as samples)");
-    command.choice("--method", options.method, names, "NAME", help);
-    command.choice("--phase", options.phase, phase_names, "NAME",
-                   "Phases of each hogel's directions\n"
-                   "random: independent everywhere (default)\n"
-                   "fixed: the same in all hogels (basis: default; olas: none, a smooth surface)\n"
-                   "designed: the same in all hogels, for a fringe of flat modulus");
-    command.choice("--lobes", options.average, average_names, "radiance|amplitude",
-                   "What a hogel's lobes take from the directions that they light: their mean radiance, or "
-                   "(always with basis) mean amplitude");
-    command.text("--basis", options.basis, "NAME",
-                 fmt::format("Transform of the directions whose basis fringes are summed: pieces (one a "
-                             "direction), {} (default: the file's, or {})",
-                             fmt::join(transform_names(), ", "), defaults.basis));
+    const auto is_sampled = [&options] { return options.is_made || options.is_sampled; };
+    const auto is_made = [&options] { return options.is_made; };
+    const auto has_lobes = [&options] {
+        return options.made_by &&
+               (std::holds_alternative<Fourier>(*options.made_by) || std::holds_alternative<Lines>(*options.made_by));
+    };
+    const auto is_basis = [&options] { return options.made_by && std::holds_alternative<Basis>(*options.made_by); };
+    const auto has_phases = [&options] {
+        return options.made_by && !std::holds_alternative<PhaseAdded>(*options.made_by) &&
+               !std::holds_alternative<OwnMethod>(*options.made_by);
+    };
+    command.wavelengths(options.wavelengths).acts_if(is_sampled);
+    command
+        .positive_length("--pitch", options.pitch,
+                         "Distance of samples, rounded to divide a hogel; less by default where the field of view "
+                         "needs it")
+        .acts_if(is_sampled);
+    command
+        .positive_length("--line-pitch", options.lines,
+                         "Distance of the lines of --method lines or basis-lines (default: as far apart as samples)")
+        .no_default()
+        .acts_if([&options] { return options.made_by && line_pitch(*options.made_by).has_value(); });
+    command.choice("--method", options.method, names, "NAME", help).acts_if(is_made);
+    command
+        .choice("--phase", options.phase, phase_names, "NAME",
+                "Phases of each hogel's directions\n"
+                "random: independent everywhere (default)\n"
+                "fixed: the same in all hogels (basis: default; olas: none, a smooth surface)\n"
+                "designed: the same in all hogels, for a fringe of flat modulus")
+        .acts_if(has_phases);
+    command
+        .choice("--lobes", options.average, average_names, "radiance|amplitude",
+                "What a hogel's lobes take from the directions that they light: their mean radiance, or "
+                "(always with basis) mean amplitude")
+        .acts_if(has_lobes);
+    command
+        .text("--basis", options.basis, "NAME",
+              fmt::format("Transform of the directions whose basis fringes are summed: pieces (one a "
+                          "direction), {} (default: the file's, or {})",
+                          fmt::join(transform_names(), ", "), defaults.basis))
+        .acts_if(is_basis);
     command
         .number("--tolerance", options.tolerance, "0..1",
                 "Share of a hogel's amplitude that left-out basis fringes may carry")
-        .range(0, 1);
+        .range(0, 1)
+        .acts_if(is_basis);
+    command.look_up("seed")->acts_if([&options] { return options.is_seeded; });
 }
 
 // The methods of the table, with a line of help each.
@@ -180,7 +204,7 @@ HologramMethod HologramChoices::hologram_method() const {
 HologramRequest HologramChoices::request(const Session& session, std::size_t looks) const {
     HologramRequest request;
     request.channels.clear();
-    for (const double wavelength : wavelengths) request.channels.push_back({wavelength, colour_of(wavelength)});
+    for (const double wavelength : wavelengths) request.channels.push_back({wavelength, channel_of(wavelength)});
     request.pitch = pitch;
     request.method = hologram_method();
     request.looks = looks;
@@ -188,28 +212,17 @@ HologramRequest HologramChoices::request(const Session& session, std::size_t loo
     return request;
 }
 
-bool HologramChoices::record(RunRecord& record, const HologramRequest& request, const LightFieldGrid& front) const {
+void HologramChoices::resolve(const HologramRequest& request, const LightFieldGrid& front) {
+    is_made = true;
+    made_by = request.method;
     // The samples divide a hogel evenly, so they may be a little farther apart or closer than was asked.
     const double columns = std::max(1.0, std::round(front.pitch / request.pitch)), effective = front.pitch / columns;
-    record.acted({"wavelength", "pitch", "method"});
-    if (std::abs(effective - pitch) > 1e-9 * pitch) record.acted("pitch", compact_length(effective));
-    const auto shared = [&](const char* otherwise) { record.acted("phase", phase.empty() ? otherwise : phase); };
-    bool seeded = true;
-    if (std::holds_alternative<Fourier>(request.method) || std::holds_alternative<Lines>(request.method)) {
-        shared("random");
-        record.acted({"lobes"});
-    } else if (const auto* fringes = std::get_if<Basis>(&request.method)) {
-        shared("fixed");
-        record.acted("basis", fringes->transform);
-        record.acted({"tolerance"});
-    } else if (const auto* windows = std::get_if<OverlapAdd>(&request.method)) {
-        shared("random");
-        seeded = windows->phases == PointPhases::random;
-    }
-    if (const std::optional<double> apart = line_pitch(request.method))
-        record.acted("line-pitch", compact_length(*apart > 0 ? *apart : effective));
-    if (seeded) record.acted({"seed"});
-    return seeded;
+    if (std::abs(effective - pitch) > 1e-9 * pitch) pitch = effective;
+    if (const std::optional<double> apart = line_pitch(request.method)) lines = *apart > 0 ? *apart : effective;
+    if (const auto* fringes = std::get_if<Basis>(&request.method)) basis = fringes->transform;
+    if (phase.empty()) phase = std::holds_alternative<Basis>(request.method) ? "fixed" : "random";
+    const auto* windows = std::get_if<OverlapAdd>(&request.method);
+    is_seeded = windows == nullptr || windows->phases == PointPhases::random;
 }
 
 void check_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request, bool rendered,
@@ -220,41 +233,59 @@ void check_holograms(std::span<const LightFieldGrid> faces, const HologramReques
 }
 
 void add_render_options(Command& command, RenderOptions& options) {
-    command.group(light_field_group);
+    const auto is_rendered = [&options] { return options.is_rendered; };
+    command.group(light_field_group, [&options] { return options.scene.is_loaded; });
     std::string algorithms;
     for (const RendererInfo& renderer : renderers().rows())
         algorithms += fmt::format("\n{}: {}", renderer.name, renderer.text);
-    command.text("--algorithm", options.algorithm, "NAME", "Renderer:" + algorithms);
+    command.text("--algorithm", options.algorithm, "NAME", "Renderer:" + algorithms).acts_if(is_rendered);
     std::string shadings;
     for (const ShadingInfo& shading : shading_models().rows())
         shadings += fmt::format("\n{}: {}", shading.name, shading.text);
-    command.text("--shading", options.shading, "NAME", "Where light is computed:" + shadings);
-    command.count("--shadow-map", options.shadow_map, "Texels along a side of a lamp's shadow map");
+    command.text("--shading", options.shading, "NAME", "Where light is computed:" + shadings).acts_if([&options] {
+        return options.scene.is_lit;
+    });
+    command.count("--shadow-map", options.shadow_map, "Texels along a side of a lamp's shadow map").acts_if([&options] {
+        return options.has_shadow_maps;
+    });
     command
         .number("--cache-spacing", options.cache_spacing, "F",
                 "Spacing of the points of a surface at which light is computed, in widths of a ray "
                 "there, where it depends on the point (direct, shadowed); 0: anew for each ray")
-        .range(0, 16);
-    command.flag("--cull-back-faces", options.fronts_only,
-                 "Show only the front of triangles, the side from which their corners are counterclockwise");
+        .range(0, 16)
+        .acts_if([&options] { return options.is_lit_by_samples; });
+    command
+        .flag("--cull-back-faces", options.fronts_only,
+              "Show only the front of triangles, the side from which their corners are counterclockwise")
+        .acts_if(is_rendered);
     command.counts("--hogels", options.hogels, "Hogels across and down");
-    command.counts("--directions", options.directions, "Directions across and down in each hogel");
-    command.counts("--samples", options.samples,
-                   "Samples averaged for each ray: along a hogel's side and along a direction's; 2 is 2x2, which "
-                   "makes 16");
+    command.counts("--directions", options.directions, "Directions across and down in each hogel").acts_if([&options] {
+        return options.is_rendered && options.frequencies == 0;
+    });
+    command
+        .counts("--samples", options.samples,
+                "Samples averaged for each ray: along a hogel's side and along a direction's; 2 is 2x2, which "
+                "makes 16")
+        .acts_if(is_rendered);
     command.positive_length("--size", options.size, "Width of the hologram");
     command.angles("--fov", options.field_of_view, "Field of view, the full angle; or across and down")
-        .sets(options.field_of_view_given);
-    command.angles("--toward", options.toward,
-                   "Where the middle of the view looks behind the hologram: angles to the right and up");
+        .sets(options.field_of_view_given)
+        .acts_if(is_rendered);
+    command
+        .angles("--toward", options.toward,
+                "Where the middle of the view looks behind the hologram: angles to the right and up")
+        .acts_if([&options] { return options.is_rendered && !options.hemicube && options.frequencies == 0; });
     command
         .number("--front", options.front, "F",
                 "How much of a mesh file's depth stands in front of the hologram: 0 none, 1 all; -0.1: it "
                 "begins a tenth of its depth behind it")
-        .range(-100, 1);
-    const Option as_is = command.flag("--as-is", options.as_is,
-                                      "Take a mesh file where it is, its numbers as metres, z towards the viewer");
-    command.flag("--fit", "Scale and move a mesh file to fill the hologram (default)").excludes(as_is);
+        .range(-100, 1)
+        .acts_if([&options] { return options.scene.is_file && !options.as_is; });
+    const Parameter& as_is =
+        command
+            .flag("--as-is", options.as_is, "Take a mesh file where it is, its numbers as metres, z towards the viewer")
+            .acts_if([&options] { return options.scene.is_file; });
+    command.flag("--fit", "Scale and move a mesh file to fill the hologram (default)").excludes(as_is).never_acts();
     add_scene_options(command, options.scene);
 }
 
@@ -264,7 +295,8 @@ void add_hemicube_option(Command& command, RenderOptions& options) {
         .flag("--hemicube", options.hemicube,
               "All directions behind the hologram, in five faces: 90 degrees in front, and four halves at the sides; "
               "with --fov of more than 90 degrees, shorter sides")
-        .excludes("--toward");
+        .excludes("--toward")
+        .acts_if([&options] { return options.is_rendered && options.frequencies == 0 && !options.focal_plane_given; });
 }
 
 void add_direction_options(Command& command, RenderOptions& options) {
@@ -283,6 +315,7 @@ void add_direction_options(Command& command, RenderOptions& options) {
             "--frequencies", options.frequencies,
             "Directions on the frequency grid of a hologram of this wavelength, as many as the field of view holds; "
             "with --algorithm raytrace, zbuffer or oblique")
+        .no_default()
         .excludes("--hemicube")
         .excludes("--focal-plane")
         .excludes("--directions")
@@ -310,8 +343,11 @@ void add_scene_hologram_options(Command& command, HologramChoices& options) {
         help += fmt::format("\n{}: {}", method.name, method.text);
     }
     add_hologram_options(command, options, names, help);
-    command.positive_length("--spacing", options.spacing, "Of points on surfaces and along edges; height of hpo lines");
-    command.count("--planes", options.planes, "Depth planes of fresnel and planes");
+    command.positive_length("--spacing", options.spacing, "Of points on surfaces and along edges; height of hpo lines")
+        .acts_if([&options] { return options.has_spacing; });
+    command.count("--planes", options.planes, "Depth planes of fresnel and planes").acts_if([&options] {
+        return options.has_planes;
+    });
 }
 
 LightFieldRequest scene_request(const RenderOptions& options) {
@@ -324,57 +360,43 @@ LightFieldRequest scene_request(const RenderOptions& options) {
     return request;
 }
 
-Scene load_scene(const Session& session, const std::string& name, const RenderOptions& options, RunRecord& record) {
-    if (scenes().look_up(name) == nullptr) {
-        record.acted({"as-is"});
-        if (!options.as_is) record.acted({"front"});
-    }
+Scene load_scene(const Session& session, const std::string& name, RenderOptions& options) {
     const LightFieldRequest request = scene_request(options);
     Stage stage(session, "scene");
     Scene scene = hogel::load_scene(name, request, stage.progress());
-    options.scene.record(record, scene);
+    SceneOptions& known = options.scene;
+    known.is_loaded = true;
+    known.is_file = scenes().look_up(name) == nullptr;
+    known.is_lit = std::ranges::any_of(scene.meshes, [](const Mesh& mesh) { return mesh.radiance.empty(); });
+    known.has_points = std::ranges::any_of(scene.meshes, [](const Mesh& mesh) { return mesh.name == points_name; });
     for (const std::string& note : scene.notes) session.say(fmt::format("{}: note: {}", name, note));
     return scene;
 }
 
-std::shared_ptr<const ShadedScene> light_scene(const Session& session, const Scene& scene, const RenderOptions& options,
-                                               RunRecord& record) {
+std::shared_ptr<const ShadedScene> light_scene(const Session& session, const Scene& scene, RenderOptions& options) {
     const LightFieldRequest request = options.request();
-    if (std::ranges::any_of(scene.meshes, [](const Mesh& mesh) { return mesh.radiance.empty(); }))
-        record.acted("shading", shading_model(scene, request.shading));
-    if (request.shading.model == "auto" && shading_model(scene, request.shading) == "direct")
+    options.shading = shading_model(scene, request.shading);
+    if (request.shading.model == "auto" && options.shading == "direct")
         session.detail(fmt::format("shading: direct, because {}", scene.has_large_triangles
                                                                       ? "its triangles are large"
                                                                       : "of its maps of gloss or relief"));
     if (const double bytes = shadow_map_bytes(scene, request.shading); bytes > 0) {
-        record.acted({"shadow-map"});
+        options.has_shadow_maps = true;
         session.detail(fmt::format("shadow maps: {}", format_bytes(bytes)));
     }
     Stage stage(session, "lighting");
     return hogel::light_scene(scene, request, stage.progress());
 }
 
-LightField render_light_field(const Session& session, const Scene& scene, const RenderOptions& options,
-                              RunRecord& record) {
-    record.acted({"algorithm", "cull-back-faces", "hogels", "samples", "size"});
-    record.acted({"fov"});
-    if (options.hemicube && !options.field_of_view_given) record.acted("fov", "180deg");
-    if (options.frequencies > 0)
-        record.acted({"frequencies"});
-    else
-        record.acted({"directions"});
-    if (options.frequencies == 0 && !options.focal_plane_given) record.acted({"hemicube"});
-    if (!options.hemicube && options.frequencies == 0) record.acted({"toward"});
-    if (options.focal_plane_given) record.acted({"focal-plane"});
-    if (options.interpolate_given) record.acted({"interpolate"});
-    const auto lit = light_scene(session, scene, options, record);
-    for (std::size_t i = 0; i < lit->triangles.size(); ++i)
-        if (lit->is_lit(i)) {
-            record.acted({"cache-spacing"});
-            break;
-        }
+LightField render_light_field(const Session& session, const Scene& scene, RenderOptions& options) {
+    options.is_rendered = true;
+    if (options.hemicube && !options.field_of_view_given) options.field_of_view = {std::numbers::pi, std::numbers::pi};
+    const LightFieldRequest request = options.request();
+    const auto lit = light_scene(session, scene, options);
+    for (std::size_t i = 0; i < lit->triangles.size() && !options.is_lit_by_samples; ++i)
+        options.is_lit_by_samples = lit->is_lit(i);
     return with_parameter(options.frequencies > 0 ? "algorithm, frequencies" : "algorithm",
-                          [&] { return hogel::render_light_field(lit, options.request()); });
+                          [&] { return hogel::render_light_field(lit, request); });
 }
 
 void require_memory(const Session& session, const LightField& rendered, const RenderOptions& options,
@@ -383,11 +405,10 @@ void require_memory(const Session& session, const LightField& rendered, const Re
     with_parameter("hogels, directions", [&] { state_plan(session, plan, "rendering by " + options.algorithm); });
 }
 
-LightField open_or_render(const Session& session, const std::string& name, const RenderOptions& options,
-                          RunRecord& record) {
+LightField open_or_render(const Session& session, const std::string& name, RenderOptions& options) {
     if (input_kind(name) == InputKind::light_field) return open_light_field_or_views(name);
-    const Scene scene = load_scene(session, name, options, record);
-    LightField rendered = render_light_field(session, scene, options, record);
+    const Scene scene = load_scene(session, name, options);
+    LightField rendered = render_light_field(session, scene, options);
     require_memory(session, rendered, options, scene);
     return rendered;
 }

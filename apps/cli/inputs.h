@@ -10,7 +10,6 @@
 
 #include "command_line.h"
 #include "hogel/pipeline.h"
-#include "run_record.h"
 #include "scene_options.h"
 #include "session.h"
 
@@ -40,6 +39,9 @@ struct RenderOptions {
     double front = defaults.front;
     SceneOptions scene;
 
+    // What decides which options act, known once a light field is rendered.
+    bool is_rendered = false, has_shadow_maps = false, is_lit_by_samples = false;
+
     /// The grid of the front. Throws Error(usage).
     LightFieldGrid grid() const;
     LightFieldRequest request() const;
@@ -67,9 +69,15 @@ struct HologramChoices {
 
     HologramMethod hologram_method() const;
     HologramRequest request(const Session& session, std::size_t looks) const;
-    /// Records the options that act on a hologram of a light field with this front. Returns whether its looks differ,
-    /// so that their number acts on a photograph.
-    bool record(RunRecord& record, const HologramRequest& request, const LightFieldGrid& front) const;
+
+    // What decides which options act, known once a hologram is made, or a field with a pitch and wavelengths is read.
+    bool is_made = false, is_sampled = false;
+    std::optional<HologramMethod> made_by;  ///< of a light field
+    bool is_seeded = false;                 ///< whether looks differ, so that their number acts on a photograph
+    bool has_spacing = false, has_planes = false;
+
+    /// Sets the values with which a hologram of a light field with this front is made.
+    void resolve(const HologramRequest& request, const LightFieldGrid& front);
 };
 /// As hogel::require_holograms(), whose errors name only parameters that act here.
 /// @param rendered  whether a scene becomes the light field by options, too
@@ -79,28 +87,25 @@ void add_hologram_options(Command& command, HologramChoices& options);
 /// As add_hologram_options(), and those of methods that compute the hologram of a scene without a light field.
 void add_scene_hologram_options(Command& command, HologramChoices& options);
 
-// The functions that follow add the options that acted to a record.
+// The functions that follow set the values of options that act, and what decides which do.
 
 /// The request of load_scene(), with how the scene is turned, placed and lit. Throws Error(usage).
 LightFieldRequest scene_request(const RenderOptions& options);
 /// A built-in scene in the size of the hologram, or a mesh file, fitted to it if requested, with lights.
-Scene load_scene(const Session& session, const std::string& name, const RenderOptions& options, RunRecord& record);
+Scene load_scene(const Session& session, const std::string& name, RenderOptions& options);
 
 /// Shades the scene and prints the resources that this takes.
-std::shared_ptr<const ShadedScene> light_scene(const Session& session, const Scene& scene, const RenderOptions& options,
-                                               RunRecord& record);
+std::shared_ptr<const ShadedScene> light_scene(const Session& session, const Scene& scene, RenderOptions& options);
 
 /// The light field of a scene, rendered when it is read.
-LightField render_light_field(const Session& session, const Scene& scene, const RenderOptions& options,
-                              RunRecord& record);
+LightField render_light_field(const Session& session, const Scene& scene, RenderOptions& options);
 
 /// Throws Error(usage) where rendering would take more memory than there is.
 void require_memory(const Session& session, const LightField& rendered, const RenderOptions& options,
                     const Scene& scene);
 
 /// The light field of a file, or of a scene, which is rendered when it is read.
-LightField open_or_render(const Session& session, const std::string& name, const RenderOptions& options,
-                          RunRecord& record);
+LightField open_or_render(const Session& session, const std::string& name, RenderOptions& options);
 
 /// See prepare_for_reading() in hogel/pipeline.h.
 LightField prepare_for_reading(const Session& session, const LightField& light_field, std::size_t times,

@@ -65,12 +65,14 @@ void state_plan(const Session& session, const Plan& plan, const std::string& wha
 }
 
 void add_force_flag(Command& command, bool& force) {
-    command.flag("--force", force, "Write into a folder that holds the outputs of another run, over them");
+    command.flag("--force", force, "Write into a folder that holds the outputs of another run, over them").never_acts();
 }
 
 void add_resume_flag(Command& command, bool& resume) {
-    command.flag("--resume", resume,
-                 "Keep what is done when interrupted, as FILE.part, and go on from there the next time");
+    command
+        .flag("--resume", resume,
+              "Keep what is done when interrupted, as FILE.part, and go on from there the next time")
+        .never_acts();
 }
 
 std::vector<std::string> work_of(const Session& session, const std::string& input) {
@@ -93,22 +95,24 @@ std::string PartOption::file_for(const std::string& output) const {
 FilePart PartOption::of(const std::string& input) const { return {part->number, part->count, input}; }
 
 void add_part_option(Command& command, PartOption& part) {
-    command.parsed("--part", "K/N", "Write part K, from 1, of N, as FILE.part-K-of-N; hogel join makes a file of them",
-                   [&part](const std::string& text) {
-                       FilePart read;
-                       const std::size_t slash = text.find('/');
-                       const auto number = [&](const std::string& digits, std::size_t& to) {
-                           const char* end = digits.data() + digits.size();
-                           const auto [stop, error] = std::from_chars(digits.data(), end, to);
-                           return error == std::errc() && stop == end;
-                       };
-                       if (slash == std::string::npos || !number(text.substr(0, slash), read.number) ||
-                           !number(text.substr(slash + 1), read.count) || read.number == 0 || read.number > read.count)
-                           throw Error(
-                               ErrorCode::usage,
-                               fmt::format("--part: '{}' is not a part K/N with K from 1 to N, such as 2/5", text));
-                       part.part = read;
-                   });
+    command
+        .parsed("--part", "K/N", "Write part K, from 1, of N, as FILE.part-K-of-N; hogel join makes a file of them",
+                [&part](const std::string& text) {
+                    FilePart read;
+                    const std::size_t slash = text.find('/');
+                    const auto number = [&](const std::string& digits, std::size_t& to) {
+                        const char* end = digits.data() + digits.size();
+                        const auto [stop, error] = std::from_chars(digits.data(), end, to);
+                        return error == std::errc() && stop == end;
+                    };
+                    if (slash == std::string::npos || !number(text.substr(0, slash), read.number) ||
+                        !number(text.substr(slash + 1), read.count) || read.number == 0 || read.number > read.count)
+                        throw Error(
+                            ErrorCode::usage,
+                            fmt::format("--part: '{}' is not a part K/N with K from 1 to N, such as 2/5", text));
+                    part.part = read;
+                })
+        .never_acts();
 }
 
 void report_part(const Session& session, const std::string& file, const FilePart& part) {
@@ -130,24 +134,24 @@ void LightFieldOutput::require(const std::string& input) const {
 void add_light_field_output(Command& command, LightFieldOutput& output, const std::string& depth_help,
                             const std::string& float_help) {
     command.text("-o,--output", output.file, "FILE", "Light field to write: HDF5, or compressed if it ends in .hgl")
-        .required();
+        .required()
+        .never_acts();
     command.flag("--depth", output.with_depth, depth_help);
-    command.flag("--float", output.single, float_help);
+    command.flag("--float", output.single, float_help).acts_if([&output] { return !output.compressed(); });
     command.number(
         "--sqnr", output.sqnr, "DB",
         fmt::format("Signal to error of a compressed light field, within 0.1 dB above (default: {})", defaults.sqnr));
 }
 
-void write_compressed(const LightFieldOutput& output, const LightField& made, RunRecord& record, const Session& session,
+void write_compressed(LightFieldOutput& output, const LightField& made, const Session& session,
                       const std::optional<std::string>& kept_of) {
     // It is read several times, in the coder's tiles.
     const LightField light_field = prepare_for_reading(session, made, 2, output.with_depth);
     CompressionOptions compression;
-    const double sqnr = output.sqnr.value_or(defaults.sqnr);
-    compression.target = Sqnr{sqnr};
-    record.acted("sqnr", fmt::format("{}", sqnr));
+    if (!output.sqnr) output.sqnr = defaults.sqnr;
+    compression.target = Sqnr{*output.sqnr};
     compression.with_depth = output.with_depth;
-    compression.metadata = record.metadata();
+    compression.metadata = run_metadata(session);
     Kept kept(session, kept_of.has_value(), output.file, kept_of.value_or(""));
     Stage stage(session, "compressing");
     const CompressionResult result =

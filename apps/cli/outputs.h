@@ -94,8 +94,8 @@ void add_light_field_output(Command& command, LightFieldOutput& output, const st
 
 /// Compresses a light field while it is made, without an intermediate file, and reports it.
 /// @param kept_of  with --resume: what describe_input() says of the input
-void write_compressed(const LightFieldOutput& output, const LightField& light_field, RunRecord& record,
-                      const Session& session, const std::optional<std::string>& kept_of = {});
+void write_compressed(LightFieldOutput& output, const LightField& light_field, const Session& session,
+                      const std::optional<std::string>& kept_of = {});
 
 /// Prints a line about a compressed light field and one about its depth; with --json the result.
 void report_compressed(const Session& session, const std::string& file, const CompressionResult& result);

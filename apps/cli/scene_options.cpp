@@ -117,25 +117,8 @@ ScenePose SceneOptions::complete_pose() const {
     return complete;
 }
 
-void SceneOptions::record(RunRecord& record, const Scene& scene) const {
-    if (pose.up) record.acted({"up"});
-    if (!pose.camera.empty()) record.acted({"scene-camera"});
-    if (pose.rotation != Vec3{}) record.acted({"rotate"});
-    if (pose.scale != 1) record.acted({"scale"});
-    if (pose.shift != Vec3{}) record.acted({"move"});
-    if (pose.color) record.acted({"colour"});
-    if (!texture.empty()) record.acted({"texture"});
-    if (pose.background) record.acted({"background"});
-    if (pose.ground) record.acted({"ground"});
-    const bool is_lit = std::ranges::any_of(scene.meshes, [](const Mesh& mesh) { return mesh.radiance.empty(); });
-    if (!lights.empty() && is_lit) record.acted({"light"});
-    const bool has_points =
-        std::ranges::any_of(scene.meshes, [](const Mesh& mesh) { return mesh.name == points_name; });
-    if (point_size != 1 && has_points) record.acted({"point-size"});
-}
-
 void add_scene_options(Command& command, SceneOptions& options) {
-    command.group("Scene");
+    command.group("Scene", [&options] { return options.is_loaded; });
     command.parsed(
         "--up", "AXIS",
         "The axis of the scene that points upwards: y (default; of STL, 3MF and AMF files z), x, or -x, -y, -z",
@@ -155,21 +138,24 @@ void add_scene_options(Command& command, SceneOptions& options) {
                    [&options](const std::string& text) { options.pose.color = parse_color(text, "--colour"); });
     command.text("--texture", options.texture, "FILE", "Picture on all surfaces that have texture coordinates")
         .no_default();
-    command.texts(
-        "--light", options.lights, "X,Y,Z[:COLOUR[:F]]",
-        fmt::format("A light in place of the scene's own: where it comes from, its colour (default: white) and "
-                    "its strength (default: {}); may be given several times",
-                    usual_strength));
-    command.parsed(
-        "--background", "COLOUR", "Of rays that meet nothing (default: the scene's, of a mesh file black)",
-        [&options](const std::string& text) { options.pose.background = parse_color(text, "--background"); });
+    command
+        .texts("--light", options.lights, "X,Y,Z[:COLOUR[:F]]",
+               fmt::format("A light in place of the scene's own: where it comes from, its colour (default: white) and "
+                           "its strength (default: {}); may be given several times",
+                           usual_strength))
+        .acts_if([&options] { return options.is_lit; });
+    command
+        .parsed("--background", "COLOUR", "Of rays that meet nothing (default: the scene's, of a mesh file black)",
+                [&options](const std::string& text) { options.pose.background = parse_color(text, "--background"); })
+        .acts_if([&options] { return options.has_background; });
     command.parsed("--ground", "COLOUR", "Put a level ground of this colour under the scene (default: none)",
                    [&options](const std::string& text) { options.pose.ground = parse_color(text, "--ground"); });
     command
         .number("--point-size", options.point_size, "F",
                 "Size of a point cloud's discs; 1 (default) just closes its surface")
         .positive()
-        .no_default();
+        .no_default()
+        .acts_if([&options] { return options.has_points; });
 }
 
 }  // namespace hogel::cli

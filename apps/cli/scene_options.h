@@ -7,7 +7,6 @@
 
 #include "command_line.h"
 #include "hogel/scene.h"
-#include "run_record.h"
 
 namespace hogel::cli {
 
@@ -21,8 +20,12 @@ struct SceneOptions {
 
     /// With the lights and the picture. Throws Error(usage) for a light that is not one, and what read_image() throws.
     ScenePose complete_pose() const;
-    /// Records the options that acted on the scene.
-    void record(RunRecord& record, const Scene& scene) const;
+
+    // What decides which options act, known once a scene is loaded.
+    bool is_loaded = false;
+    bool is_file = false;  ///< no built-in scene
+    bool is_lit = false, has_points = false;
+    bool has_background = true;
 };
 
 void add_scene_options(Command& command, SceneOptions& options);

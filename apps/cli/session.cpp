@@ -52,16 +52,16 @@ double Session::seconds() const {
 
 void add_common_options(Command& command, Session& session) {
     command.group(Command::last_group);
-    command.flag("-q,--quiet", session.quiet, "Say nothing but errors");
-    command.flag("-v,--verbose", session.verbose, "Say more: sizes and times of each stage");
-    command.whole("--threads", session.threads, max_threads, "Threads to use; 0: as many as there are cores");
-    command.whole("--seed", session.seed, std::numeric_limits<std::uint64_t>::max(),
-                  "Seed of the random phases; equal seeds give equal bytes");
+    command.flag("-q,--quiet", session.quiet, "Say nothing but errors").never_acts();
+    command.flag("-v,--verbose", session.verbose, "Say more: sizes and times of each stage").never_acts();
+    command.whole("--threads", session.threads, max_threads, "Threads to use; 0: as many as there are cores")
+        .never_acts();
+    command
+        .whole("--seed", session.seed, std::numeric_limits<std::uint64_t>::max(),
+               "Seed of the random phases; equal seeds give equal bytes")
+        .never_acts();
+    command.flag("--json", session.json, "The result as a JSON object, on the standard output").never_acts();
     command.group(Command::default_group);
-}
-
-void add_json_flag(Command& command, Session& session) {
-    command.flag("--json", session.json, "The result as a JSON object, on the standard output");
 }
 
 void write_error_stream(const std::string& text) {

@@ -41,10 +41,8 @@ struct Session {
     double seconds() const;
 };
 
-/// The options that every command has: -q, -v, --threads, --seed.
+/// The options that every command has: -q, -v, --threads, --seed, --json.
 void add_common_options(Command& command, Session& session);
-/// --json; every command has a result.
-void add_json_flag(Command& command, Session& session);
 
 /// Writes to the standard error and ignores failures.
 void write_error_stream(const std::string& text);

@@ -35,13 +35,15 @@ bool is_loopback(const std::string& host) {
            (host.starts_with("127.") && host.find_first_not_of("0123456789.") == std::string::npos);
 }
 
-void add_view_options(Command& command, ViewOptions& options, Session& session) {
+void add_view_options(Command& command, ViewOptions& options) {
     command.examples(
         "  hogel view pumpkin.h5\n"
         "  hogel view bunny.ply --hogels 200 --size 30mm\n"
         "  hogel view pumpkin.hgl --port 8080 --no-browser\n"
         "  hogel view hologram.h5\n"
         "  hogel view phase.png --phase-code slmsuite --pitch 8um --wavelength 532nm");
+    command.basics(
+        {"port", "no-browser", "hogels", "directions", "size", "rotate", "light", "memory", "pitch", "wavelength"});
     command.positional("input", options.input, "X.h5|SCENE|F.h5|FOLDER",
                        "Light field, set of views, mesh file, built-in scene, hologram, another program's field, or a "
                        "folder of hogel make");
@@ -67,7 +69,6 @@ void add_view_options(Command& command, ViewOptions& options, Session& session) 
     add_hemicube_option(command, options.render);
     add_field_options(command, options.field, false, true);
     add_reconstruction_options(command, options.field);
-    add_json_flag(command, session);
 }
 
 std::string require_viewable(const ViewOptions& options) {

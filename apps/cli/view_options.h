@@ -28,7 +28,7 @@ struct ViewOptions {
     HologramChoices hologram;
     FieldOptions field;
 };
-void add_view_options(Command& command, ViewOptions& options, Session& session);
+void add_view_options(Command& command, ViewOptions& options);
 
 /// What there is to open: the input, or in a folder that `hogel make` wrote its light field. Throws Error(usage) and
 /// Error(bad_input) for what cannot be viewed, and Error(usage) for a host or token that is not allowed.

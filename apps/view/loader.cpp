@@ -58,9 +58,9 @@ void Loader::open_input(State& state) {
     const cli::ViewOptions& options = state.settings.options();
     const std::string& input = state.settings.input();
     if (cli::is_external(input, options.field) || input_kind(input) == InputKind::hologram) {
-        cli::RunRecord record(state.settings.session());
-        state.fields = cli::open_and_reconstruct(state.settings.session(), input, options.field, options.hologram.pitch,
-                                                 options.hologram.wavelengths, record);
+        cli::ViewOptions values = options;
+        state.fields = cli::open_and_reconstruct(state.settings.session(), input, values.field, values.hologram.pitch,
+                                                 values.hologram.wavelengths);
     } else if (input_kind(input) == InputKind::light_field) {
         state.file = open_light_field_or_views(input);
     }

@@ -46,7 +46,7 @@ int serve(const ViewOptions& options, Session& session) {
 
 void add_viewer(cli::Command& command, Session& session) {
     auto options = std::make_shared<ViewOptions>();
-    cli::add_view_options(command, *options, session);
+    cli::add_view_options(command, *options);
     command.work([options, &session] { return serve(*options, session); });
 }
 

@@ -11,8 +11,8 @@
 #include <optional>
 #include <utility>
 
-#include "cli/arguments.h"
 #include "hogel/error.h"
+#include "hogel/parameters.h"
 
 namespace hogel::view {
 namespace {
@@ -63,7 +63,7 @@ std::size_t whole(const std::string& name, const std::string& text, std::size_t 
 }
 
 double positive_length(const std::string& name, const std::string& text) {
-    const double metres = cli::parse_any_length(text, name);
+    const double metres = parse_any_length(text, name);
     if (!(metres > 0)) refuse(name, text, "a positive length");
     return metres;
 }
@@ -74,16 +74,16 @@ std::string choice(const std::string& name, const std::string& text, std::initia
     refuse(name, text.substr(0, 40), fmt::format("{}", fmt::join(known, " or ")));
 }
 
-cli::Counts resolution(const std::string& text) {
+Counts resolution(const std::string& text) {
     const std::size_t cross = text.find('x');
-    cli::Counts counts{whole("resolution", text.substr(0, cross), max_side), 0};
+    Counts counts{whole("resolution", text.substr(0, cross), max_side), 0};
     if (cross != std::string::npos) counts.rows = whole("resolution", text.substr(cross + 1), max_side);
     return counts;
 }
 
 double exposure(const std::string& text) {
     if (text == "auto") return 0;
-    const std::optional<double> number = cli::parse_number(text);
+    const std::optional<double> number = parse_number(text);
     if (!number || !(*number > 0 && *number < 1e12)) refuse("exposure", text, "auto or a positive number");
     return *number;
 }
@@ -99,7 +99,7 @@ By method(const std::string& text) {
 
 double fraction(const Words& words, const std::string& name) {
     const auto found = words.find(name);
-    const std::optional<double> number = found == words.end() ? std::nullopt : cli::parse_number(found->second);
+    const std::optional<double> number = found == words.end() ? std::nullopt : parse_number(found->second);
     if (!number || !(*number >= 0 && *number <= 1))
         refuse(name, found == words.end() ? "" : found->second, "a number from 0 to 1");
     return *number;
@@ -131,11 +131,11 @@ View parse_view(const Words& words) {
     view.camera.resolution = {512, 0};
     for (const auto& [name, text] : words) {
         if (name == "eye")
-            view.camera.eye = cli::parse_point(text, name);
+            view.camera.eye = parse_point(text, name);
         else if (name == "gaze")
-            view.camera.gaze = cli::parse_point(text, name);
+            view.camera.gaze = parse_point(text, name);
         else if (name == "focus")
-            view.camera.focus = cli::parse_any_length(text, name);
+            view.camera.focus = parse_any_length(text, name);
         else if (name == "pupil")
             view.camera.pupil = positive_length(name, text);
         else if (name == "by")

@@ -72,7 +72,7 @@ struct Settings::Line : cli::Session {
     std::unique_ptr<cli::CommandLine> parser;
 
     static void declare(cli::Command& command, cli::Session& session) {
-        cli::add_view_options(command, static_cast<Line&>(session).view, session);
+        cli::add_view_options(command, static_cast<Line&>(session).view);
     }
 };
 

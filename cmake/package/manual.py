@@ -4,7 +4,7 @@
 
 usage: manual.py HOGEL FOLDER      FOLDER gets NAME.1.gz for each page, the same bytes for the same help
 
-Help (HelpFormatter in apps/cli/help.cpp) is a summary, "Usage: ...", and sections under headings that end with a colon. The name of
+Help (apps/cli/help.cpp) is a summary, "Usage: ...", and sections under headings that end with a colon. The name of
 an option stands two columns from the left, its description from column 24 on. A description is a paragraph, which may be followed
 by a list of "name: text".
 """
@@ -88,7 +88,7 @@ def main():
     version = ask(program, "--version").split()[1]
     general = ask(program, "--help")
     commands = [line.split()[0] for line in dict(sections(general))["Commands"] if line.startswith("  ")]
-    help_texts = {"hogel": general} | {f"hogel-{command}": ask(program, "help", command) for command in commands}
+    help_texts = {"hogel": general} | {f"hogel-{command}": ask(program, "help", command, "all") for command in commands}
     folder.mkdir(parents=True, exist_ok=True)
     for name, text in help_texts.items():
         data = page(name, text, version, list(help_texts)).encode()

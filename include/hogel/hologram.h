@@ -28,6 +28,12 @@ struct Channel {
 /// One wavelength (metres), which shows channel 0.
 HOGEL_API std::vector<Channel> mono(double wavelength);
 
+/// The channel of a picture in which light of a wavelength is shown: 0 red, from 580 nm; 1 green, from 490 nm; 2 blue.
+constexpr std::size_t channel_of(double wavelength) {
+    if (wavelength >= 580e-9) return 0;
+    return wavelength >= 490e-9 ? 1 : 2;
+}
+
 /// Three wavelengths (metres), which show the channels 0, 1 and 2.
 HOGEL_API std::vector<Channel> rgb(double red, double green, double blue);
 

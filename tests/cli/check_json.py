@@ -88,6 +88,7 @@ TABLE = [
      MADE),
     ("info wave.png", None),
     ("scenes", {"scenes": [{"name": WORD, "text": WORD}]}),
+    ("completion bash", {"shell": WORD, "script": WORD}),
 ]
 
 

@@ -32,7 +32,7 @@ def main():
     pages = sorted(pathlib.Path(sys.argv[1]).glob("*.1.gz"))
     for path in pages:
         command = path.name.removesuffix(".1.gz").partition("-")[2]
-        told = subprocess.run(["hogel", *(["help", command] if command else ["--help"])], check=True, capture_output=True,
+        told = subprocess.run(["hogel", *(["help", command, "all"] if command else ["--help"])], check=True, capture_output=True,
                               text=True).stdout
         page = plain(gzip.decompress(path.read_bytes()).decode())
         # The first line is the name and, in small letters, the summary.

@@ -17,11 +17,27 @@ namespace {
 struct Unit {
     std::string_view name;
     double scale;
+    int exponent = 0;  // a power of ten beside the scale
 };
 
-constexpr std::array length_units{Unit{"m", 1.0},   Unit{"cm", 1e-2},      Unit{"mm", 1e-3}, Unit{"um", 1e-6},
-                                  Unit{"µm", 1e-6}, Unit{"\u03bcm", 1e-6}, Unit{"nm", 1e-9}};
-constexpr std::array angle_units{Unit{"deg", std::numbers::pi / 180}, Unit{"rad", 1.0}};
+constexpr std::array length_units{Unit{"m", 1},      Unit{"cm", 1, -2},      Unit{"mm", 1, -3}, Unit{"um", 1, -6},
+                                  Unit{"µm", 1, -6}, Unit{"\u03bcm", 1, -6}, Unit{"nm", 1, -9}};
+constexpr std::array angle_units{Unit{"deg", std::numbers::pi / 180}, Unit{"rad", 1}};
+
+// A number with its decimal point moved, so that 460 nm is 460e-9 to the last bit, as in a program. A product by 1e-9,
+// which no double is, would not be.
+double shifted(std::string_view number, double value, int exponent) {
+    if (exponent == 0) return value;
+    const std::size_t end = std::min(number.find_first_of("eE"), number.size());
+    std::string_view digits = number.substr(std::min(end + 1, number.size()));
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    int own = 0;
+    std::from_chars(digits.data(), digits.data() + digits.size(), own);
+    const std::string text = fmt::format("{}e{}", number.substr(0, end), own + exponent);
+    double moved = 0;
+    const bool is_read = std::from_chars(text.data(), text.data() + text.size(), moved).ec == std::errc{};
+    return is_read ? moved : value * std::pow(10, exponent);  // next to zero
+}
 
 double parse(std::string_view text, std::string_view what, std::span<const Unit> units, std::string_view hint) {
     double value = 0;
@@ -34,7 +50,8 @@ double parse(std::string_view text, std::string_view what, std::span<const Unit>
     std::string_view unit(rest, static_cast<std::size_t>(end - rest));
     while (unit.starts_with(' ')) unit.remove_prefix(1);
     for (const Unit& known : units)
-        if (unit == known.name) return value * known.scale;
+        if (unit == known.name)
+            return known.scale * shifted({begin, static_cast<std::size_t>(rest - begin)}, value, known.exponent);
     if (unit.empty())
         throw Error(ErrorCode::usage, fmt::format("{}: '{}' has no unit; write e.g. {}", what, text, hint));
     throw Error(ErrorCode::usage, fmt::format("{}: unknown unit '{}' in '{}'; write e.g. {}", what, unit, text, hint));

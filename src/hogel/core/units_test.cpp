@@ -19,6 +19,18 @@ TEST(Units, lengths_are_metres) {
     EXPECT_DOUBLE_EQ(parse_angle("180deg", "field of view"), std::numbers::pi);
 }
 
+TEST(Units, lengths_are_the_numbers_that_a_program_writes) {
+    EXPECT_EQ(parse_length("460nm", "x"), 460e-9);
+    EXPECT_EQ(parse_length("1.5625um", "x"), 1.5625e-6);
+    EXPECT_EQ(parse_length("-40um", "x"), -40e-6);
+    EXPECT_EQ(parse_length("+3.74mm", "x"), 3.74e-3);
+    EXPECT_EQ(parse_length("1.3e+1cm", "x"), 0.13);
+    EXPECT_EQ(parse_length("46E-1um", "x"), 4.6e-6);
+    EXPECT_EQ(parse_length("0e99999999999mm", "x"), 0);
+    EXPECT_GE(parse_length("1e-320nm", "x"), 0);
+    EXPECT_LT(parse_length("1e-320nm", "x"), 1e-320);
+}
+
 TEST(Units, anything_else_is_a_usage_error_that_names_the_quantity) {
     for (const char* text : {"16", "", "mm", "16 parsec", "nanm", "infm", "1e999m", "16mm2", "0x10mm"}) {
         try {

@@ -87,7 +87,7 @@ struct Covered {
 
 Covered covered(std::size_t i, std::size_t m, std::size_t n) {
     const double scale = static_cast<double>(n) / static_cast<double>(m), low = scale * static_cast<double>(i);
-    const double high = low + scale;
+    const double high = std::min(low + scale, static_cast<double>(n));  // the sum may be rounded to more
     Covered result{static_cast<std::size_t>(low), {}};
     for (std::size_t k = 0; k < result.weights.size(); ++k) {
         const double from = static_cast<double>(result.first + k);

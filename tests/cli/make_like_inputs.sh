@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# Makes the files that check_provenance.py tries every command with, in the current folder.
+# Makes the files that check_like.py tries every command with, in the current folder.
 set -e
 printf 'o back\nv -4e-4 -4e-4 -1e-4\nv 4e-4 -4e-4 -1e-4\nv 4e-4 4e-4 -3e-4\nv -4e-4 4e-4 -3e-4\nf 1 2 3\nf 1 3 4\no front\nv -2e-4 -2e-4 4e-5\nv 2e-4 -2e-4 1e-4\nv 4e-5 3e-4 8e-5\nf 5 7 6\no side\nv -4e-4 4e-5 1e-4\nv -1e-4 8e-5 -8e-5\nv -2e-4 4e-4 4e-5\nf 8 9 10\n' > m.obj
 

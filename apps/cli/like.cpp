@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "like.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "command_line.h"
+#include "hogel/error.h"
+#include "hogel/files.h"
+#include "hogel/image.h"
+#include "hogel/scene.h"
+
+namespace hogel::cli {
+namespace {
+
+constexpr std::string_view option_prefix = "option ";
+
+// The report of a run of `hogel make`, in its folder.
+bool is_run(const std::filesystem::path& path) { return is_directory(path) || path.extension() == ".json"; }
+
+Metadata read_run(const std::filesystem::path& path) {
+    const std::filesystem::path report = is_directory(path) ? path / "report.json" : path;
+    std::ifstream file(report);
+    const auto json = nlohmann::json::parse(file, nullptr, false);
+    const auto run = json.is_object() ? json.find("run") : json.end();
+    if (run == json.end() || !run->is_object())
+        throw Error(ErrorCode::bad_input, fmt::format("--like: {} is no report of 'hogel make'", report.string()));
+    Metadata entries;
+    for (const auto& [name, value] : run->items())
+        if (value.is_string()) entries.emplace_back(name, value.get<std::string>());
+    return entries;
+}
+
+Metadata read_entries(const std::string& file) {
+    if (is_run(file)) return read_run(file);
+    switch (file_kind(file)) {
+        case FileKind::picture:
+            return read_metadata(file);
+        case FileKind::mesh:
+            return import_scene(file, Progress()).provenance;
+        default:
+            return summarize(file).text;
+    }
+}
+
+// What a file says of its making, without what it says of its sources.
+Metadata made_by(const std::string& file) {
+    Metadata entries;
+    for (const auto& entry : read_entries(file))
+        if (entry.first == "command" || entry.first.starts_with(option_prefix)) entries.push_back(entry);
+    return entries;
+}
+
+void require_same_command(const Metadata& entries, const Command& command, const std::string& file) {
+    const auto made = std::ranges::find(entries, "command", &Metadata::value_type::first);
+    if (made == entries.end())
+        throw Error(ErrorCode::bad_input, fmt::format("--like: {} does not say what made it", file));
+    if (made->second != "hogel " + command.name())
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("--like: {} was made by '{}', not by 'hogel {}'", file, made->second, command.name()));
+}
+
+// The names of parameters that were given, and of those that must not be given with them.
+std::set<std::string> names_to_keep(const Command& command) {
+    std::set<std::string> keep;
+    for (const Parameter& each : command.all()) {
+        if (each.is_given()) {
+            keep.insert(each.name);
+            keep.insert(each.excluded.begin(), each.excluded.end());
+        }
+        for (const std::string& other : each.excluded)
+            if (command.given(other)) keep.insert(each.name);
+    }
+    return keep;
+}
+
+}  // namespace
+
+void take_like(Command& command, const std::string& file) {
+    const Metadata entries = made_by(file);
+    require_same_command(entries, command, file);
+    const std::set<std::string> keep = names_to_keep(command);
+    for (const auto& [key, value] : entries) {
+        if (!key.starts_with(option_prefix)) continue;
+        const std::string name = key.substr(option_prefix.size());
+        Parameter* const parameter = command.look_up(name);
+        if (parameter == nullptr)
+            throw Error(ErrorCode::bad_input, fmt::format("--like: {} was made with --{}, which hogel {} does not have",
+                                                          file, name, command.name()));
+        if (!keep.contains(name) && !(parameter->kind == ParameterKind::flag && value == "no"))
+            parameter->read_value(value, fmt::format("{}: --{}", file, name));
+    }
+}
+
+}  // namespace hogel::cli

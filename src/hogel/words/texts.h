@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hogel/geometry.h"
+#include "hogel/parameters.h"
+
+namespace hogel::words {
+
+// Texts of parameters as values. They throw Error(usage), whose message begins with `what`.
+double parse_positive_length(const std::string& text, const std::string& what);
+double parse_finite_number(const std::string& text, const std::string& what);
+std::size_t parse_count(const std::string& text, const std::string& what);
+std::uint64_t parse_whole(const std::string& text, const std::string& what, std::uint64_t max);
+Counts parse_counts(const std::string& text, const std::string& what);
+/// With rows 0 for a single number.
+Counts parse_resolution(const std::string& text, const std::string& what);
+Angles parse_angles(const std::string& text, const std::string& what);
+std::vector<double> parse_wavelengths(const std::string& text, const std::string& what);
+bool parse_flag(const std::string& text, const std::string& what);
+std::string parse_choice(const std::string& text, const std::string& what, std::span<const std::string> choices);
+
+// The other direction: the shortest text that reads as the same value.
+std::string number_text(double number);
+std::string counts_text(const Counts& counts);
+std::string resolution_text(const Counts& counts);
+
+}  // namespace hogel::words
