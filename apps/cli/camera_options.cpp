@@ -25,11 +25,11 @@ Camera make_camera(const CameraOptions& options, double width, double height, do
     camera.focus_slope_y = std::tan(options.focus_tilt.down);
     camera.pupil = options.f_number > 0 ? options.focal_length / options.f_number : options.pupil;
     if (!(camera.eye.z > 0))
-        throw Error(ErrorCode::usage,
-                    fmt::format("{}: the eye is in front of the hologram, at z > 0, not at {}",
-                                options.moves_eye ? "--eye, --to-eye" : "--eye", format_length(camera.eye.z)));
+        throw Error(
+            ErrorCode::usage, "eye",
+            fmt::format("the eye is in front of the hologram, at z > 0, not at {}", format_length(camera.eye.z)));
     if (!(options.gaze.z < camera.eye.z))
-        throw Error(ErrorCode::usage, "--gaze: the eye looks at a point in front of it, not beside or behind it");
+        throw Error(ErrorCode::usage, "gaze", "the eye looks at a point in front of it, not beside or behind it");
     // The middle of the picture is where the line of sight to that point meets the hologram plane.
     const Vec3 middle = camera.eye + camera.eye.z / (camera.eye.z - options.gaze.z) * (options.gaze - camera.eye);
     const double shown = options.angle_of_view > 0 ? 2 * camera.eye.z * std::tan(0.5 * options.angle_of_view) : width;
@@ -88,11 +88,11 @@ void add_camera_options(Command& command, CameraOptions& options) {
 std::vector<Camera> make_cameras(const CameraOptions& options, double width, double height) {
     for (const double tilt : {options.focus_tilt.across, options.focus_tilt.down})
         if (!(std::abs(tilt) < 0.5 * std::numbers::pi))
-            throw Error(ErrorCode::usage, "--focus-tilt: angles between -90deg and 90deg were expected");
+            throw Error(ErrorCode::usage, "focus_tilt", "angles between -90deg and 90deg were expected");
     if (options.frames == 1 && (options.moves_eye || options.moves_focus))
         throw Error(ErrorCode::usage, "--to-eye and --to-focus: with --frames, for there is but one picture");
     if (!(options.angle_of_view >= 0 && options.angle_of_view < 3.1))
-        throw Error(ErrorCode::usage, "--angle-of-view: an angle below 180deg was expected");
+        throw Error(ErrorCode::usage, "angle_of_view", "an angle below 180deg was expected");
     std::vector<Camera> cameras;
     for (std::size_t i = 0; i < options.frames; ++i)
         cameras.push_back(

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <iterator>
 #include <numbers>
-#include <vector>
 
+#include "cli/error_parameters.h"
 #include "hogel/image.h"
 
 namespace hogel::view {
@@ -39,15 +39,15 @@ std::string exr_file(const Image& picture) {
 
 std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
-Response failure(unsigned status, const std::string& why) {
-    return {status, json_type, dump({{"type", "error"}, {"message", why}})};
+Response failure(unsigned status, const std::string& why, const std::vector<std::string>& parameter) {
+    return {status, json_type, dump({{"type", "error"}, {"message", why}, {"parameter", parameter}})};
 }
 
 Response failure(const Error& error) {
     return failure(error.code() == ErrorCode::usage       ? 400
                    : error.code() == ErrorCode::cancelled ? 503
                                                           : 500,
-                   error.what());
+                   error.what(), cli::names_of_parameters(error.parameter()));
 }
 
 Response answer_with(const Json& json) { return {200, json_type, dump(json)}; }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "hogel/error.h"
 #include "view/server.h"
@@ -18,7 +19,8 @@ inline constexpr const char* json_type = "application/json";
 /// A line.
 std::string dump(const Json& json);
 
-Response failure(unsigned status, const std::string& why);
+/// @param parameter  names of Error::parameter(), by which the page marks its controls
+Response failure(unsigned status, const std::string& why, const std::vector<std::string>& parameter = {});
 Response failure(const Error& error);
 /// An answer of a job, by which a page learns of it too.
 Response answer_with(const Json& json);

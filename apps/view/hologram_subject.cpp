@@ -136,7 +136,7 @@ nlohmann::ordered_json HologramSubject::facts() const {
 }
 
 Image HologramSubject::by_rays(const View&, const Progress&) {
-    throw Error(ErrorCode::usage, "by: a hologram has no rays to follow; by=waves would do");
+    throw Error(ErrorCode::usage, "by", "by: a hologram has no rays to follow; by=waves would do");
 }
 
 void HologramSubject::by_waves(const View& view, std::size_t looks, const ShownLooks& shown, const Progress& progress) {

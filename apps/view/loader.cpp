@@ -38,6 +38,14 @@ LightField with_fewer_samples(const std::shared_ptr<const ShadedScene>& lit, Lig
     return hogel::render_light_field(lit, request);
 }
 
+// The parameters that an error is about: the changed options, if a refused request names none.
+std::vector<std::string> parameters_of(const Error& error, const std::map<std::string, std::string>& changed) {
+    std::vector<std::string> names = cli::names_of_parameters(error.parameter());
+    if (names.empty() && error.code() == ErrorCode::usage)
+        for (const auto& [name, value] : changed) names.push_back(name);
+    return names;
+}
+
 }  // namespace
 
 Loader::Loader(Settings settings, Viewer& viewer)
@@ -131,9 +139,9 @@ void Loader::run(const std::stop_token& end) {
             viewer_.say("", 1);
         } catch (const Error& error) {
             if (error.code() == ErrorCode::cancelled) continue;  // for a newer task
-            give_up(now_->settings.session().command->describe(error), task->file);
+            give_up(*task, now_->settings.session().command->describe(error), parameters_of(error, task->options));
         } catch (const std::exception& error) {
-            give_up(error.what(), task->file);
+            give_up(*task, error.what(), {});
         }
     }
 }
@@ -157,7 +165,8 @@ void Loader::do_task(const Task& task) {
 }
 
 // What was shown before stays. People know a dropped file by its name, not by its place.
-void Loader::give_up(std::string why, const std::filesystem::path& file) {
+void Loader::give_up(const Task& task, std::string why, const std::vector<std::string>& parameter) {
+    const std::filesystem::path& file = task.file;
     const std::string place = file.parent_path().string() + "/";
     for (std::size_t at = 0; !file.empty() && (at = why.find(place, at)) != std::string::npos;)
         why.erase(at, place.size());
@@ -171,7 +180,7 @@ void Loader::give_up(std::string why, const std::filesystem::path& file) {
         const std::lock_guard lock(mutex_);
         if (!waiting_) waiting_ = Task{};
     }
-    viewer_.complain(why);
+    viewer_.complain(why, parameter);
     viewer_.say("", 1);
 }
 

@@ -66,7 +66,7 @@ class Loader final : public Changes {
     void run(const std::stop_token& end);
     std::optional<Task> next(const std::stop_token& end);
     void do_task(const Task& task);
-    void give_up(std::string why, const std::filesystem::path& file);
+    void give_up(const Task& task, std::string why, const std::vector<std::string>& parameter);
     static void open_input(State& state);
     void show_input(bool moving);
     void show_file(const LightField& light_field);

@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "cli/error_parameters.h"
 #include "hogel/error.h"
 #include "hogel/parameters.h"
 
@@ -105,6 +106,51 @@ double fraction(const Words& words, const std::string& name) {
     return *number;
 }
 
+// The name in Error::parameter() of a word.
+std::string parameter_of(std::string name) {
+    std::ranges::replace(name, '-', '_');
+    return name;
+}
+
+// Takes a word of a view; false for another one.
+bool read_word(View& view, const std::string& name, const std::string& text) {
+    if (name == "eye")
+        view.camera.eye = parse_point(text, name);
+    else if (name == "gaze")
+        view.camera.gaze = parse_point(text, name);
+    else if (name == "focus")
+        view.camera.focus = parse_any_length(text, name);
+    else if (name == "pupil")
+        view.camera.pupil = positive_length(name, text);
+    else if (name == "by")
+        view.by = method(text);
+    else if (name == "looks")
+        view.looks = whole(name, text, max_looks);
+    else if (name == "preview")
+        view.preview = choice(name, text, {"yes", "no"}) == "yes";
+    else if (name == "eyes")
+        view.eyes = positive_length(name, text);
+    else if (name == "resolution")
+        view.camera.resolution = resolution(text);
+    else if (name == "pupil-samples")
+        view.pupil_samples = whole(name, text, max_samples);
+    else if (name == "exposure")
+        view.exposure = exposure(text);
+    else if (name == "display")
+        view.logarithmic = choice(name, text, {"intensity", "log"}) == "log";
+    else if (name == "format")
+        view.format = choice(name, text, {"jpeg", "png", "exr"});
+    else if (name == "quality")
+        view.quality = static_cast<int>(whole(name, text, 100));
+    else if (name == "moving")
+        view.moving = choice(name, text, {"yes", "no"}) == "yes";
+    else if (name == "id")
+        view.id = text.substr(0, 40);
+    else
+        return false;
+    return true;
+}
+
 }  // namespace
 
 Words parse_query(std::string_view query) {
@@ -129,40 +175,10 @@ Words parse_query(std::string_view query) {
 View parse_view(const Words& words) {
     View view;
     view.camera.resolution = {512, 0};
-    for (const auto& [name, text] : words) {
-        if (name == "eye")
-            view.camera.eye = parse_point(text, name);
-        else if (name == "gaze")
-            view.camera.gaze = parse_point(text, name);
-        else if (name == "focus")
-            view.camera.focus = parse_any_length(text, name);
-        else if (name == "pupil")
-            view.camera.pupil = positive_length(name, text);
-        else if (name == "by")
-            view.by = method(text);
-        else if (name == "looks")
-            view.looks = whole(name, text, max_looks);
-        else if (name == "preview")
-            view.preview = choice(name, text, {"yes", "no"}) == "yes";
-        else if (name == "eyes")
-            view.eyes = positive_length(name, text);
-        else if (name == "resolution")
-            view.camera.resolution = resolution(text);
-        else if (name == "pupil-samples")
-            view.pupil_samples = whole(name, text, max_samples);
-        else if (name == "exposure")
-            view.exposure = exposure(text);
-        else if (name == "display")
-            view.logarithmic = choice(name, text, {"intensity", "log"}) == "log";
-        else if (name == "format")
-            view.format = choice(name, text, {"jpeg", "png", "exr"});
-        else if (name == "quality")
-            view.quality = static_cast<int>(whole(name, text, 100));
-        else if (name == "moving")
-            view.moving = choice(name, text, {"yes", "no"}) == "yes";
-        else if (name == "id")
-            view.id = text.substr(0, 40);
-        else if (!std::ranges::count(of_others, name))
+    for (const auto& word : words) {
+        const std::string& name = word.first;
+        const bool known = cli::with_parameter(parameter_of(name), [&] { return read_word(view, name, word.second); });
+        if (!known && !std::ranges::count(of_others, name))
             throw Error(ErrorCode::usage, fmt::format("query: '{}' is unknown", name.substr(0, 40)));
     }
     return view;

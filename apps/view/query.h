@@ -42,7 +42,7 @@ struct View {
     std::string id;               ///< comes back with the picture
 };
 
-/// Throws Error(usage), which names the word.
+/// Throws Error(usage), whose parameter is the word.
 View parse_view(const std::map<std::string, std::string>& words);
 
 /// The view of one of two eyes: −1 the left one, 1 the right one.

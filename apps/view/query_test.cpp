@@ -82,6 +82,23 @@ TEST(Query, what_makes_no_sense_is_refused) {
     EXPECT_NE(refusal(many), "");
 }
 
+TEST(Query, errors_name_the_word_as_a_parameter) {
+    const auto parameter = [](std::string_view query) {
+        try {
+            parse_view(parse_query(query));
+        } catch (const Error& error) {
+            return error.parameter();
+        }
+        return std::string("no error");
+    };
+    EXPECT_EQ(parameter("eye=0,0"), "eye");
+    EXPECT_EQ(parameter("focus=4"), "focus");
+    EXPECT_EQ(parameter("pupil=4mm&exposure=0"), "exposure");
+    EXPECT_EQ(parameter("pupil-samples=0"), "pupil_samples");
+    EXPECT_EQ(parameter("path=1"), "");
+    EXPECT_EQ(parameter("x=2"), "no error");
+}
+
 // Messages are one line and short, whatever is sent.
 TEST(Query, messages_stay_short) {
     const std::string x(1900, 'x'), y(1900, 'y'), digits(1900, '9');

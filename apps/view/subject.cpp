@@ -80,21 +80,22 @@ Image side_by_side(const Image& left, const Image& right) {
 Camera Subject::camera(const View& view) const {
     const Camera camera = cli::make_cameras(view.camera, width(), height()).front();
     if (camera.picture.samples() > max_pixels)
-        throw Error(ErrorCode::usage, fmt::format("resolution: {}x{} pixels; expected at most {} in all",
-                                                  camera.picture.width, camera.picture.height, max_pixels));
+        throw Error(ErrorCode::usage, "resolution",
+                    fmt::format("resolution: {}x{} pixels; expected at most {} in all", camera.picture.width,
+                                camera.picture.height, max_pixels));
     return camera;
 }
 
 void Subject::require(const View& view) const {
     camera(view);
     if (view.by != By::waves && !has_rays())
-        throw Error(ErrorCode::usage, "by: a hologram has no rays to follow; by=waves would do");
+        throw Error(ErrorCode::usage, "by", "by: a hologram has no rays to follow; by=waves would do");
     if ((view.by == By::original || view.by == By::error) && !has_original())
-        throw Error(ErrorCode::usage, "by: there is no original; a .hgl file has one");
+        throw Error(ErrorCode::usage, "by", "by: there is no original; a .hgl file has one");
     if (needs_waves(view.by) && looks() == 0)
-        throw Error(ErrorCode::usage, "by: there are no waves yet; by=rays would do");
+        throw Error(ErrorCode::usage, "by", "by: there are no waves yet; by=rays would do");
     if ((view.by == By::side || view.by == By::difference) && view.eyes > 0)
-        throw Error(ErrorCode::usage, "by: rays and waves are compared from one eye; leave out eyes");
+        throw Error(ErrorCode::usage, "by, eyes", "by: rays and waves are compared from one eye; leave out eyes");
 }
 
 FocusSearch Subject::find_focus(const Progress&) {

@@ -62,7 +62,9 @@ void Viewer::describe(Json facts) {
     tell(state());
 }
 
-void Viewer::complain(const std::string& message) { tell(dump({{"type", "problem"}, {"message", message}})); }
+void Viewer::complain(const std::string& message, const std::vector<std::string>& parameter) {
+    tell(dump({{"type", "problem"}, {"message", message}, {"parameter", parameter}}));
+}
 
 void Viewer::say(const std::string& what, double fraction) {
     {

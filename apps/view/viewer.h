@@ -55,8 +55,8 @@ class Viewer final : public Site, public std::enable_shared_from_this<Viewer> {
     void show(std::shared_ptr<Subject> subject);
     /// Facts beside those of the subject, as members of one object: what it is called, the commands that repeat it.
     void describe(nlohmann::ordered_json facts);
-    /// Tells every page what went wrong.
-    void complain(const std::string& message);
+    /// Tells every page what went wrong. @param parameter  names of Error::parameter()
+    void complain(const std::string& message, const std::vector<std::string>& parameter);
     /// Says how far the work on the next one is: "rendering", 0 to 1. An empty text: it is done.
     void say(const std::string& what, double fraction);
 

@@ -61,5 +61,46 @@ TEST(Viewer, makes_nothing_that_nobody_waits_for) {
     EXPECT_EQ(second.get_future().wait_for(std::chrono::milliseconds(0)), std::future_status::timeout);
 }
 
+// The page's end of a conversation: the messages of one type.
+class Page final : public Socket {
+  public:
+    explicit Page(std::string type) : type_(std::move(type)) {}
+    void send_text(std::string text) override {
+        const auto message = nlohmann::json::parse(text);
+        if (message["type"] == type_) messages.push_back(message);
+    }
+    void send_picture(std::string) override {}
+    bool is_busy() const override { return false; }
+
+    std::vector<nlohmann::json> messages;
+
+  private:
+    std::string type_;
+};
+
+TEST(Viewer, says_over_the_stream_what_parameters_a_refused_picture_is_about) {
+    const auto viewer = std::make_shared<Viewer>(Access("127.0.0.1", 80, ""));
+    viewer->describe(nlohmann::ordered_json::object());
+    viewer->show(std::make_shared<LightFieldSubject>(grey(), grey(), memory, Progress()));
+    const auto page = std::make_shared<Page>("error");
+    const auto conversation = viewer->open(page);
+    for (const char* view : {"eye=0,0,-1mm", "focus=1", "by=waves", "by=side&eyes=63mm", "nonsense=1"})
+        conversation->receive(std::string("picture?id=7&") + view);
+    std::vector<std::vector<std::string>> parameters;
+    for (const auto& message : page->messages) parameters.push_back(message["parameter"]);
+    EXPECT_EQ(parameters, (std::vector<std::vector<std::string>>{{"eye"}, {"focus"}, {"by"}, {"by"}, {}}));
+    EXPECT_EQ(page->messages.front()["id"], "7");
+}
+
+TEST(Viewer, tells_pages_what_parameters_a_problem_is_about) {
+    const auto viewer = std::make_shared<Viewer>(Access("127.0.0.1", 80, ""));
+    viewer->describe(nlohmann::ordered_json::object());
+    const auto page = std::make_shared<Page>("problem");
+    const auto conversation = viewer->open(page);
+    viewer->complain("no", {"hogels", "size"});
+    ASSERT_EQ(page->messages.size(), 1u);
+    EXPECT_EQ(page->messages[0]["parameter"], nlohmann::json({"hogels", "size"}));
+}
+
 }  // namespace
 }  // namespace hogel::view

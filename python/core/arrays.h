@@ -32,8 +32,9 @@ py::array array_of(Array<T, Rank>&& array) {
 template <std::size_t Rank>
 Shape<Rank> shape_of(const py::array& array, const char* what) {
     if (array.ndim() != static_cast<py::ssize_t>(Rank))
-        throw Error(ErrorCode::usage, std::string(what) + ": an array of " + std::to_string(Rank) +
-                                          " axes was expected, not of " + std::to_string(array.ndim()));
+        throw Error(ErrorCode::usage, what,
+                    std::string(what) + ": an array of " + std::to_string(Rank) + " axes was expected, not of " +
+                        std::to_string(array.ndim()));
     Shape<Rank> shape;
     for (std::size_t axis = 0; axis < Rank; ++axis) shape[axis] = static_cast<std::size_t>(array.shape(axis));
     return shape;
@@ -47,7 +48,7 @@ class Strided {
     Strided(const py::array& array, const char* what)
         : shape_(shape_of<Rank>(array, what)), data_(static_cast<const char*>(array.data())), owner_(share(array)) {
         if (!py::isinstance<py::array_t<T>>(array) || (array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) == 0)
-            throw Error(ErrorCode::usage, std::string(what) + ": another type of numbers was expected");
+            throw Error(ErrorCode::usage, what, std::string(what) + ": another type of numbers was expected");
         std::size_t dense = sizeof(T);
         for (std::size_t axis = Rank; axis-- > 0; dense *= shape_[axis]) {
             strides_[axis] = array.strides(axis);

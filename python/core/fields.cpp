@@ -25,7 +25,8 @@ class ArrayField final : public FieldSource {
         : grid_(grid), samples_(samples, "samples"), provenance_{metadata_of(metadata), {}} {
         validate(grid, ErrorCode::usage, "field");
         if (samples_.shape() != Shape<2>{grid.plane.height, grid.plane.width})
-            throw Error(ErrorCode::usage, "samples: an array [y][x] of the grid's numbers of samples was expected");
+            throw Error(ErrorCode::usage, "samples",
+                        "samples: an array [y][x] of the grid's numbers of samples was expected");
     }
     const FieldGrid& grid() const override { return grid_; }
     const Provenance& provenance() const override { return provenance_; }

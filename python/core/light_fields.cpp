@@ -22,7 +22,7 @@ class ArraySource final : public LightFieldSource {
         const Shape<5> expected{grid.channels, grid.hogels_t, grid.hogels_s, grid.directions_v, grid.directions_u};
         if (radiance_.shape() != expected ||
             (depth_ && depth_->shape() != Shape<4>{expected[1], expected[2], expected[3], expected[4]}))
-            throw Error(ErrorCode::usage,
+            throw Error(ErrorCode::usage, "radiance, depth",
                         "radiance, depth: arrays [c][t][s][v][u] and [t][s][v][u] of the grid's "
                         "numbers of samples were expected");
     }

@@ -18,8 +18,9 @@ std::vector<Row> rows_of(const std::optional<py::array_t<T, py::array::c_style>>
     if (!array) return {};
     const Shape<2> shape = shape_of<2>(*array, what);
     if (shape[1] != Columns)
-        throw Error(ErrorCode::usage, std::string(what) + ": rows of " + std::to_string(Columns) +
-                                          " numbers were expected, not of " + std::to_string(shape[1]));
+        throw Error(ErrorCode::usage, what,
+                    std::string(what) + ": rows of " + std::to_string(Columns) + " numbers were expected, not of " +
+                        std::to_string(shape[1]));
     std::vector<Row> rows(shape[0]);
     for (std::size_t i = 0; i < shape[0]; ++i) {
         const T* row = array->data() + i * Columns;

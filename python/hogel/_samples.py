@@ -8,7 +8,7 @@ from typing import Any, Optional, Union
 
 import numpy as np
 
-from .errors import UsageError
+from .errors import usage_error
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -33,13 +33,13 @@ def choice(kind: Any, name: str, what: str) -> Any:
     """The member of an enumeration by its name."""
     members = kind.__members__
     if name not in members:
-        raise UsageError(f"{what}: {' or '.join(members)} were expected, not '{name}'")
+        raise usage_error(what, f"{' or '.join(members)} were expected, not '{name}'")
     return members[name]
 
 
 def one_of(value: Optional[str], known: Sequence[str], what: str) -> Optional[str]:
     if value is not None and value not in known:
-        raise UsageError(f"{what}: {' or '.join(known)} were expected, not '{value}'")
+        raise usage_error(what, f"{' or '.join(known)} were expected, not '{value}'")
     return value
 
 

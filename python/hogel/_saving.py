@@ -9,7 +9,7 @@ from . import _core, _record
 from ._progress import Progress, reporting
 from ._rays import Rays
 from ._samples import Path
-from .errors import UsageError
+from .errors import usage_error
 
 
 def save_light_field(
@@ -36,7 +36,7 @@ def save_light_field(
         acted["depth"] = _record.words(depth)
     if os.path.splitext(name)[1] == ".hgl":
         if single or resume or part:
-            raise UsageError(f"{'float' if single else 'resume' if resume else 'part'}: belongs to HDF5 files; {name} is a compressed one")
+            raise usage_error("float" if single else "resume" if resume else "part", f"belongs to HDF5 files; {name} is a compressed one")
         options = _core.CompressionOptions()
         ratio = _core.defaults["sqnr"] if sqnr is None else sqnr
         options.target = _core.Sqnr(ratio)
@@ -49,7 +49,7 @@ def save_light_field(
             _core.compress(prepared, name, options, report)
         return
     if sqnr is not None:
-        raise UsageError(f"sqnr: belongs to compressed files, whose names end in .hgl, not to {name}")
+        raise usage_error("sqnr", f"belongs to compressed files, whose names end in .hgl, not to {name}")
     if part is None:
         _core.require_hdf5(name)
     if stored:
@@ -59,7 +59,7 @@ def save_light_field(
         depth = light_field.has_depth
         acted["float" if single else "half"] = "yes"
     elif half and single:
-        raise UsageError("float, half: only one of them can be asked for")
+        raise usage_error("float, half", "only one of them can be asked for")
     else:
         acted["float"] = _record.words(single)
     if metadata is None:
@@ -71,12 +71,12 @@ def save_light_field(
         identity = None
         if part is not None:
             if resume:
-                raise UsageError("part, resume: only one of them can be asked for")
+                raise usage_error("part, resume", "only one of them can be asked for")
             whole = _core.FilePart(int(part[0]), int(part[1]), light_field._identity or "")
             _core.write_light_field_part(name, light_field._light_field, single, depth, metadata, whole, report)
             return
         if resume:
             identity = light_field._identity or (_core.describe_input(light_field.where) if made is not None else None)
             if identity is None:
-                raise UsageError("resume: what is made of arrays or functions cannot be resumed")
+                raise usage_error("resume", "what is made of arrays or functions cannot be resumed")
         _core.write_light_field(name, light_field._light_field, single, depth, metadata, identity, report)

@@ -8,7 +8,7 @@ from typing import Any, Optional, Union
 
 from . import _core, _record, units
 from ._core import Camera
-from .errors import UsageError
+from .errors import usage_error
 
 
 def camera(
@@ -46,28 +46,28 @@ def camera(
     gaze_x, gaze_y, gaze_z = units.point(gaze, "gaze")
     tilt_x, tilt_y = units.angles(focus_tilt, "focus_tilt")
     if not max(abs(tilt_x), abs(tilt_y)) < math.pi / 2:
-        raise UsageError("focus_tilt: angles between -90deg and 90deg were expected")
+        raise usage_error("focus_tilt", "angles between -90deg and 90deg were expected")
     if f_number is not None:
         if pupil is not None:
-            raise UsageError("pupil, f_number: only one of them says how wide the lens is")
+            raise usage_error("pupil, f_number", "only one of them says how wide the lens is")
         if not f_number > 0:
-            raise UsageError("f_number: a positive number was expected")
+            raise usage_error("f_number", "a positive number was expected")
         pupil = units.optional_length(focal_length, defaults["focal_length"], "focal_length") / f_number
     opening = units.optional_length(pupil, defaults["pupil"], "pupil")
     if not z > 0:
-        raise UsageError(f"eye: the eye is in front of the hologram, at z > 0, not at {units.say_length(z)}")
+        raise usage_error("eye", f"the eye is in front of the hologram, at z > 0, not at {units.say_length(z)}")
     if not gaze_z < z:
-        raise UsageError("gaze: the eye looks at a point in front of it, not beside or behind it")
+        raise usage_error("gaze", "the eye looks at a point in front of it, not beside or behind it")
     view = units.angle(angle_of_view, "angle_of_view")
     if not 0 <= view < 3.1:
-        raise UsageError("angle_of_view: an angle below 180deg was expected")
+        raise usage_error("angle_of_view", "an angle below 180deg was expected")
     # The middle of the picture is where the line of sight to that point meets the hologram plane.
     along = z / (z - gaze_z)
     shown = 2 * z * math.tan(0.5 * view) if view > 0 else wide
     given = defaults["resolution"] if resolution is None else resolution
     columns, rows = units.counts(given, "resolution")
     if columns < 1 or rows < 1:
-        raise UsageError("resolution: at least one pixel was expected")
+        raise usage_error("resolution", "at least one pixel was expected")
     pixel = shown / columns
     if isinstance(given, int) or (isinstance(given, str) and "x" not in given):
         # std::lround() rounds halves away from zero.

@@ -9,7 +9,7 @@ from . import _core, _record, units
 from ._progress import Progress, reporting
 from ._rays import Rays
 from ._samples import Path, choice
-from .errors import UsageError
+from .errors import usage_error
 
 
 def compress(
@@ -60,16 +60,16 @@ def compress(
     if hemicube == "unfolded":
         options.layout = _core.StreamLayout.unfolded
     elif hemicube != "faces":
-        raise UsageError(f"hemicube: faces or unfolded were expected, not '{hemicube}'")
+        raise usage_error("hemicube", f"faces or unfolded were expected, not '{hemicube}'")
     options.with_depth = self.has_depth and not no_depth
     if depth_error is not None:
         if not options.with_depth:
-            raise UsageError("depth_error: there is no depth to keep")
+            raise usage_error("depth_error", "there is no depth to keep")
         options.depth_error = units.length(depth_error, "depth_error")
     if tone == "histogram":
         options.tone_decades = _core.defaults["tone_decades"] if tone_decades is None else tone_decades
     elif tone != "none" or tone_decades is not None:
-        raise UsageError("tone, tone_decades: none or histogram were expected, and decades with histogram alone")
+        raise usage_error("tone, tone_decades", "none or histogram were expected, and decades with histogram alone")
     options.chrominance = chrominance
     if tile is not None:
         options.tile = units.counts(tile, "tile")
@@ -148,9 +148,9 @@ def _target(
 ) -> Any:
     given = [value for value in (sqnr, ppb, step, max_error) if value is not None]
     if len(given) + bool(lossless) > 1:
-        raise UsageError("sqnr, ppb, step, max_error, lossless: only one of them can be asked for")
+        raise usage_error("sqnr, ppb, step, max_error, lossless", "only one of them can be asked for")
     if ppb is None and (rule != "search" or overhead is not None):
-        raise UsageError("rule, overhead: belong to ppb")
+        raise usage_error("rule, overhead", "belong to ppb")
     if ppb is not None:
         return _core.PixelsPerBit(ppb, choice(_core.RateRule, rule, "rule"), overhead)
     if step is not None:

@@ -8,7 +8,7 @@ from typing import Any, Optional
 
 from . import _core, _record, units
 from ._samples import choice
-from .errors import UsageError
+from .errors import usage_error
 
 #: What real numbers are, by the words of the command line.
 VALUES = ("amplitude", "phase", "intensity", "real-imaginary", "amplitude-phase")
@@ -25,7 +25,7 @@ def description(
             what.values = _core.ExternalField.Values.phase
     if values is not None:
         if values not in VALUES:
-            raise UsageError(f"values: {' or '.join(VALUES)} were expected, not '{values}'")
+            raise usage_error("values", f"{' or '.join(VALUES)} were expected, not '{values}'")
         # Intensities are amplitudes whose mean is taken away.
         name = "amplitude" if values == "intensity" else values.replace("-", "_")
         what.values = choice(_core.ExternalField.Values, name, "values")
@@ -41,14 +41,14 @@ def external_fields(name: str, pitch: Any, wavelength: Any, what: _core.External
     """The fields of a file, one for each wavelength."""
     facts = _core.external_facts(name, what)
     if what.variable and facts.format not in ("npz", "mat", "exr"):
-        raise UsageError(f"variable: {name} has no variables with names")
+        raise usage_error("variable", f"{name} has no variables with names")
     if pitch is not None:
         what.pitch_x = what.pitch_y = units.length(pitch, "pitch")
     elif not facts.pitch_x > 0:
-        raise UsageError(f"pitch: {name} does not say the distance of its samples")
+        raise usage_error("pitch", f"{name} does not say the distance of its samples")
     waves = list(facts.wavelengths) if wavelength is None else units.lengths(wavelength, "wavelength")
     if len(waves) != facts.colours:
-        raise UsageError(f"wavelength: {name} has {facts.colours} field{'' if facts.colours == 1 else 's'}, and {len(waves)} were said")
+        raise usage_error("wavelength", f"{name} has {facts.colours} field{'' if facts.colours == 1 else 's'}, and {len(waves)} were said")
     fields = []
     for colour, wave in enumerate(waves):
         what.colour, what.wavelength = colour, wave
@@ -96,9 +96,9 @@ def reconstructed(
     from .field import Field
 
     if reconstruct not in ("none", "fourier", "fresnel"):
-        raise UsageError(f"reconstruct: none or fourier or fresnel were expected, not '{reconstruct}'")
+        raise usage_error("reconstruct", f"none or fourier or fresnel were expected, not '{reconstruct}'")
     if (reconstruct != "none") != (focal is not None):
-        raise UsageError("reconstruct, focal: belong together: what is between the hologram and its image, and how long it is")
+        raise usage_error("reconstruct, focal", "belong together: what is between the hologram and its image, and how long it is")
     acted: _record.Record = {}
     if order is not None:
         acted["order"] = order
@@ -127,5 +127,5 @@ def _order_of(order: Optional[str]) -> tuple[str, Optional[Sequence[float]]]:
     try:
         x, y = map(float, str(order).split(","))
     except ValueError:
-        raise UsageError(f"order: '{order}' is none of +1, -1, 0 and FX,FY in cycles per sample, e.g. 0.25,0") from None
+        raise usage_error("order", f"'{order}' is none of +1, -1, 0 and FX,FY in cycles per sample, e.g. 0.25,0") from None
     return "at", (x, y)

@@ -60,6 +60,13 @@ class InternalError(Error, RuntimeError):
     name, status = "internal", 70
 
 
+def usage_error(parameter: str, text: str) -> UsageError:
+    """The error about a parameter, or several, "eye, pitch", with which its message begins."""
+    error = UsageError(f"{parameter}: {text}")
+    error.parameter = parameter
+    return error
+
+
 _CLASSES = {
     kind.status: kind for kind in (UsageError, BadInputError, CannotWriteError, NotBuiltInError, CancelledError, InternalError)
 }

@@ -10,7 +10,7 @@ from . import _core
 from ._indices import Axis, arranged, axes_of
 from ._progress import Progress, reporting
 from ._samples import Samples
-from .errors import UsageError
+from .errors import usage_error
 
 
 class Face(Samples):
@@ -40,7 +40,7 @@ class Face(Samples):
     def depth(self) -> "Face":
         """The depths [t][s][v][u], metres behind the hologram, of what the rays meet; infinite where they meet nothing."""
         if not self._light_field.has_depth():
-            raise UsageError("depth: this light field has none")
+            raise usage_error("depth", "this light field has none")
         return Face(self._light_field, self._index, True)
 
     def _memory(self) -> Optional["np.ndarray[Any, Any]"]:

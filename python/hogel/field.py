@@ -11,7 +11,7 @@ from . import _core, units
 from ._indices import arranged, axes_of
 from ._progress import Progress, reporting
 from ._samples import Samples, array_of, choice
-from .errors import UsageError
+from .errors import usage_error
 from .picture import Picture
 
 
@@ -55,10 +55,10 @@ class Field(Samples):
         """
         values = array_of(samples, np.complex64)
         if values.ndim != 2:
-            raise UsageError(f"samples: an array [y][x] was expected, not one of {values.ndim} axes")
+            raise usage_error("samples", f"an array [y][x] was expected, not one of {values.ndim} axes")
         if grid is None:
             if pitch is None:
-                raise UsageError("pitch: a field needs the distance of its samples")
+                raise usage_error("pitch", "a field needs the distance of its samples")
             step = units.length(pitch, "pitch")
             grid = _core.Grid(values.shape[1], values.shape[0], step, step)
         sampling = _core.FieldGrid(grid, units.length(wavelength, "wavelength"))
@@ -88,7 +88,7 @@ class Field(Samples):
         """
         if grid is None:
             if samples is None or pitch is None:
-                raise UsageError("samples, pitch: a field needs the number and the distance of its samples")
+                raise usage_error("samples, pitch", "a field needs the number and the distance of its samples")
             columns, rows = units.counts(samples, "samples")
             step = units.length(pitch, "pitch")
             grid = _core.Grid(columns, rows, step, step)
@@ -260,7 +260,7 @@ class Field(Samples):
         """
         first, last = (0.0, 0.0) if between is None else units.lengths(between, "between")
         if between is not None and first == last:
-            raise UsageError("between: two different depths were expected")
+            raise usage_error("between", "two different depths were expected")
         with reporting(progress, "focus") as report:
             return _core.find_focus(self._source, first, last, planes, max_side, report)
 

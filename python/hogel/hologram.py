@@ -15,7 +15,7 @@ from ._samples import Path
 from .camera import camera as camera_of
 from .camera import camera_record
 from .elsewhere import description, external_fields, external_record, reconstructed
-from .errors import BadInputError, UsageError
+from .errors import BadInputError, UsageError, usage_error
 from .field import Field
 from .pattern import Pattern, modulator_of, pattern_of
 from .picture import Picture
@@ -89,7 +89,7 @@ class Hologram:
         described = values is not None or phase_code is not None or imaginary is not None or phases is not None
         if not described and not _core.is_external_field(name):
             if pitch is not None or wavelength is not None:
-                raise UsageError(f"pitch, wavelength: {name} has its own")
+                raise usage_error("pitch, wavelength", f"{name} has its own")
             fields, acted = reconstructed(list(_core.open_hologram(name)), None, order, aperture, reference_source, reconstruct, focal)
             return cls(fields, name, made={"input": name, **acted})
         what = description(values, phase_code, imaginary, phases, zero, variable, conjugate)
@@ -159,12 +159,12 @@ class Hologram:
         with reporting(progress, "hologram") as report:
             if part is not None:
                 if resume:
-                    raise UsageError("part, resume: only one of them can be asked for")
+                    raise usage_error("part, resume", "only one of them can be asked for")
                 _core.write_holograms_part(name, self._sources, half, metadata, self._part(part), report)
                 return
             if os.path.splitext(name)[1] in (".npy", ".npz", ".mat", ".exr"):
                 if half or resume:
-                    raise UsageError(f"{'half' if half else 'resume'}: belongs to HDF5 files, not to {name}")
+                    raise usage_error("half" if half else "resume", f"belongs to HDF5 files, not to {name}")
                 _core.write_fields(name, self._sources, metadata, report)
                 return
             _core.require_hdf5(name)
@@ -173,7 +173,7 @@ class Hologram:
                 # What a file holds is told by its name and date, what a scene is by its checksum.
                 identity = self._identity or (_core.describe_input(self._made["input"]) if self._made else None)
                 if identity is None:
-                    raise UsageError("resume: what is made of arrays or functions cannot be resumed")
+                    raise usage_error("resume", "what is made of arrays or functions cannot be resumed")
             _core.write_holograms(name, self._sources, half, metadata, identity, report)
 
     def _part(self, part: tuple[int, int]) -> _core.FilePart:
@@ -274,7 +274,7 @@ class Hologram:
         camera = _CAMERA_MODELS.get(camera, camera)
         how = _wave_camera(camera, expected, diffuser, units.length(film_distance, "film_distance"), preview)
         if preview and self._known is None:
-            raise UsageError("preview: leaves out waves of hogels; of a hologram in a file or memory only samples are known")
+            raise usage_error("preview", "leaves out waves of hogels; of a hologram in a file or memory only samples are known")
         for field in self:
             for view in views:
                 _core.require_light_towards(field._source.grid, view, diffuser == "vertical")
@@ -368,20 +368,20 @@ _CAMERA_MODELS = {"hogel-spectra": "eye", "samples": "narrow", "plane-waves": "f
 
 def _wave_camera(name: str, expected: bool, diffuser: str, film_distance: float, preview: bool = False) -> Any:
     if name not in ("auto", "eye", "narrow", "full"):
-        raise UsageError(f"camera: auto, eye, narrow or full were expected, not '{name}'")
+        raise usage_error("camera", f"auto, eye, narrow or full were expected, not '{name}'")
     if diffuser not in ("none", "vertical"):
-        raise UsageError(f"diffuser: none or vertical were expected, not '{diffuser}'")
+        raise usage_error("diffuser", f"none or vertical were expected, not '{diffuser}'")
     if film_distance != 0 and name != "full":
-        raise UsageError("film_distance: the thin lens belongs to the full camera; add camera='full'")
+        raise usage_error("film_distance", "the thin lens belongs to the full camera; add camera='full'")
     if name == "full":
         if expected or preview or diffuser != "none":
-            raise UsageError("expected, preview, diffuser: are not for the full camera")
+            raise usage_error("expected, preview, diffuser", "are not for the full camera")
         return _core.PlaneWaveCamera(film_distance=film_distance)
     if preview and (expected or name == "narrow"):
-        raise UsageError("preview: is for a number of looks and the eye camera")
+        raise usage_error("preview", "is for a number of looks and the eye camera")
     if expected:
         if diffuser != "none":
-            raise UsageError("expected: the mean of infinitely many looks is not known behind a diffuser")
+            raise usage_error("expected", "the mean of infinitely many looks is not known behind a diffuser")
         return _core.SpeckleFreeCamera()
     model = _core.BandCamera()
     model.preview = preview

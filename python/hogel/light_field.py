@@ -17,7 +17,7 @@ from ._samples import Path, array_of
 from ._saving import save_light_field
 from .camera import camera, camera_record
 from .compression import compress
-from .errors import UsageError
+from .errors import UsageError, usage_error
 from .exports import export_views, write_printer_images
 from .hologram import Hologram
 from .method import hologram_record, hologram_request
@@ -86,7 +86,7 @@ class LightField(Rays):
         if values.ndim == 4:
             values = values[None]
         if values.ndim != 5:
-            raise UsageError(f"radiance: an array [c][t][s][v][u] was expected, not one of {values.ndim} axes")
+            raise usage_error("radiance", f"an array [c][t][s][v][u] was expected, not one of {values.ndim} axes")
         if grid is None:
             channels, rows, columns, down, across = values.shape
             grid = request(

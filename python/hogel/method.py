@@ -8,7 +8,7 @@ from typing import Any, Optional, Union
 
 from . import _core, _record, units
 from ._samples import choice
-from .errors import UsageError
+from .errors import usage_error
 
 
 def channel_of(wavelength: float) -> int:
@@ -29,7 +29,7 @@ def _method(
         _core.throw_unknown("transform", basis, _core.transform_names(), "basis")
     if line_pitch is not None:
         if not hasattr(method, "line_pitch") or method.line_pitch is None:
-            raise UsageError(f"line_pitch: belongs to the methods lines and basis-lines, not {name}")
+            raise usage_error("line_pitch", f"belongs to the methods lines and basis-lines, not {name}")
         method.line_pitch = units.length(line_pitch, "line_pitch")
     average = choice(_core.LobeAverage, lobes, "lobes")
     if isinstance(method, (_core.Fourier, _core.Lines)):
@@ -45,7 +45,7 @@ def _method(
         if phase is not None:
             method.phases = choice(_core.PointPhases, phase, "phase")
     elif phase is not None:
-        raise UsageError(f"phase: is not for the method {name}, whose phases are those of the points")
+        raise usage_error("phase", f"is not for the method {name}, whose phases are those of the points")
     return method
 
 

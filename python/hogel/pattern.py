@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _core, _record, units
 from ._progress import Progress, reporting
-from .errors import UsageError
+from .errors import UsageError, usage_error
 
 
 class Pattern:
@@ -137,16 +137,16 @@ def modulator_of(
     """A modulator by name, or described."""
     described = pixels is not None or pixel_pitch is not None
     if (device is None) != described:
-        raise UsageError("device, pixels, pixel_pitch: name a modulator, or describe one by its pixels and their pitch")
+        raise usage_error("device, pixels, pixel_pitch", "name a modulator, or describe one by its pixels and their pitch")
     if device is not None:
         return _core.modulator(device.lower())
     if pixels is None or pixel_pitch is None:
-        raise UsageError("pixels, pixel_pitch: a modulator is described by both")
+        raise usage_error("pixels, pixel_pitch", "a modulator is described by both")
     columns, rows = units.counts(pixels, "pixels")
     if not 1 <= min(columns, rows) <= max(columns, rows) <= 65536:
-        raise UsageError("pixels: 1 to 65536 were expected on a side")
+        raise usage_error("pixels", "1 to 65536 were expected on a side")
     if not 2 <= levels <= 256:
-        raise UsageError("levels: 2 to 256 were expected")
+        raise usage_error("levels", "2 to 256 were expected")
     return _core.Modulator(columns, rows, units.length(pixel_pitch, "pixel_pitch"), levels)
 
 

@@ -22,7 +22,7 @@ import numpy as np
 from . import _core, units
 from ._keywords import passes_options_to
 from ._progress import Progress
-from .errors import NotBuiltInError, UsageError
+from .errors import NotBuiltInError, UsageError, usage_error
 from .field import Field
 from .hologram import Hologram
 from .light_field import LightField
@@ -203,7 +203,7 @@ def focal_stack(
     """
     places = [units.length(depth, "depths") for depth in depths]
     if not places:
-        raise UsageError("depths: at least one was expected")
+        raise usage_error("depths", "at least one was expected")
     pictures = [source.photograph(focus=depth, **camera) for depth in places]
     factor = _exposure_of(pictures, exposure)
     shape = pictures[0].height / pictures[0].width
@@ -272,7 +272,7 @@ def rate_distortion(
         for number, (name, options) in enumerate(curves.items()):
             path = os.path.join(folder, "coded.hgl")
             points: list[tuple[float, float]] = []
-            beyond = UsageError("ppb: at least one rate was expected")
+            beyond = usage_error("ppb", "at least one rate was expected")
             for rate in ppb:
                 try:
                     made = inside.compress(path, ppb=rate, no_depth=True, progress=progress, **options)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Union
 
 from . import _core, _record, units
-from .errors import UsageError
+from .errors import usage_error
 
 Colour = Union[str, Sequence[float]]
 _NAMES = {
@@ -30,7 +30,7 @@ def linear(value: Colour, what: str) -> tuple[float, float, float]:
                 raise ValueError
             parts = [int(code[i : i + 2], 16) for i in (1, 3, 5)]
         except ValueError:
-            raise UsageError(f"{what}: '{value}' is not a colour; write #rrggbb, or {', '.join(_NAMES)}") from None
+            raise usage_error(what, f"'{value}' is not a colour; write #rrggbb, or {', '.join(_NAMES)}") from None
         return tuple(_core.srgb_decode(part / 255) for part in parts)  # type: ignore[return-value]
     red, green, blue = (float(part) for part in value)
     return red, green, blue
@@ -41,7 +41,7 @@ def up(value: Union[str, Sequence[float]]) -> tuple[float, float, float]:
         sign = -1.0 if value.startswith("-") else 1.0
         axis = value.lstrip("-")
         if axis not in ("x", "y", "z") or len(value) > 2:
-            raise UsageError(f"up: '{value}' is not an axis; write x, y, z, -x, -y or -z")
+            raise usage_error("up", f"'{value}' is not an axis; write x, y, z, -x, -y or -z")
         return tuple(sign * (axis == name) for name in "xyz")  # type: ignore[return-value]
     x, y, z = (float(part) for part in value)
     return x, y, z
@@ -56,7 +56,7 @@ def light(direction: Sequence[float], colour: Colour = "white", strength: float 
     """
     size = math.hypot(*direction)
     if not (size > 0 and math.isfinite(size)):
-        raise UsageError(f"light: {direction!r} is not a direction")
+        raise usage_error("light", f"{direction!r} is not a direction")
     x, y, z = (-part / size for part in direction)
     red, green, blue = (strength * part for part in linear(colour, "light"))
     return _core.Light(direction=(x, y, z), intensity=(red, green, blue))
@@ -71,8 +71,8 @@ def light_of(text: str) -> _core.Light:
         if len(direction) != 3 or len(parts) > 3 or not strength >= 0:
             raise ValueError
     except ValueError:
-        raise UsageError(
-            f"light: '{text}' is not a light; write where it comes from, X,Y,Z, then :COLOUR and :STRENGTH if you like"
+        raise usage_error(
+            "light", f"'{text}' is not a light; write where it comes from, X,Y,Z, then :COLOUR and :STRENGTH if you like"
         ) from None
     return light(direction, parts[1] if len(parts) > 1 else "white", strength)
 

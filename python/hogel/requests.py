@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any, Optional, Union
 
 from . import _core, _record, units
-from .errors import UsageError
+from .errors import usage_error
 
 
 def request(
@@ -41,7 +41,7 @@ def request(
     across, down = units.counts(defaults["directions"] if directions is None else directions, "directions")
     width = units.optional_length(size, defaults["size"], "size")
     if not (columns > 0 and rows > 0 and width > 0):
-        raise UsageError("hogels, size: positive numbers were expected")
+        raise usage_error("hogels, size", "positive numbers were expected")
     made = _core.LightFieldRequest()
     if algorithm is not None:
         made.renderer = _known("renderer", "algorithm", algorithm, _core.renderers())
@@ -56,7 +56,7 @@ def request(
     wide, high = (defaults["field_of_view"],) * 2 if fov is None else units.angles(fov, "fov")
     right, up = units.angles(toward, "toward")
     if sum([hemicube, focal_plane is not None, frequencies is not None]) > 1:
-        raise UsageError("hemicube, focal_plane, frequencies: only one of them can be asked for")
+        raise usage_error("hemicube, focal_plane, frequencies", "only one of them can be asked for")
     pitch = width / columns
     view: Union[_core.Perspective, _core.Frequencies, _core.FocalPlane]
     if hemicube:

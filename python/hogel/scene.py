@@ -12,7 +12,7 @@ from . import _core, _record, units
 from . import pose as pose_of
 from ._keywords import passes_options_to
 from ._progress import Progress, reporting
-from .errors import BadInputError, UsageError
+from .errors import BadInputError, UsageError, usage_error
 from .hologram import Hologram
 from .light_field import LightField
 from .requests import render_record, request
@@ -84,11 +84,11 @@ class Scene:
         given = rotate
         if isinstance(rotate, str):
             if not rotate.endswith("deg"):
-                raise UsageError(f"rotate: '{rotate}' is not a rotation; write the angles about x, y and z, such as -90,0,0deg")
+                raise usage_error("rotate", f"'{rotate}' is not a rotation; write the angles about x, y and z, such as -90,0,0deg")
             rotate = [part + "deg" for part in rotate[:-3].split(",")]
         rotations = [units.angle(part, "rotate") for part in rotate]
         if len(rotations) != 3:
-            raise UsageError("rotate: three angles were expected, about x, y and z")
+            raise usage_error("rotate", "three angles were expected, about x, y and z")
         pose.rotation = (rotations[0], rotations[1], rotations[2])
         pose.scale = float(scale)
         pose.shift = units.point(move, "move")
@@ -158,7 +158,7 @@ class Scene:
         """
         index = np.asarray(triangles)
         if index.dtype.kind not in "iu" or (index.size and (index.min() < 0 or index.max() > 0xFFFFFFFF)):
-            raise UsageError("triangles: whole numbers from 0 were expected")
+            raise usage_error("triangles", "whole numbers from 0 were expected")
 
         def row_array(rows: Any, kind: Any) -> Any:
             return None if rows is None else np.ascontiguousarray(rows, dtype=kind)

@@ -8,7 +8,7 @@ from typing import Any, Optional
 
 from . import _core, _record, units
 from ._progress import Progress, reporting
-from .errors import UsageError
+from .errors import usage_error
 from .hologram import Hologram
 from .method import channel_of
 from .requests import render_record, request
@@ -45,7 +45,7 @@ def scene_hologram(
     width = units.optional_length(options.get("size"), defaults["size"], "size")
     height = width * wanted.grid.hogels_t / wanted.grid.hogels_s
     if not (width >= step and height >= step):
-        raise UsageError("size, pitch: the hologram must hold samples")
+        raise usage_error("size, pitch", "the hologram must hold samples")
     plane = _core.Grid(math.floor(width / step + 0.5), math.floor(height / step + 0.5), step, step)
     placed = place(wanted)
     with reporting(progress, "lighting") as report:

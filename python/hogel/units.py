@@ -12,11 +12,11 @@ from __future__ import annotations
 
 import math
 import numbers
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Optional, Union
 
 from . import _core
-from .errors import UsageError
+from .errors import UsageError, usage_error
 
 m = 1.0
 cm = 1e-2
@@ -34,7 +34,15 @@ Counts = Union[int, str, Sequence[int]]
 def _number(value: object, what: str, expected: str) -> float:
     if isinstance(value, numbers.Real) and not isinstance(value, bool) and math.isfinite(value):
         return float(value)
-    raise UsageError(f"{what}: {value!r} is not {expected}")
+    raise usage_error(what, f"{value!r} is not {expected}")
+
+
+def _parsed(parse: Callable[[str, str], float], text: str, what: str) -> float:
+    try:
+        return parse(text, what)
+    except UsageError as error:
+        error.parameter = what
+        raise
 
 
 def length(value: Length, what: str = "length") -> float:
@@ -45,7 +53,7 @@ def length(value: Length, what: str = "length") -> float:
     (1.5e-06, 0.25)
     """
     if isinstance(value, str):
-        return _core.parse_length(value, what)
+        return _parsed(_core.parse_length, value, what)
     return _number(value, what, "a length; write metres, such as 0.016 or 16*mm, or a text such as '16mm'")
 
 
@@ -57,7 +65,7 @@ def angle(value: Angle, what: str = "angle") -> float:
     3.141593
     """
     if isinstance(value, str):
-        return _core.parse_angle(value, what)
+        return _parsed(_core.parse_angle, value, what)
     return _number(value, what, "an angle; write radians, such as 16*deg, or a text such as '16deg'")
 
 
@@ -75,7 +83,7 @@ def angles(value: Union[Angle, Sequence[Angle]], what: str) -> tuple[float, floa
     parts = value if isinstance(value, Sequence) else list(value) if isinstance(value, Iterable) else [value]
     both = [angle(part, what) for part in parts]
     if len(both) not in (1, 2):
-        raise UsageError(f"{what}: one angle or two were expected, across and down")
+        raise usage_error(what, "one angle or two were expected, across and down")
     return both[0], both[-1]
 
 
@@ -102,7 +110,7 @@ def point(value: Union[str, Sequence[Length]], what: str) -> tuple[float, float,
     """
     three = lengths(value, what)
     if len(three) != 3:
-        raise UsageError(f"{what}: three lengths were expected, x, y and z, not {value!r}")
+        raise usage_error(what, f"three lengths were expected, x, y and z, not {value!r}")
     return three[0], three[1], three[2]
 
 
@@ -123,7 +131,7 @@ def counts(value: Counts, what: str) -> tuple[int, int]:
         if len(both) not in (1, 2) or min(both) < 0 or any(isinstance(part, float) and part != int(part) for part in parts):
             raise ValueError
     except (TypeError, ValueError):
-        raise UsageError(f"{what}: {value!r} is neither a number nor a pair; write 64, (64, 48) or '64x48'") from None
+        raise usage_error(what, f"{value!r} is neither a number nor a pair; write 64, (64, 48) or '64x48'") from None
     return both[0], both[-1]
 
 

@@ -9,7 +9,7 @@ from typing import Any, Optional, Union
 from . import _core, _record, units
 from ._progress import Progress, reporting
 from ._samples import Path, one_of
-from .errors import UsageError
+from .errors import UsageError, usage_error
 from .light_field import LightField
 
 def view_layouts() -> dict[str, str]:
@@ -75,7 +75,7 @@ def import_views(
         how.spacing = units.length(spacing, "spacing")
     if fov is not None:
         if spacing is not None:
-            raise UsageError("spacing, fov: only one of them can be asked for")
+            raise usage_error("spacing, fov", "only one of them can be asked for")
         how.field_of_view = units.angle(fov, "fov")
     how.disparity, how.densify, how.estimate_disparity = disparity, densify, estimate_disparity
     if views is not None:

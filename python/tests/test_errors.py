@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Errors are of the fitting classes and name what was wrong; units are taken everywhere."""
+import re
 import unittest
 import warnings
 from pathlib import Path
 
 import hogel
 import numpy as np
-from common import InFolder, command_line, light_field
+from common import SOURCES, InFolder, command_line, light_field
 from hogel import deg, mm, um
 
 
@@ -37,6 +38,16 @@ class Errors(InFolder):
             (lambda: hogel.Scene.load("sphere").render(algorithm="magic"), "algorithm"),
             (lambda: lf.hologram(pitch="50um"), "fov, pitch"),
             (lambda: hogel.open("nothing.h5"), ""),
+            # Errors of the module's own.
+            (lambda: lf.photograph(pupil=1, f_number=2), "pupil, f_number"),
+            (lambda: lf.save("a.hgl", half=True, resume=True), "resume"),
+            (lambda: lf.hologram().photograph(expected=True, diffuser="vertical"), "expected"),
+            (lambda: lf.hologram().slm(pixels=8), "pixels, pixel_pitch"),
+            (lambda: hogel.Scene.load("sphere").render(hogels=0), "hogels, size"),
+            (lambda: hogel.Field.from_array(np.ones((2, 2), np.complex64), wavelength=1e-6), "pitch"),
+            (lambda: hogel.Picture(np.ones((2, 2, 2))), "pixels"),
+            (lambda: hogel.angle("16", "fov"), "fov"),
+            (lambda: hogel.film("film.mp3", []), ""),
         ]
         for work, parameter in cases:
             with self.subTest(parameter), self.assertRaises(hogel.Error) as caught:
@@ -93,8 +104,19 @@ class Errors(InFolder):
             (lambda: hogel.Field.from_array(np.ones((2, 2)), wavelength=633, pitch="1um"), r"633 m; .* 633\*nm"),
         ]
         for number, (work, pattern) in enumerate(cases):
-            with self.subTest(f"{number} {pattern}"), self.assertRaisesRegex(hogel.UsageError, pattern):
-                work()
+            with self.subTest(f"{number} {pattern}"):
+                with self.assertRaisesRegex(hogel.UsageError, pattern) as caught:
+                    work()
+                if pattern.startswith("^"):
+                    self.assertEqual(caught.exception.parameter, pattern[1:-2])
+
+    def test_every_raise_names_its_parameter(self):
+        # usage_error() takes the parameter; the rest are about the whole call of a function, or a file.
+        calls = r"part|plan|photograph|slm|hologram|add_renderer|film|{name}"
+        for source in sorted((SOURCES / "python" / "hogel").glob("*.py")):
+            if source.name != "errors.py":
+                for text in re.findall(r"\bUsageError\(.*", source.read_text()):
+                    self.assertRegex(text, rf'^UsageError\(f?"({calls}): ', source.name)
 
     def test_an_unknown_option_names_the_function_that_was_called(self):
         lf, _ = light_field()

@@ -14,7 +14,7 @@ FOLDER = pathlib.Path(sys.argv[1])
 # Foreground, background, least ratio: what stands on what in style.css.
 PAIRS = [
     ("text", "ground", 4.5), ("text", "panel", 4.5), ("quiet", "ground", 4.5), ("quiet", "panel", 4.5),
-    ("on-accent", "accent", 4.5), ("problem", "problem-ground", 4.5),
+    ("on-accent", "accent", 4.5), ("problem", "problem-ground", 4.5), ("problem", "panel", 4.5),
     ("line", "ground", 3), ("line", "panel", 3), ("accent", "ground", 3), ("accent", "panel", 3), ("problem", "ground", 3),
 ]
 

@@ -114,6 +114,18 @@ async function scenes(browser) {
   await other.waitForFunction(() => document.getElementById("facts").textContent.startsWith("120 × 120"), null, {timeout: 60000});
   await other.close();
 
+  // A change that is refused marks its control until it is moved.
+  await page.evaluate(() => { location.hash = "#rotate=1"; });
+  await page.waitForSelector("#turn[aria-invalid=true]");
+  const marked = await page.evaluate(() => [...document.querySelectorAll("[aria-invalid]")].map(each => each.id).join());
+  expect(marked === "turn,tilt,roll", `a rotation that is none marks ${marked}`);
+  expect(await page.evaluate(() => document.getElementById("wrong").parentElement === document.getElementById("turn").parentElement), "no message at the first control that is marked");
+  await page.locator("#turn").scrollIntoViewIfNeeded();
+  await shot(page, "scene_refused");
+  await page.locator("#tilt").focus();
+  await after(page, () => page.keyboard.press("ArrowRight"));
+  expect(await page.evaluate(() => !document.querySelector("[aria-invalid], #wrong") && document.getElementById("problem").hidden), "a control that was moved stays marked");
+
   // Coverage, with its legend.
   await page.selectOption("#inside-what", "coverage");
   await page.waitForFunction(() => document.getElementById("inside-picture").naturalWidth > 0);

@@ -43,6 +43,20 @@ async function psnr(page) {
   return JSON.parse(told).psnr ?? Infinity;
 }
 
+// A picture that cannot be made marks the controls of the parameters that it names, until another one is made.
+async function refusals(page) {
+  await page.evaluate(() => { location.hash = "#eye=90,0,100mm"; });
+  await page.waitForSelector("#distance[aria-invalid=true]");
+  const marked = await page.evaluate(() => [...document.querySelectorAll("[aria-invalid]")].map(each => each.id));
+  expect(marked.includes("distance") && !marked.includes("pupil"), `an eye that sees nothing marks ${marked}`);
+  const told = await page.locator("#distance").evaluate(each => document.getElementById(each.getAttribute("aria-errormessage")) !== null);
+  expect(told && await text(page, "wrong") === await text(page, "problem-text"), "no message at the control that is marked");
+  await page.locator("#distance").scrollIntoViewIfNeeded();
+  if (shots) await page.screenshot({path: path.join(shots, "hologram_refused.png")});
+  await page.locator("#reset").click();
+  await page.waitForFunction(() => document.getElementById("problem").hidden && !document.querySelector("[aria-invalid], #wrong"));
+}
+
 // A hologram: photographs by waves, fringes, and the focus finder, by which one goes to a plane.
 async function holograms(context) {
   execFileSync(hogel, ["render", "sphere", "-o", "sphere.h5", "--hogels", "40", "--directions", "12", "--size", "4mm", "-q"]);
@@ -65,6 +79,7 @@ async function holograms(context) {
   await page.mouse.click(box.x + 0.2 * box.width, box.y + 0.5 * box.height);
   expect(await page.locator("#focus-out").textContent() !== before, "a click on the plot does not go to a depth");
   if (shots) await page.screenshot({path: path.join(shots, "hologram_finder.png")});
+  await refusals(page);
   await page.close();
   await ended(server);
 }

@@ -34,7 +34,7 @@ def check_pages(server, state):
     expect(status == 200 and b"<!doctype html>" in page, "the page")
     expect("default-src 'none'" in headers["Content-Security-Policy"], "the page's policy")
     expect(b"http://" not in page and b"https://" not in page, "the page names another server")
-    for name in ("main.js", "view.js", "link.js", "stage.js", "keys.js", "inside.js", "finder.js", "scene.js", "drop.js", "levels.js", "style.css", "icon.svg"):
+    for name in ("main.js", "view.js", "link.js", "stage.js", "keys.js", "inside.js", "finder.js", "scene.js", "drop.js", "levels.js", "marks.js", "style.css", "icon.svg"):
         expect(server.get("/" + name)[0] == 200, name)
     expect((state["hogels_s"], state["hogels_t"], state["directions_u"], state["depth"]) == (24, 20, 16, True), "state")
 
@@ -130,7 +130,8 @@ def check_web_socket(server):
         if message != "picture":
             expect(page.until("error")["message"], f"{message!r}")
     page.send(f"picture?{VIEW}&by=original&id=refused")
-    expect(page.until("error")["id"] == "refused", "a picture that is refused is not named")
+    refused = page.until("error")
+    expect((refused["id"], refused["parameter"]) == ("refused", ["by"]), f"a picture that is refused: {refused}")
     page.send(os.urandom(50), opcode=2)  # no text: nothing is said
     page.send(f"picture?{VIEW}&id=8")
     while page.until("picture")["id"] != "8":
@@ -183,16 +184,18 @@ def check_scene():
     state = next_state(page, lambda each: each["generation"] > state["generation"])
     advice = {each["option"]: each for each in state["scene"]["advice"]}
     expect(advice["pitch"]["refused"] and "would do" in advice["pitch"]["text"], f"{advice}")
-    expect(server.get("/picture?eye=0,0,100mm&resolution=20&by=waves&looks=1")[0] == 400, "a pitch that aliases")
+    status, headers, answer = server.get("/picture?eye=0,0,100mm&resolution=20&by=waves&looks=1")
+    expect(status == 400 and "pitch" in json.loads(answer)["parameter"], f"a pitch that aliases: {answer}")
     page.send(f"change?pitch={advice['pitch']['enough'] * 1e6}um")
     state = next_state(page, lambda each: each["generation"] > state["generation"])
     expect("pitch" not in [told["option"] for told in state["scene"]["advice"]], f"{state['scene']}")
     expect(server.get("/picture?eye=0,0,100mm&resolution=20&by=waves&looks=1")[0] == 200, "the pitch that would do")
     done = subprocess.run(f"{state['scene']['make']} -q", shell=True, capture_output=True, text=True)
     expect(done.returncode == 0 and pathlib.Path("hologram.h5").exists(), f"{state['scene']['make']}: {done.stderr}")
-    for message in ("change?hogels=0", "change?hogels=x", "change?threads=7", "change?rotate=1", "change?front=2", "change?hogels=100000"):
-        page.send(message)
-        expect(page.until("problem")["message"], message)
+    for change in ("hogels=0", "hogels=x", "threads=7", "rotate=1", "front=2", "hogels=100000"):
+        page.send(f"change?{change}")
+        problem = page.until("problem")
+        expect(problem["message"] and problem["parameter"] == [change.split("=")[0]], f"{change}: {problem}")
     page.send("change?hogels=&light=&rotate=&fov=")
     state = next_state(page, lambda each: each["hogels_s"] == 24 and not each["work"])
     expect("rotate" not in state["scene"]["make"] and state["scene"]["lights"] == [], "as it was")

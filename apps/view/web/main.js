@@ -7,6 +7,7 @@ import {SceneControls} from "./scene.js";
 import {histogram} from "./levels.js";
 import {plot} from "./finder.js";
 import {Link} from "./link.js";
+import {mark} from "./marks.js";
 import {Stage} from "./stage.js";
 import {keys, listen} from "./keys.js";
 
@@ -88,7 +89,7 @@ async function picture(about, blob) {
 function refuse(message) {
   if (asked.get(Number(message.id))?.by !== view.by) return;  // something else has been asked for since
   const before = drawn?.by ?? (field.rays === false ? "waves" : "rays");
-  problem(message.message);
+  problem(message.message, message.parameter);
   refused = true;
   if (view.by === before) return;
   view.by = before;
@@ -158,12 +159,14 @@ function wavesAnnounced() {
   say("");
 }
 
-function problem(text) {
+// parameters: names of those that the problem is about
+function problem(text, parameters = []) {
   refused = false;
   if (text) wavesAnnounced();
   if (text) say("");
   by("problem").hidden = !text;
   by("problem-text").textContent = text;
+  mark(parameters, text);
 }
 
 function state(message) {
@@ -196,6 +199,7 @@ function state(message) {
     scene.read(location.hash);
     readLayers();
   }
+  if (another) problem("");
   if (first || another) {
     ask(false, performance.now());
     inside.look();
@@ -393,7 +397,7 @@ const link = new Link({
     if (message.type === "state") state(message);
     if (message.type === "reading") reading(message);
     if (message.type === "focus") { view.focus = 1e3 * message.depth_m; changed(); say(`In focus: ${millimetres(view.focus)}`); }
-    if (message.type === "problem") problem(message.message);
+    if (message.type === "problem") problem(message.message, message.parameter);
     if (message.type === "error") message.id ? refuse(message) : say(message.message);
   },
 });
@@ -415,6 +419,7 @@ by("make").addEventListener("click", to.make);
 by("copy-made").addEventListener("click", () => copy(by("made-command").textContent));
 by("dismiss").addEventListener("click", () => problem(""));
 by("stereo").addEventListener("change", to.stereo);
+by("controls").addEventListener("change", event => { if (event.target.matches("[aria-invalid]")) problem(""); });
 by("controls").addEventListener("reset", event => { event.preventDefault(); to.reset(); });
 by("controls").addEventListener("submit", event => event.preventDefault());
 for (const [id, act] of Object.entries({save: () => to.save(), "save-exr": () => to.save("exr"), "copy-command": to.copyCommand, "copy-link": to.copyLink, full: to.full, help: to.help}))
