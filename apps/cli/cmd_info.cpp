@@ -10,6 +10,7 @@
 #include "hogel/image.h"
 #include "hogel/printable.h"
 #include "hogel/scene.h"
+#include "like.h"
 #include "outputs.h"
 
 namespace hogel::cli {
@@ -122,9 +123,11 @@ FileSummary summarize_any(const std::string& path, const Progress& progress) {
 }
 
 int info(const std::string& path, const FieldOptions& options, const Session& session) {
-    const FileSummary summary = is_external(path, options) && !is_pattern(path, options)
-                                    ? summarize_field(path, options, *session.command)
-                                    : summarize_any(path, Progress(session.stop.get_token()));
+    FileSummary summary = is_external(path, options) && !is_pattern(path, options)
+                              ? summarize_field(path, options, *session.command)
+                              : summarize_any(path, Progress(session.stop.get_token()));
+    if (std::string line = command_line_of(summary.text); !line.empty())
+        summary.text.emplace_back("command_line", std::move(line));
     std::string words;
     for (const auto& [name, value] : summary.text)
         words += fmt::format("{:<24} {}\n", printable(name), printable(value));

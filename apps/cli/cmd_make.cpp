@@ -7,7 +7,6 @@
 #include <cmath>
 #include <functional>
 #include <future>
-#include <sstream>
 
 #include "camera_options.h"
 #include "commands.h"
@@ -19,6 +18,7 @@
 #include "hogel/units.h"
 #include "hologram_pitch.h"
 #include "inputs.h"
+#include "like.h"
 #include "outputs.h"
 #include "report.h"
 
@@ -173,21 +173,10 @@ bool is_expected_cheap(const LightFieldGrid& grid, const HologramRequest& reques
 
 // The command that renders the light field again.
 // @param run  what the light field says of the run
-std::string render_command(const Metadata& run, const std::string& scene) {
-    std::string command = "hogel render " + scene + " -o lightfield.h5";
-    for (const auto& [key, value] : run) {
-        if (!key.starts_with("option ") || key == "option scene" || value == "no") continue;
-        const std::string name = key.substr(std::string_view("option ").size());
-        if (name == "light") {
-            std::istringstream lights(value);
-            for (std::string light; lights >> light;) command += fmt::format(" --light '{}'", light);
-            continue;
-        }
-        command += fmt::format(" --{}", name);
-        if (value == "yes") continue;
-        command += value.find_first_of("# ") == std::string::npos ? " " + value : fmt::format(" '{}'", value);
-    }
-    return command;
+std::string render_command(Metadata run) {
+    for (auto& [key, value] : run)
+        if (key == "command") value = "hogel render";
+    return command_line_of(run) + " -o lightfield.h5";
 }
 
 // A file that is removed in the end, unless it is to be kept.
@@ -322,7 +311,7 @@ int make(Options& options, const Session& session) {
                               {.metadata = run_of(Output::light_field), .resume = resume}, stage.progress());
         });
     });
-    report.render_command = render_command(run_of(Output::light_field), options.scene);
+    report.render_command = render_command(run_of(Output::light_field));
     if (options.keep_light_field) report.light_field_bytes = std::filesystem::file_size(light_field_file.path());
     const LightField light_field = open_light_field(light_field_file.path());
     options.hologram.resolve(request, light_field.grid());

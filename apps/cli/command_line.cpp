@@ -172,6 +172,8 @@ CommandLine::CommandLine(std::span<const CommandInfo> commands, Session& session
 
 CommandLine::~CommandLine() = default;
 
+Command* CommandLine::look_up(const std::string& name) const { return impl_->find(name); }
+
 std::vector<const Command*> CommandLine::commands() const {
     std::vector<const Command*> all;
     for (const auto& command : impl_->commands) all.push_back(command.get());

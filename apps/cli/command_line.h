@@ -69,6 +69,8 @@ class CommandLine {
     const Command* parse(int argc, const char* const* argv);
 
     std::vector<const Command*> commands() const;
+    /// The command of a name, or null.
+    Command* look_up(const std::string& name) const;
 
   private:
     struct Impl;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "command_line.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <random>
 
 #include "commands.h"
 #include "error_parameters.h"
@@ -54,6 +57,73 @@ TEST(CommandLine, has_the_basic_options_of_each_command) {
     for (const Command* command : line.commands())
         for (const std::string& name : command->basics())
             EXPECT_NE(command->look_up(name), nullptr) << command->name() << " --" << name;
+}
+
+// A text that a parameter takes, or an empty one of kinds whose texts are checked where they are used.
+std::string drawn_text(const Parameter& parameter, std::mt19937_64& random) {
+    const auto number = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    const auto count = [&] { return fmt::format("{}", 1 + random() % 500); };
+    switch (parameter.kind) {
+        case ParameterKind::flag:
+            return "yes";
+        case ParameterKind::text:
+        case ParameterKind::texts:
+            return "";
+        case ParameterKind::choice:
+            return parameter.choices[random() % parameter.choices.size()];
+        case ParameterKind::number:
+            return fmt::format("{}", number(parameter.low.value_or(0.1), parameter.high.value_or(9)));
+        case ParameterKind::count:
+        case ParameterKind::whole:
+            return count();
+        case ParameterKind::counts:
+        case ParameterKind::resolution:
+            return random() % 2 ? count() : count() + "x" + count();
+        case ParameterKind::length:
+            return fmt::format("{}mm", number(-50, 50));
+        case ParameterKind::positive_length:
+            return fmt::format("{}um", number(0.1, 500));
+        case ParameterKind::wavelengths:
+            return fmt::format("{},{}nm", number(400, 500), number(600, 700));
+        case ParameterKind::angle:
+            return fmt::format("{}deg", number(-90, 90));
+        case ParameterKind::angles:
+            return fmt::format("{},{}rad", number(0, 2), number(0, 2));
+        case ParameterKind::point:
+            return fmt::format("{},{},{}mm", number(-9, 9), number(-9, 9), number(100, 300));
+    }
+    return "";
+}
+
+// What a command would store if all of its parameters acted.
+Metadata described(const Command& command) {
+    Metadata all;
+    for (const Parameter& each : command.all()) all.emplace_back(each.name, each.written());
+    return all;
+}
+
+TEST(Parameters, of_each_command_that_are_described_and_read_again_are_the_same) {
+    std::mt19937_64 random(1);
+    Session session;
+    constexpr std::size_t draws = 1000;
+    const CommandLine names(commands(), session);
+    for (const Command* each : names.commands()) {
+        Session one, other;
+        const CommandLine first(commands(), one), second(commands(), other);
+        Command& drawn = *first.look_up(each->name());
+        Command& again = *second.look_up(each->name());
+        for (std::size_t draw = 0; draw < draws; ++draw) {
+            for (Parameter& parameter : drawn.all())
+                if (const std::string text = random() % 3 ? "" : drawn_text(parameter, random); !text.empty())
+                    parameter.read_value(text, parameter.name);
+            for (Parameter& parameter : drawn.all())
+                if (parameter.is_given())
+                    again.look_up(parameter.name)->read_value(parameter.written(), parameter.name);
+            ASSERT_EQ(described(again), described(drawn)) << each->name();
+        }
+    }
 }
 
 // The parameter of the error that the work throws.

@@ -8,8 +8,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "command_line.h"
+#include "commands.h"
 #include "hogel/error.h"
 #include "hogel/files.h"
 #include "hogel/image.h"
@@ -95,6 +97,51 @@ void take_like(Command& command, const std::string& file) {
         if (!keep.contains(name) && !(parameter->kind == ParameterKind::flag && value == "no"))
             parameter->read_value(value, fmt::format("{}: --{}", file, name));
     }
+}
+
+std::string shell_word(const std::string& word) {
+    const bool plain = !word.empty() && word.find_first_not_of(
+                                            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                            "0123456789._-+=,:/@%") == std::string::npos;
+    if (plain) return word;
+    std::string text = "'";
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
+}
+
+namespace {
+
+// An option as it stands on a command line, with a blank before it.
+std::string written_option(const Parameter& parameter, const std::string& value) {
+    if (parameter.kind == ParameterKind::flag) return value == "yes" ? " --" + parameter.name : "";
+    if (parameter.kind != ParameterKind::texts) return fmt::format(" --{} {}", parameter.name, shell_word(value));
+    std::string text;
+    std::istringstream values(value);
+    for (std::string each; values >> each;) text += fmt::format(" --{} {}", parameter.name, shell_word(each));
+    return text;
+}
+
+}  // namespace
+
+std::string command_line_of(const Metadata& entries) {
+    const auto made = std::ranges::find(entries, "command", &Metadata::value_type::first);
+    constexpr std::string_view program = "hogel ";
+    if (made == entries.end() || !made->second.starts_with(program)) return "";
+    Session none;
+    const CommandLine line(commands(), none);
+    const Command* const command = line.look_up(made->second.substr(program.size()));
+    if (command == nullptr) return "";
+    std::string operands, options;
+    for (const auto& [key, value] : entries) {
+        if (!key.starts_with(option_prefix)) continue;
+        const Parameter* const parameter = command->look_up(key.substr(option_prefix.size()));
+        if (parameter == nullptr) continue;
+        if (parameter->is_positional)
+            operands += " " + shell_word(value);
+        else
+            options += written_option(*parameter, value);
+    }
+    return made->second + operands + options;
 }
 
 }  // namespace hogel::cli

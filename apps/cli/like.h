@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "hogel/provenance.h"
+
 namespace hogel::cli {
 
 class Command;
@@ -10,5 +12,12 @@ class Command;
 /// Sets the parameters of a command to those that made a file, but for those that are given and those that these
 /// exclude. Throws Error(bad_input) for a file that does not say what made it, or that another command made.
 void take_like(Command& command, const std::string& file);
+
+/// The command line that made a file which stores these entries, without its output: "hogel render pumpkin --hogels
+/// 64x64". Empty where they name no command.
+std::string command_line_of(const Metadata& entries);
+
+/// A word of a command line as a shell reads it.
+std::string shell_word(const std::string& word);
 
 }  // namespace hogel::cli

@@ -7,6 +7,8 @@
 #include <array>
 #include <utility>
 
+#include "cli/commands.h"
+#include "cli/like.h"
 #include "hogel/error.h"
 
 namespace hogel::view {
@@ -17,18 +19,8 @@ using Arguments = std::vector<std::string>;
 // Options that a page may change. All of them have a value.
 constexpr std::array<std::string_view, 10> changeable{"hogels", "directions", "size",  "fov",   "front",
                                                       "move",   "rotate",     "light", "pitch", "layers"};
-// Options with a value that are the server's own, and those of them without one.
-constexpr std::array<std::string_view, 7> of_server{"--port",  "--host",     "--token", "--memory",
-                                                    "--looks", "--original", "--layers"};
-constexpr std::array<std::string_view, 2> flags_of_server{"--no-browser", "--json"};
-
-// Options of holograms that hogel make does not have, which makes those of three wavelengths by the method fourier.
-constexpr std::array<std::string_view, 8> of_holograms{"--wavelength", "--method",     "--phase",     "--lobes",
-                                                       "--basis",      "--line-pitch", "--tolerance", "--hemicube"};
-// Options of other programs' fields, which no scene is.
-constexpr std::array<std::string_view, 11> of_fields{"--aperture", "--focal",       "--imaginary",       "--order",
-                                                     "--phases",   "--reconstruct", "--values",          "--variable",
-                                                     "--zero",     "--phase-code",  "--reference-source"};
+// Options of the server that other commands have for something else.
+constexpr std::array<std::string_view, 2> of_server{"looks", "json"};
 
 bool contains(const auto& names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
 
@@ -53,15 +45,11 @@ Arguments find_option(const Arguments& words, std::string_view option) {
     return {found, found + (*found == option && found + 1 != words.end() ? 2 : 1)};
 }
 
-// A word of a command line as a shell reads it.
-std::string quoted(const std::string& word) {
-    const bool plain = !word.empty() && word.find_first_not_of(
-                                            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                            "0123456789._-+=,:/@%") == std::string::npos;
-    if (plain) return word;
-    std::string text = "'";
-    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
+// Whether a command takes an option ("--size").
+bool takes(const std::string& command, std::string_view option) {
+    static cli::Session none;
+    static const cli::CommandLine line(cli::commands(), none);
+    return line.look_up(command)->look_up(option) != nullptr;
 }
 
 }  // namespace
@@ -156,45 +144,40 @@ bool Settings::same_light_field(const Settings& other) const {
     return input_ == other.input_ && light_field_words(words_) == light_field_words(other.words_);
 }
 
-std::string Settings::command(const std::string& begin, const std::string& input) const {
-    std::string text = begin + " " + quoted(input);
+std::string Settings::command(const std::string& command, const std::string& input) const {
+    std::string text = "hogel " + command + " " + cli::shell_word(input);
     for (std::size_t i = 0; i < words_.size(); ++i) {
-        const std::string& word = words_[i];
-        const std::string name{name_of(word)};
-        if (contains(flags_of_server, name)) continue;
-        if (contains(of_server, name)) {
-            if (name == word) ++i;
-            continue;
-        }
-        text += " ";
-        if (word.starts_with("--") && name != word)
-            text += name + " " + quoted(word.substr(name.size() + 1));
-        else
-            text += quoted(word);
+        const std::string name{name_of(words_[i])};
+        const Parameter* const own = line_->command->look_up(name);
+        if (own == nullptr) continue;
+        const bool is_flag = own->kind == ParameterKind::flag, has_value = name != words_[i];
+        const std::string value = is_flag                 ? ""
+                                  : has_value             ? words_[i].substr(name.size() + 1)
+                                  : i + 1 < words_.size() ? words_[++i]
+                                                          : "";
+        if (contains(of_server, own->name) || !takes(command, name)) continue;
+        text += " " + name + (is_flag ? "" : " " + cli::shell_word(value));
     }
     return text;
 }
 
 std::string Settings::photo_command() const {
     const std::string input = is_dropped_ ? name_ : input_;
-    if (options().layers == 0) return command("hogel photo", input);
-    return fmt::format("hogel decompress {} -o layers.h5 --layers {} && {}", quoted(input), options().layers,
-                       command("hogel photo", "layers.h5"));
+    if (options().layers == 0) return command("photo", input);
+    return fmt::format("hogel decompress {} -o layers.h5 --layers {} && {}", cli::shell_word(input), options().layers,
+                       command("photo", "layers.h5"));
 }
 
 std::string Settings::original_command() const {
-    return command("hogel photo", !options().original.empty() ? options().original : is_dropped_ ? name_ : input_);
+    return command("photo", !options().original.empty() ? options().original : is_dropped_ ? name_ : input_);
 }
 
 std::string Settings::make_command() const {
-    Settings scene = *this;
-    std::erase(scene.words_, "--conjugate");
-    for (const std::string_view option : of_fields) remove(scene.words_, option);
-    const bool by_itself =
-        std::ranges::any_of(words_, [](const std::string& word) { return contains(of_holograms, name_of(word)); });
+    const bool by_itself = std::ranges::any_of(words_, [](const std::string& word) {
+        return takes("hologram", name_of(word)) && !takes("make", name_of(word));
+    });
     const std::string input = is_dropped_ ? name_ : input_;
-    return by_itself ? scene.command("hogel hologram", input) + " -o hologram.h5"
-                     : scene.command("hogel make", input) + " -o made";
+    return by_itself ? command("hologram", input) + " -o hologram.h5" : command("make", input) + " -o made";
 }
 
 }  // namespace hogel::view

@@ -50,7 +50,7 @@ class Settings {
     Settings() = default;
     static std::shared_ptr<Line> parsed(const std::vector<std::string>& words, const std::stop_source& stop);
     void read();
-    std::string command(const std::string& begin, const std::string& input) const;
+    std::string command(const std::string& command, const std::string& input) const;
 
     std::vector<std::string> first_, words_;  // options after "view" and the input
     std::string input_, name_;

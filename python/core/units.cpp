@@ -4,6 +4,7 @@
 
 #include "core.h"
 #include "hogel/error.h"
+#include "hogel/parameters.h"
 #include "hogel/parts.h"
 #include "hogel/phase_code.h"
 #include "hogel/pipeline.h"
@@ -32,6 +33,9 @@ void add_units(py::module_& module) {
     module.def("parse_angle", &parse_angle, arg("text"), arg("what"));
     module.def("printable", &printable, arg("text"));
     module.def("format_length", &format_length, arg("metres"));
+    module.def("length_text", &length_text, arg("metres"));
+    module.def("angle_text", &angle_text, arg("radians"));
+    module.def("channel_of", &channel_of, arg("wavelength"));
     module.def("format_bytes", &format_bytes, arg("bytes"));
     module.def("format_duration", &format_duration, arg("seconds"));
     module.def(

@@ -79,7 +79,7 @@ def length(value: Any, otherwise: Any = 0.0) -> str:
         unit = "mm" if largest >= 1e-3 or largest == 0 else "um" if largest >= 1e-5 else "nm"
         scale = {"mm": 1e-3, "um": 1e-6, "nm": 1e-9}[unit]
         return ",".join(f"{part / scale:.10g}" for part in parts) + unit
-    return units.say_length(value).replace(" ", "")
+    return _core.length_text(value)
 
 
 def angle(value: Any, otherwise: Any = 0.0) -> str:

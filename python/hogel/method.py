@@ -11,16 +11,6 @@ from ._samples import choice
 from .errors import usage_error
 
 
-def channel_of(wavelength: float) -> int:
-    """The channel of a picture for light of a wavelength: 0 red, 1 green, 2 blue.
-
-    >>> from hogel.method import channel_of
-    >>> [channel_of(length) for length in (633e-9, 532e-9, 460e-9)]
-    [0, 1, 2]
-    """
-    return 0 if wavelength >= 580e-9 else 1 if wavelength >= 490e-9 else 2
-
-
 def _method(
     name: str, phase: Optional[str], lobes: str, basis: Optional[str], tolerance: float, line_pitch: Optional[units.Length]
 ) -> Any:
@@ -70,7 +60,7 @@ def hologram_request(
     """
     wanted = _core.HologramRequest()
     if wavelength is not None:
-        wanted.channels = [(value, channel_of(value)) for value in units.lengths(wavelength, "wavelength")]
+        wanted.channels = [(value, _core.channel_of(value)) for value in units.lengths(wavelength, "wavelength")]
     wanted.pitch = units.optional_length(pitch, _core.defaults["pitch"], "pitch")
     wanted.method = _method(method, phase, lobes, basis, tolerance, line_pitch)
     wanted.looks, wanted.seed = looks, seed

@@ -10,7 +10,6 @@ from . import _core, _record, units
 from ._progress import Progress, reporting
 from .errors import usage_error
 from .hologram import Hologram
-from .method import channel_of
 from .requests import render_record, request
 
 
@@ -54,7 +53,7 @@ def scene_hologram(
     for wave in waves:
         with reporting(progress, "hologram") as report:
             grid = _core.FieldGrid(plane, wave)
-            fields.append(_core.make_scene_hologram(method, shaded, grid, channel_of(wave), seed, apart, number, report))
+            fields.append(_core.make_scene_hologram(method, shaded, grid, _core.channel_of(wave), seed, apart, number, report))
     made = Hologram(fields)
     if record_of is not None:
         rendering = render_record(wanted, placed, shaded, **options)

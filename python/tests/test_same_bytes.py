@@ -38,6 +38,7 @@ TESTED = {
     "slm": "test_slm",
 }
 NOT_TESTED = {
+    "completion": "prints a script for a shell, and writes no file",
     "help": "prints help, and writes no file",
     "view": "serves pictures to a browser, and writes no file; those of rays and waves are photograph()'s",
 }

@@ -39,13 +39,15 @@ std::size_t parse_count(const std::string& text, const std::string& what, const 
 
 // The unit of a list such as "1,2,3mm": the text after its last number.
 std::string unit_of(const std::string& last) {
-    const std::size_t number = last.find_first_not_of("+-.0123456789");
-    return number == std::string::npos ? "" : last.substr(number);
+    double number = 0;
+    const char* const end = last.data() + last.size();
+    const char* const begin = last.data() + (last.starts_with('+') ? 1 : 0);
+    return {std::from_chars(begin, end, number).ptr, end};
 }
 
 // A part of a list with its unit; if it has none, with that of the last part.
 std::string with_unit(const std::string& part, const std::string& unit) {
-    return part.find_first_not_of("+-.0123456789") == std::string::npos ? part + unit : part;
+    return parse_number(part) ? part + unit : part;
 }
 
 // "638nm,520nm,450nm": up to three.
