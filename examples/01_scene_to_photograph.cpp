@@ -10,6 +10,6 @@ int main() {
     const LightField light_field = render_light_field(load_scene("pumpkin", request), request);
     const auto holograms = make_holograms(light_field, {.looks = 4});  // red, green and blue
     const Camera camera = camera_for(light_field.grid().width(), light_field.grid().height(), 200);
-    const Image photograph = photograph_colours(holograms, {&camera, 1}).front();
+    const Image photograph = photograph_colours(holograms, camera);
     write_image("photograph.png", photograph, automatic_exposure(photograph));
 }

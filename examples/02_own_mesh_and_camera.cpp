@@ -35,8 +35,8 @@ int main() {
     camera.eye = {12_mm, 5_mm, 300_mm};
     camera.focus_depth = 5_mm;  // on the large square
     camera.pupil = 5_mm;
-    const Image seen = photograph_colours(holograms, {&camera, 1}).front();
-    const Image expected = photograph(light_field, {&camera, 1}).front();  // by rays: what it should look like
+    const Image seen = photograph_colours(holograms, camera);
+    const Image expected = photograph(light_field, camera);  // by rays: what it should look like
     const double exposure = automatic_exposure(expected);
     write_image("squares.png", seen, exposure);
     std::printf("PSNR %.1f dB against geometric optics\n", compare(expected, seen, exposure).psnr);

@@ -30,7 +30,7 @@ int main() {
     Camera camera = camera_for(n * pitch, n * pitch, 256);
     camera.focus_depth = -distance;  // in front of the plane
     camera.pupil = 2_mm;
-    const Image picture = photograph(*hologram, {&camera, 1}).front();
+    const Image picture = photograph(*hologram, camera);
     write_image("point.png", picture, automatic_exposure(picture));
     std::printf("in the middle %.3g, at the edge %.3g\n", double(picture.pixels(128, 128, 0)),
                 double(picture.pixels(128, 8, 0)));

@@ -63,6 +63,6 @@ int main() {
     request.grid = {24, 24, 200_um, 8, 8, field_of_view(14_deg)};
     const LightField light_field = render_light_field(load_scene("two-planes", request), request);
     const Camera camera = camera_for(light_field.grid().width(), light_field.grid().height(), 96);
-    write_image("depth.png", photograph(light_field, {&camera, 1}).front());
+    write_image("depth.png", photograph(light_field, camera));
     std::printf("depth.png by the renderer '%s'\n", request.renderer.c_str());
 }

@@ -6,7 +6,6 @@
 
 #include "camera_options.h"
 #include "commands.h"
-#include "display.h"
 #include "error_parameters.h"
 #include "fields.h"
 #include "hogel/pipeline.h"
@@ -75,7 +74,7 @@ std::vector<Image> develop(Stage& stage, const Fields& fields, std::span<const C
     std::vector<Image> pictures;
     for (const auto& wave : waves_in_focus(*fields.front(), 0, cameras,
                                            std::get<PlaneWaveCamera>(options.camera_model()), stage.progress()))
-        pictures.push_back(phases(wave));
+        pictures.push_back(picture_of(wave, FieldQuantity::phase));
     return pictures;
 }
 

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "commands.h"
-#include "display.h"
 #include "error_parameters.h"
 #include "fields.h"
 #include "hogel/pipeline.h"
@@ -162,15 +161,10 @@ std::optional<double> propagate_measured(const FieldSource& field, double distan
     return std::round(after.sum() * output.pitch_x * output.pitch_y / light * 1e9) / 1e9;
 }
 
-// The picture of one colour.
-Image shown(const Field& field, const std::string& display) {
-    if (display == "phase") return phases(field.samples);
-    Image picture(field.samples.extent(1), field.samples.extent(0), 1);
-    for (std::size_t i = 0; i < field.samples.size(); ++i) {
-        const float square = std::norm(field.samples.data()[i]);
-        picture.pixels.data()[i] = display == "amplitude" ? std::sqrt(square) : square;
-    }
-    return picture;
+FieldQuantity quantity_of(const std::string& display) {
+    return display == "phase"       ? FieldQuantity::phase
+           : display == "amplitude" ? FieldQuantity::amplitude
+                                    : FieldQuantity::intensity;
 }
 
 // @param picture  the facts of the picture, if the output is one
@@ -281,7 +275,7 @@ int propagate_fields(Options& options, const Session& session) {
         for (std::size_t c = 0; c < grids.size(); ++c) {
             Field field(grids[c]);
             colour(c, field);
-            const Image one = shown(field, options.display);
+            const Image one = picture_of(field.samples, quantity_of(options.display));
             for (std::size_t i = 0; i < one.pixels.size(); ++i)
                 picture.pixels.data()[i * grids.size() + c] = one.pixels.data()[i];
         }

@@ -10,9 +10,9 @@
 #include <tuple>
 #include <utility>
 
-#include "cli/display.h"
 #include "hogel/error.h"
 #include "hogel/pattern.h"
+#include "hogel/pipeline.h"
 #include "hogel/reconstruct.h"
 
 namespace hogel::view {
@@ -49,16 +49,16 @@ bool holds(const Grid& plane, double x, double y) {
            row < static_cast<double>(plane.height);
 }
 
-Image picture_of(const Field& field, const std::string& what) {
-    if (what == "phase") return cli::phases(field.samples.view());
-    Image picture(field.grid().plane.width, field.grid().plane.height, 1);
-    float largest = 0;
-    for (const std::complex<float>& value : field.samples.elements()) largest = std::max(largest, std::abs(value));
-    const float scale = largest > 0 ? 1 / largest : 0;
-    std::ranges::transform(
-        field.samples.elements(), picture.pixels.elements().begin(), [&](const std::complex<float>& value) {
-            return what == "real" ? srgb_decode(0.5f + 0.5f * scale * value.real()) : scale * scale * std::norm(value);
-        });
+// The samples as the page names what it shows of them. Of intensities the brightest is white.
+Image samples_of(const Field& field, const std::string& what) {
+    const auto samples = field.samples.view();
+    if (what == "phase") return picture_of(samples, FieldQuantity::phase);
+    if (what == "real") return picture_of(samples, FieldQuantity::real);
+    Image picture = picture_of(samples);
+    const std::span<float> pixels = picture.pixels.elements();
+    const float brightest = *std::ranges::max_element(pixels);
+    if (brightest > 0)
+        for (float& value : pixels) value /= brightest;
     return picture;
 }
 
@@ -71,8 +71,7 @@ Image spectrum_of(Field field) {
     };
     for (std::size_t y = 0; y < height; ++y)
         for (std::size_t x = 0; x < width; ++x) field.samples(y, x) *= window(x, width) * window(y, height);
-    const Field transform = fourier_image(field, 1);
-    return cli::logarithmic(picture_of(transform, "intensity"));
+    return logarithmic(picture_of(fourier_image(field, 1).samples.view()));
 }
 
 }  // namespace
@@ -215,7 +214,7 @@ Photograph HologramSubject::inside(const View& view, const Spot& spot, const Ins
         0)
         throw Error(ErrorCode::usage, fmt::format("what: '{}' is not intensity, phase, real or spectrum", inside.what));
     Field field = around(ray_at(camera(view), spot), inside.colour, inside.side);
-    return {inside.what == "spectrum" ? spectrum_of(std::move(field)) : picture_of(field, inside.what), 1, 0, {}};
+    return {inside.what == "spectrum" ? spectrum_of(std::move(field)) : samples_of(field, inside.what), 1, 0, {}};
 }
 
 }  // namespace hogel::view

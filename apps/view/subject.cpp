@@ -7,8 +7,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "cli/display.h"
 #include "hogel/error.h"
+#include "hogel/pipeline.h"
 
 namespace hogel::view {
 namespace {
@@ -22,11 +22,10 @@ Photograph together(const View& view, const Image& rays, const Image& waves, dou
     // In motion there is no time for it.
     if (!view.moving && rays.channels() == waves.channels()) both.psnr = compare(waves, rays, exposure).psnr;
     if (view.by == By::difference) {
-        both.picture = view.logarithmic ? cli::logarithmic(difference(rays, waves)) : difference(rays, waves);
+        both.picture = view.logarithmic ? logarithmic(difference(rays, waves)) : difference(rays, waves);
         return both;
     }
-    both.picture =
-        view.logarithmic ? side_by_side(cli::logarithmic(rays), cli::logarithmic(waves)) : side_by_side(rays, waves);
+    both.picture = view.logarithmic ? side_by_side(logarithmic(rays), logarithmic(waves)) : side_by_side(rays, waves);
     return both;
 }
 
@@ -122,14 +121,13 @@ void Subject::photograph_eye(const View& view, std::size_t looks, const Shown& s
     const double exposure = view.logarithmic ? 1 : view.exposure > 0 ? view.exposure : this->exposure();
     Image rays;
     if (view.by != By::waves) rays = by_rays(view, progress);
-    if (!needs_waves(view.by))
-        return shown({view.logarithmic ? cli::logarithmic(rays) : std::move(rays), exposure, 0, {}});
+    if (!needs_waves(view.by)) return shown({view.logarithmic ? logarithmic(rays) : std::move(rays), exposure, 0, {}});
     by_waves(
         view, looks,
         [&](const Image& waves, std::size_t so_far) {
             Photograph picture;
             if (view.by == By::waves)
-                picture = {view.logarithmic ? cli::logarithmic(waves) : waves, exposure, 0, {}};
+                picture = {view.logarithmic ? logarithmic(waves) : waves, exposure, 0, {}};
             else
                 picture = together(view, rays, waves, exposure);
             picture.looks = so_far;

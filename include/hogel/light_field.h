@@ -4,11 +4,13 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <numbers>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -317,6 +319,23 @@ class HOGEL_API LightField {
     std::vector<Source> faces_;
     Provenance provenance_;
 };
+
+/// The light field of a function, computed when it is read: radiance(s, t, U, V) is that of the ray x = s + Uζ,
+/// y = t + Vζ, with s and t in metres. With Frequencies U and V are the sines. A grid with one channel takes r. The
+/// function is called from several threads at once. Throws Error(usage) for an invalid grid, and for one that is not of
+/// a front.
+HOGEL_API LightField light_field_from(const LightFieldGrid& grid,
+                                      std::function<Rgb(double s, double t, double u, double v)> radiance);
+/// The same for a function that returns a number, the radiance in every channel.
+template <class Radiance>
+requires std::is_arithmetic_v<std::invoke_result_t<const Radiance&, double, double, double, double>> LightField
+light_field_from(const LightFieldGrid& grid, Radiance radiance) {
+    return light_field_from(
+        grid, std::function<Rgb(double, double, double, double)>([radiance](double s, double t, double u, double v) {
+            const auto value = static_cast<float>(radiance(s, t, u, v));
+            return Rgb{value, value, value};
+        }));
+}
 
 /// A light field of a source that the caller owns. The source must outlive the light field and everything made from it.
 HOGEL_API LightField borrow(const LightFieldSource& front);

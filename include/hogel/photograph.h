@@ -92,6 +92,9 @@ using CameraModel = std::variant<BandCamera, SpeckleFreeCamera, PlaneWaveCamera,
 /// an invalid camera, and as the model says.
 HOGEL_API std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camera> cameras,
                                         const CameraModel& model = BandCamera(), const Progress& progress = {});
+/// The same by one camera.
+HOGEL_API Image photograph(const FieldSource& hologram, const Camera& camera, const CameraModel& model = BandCamera(),
+                           const Progress& progress = {});
 
 /// As photograph() into `pictures`, one per camera, whose memory is reused if they have the cameras' shapes. Also
 /// throws Error(usage) for another number of pictures.
@@ -173,6 +176,9 @@ struct RayCamera {
 /// a camera that makes no sense, and for a tilted plane in focus.
 HOGEL_API std::vector<Image> photograph(const LightField& light_field, std::span<const Camera> cameras,
                                         const RayCamera& model = {}, const Progress& progress = {});
+/// The same by one camera.
+HOGEL_API Image photograph(const LightField& light_field, const Camera& camera, const RayCamera& model = {},
+                           const Progress& progress = {});
 
 /// As photograph() into `pictures`, one per camera, whose memory is reused if they have the cameras' shapes. Also
 /// throws Error(usage) for another number of pictures.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -187,10 +188,32 @@ HOGEL_API Fields make_holograms(const LightField& light_field, const HologramReq
 HOGEL_API std::vector<Image> photograph_colours(const Fields& holograms, std::span<const Camera> cameras,
                                                 const CameraModel& model = BandCamera(), const Progress& progress = {});
 
+/// The same by one camera.
+HOGEL_API Image photograph_colours(const Fields& holograms, const Camera& camera,
+                                   const CameraModel& model = BandCamera(), const Progress& progress = {});
+
 /// The same in several ways, [way][camera]. Processes of a team then share all of them together.
 HOGEL_API std::vector<std::vector<Image>> photograph_colours(const Fields& holograms, std::span<const Camera> cameras,
                                                              std::span<const CameraModel> ways,
                                                              const Progress& progress = {});
+
+/// The quantity of a field F that a picture shows.
+enum class FieldQuantity {
+    intensity,  ///< |F|², the radiance of the samples' light
+    amplitude,  ///< |F|
+    phase,      ///< arg F as greys of a display, black at −π and white at π
+    real        ///< Re F as greys of a display: 0 is the middle one, the largest |F| white, and its negative black
+};
+
+/// A picture of a field, with one channel and one pixel for each sample.
+HOGEL_API Image picture_of(View<const std::complex<float>, 2> samples,
+                           FieldQuantity quantity = FieldQuantity::intensity);
+/// The same for one look of a field, which is read into memory. The picture has the field's provenance.
+HOGEL_API Image picture_of(const FieldSource& field, FieldQuantity quantity = FieldQuantity::intensity,
+                           std::size_t look = 0, const Progress& progress = {});
+
+/// The logarithm of intensities as greys of a display: white is the brightest pixel, and black is four decades below.
+HOGEL_API Image logarithmic(const Image& intensities);
 
 /// A camera on the axis that frames a hologram of this size (metres) with `resolution` pixels across.
 HOGEL_API Camera camera_for(double width, double height, std::size_t resolution = defaults.resolution);

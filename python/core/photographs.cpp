@@ -74,6 +74,18 @@ void add_photographs(py::module_& module) {
             require_photographs(hologram, cameras, model);
         },
         arg("hologram"), arg("cameras"), arg("model"));
+    py::enum_<FieldQuantity>(module, "FieldQuantity")
+        .value("intensity", FieldQuantity::intensity)
+        .value("amplitude", FieldQuantity::amplitude)
+        .value("phase", FieldQuantity::phase)
+        .value("real", FieldQuantity::real);
+    module.def(
+        "picture_of",
+        [](const Source& field, FieldQuantity quantity, std::size_t look, const py::object& report) {
+            return run_for(report, [&](const Progress& p) { return picture_of(*field, quantity, look, p); });
+        },
+        arg("field"), arg("quantity"), arg("look"), arg("report"));
+    module.def("logarithmic", &logarithmic, arg("intensities"));
     py::class_<RayPhotographer>(module, "RayPhotographer")
         .def(py::init([](const LightField& light_field, std::size_t memory, const py::object& report) {
                  return run_for(report, [&](const Progress& p) {

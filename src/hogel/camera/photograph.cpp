@@ -168,6 +168,11 @@ std::vector<Image> photograph(const FieldSource& hologram, std::span<const Camer
     return pictures;
 }
 
+Image photograph(const FieldSource& hologram, const Camera& camera, const CameraModel& model,
+                 const Progress& progress) {
+    return std::move(photograph(hologram, std::span(&camera, 1), model, progress).front());
+}
+
 void photograph_into(const FieldSource& hologram, std::span<const Camera> cameras, const CameraModel& model,
                      std::span<Image> pictures, const Progress& progress) {
     const core::StopScope scope(progress);

@@ -430,5 +430,49 @@ TEST(Hemicube, refuses_what_cannot_be_halved_or_reaches_beyond_the_plane) {
     EXPECT_THROW(validate(grid, ErrorCode::usage, "light field"), Error);
 }
 
+// A lamp in front of a picture: the radiance depends on where the ray meets a plane behind the hologram, so that rays
+// of different hogels through a point of it agree, with and without a fixed focal plane.
+TEST(LightFieldFrom, a_function_sees_the_ray_of_each_sample) {
+    const double depth = 3_mm;
+    const auto picture = [&](double s, double t, double u, double v) {
+        const double x = s + u * depth, y = t + v * depth;
+        return Rgb{static_cast<float>(x), static_cast<float>(y), static_cast<float>(u)};
+    };
+    for (const bool has_focal_plane : {false, true}) {
+        LightFieldGrid g = small_grid();
+        if (has_focal_plane) g.view = FocalPlane{g.range(), depth};
+        const LightField light_field = light_field_from(g, picture);
+        LightFieldTile tile(g, {2, 1, 3, 4}, false);
+        light_field.front().read(tile);
+        for (std::size_t t = 0; t < 4; ++t)
+            for (std::size_t s = 0; s < 3; ++s)
+                for (std::size_t v = 0; v < g.directions_v; ++v)
+                    for (std::size_t u = 0; u < g.directions_u; ++u) {
+                        const double hogel_s = g.s(static_cast<double>(2 + s)), U = g.u(static_cast<double>(u));
+                        // Through a fixed focal plane all hogels see the same points of it.
+                        const double x = has_focal_plane ? U * depth : hogel_s + U * depth;
+                        EXPECT_NEAR(tile.radiance(0, t, s, v, u), x, 1e-9);
+                        EXPECT_NEAR(tile.radiance(2, t, s, v, u), (x - hogel_s) / depth, 1e-6);
+                    }
+        EXPECT_NEAR(tile.radiance(1, 0, 0, 0, 0), has_focal_plane ? g.v(0) * depth : g.t(1) + g.v(0) * depth, 1e-9);
+    }
+}
+
+TEST(LightFieldFrom, a_number_is_the_radiance_of_all_channels) {
+    LightFieldGrid g = small_grid();
+    for (const std::size_t channels : {1u, 3u}) {
+        g.channels = channels;
+        const LightField light_field = light_field_from(g, [](double s, double, double, double) { return s; });
+        LightFieldTile tile(g, {3, 2, 2, 1}, false);
+        light_field.front().read(tile);
+        for (std::size_t c = 0; c < channels; ++c) EXPECT_EQ(tile.radiance(c, 0, 1, 2, 3), static_cast<float>(g.s(4)));
+    }
+    g.pitch = 0;
+    EXPECT_THROW(light_field_from(g, [](double, double, double, double) { return 1; }), Error);
+    g = small_grid();
+    g.view = Perspective{g.range(), Face::left};
+    EXPECT_THROW(light_field_from(g, [](double, double, double, double) { return 1; }), Error);
+}
+
 }  // namespace
 }  // namespace hogel::lightfield

@@ -157,6 +157,11 @@ std::vector<Image> photograph_colours(const Fields& holograms, std::span<const C
     return std::move(photograph_colours(holograms, cameras, std::span(&model, 1), progress).front());
 }
 
+Image photograph_colours(const Fields& holograms, const Camera& camera, const CameraModel& model,
+                         const Progress& progress) {
+    return std::move(photograph_colours(holograms, std::span(&camera, 1), model, progress).front());
+}
+
 void write_holograms(const std::filesystem::path& path, const Fields& holograms, const HologramFileOptions& options,
                      const Progress& progress) {
     const core::StopScope scope(progress);

@@ -188,6 +188,19 @@ TEST_F(Pipeline, photographs_go_into_the_callers_pictures) {
     EXPECT_THROW(photograph_into(*hologram, cameras, {}, {pictures.data(), 1}), Error);
 }
 
+TEST_F(Pipeline, one_camera_takes_one_picture) {
+    const LightField light_field = rendered();
+    const Fields holograms = make_holograms(light_field, holograms_);
+    const Camera camera = camera_for(2_mm, 2_mm, 20);
+    const auto same = [](const Image& one, const std::vector<Image>& list) {
+        return list.size() == 1 && one.provenance == list[0].provenance &&
+               std::ranges::equal(one.pixels.elements(), list[0].pixels.elements());
+    };
+    EXPECT_TRUE(same(photograph(light_field, camera, {8}), photograph(light_field, {&camera, 1}, {8})));
+    EXPECT_TRUE(same(photograph(*holograms[0], camera), photograph(*holograms[0], {&camera, 1})));
+    EXPECT_TRUE(same(photograph_colours(holograms, camera), photograph_colours(holograms, {&camera, 1})));
+}
+
 double psnr(const Image& a, const Image& b) {
     double error = 0, peak = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {

@@ -66,6 +66,11 @@ std::vector<Image> photograph(const LightField& light_field, std::span<const Cam
     return pictures;
 }
 
+Image photograph(const LightField& light_field, const Camera& camera, const RayCamera& model,
+                 const Progress& progress) {
+    return std::move(photograph(light_field, std::span(&camera, 1), model, progress).front());
+}
+
 void photograph_into(const LightField& light_field, std::span<const Camera> cameras, const RayCamera& model,
                      std::span<Image> pictures, const Progress& progress) {
     const core::StopScope scope(progress);
