@@ -2,18 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <atomic>
-#include <cmath>
-#include <functional>
-#include <future>
+#include <initializer_list>
+#include <optional>
 
 #include "camera_options.h"
 #include "commands.h"
 #include "error_parameters.h"
-#include "hogel/pipeline.h"
+#include "hogel/make.h"
 #include "hogel/progress.h"
-#include "hogel/resources.h"
 #include "hogel/team.h"
 #include "hogel/units.h"
 #include "hologram_pitch.h"
@@ -48,127 +44,63 @@ struct Options {
     }
 };
 
-struct Focus {
-    std::string name;
-    double depth;
+// The stages of the work, one after the other. Prints how long each took, and keeps the times for the report.
+class Stages {
+  public:
+    Stages(const Session& session, Report& report) : session_(session), report_(report) {}
+    // Begins a stage, unless it is the one that has begun.
+    Progress begin(const std::string& name) {
+        if (!stage_ || name_ != name) {
+            end();
+            name_ = name;
+            stage_.emplace(session_, name);
+        }
+        return stage_->progress();
+    }
+    void end() {
+        if (!stage_) return;
+        report_.stages.emplace_back(name_, stage_->seconds());
+        session_.say(fmt::format("{:<24} {:8.1f} s", name_, stage_->seconds()));
+        stage_.reset();
+    }
+
+  private:
+    const Session& session_;
+    Report& report_;
+    std::string name_;
+    std::optional<Stage> stage_;
 };
 
-// Two focuses: a sixth of the scene's depth behind its nearest point, and as much in front of its farthest.
-std::array<Focus, 2> focuses(const Scene& scene, double eye_distance) {
-    const Bounds box = bounds(scene);
-    const double front = -box.high.z, back = -box.low.z, sixth = (back - front) / 6;
-    return {Focus{"near", std::max(front + sixth, -0.5 * eye_distance)}, Focus{"far", back - sixth}};
+// What the options ask for.
+MakeRequest request_of(const Options& options, const Session& session) {
+    const Looks looks = options.looks.empty() ? Looks() : parse_looks(options.looks);
+    MakeRequest request;
+    request.light_field = options.render.request();
+    request.hologram = options.hologram.request(session, looks.count);
+    request.adapt_pitch = !session.command->given("--pitch");
+    request.camera = camera_model(options.camera, looks.expected);
+    request.rays = {options.pupil_samples};
+    request.eye_distance = options.eye_distance;
+    request.pupil = options.pupil;
+    request.resolution = options.resolution;
+    return request;
 }
 
-// Three eyes, left, high and right, as far from the axis as every hogel still sends rays to the whole lens.
-std::array<std::pair<std::string, Vec3>, 3> eyes(const Options& options, const LightFieldGrid& grid) {
-    const double half_width = 0.5 * grid.pitch * static_cast<double>(std::max(grid.hogels_s, grid.hogels_t));
-    const double margin = half_width + 0.5 * options.pupil, tangent = std::min(grid.half_u(), grid.half_v());
-    const double reach = options.eye_distance * tangent - margin;
-    if (!(reach > 0))
-        throw Error(ErrorCode::usage,
-                    fmt::format("--eye-distance: at {} the field of view does not cover the whole hologram; it does "
-                                "beyond {}",
-                                format_length(options.eye_distance), format_length(margin / tangent)));
-    const double aside = 0.7 * reach, z = options.eye_distance;
-    return {{{"left", {-aside, 0, z}}, {"high", {0, aside, z}}, {"right", {aside, 0, z}}}};
-}
-
-std::vector<PhotographPair> plan_photographs(const Options& options, const Scene& scene, const LightFieldGrid& grid) {
-    std::vector<PhotographPair> pairs;
-    for (const Focus& focus : focuses(scene, options.eye_distance))
-        for (const auto& [eye_name, eye] : eyes(options, grid)) {
-            PhotographPair pair;
-            pair.eye_name = eye_name;
-            pair.focus_name = focus.name;
-            pair.camera = camera_for(grid.pitch * static_cast<double>(grid.hogels_s),
-                                     grid.pitch * static_cast<double>(grid.hogels_t), options.resolution);
-            pair.camera.eye = eye;
-            pair.camera.focus_depth = focus.depth;
-            pair.camera.pupil = options.pupil;
-            validate(pair.camera);
-            pair.wave_file = fmt::format("photo_{}_{}", eye_name, focus.name);
-            pair.geometric_file = pair.wave_file + "_geometric";
-            pair.expected_file = pair.wave_file + "_expected";
-            pairs.push_back(pair);
-        }
-    return pairs;
-}
-
-// Runs a stage of the work, prints how long it took, and keeps the time for the report.
-template <class Work>
-void timed(const Session& session, Report& report, const std::string& name, Work work) {
-    Stage stage(session, name);
-    work(stage);
-    report.stages.emplace_back(name, stage.seconds());
-    session.say(fmt::format("{:<24} {:8.1f} s", name, stage.seconds()));
-}
-
-// Calls work(i) for all i below `count` on as many threads as there are; an error of one is thrown in the end. A stop
-// ends the work of each.
-void on_all_threads(const Session& session, std::size_t count, const std::function<void(std::size_t)>& work) {
-    std::atomic<std::size_t> next = 0;
-    std::vector<std::future<void>> threads;
-    for (std::size_t thread = 0; thread < std::min(count, thread_count()); ++thread)
-        threads.push_back(std::async(std::launch::async, [&] {
-            const Stoppable stoppable(Progress(session.stop.get_token()));
-            for (std::size_t i = next++; i < count; i = next++) work(i);
-        }));
-    for (std::future<void>& thread : threads) thread.wait();
-    for (std::future<void>& thread : threads) thread.get();
-}
-
-void compare_pictures(const Session& session, Report& report) {
-    on_all_threads(session, report.pairs.size(), [&](std::size_t i) {
-        PhotographPair& pair = report.pairs[i];
-        if (report.looks > 0) pair.comparison = compare(pair.geometric, pair.wave, report.exposure);
-        if (report.expected) pair.expected_comparison = compare(pair.geometric, pair.expected, report.exposure);
-    });
-}
-
-void write_pictures(const Session& session, const std::filesystem::path& folder, const Report& report) {
-    const auto with_exposure = [&](Metadata metadata) {
-        metadata.emplace_back("exposure", fmt::format("{:.9g}", report.exposure));
-        return metadata;
-    };
-    const Metadata wave = with_exposure(report.waves_run), expected = with_exposure(report.expected_run),
-                   rays = with_exposure(report.rays_run);
-    std::vector<std::function<void()>> works;
-    for (const PhotographPair& pair : report.pairs)
-        for (const char* extension : {".png", ".exr"}) {
-            const auto add = [&](const std::string& file, const Image& image, const Metadata& metadata) {
-                works.push_back(
-                    [&, path = folder / (file + extension)] { write_image(path, image, report.exposure, metadata); });
-            };
-            if (report.looks > 0) add(pair.wave_file, pair.wave, wave);
-            if (report.expected) add(pair.expected_file, pair.expected, expected);
-            add(pair.geometric_file, pair.geometric, rays);
-        }
-    on_all_threads(session, works.size(), [&](std::size_t i) { works[i](); });
-}
-
-// Prints the resources that the work needs, and returns the camera that is chosen. Throws if they are not available.
-std::string state_plan(const LightFieldGrid& grid, const HologramRequest& request, std::span<const Camera> cameras,
-                       const CameraModel& model, const Session& session) {
-    const std::span<const LightFieldGrid> faces(&grid, 1);
-    std::string camera = say_camera(session, faces, request, cameras, model);
-    state_plan(session, plan_photographs(faces, request, cameras, model), "photographing the hologram");
+// Prints the resources that the work needs, decides whether there are photographs without speckle, and returns the name
+// of the camera that is chosen. Throws if the resources are not available.
+std::string state_plan(MakeRequest& request, const Session& session) {
+    const std::vector<LightFieldGrid> faces = request.light_field.grids();
+    const std::vector<Camera> cameras = cameras_of(request);
+    std::string camera = say_camera(session, faces, request.hologram, cameras, request.camera);
+    state_plan(session, plan_photographs(faces, request.hologram, cameras, request.camera),
+               "photographing the hologram");
+    request.speckle_free = std::holds_alternative<SpeckleFreeCamera>(request.camera) ||
+                           is_speckle_free_cheap(faces, request.hologram, cameras, request.camera);
+    if (!*request.speckle_free)
+        session.detail(fmt::format(
+            "without pictures of infinitely many looks, which take about {:.0f} s; --looks expected makes them",
+            plan_photographs(faces, request.hologram, cameras, SpeckleFreeCamera()).seconds));
     return camera;
-}
-
-// Whether pictures of infinitely many looks take no longer than those of the looks, or no more than ten seconds. They
-// take long where many waves of a hogel enter the lens: where hogels are large.
-bool is_expected_cheap(const LightFieldGrid& grid, const HologramRequest& request, std::span<const Camera> cameras,
-                       const CameraModel& model, const Session& session) {
-    const std::span<const LightFieldGrid> faces(&grid, 1);
-    const double looks = plan_photographs(faces, request, cameras, model).seconds,
-                 expected = plan_photographs(faces, request, cameras, SpeckleFreeCamera()).seconds;
-    if (expected <= std::max(10.0, looks)) return true;
-    session.detail(
-        fmt::format("without pictures of infinitely many looks, which take about {:.0f} s; --looks expected "
-                    "makes them",
-                    expected));
-    return false;
 }
 
 // The command that renders the light field again.
@@ -197,56 +129,53 @@ class PassingFile {
     bool keep_;
 };
 
-// Photographs the holograms by waves.
-// @param with  the camera of the pictures of some looks; null: there are none
-void photograph_waves(const Session& session, Report& report, const Fields& holograms, std::span<const Camera> cameras,
-                      const CameraModel* with) {
-    struct Way {
-        std::string name;
-        CameraModel camera;
-        Image PhotographPair::*picture;
+// What the files and the report say of the options that acted on them.
+struct Records {
+    Metadata light_field, hologram, waves, speckle_free, rays, report;
+};
+
+// Sets the values of the options that were chosen otherwise than was asked.
+// @param camera  the name of the one that is chosen
+Records records_of(Options& options, const MakeRequest& request, const std::string& camera, const Session& session) {
+    using Output = Options::Output;
+    const auto run_of = [&](Output output) {
+        options.made = output;
+        options.render.scene.is_loaded = options.is_one_of({Output::light_field});
+        return run_metadata(session);
     };
-    std::vector<Way> ways;
-    if (with != nullptr) ways.push_back({"photographs by waves", *with, &PhotographPair::wave});
-    if (report.expected) ways.push_back({"expected photographs", SpeckleFreeCamera(), &PhotographPair::expected});
-    const auto photograph = [&](const std::string& name, std::span<const Way> some) {
-        timed(session, report, name, [&](Stage& stage) {
-            std::vector<CameraModel> by;
-            for (const Way& way : some) by.push_back(way.camera);
-            std::vector<std::vector<Image>> seen = photograph_colours(holograms, cameras, by, stage.progress());
-            for (std::size_t way = 0; way < some.size(); ++way)
-                for (std::size_t i = 0; i < cameras.size(); ++i)
-                    report.pairs[i].*some[way].picture = std::move(seen[way][i]);
-        });
-    };
-    // Processes of a team share all of them in one stage, so that none waits for the others between two.
-    if (const Team* const all = team(); all != nullptr && all->size() > 1 && ways.size() > 1)
-        return photograph(ways.front().name, ways);
-    for (const Way& way : ways) photograph(way.name, std::span(&way, 1));
+    Records records;
+    records.light_field = run_of(Output::light_field);
+    options.hologram.resolve(request.hologram, request.light_field.grid);
+    options.camera = camera;
+    options.looks = "expected";
+    records.speckle_free = run_of(Output::expected_photographs);
+    if (!std::holds_alternative<SpeckleFreeCamera>(request.camera))
+        options.looks = fmt::format("{}", request.hologram.looks);
+    records.waves = run_of(Output::photographs);
+    records.rays = run_of(Output::ray_photographs);
+    records.hologram = run_of(Output::hologram);
+    records.report = run_of(Output::report);
+    return records;
 }
 
 // The most important facts of report.json.
-Result result_of(const Report& report, const std::string& folder, const Session& session) {
+Result result_of(const Made& made, std::size_t triangles, const std::string& folder, const Session& session) {
     ResultList photographs;
-    for (const PhotographPair& pair : report.pairs) {
-        const ImageComparison& seen = report.looks > 0 ? pair.comparison : pair.expected_comparison;
-        Result files{{"file", (report.looks > 0 ? pair.wave_file : pair.expected_file) + ".png"}};
-        if (report.expected) files.emplace_back("expected_file", pair.expected_file + ".png");
+    for (const MadePhotographs& by : made.photographs) {
+        const std::string wave_file = by.waves ? by.camera.wave_file() : by.camera.speckle_free_file();
+        const ImageComparison& seen = (by.waves ? by.waves : by.speckle_free)->comparison;
+        Result files{{"file", wave_file + ".png"}};
+        if (by.speckle_free) files.emplace_back("expected_file", by.camera.speckle_free_file() + ".png");
         files.insert(files.end(),
-                     {{"geometric_file", pair.geometric_file + ".png"}, {"psnr", seen.psnr}, {"ssim", seen.ssim}});
+                     {{"geometric_file", by.camera.ray_file() + ".png"}, {"psnr", seen.psnr}, {"ssim", seen.ssim}});
         photographs.push_back(std::move(files));
     }
-    const Grid& picture = report.pairs.front().camera.picture;
-    return {{"folder", folder},
-            {"report", "report.html"},
-            {"triangles", report.triangles},
-            {"wavelengths_m", wavelengths_of(report.holograms)},
-            {"looks", report.looks},
-            {"width", picture.width},
-            {"height", picture.height},
-            {"exposure", report.exposure},
-            {"photographs", photographs},
-            {"seconds", session.seconds()}};
+    const Grid& picture = made.photographs.front().camera.camera.picture;
+    return {{"folder", folder},           {"report", "report.html"},
+            {"triangles", triangles},     {"wavelengths_m", wavelengths_of(grids_of(made))},
+            {"looks", looks_of(made)},    {"width", picture.width},
+            {"height", picture.height},   {"exposure", made.exposure},
+            {"photographs", photographs}, {"seconds", session.seconds()}};
 }
 
 // The same work was completed before.
@@ -256,100 +185,93 @@ int report_done(const Session& session, const std::string& folder) {
     return 0;
 }
 
-int make(Options& options, const Session& session) {
+// Checks the inputs and outputs before work begins.
+void require_files(const Options& options) {
     if (input_kind(options.scene) != InputKind::scene)
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
     require_folder_name(options.output);
     require_hdf5(std::filesystem::path(options.output) / "lightfield.h5");
     require_picture_name("photo.png");
     require_picture_name("photo.exr");
+}
+
+// What the options ask for of the scene. Says what is chosen otherwise than was asked.
+MakeRequest resolved_request(const Options& options, const Scene& scene, const Session& session) {
+    MakeRequest request = resolve(request_of(options, session), bounds(scene));
+    say_pitch(request.hologram, options.hologram, session);
+    with_renamed_parameters({{"wavelength", "hogels, size"}}, [&] {
+        require_holograms(request.light_field.grids(), request.hologram, cameras_of(request));
+    });
+    return request;
+}
+
+Report begin_report(const Options& options, const Scene& scene, const Session& session) {
     Report report;
     report.scene = options.scene;
-    report.algorithm = options.render.algorithm;
-    report.light_field = options.render.request().grid;
-    report.pupil_samples = options.pupil_samples;
-    report.threads = thread_count();
-    using Output = Options::Output;
-    const auto run_of = [&](Output output) {
-        options.made = output;
-        options.render.scene.is_loaded = options.is_one_of({Output::light_field});
-        return run_metadata(session);
-    };
-    const Scene scene = load_scene(session, options.scene, options.render);
     report.triangles = triangle_count(scene);
-    report.pairs = plan_photographs(options, scene, report.light_field);
-    const Looks looks =
-        options.looks.empty() ? Looks{enough_looks(report.pairs.front().camera)} : parse_looks(options.looks);
-    report.looks = looks.expected ? 0 : looks.count;
-    std::vector<Camera> cameras;
-    for (const PhotographPair& pair : report.pairs) cameras.push_back(pair.camera);
-    const HologramRequest request =
-        request_for(std::span(&report.light_field, 1), options.hologram, session, looks.count);
-    say_pitch(request, options.hologram, session);
-    with_renamed_parameters({{"wavelength", "hogels, size"}},
-                            [&] { require_holograms(std::span(&report.light_field, 1), request, cameras); });
-    const CameraModel with = camera_model(options.camera, looks.expected);
-    const std::string camera = state_plan(report.light_field, request, cameras, with, session);
-    report.expected = looks.expected || is_expected_cheap(report.light_field, request, cameras, with, session);
+    report.scene_input = describe_input(options.scene, scene);
+    report.work = work_of(session, report.scene_input);
+    return report;
+}
+
+// The files of the light field and the hologram.
+// @param resume  what identifies the scene, if the work can be resumed
+MakeOptions files_in(const std::filesystem::path& folder, const Options& options, const Records& records,
+                     const std::optional<std::string>& resume) {
+    MakeOptions files;
+    files.light_field_file = folder / "lightfield.h5";
+    files.light_field.metadata = records.light_field;
+    files.light_field.resume = resume;
+    if (options.store_hologram) files.hologram_file = folder / "hologram.h5";
+    files.hologram.metadata = records.hologram;
+    files.hologram.resume = resume;
+    return files;
+}
+
+// Writes the pictures and the report.
+void write_outputs(const std::filesystem::path& folder, const Made& made, const Records& records, Report& report,
+                   const Session& session) {
+    write_photographs(folder, made, {records.waves, records.speckle_free, records.rays},
+                      Progress(session.stop.get_token()));
+    report.render_command = render_command(records.light_field);
+    report.run = records.report;
+    write_text(folder / "report.json", report_json(report, made));
+    write_text(folder / "report.html", report_html(report, made, folder));
+}
+
+int make(Options& options, const Session& session) {
+    require_files(options);
+    const Scene scene = load_scene(session, options.scene, options.render);
+    MakeRequest request = resolved_request(options, scene, session);
+    const std::string camera = state_plan(request, session);
 
     const std::filesystem::path done_before = std::filesystem::path(options.output) / "make";
     const bool resumes = options.resume && std::filesystem::exists(done_before.string() + ".part");
-    report.scene_input = describe_input(options.scene, scene);
-    report.work = work_of(session, report.scene_input);
+    Report report = begin_report(options, scene, session);
     if (options.resume && !resumes && !options.force && has_report_of(options.output, report.work))
         return report_done(session, options.output);
     const OutputFolder folder(options.output, options.force || resumes);
     Kept kept(session, options.resume, done_before.string(), report.scene_input);
-    const auto resume = options.resume ? std::optional(report.scene_input) : std::nullopt;
     PassingFile light_field_file(folder.path() / "lightfield.h5", options.keep_light_field || options.resume);
 
-    timed(session, report, "light field", [&](Stage& stage) {
-        const LightField rendered = render_light_field(session, scene, options.render);
-        require_memory(session, rendered, options.render, scene);
-        kept.once([&] {
-            write_light_field(light_field_file.path(), rendered,
-                              {.metadata = run_of(Output::light_field), .resume = resume}, stage.progress());
-        });
-    });
-    report.render_command = render_command(run_of(Output::light_field));
-    if (options.keep_light_field) report.light_field_bytes = std::filesystem::file_size(light_field_file.path());
-    const LightField light_field = open_light_field(light_field_file.path());
-    options.hologram.resolve(request, light_field.grid());
-    options.camera = camera;
-    options.looks = "expected";
-    report.expected_run = run_of(Output::expected_photographs);
-    options.looks = looks.expected ? "expected" : fmt::format("{}", report.looks);
-    report.waves_run = run_of(Output::photographs);
-    report.rays_run = run_of(Output::ray_photographs);
-    report.run = run_of(Output::report);
-    const auto holograms = make_holograms(light_field, request);
-    for (const auto& hologram : holograms) report.holograms.push_back(hologram->grid());
-
-    timed(session, report, "photographs by rays", [&](Stage& stage) {
-        std::vector<Image> pictures = photograph(light_field, cameras, {options.pupil_samples}, stage.progress());
-        for (std::size_t i = 0; i < pictures.size(); ++i) report.pairs[i].geometric = std::move(pictures[i]);
-    });
-    if (options.store_hologram)
-        timed(session, report, "hologram file", [&](Stage& stage) {
-            kept.once([&] {
-                write_holograms(folder.path() / "hologram.h5", holograms,
-                                {.metadata = run_of(Output::hologram), .resume = resume}, stage.progress());
-            });
-        });
-    photograph_waves(session, report, holograms, cameras, looks.expected ? nullptr : &with);
-
-    // One exposure for all pictures, from the view from above.
-    report.exposure = automatic_exposure(report.pairs[1].geometric);
+    Stages stages(session, report);
+    stages.begin("light field");
+    const LightField rendered = render_light_field(session, scene, options.render);
+    require_memory(session, rendered, options.render, scene);
+    const Records records = records_of(options, request, camera, session);
+    MakeOptions files =
+        files_in(folder.path(), options, records, options.resume ? std::optional(report.scene_input) : std::nullopt);
+    files.stage = [&](const std::string& name) { return stages.begin(name); };
+    const Made made = hogel::make(rendered, request, files, Progress(session.stop.get_token()));
+    stages.end();
     if (!is_first_process()) return 0;
-    compare_pictures(session, report);
-    write_pictures(session, folder.path(), report);
-    write_text(folder.path() / "report.json", report_json(report));
-    write_text(folder.path() / "report.html", report_html(report, folder.path()));
+    if (options.keep_light_field) report.light_field_bytes = std::filesystem::file_size(light_field_file.path());
+    write_outputs(folder.path(), made, records, report, session);
     kept.complete();
     light_field_file.keep(options.keep_light_field);
     session.say("");
     session.say((folder.path() / "report.html").string());
-    session.result(result_of(report, options.output, session));
+    session.result(result_of(made, report.triangles, options.output, session));
     return 0;
 }
 

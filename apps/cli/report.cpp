@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "hogel/error.h"
+#include "hogel/resources.h"
 #include "hogel/units.h"
 #include "report_page.h"
 
@@ -116,39 +117,44 @@ std::string html_of(const Picture& picture, const std::string& label, const std:
         escape(file), base64(bytes), picture.image.width(), picture.image.height(), escape(alt), label);
 }
 
+// The pictures by one camera side by side, and how those by waves compare with that by rays.
+std::string figure_html(const MadePhotographs& by, std::size_t looks, const std::filesystem::path& folder) {
+    const std::string eye = eye_title(by.camera.camera.eye);
+    std::string pictures, numbers;
+    const auto add = [&](const Image& image, const std::string& file, const std::string& label,
+                         const std::string& how) {
+        pictures += html_of({image, folder, file}, label, fmt::format("{}, photographed by {}", eye, how));
+    };
+    const auto compare = [&](const std::string& name, const ImageComparison& comparison) {
+        numbers += fmt::format("<span class=\"soft num\">{}: PSNR {} · SSIM {:.3f}</span>", name,
+                               decibel_text(comparison.psnr), comparison.ssim);
+    };
+    if (by.waves) {
+        const std::string count = fmt::format("{} look{}", looks, looks == 1 ? "" : "s");
+        add(by.waves->image, by.camera.wave_file(), "waves, " + count, "waves");
+        compare(count, by.waves->comparison);
+    }
+    if (by.speckle_free) {
+        add(by.speckle_free->image, by.camera.speckle_free_file(), "waves, infinitely many looks",
+            "waves, the mean of infinitely many looks");
+        compare("infinitely many looks", by.speckle_free->comparison);
+    }
+    add(by.rays, by.camera.ray_file(), "rays", "rays");
+    return fmt::format(
+        "<figure class=\"pair\"><div class=\"row\">{}</div>\n<figcaption><span>{}</span>{}</figcaption></figure>\n",
+        pictures, eye, numbers);
+}
+
 // A heading for each focus, with the views from all eyes below it.
-std::string pictures_html(const Report& report, const std::filesystem::path& folder) {
+std::string pictures_html(const Made& made, const std::filesystem::path& folder) {
     std::string html, open_focus;
-    for (const PhotographPair& pair : report.pairs) {
-        if (pair.focus_name != open_focus) {
+    for (const MadePhotographs& by : made.photographs) {
+        if (by.camera.focus_name != open_focus) {
             if (!open_focus.empty()) html += "</div>\n";
-            html += fmt::format("<h2>{}</h2>\n<div class=\"pairs\">\n", focus_title(pair.camera));
-            open_focus = pair.focus_name;
+            html += fmt::format("<h2>{}</h2>\n<div class=\"pairs\">\n", focus_title(by.camera.camera));
+            open_focus = by.camera.focus_name;
         }
-        const std::string eye = eye_title(pair.camera.eye);
-        std::string pictures, numbers;
-        const auto add = [&](const Image& image, const std::string& file, const std::string& label,
-                             const std::string& by) {
-            pictures += html_of({image, folder, file}, label, fmt::format("{}, photographed by {}", eye, by));
-        };
-        const auto compare = [&](const std::string& name, const ImageComparison& comparison) {
-            numbers += fmt::format("<span class=\"soft num\">{}: PSNR {} · SSIM {:.3f}</span>", name,
-                                   decibel_text(comparison.psnr), comparison.ssim);
-        };
-        if (report.looks > 0) {
-            const std::string looks = fmt::format("{} look{}", report.looks, report.looks == 1 ? "" : "s");
-            add(pair.wave, pair.wave_file, "waves, " + looks, "waves");
-            compare(looks, pair.comparison);
-        }
-        if (report.expected) {
-            add(pair.expected, pair.expected_file, "waves, infinitely many looks",
-                "waves, the mean of infinitely many looks");
-            compare("infinitely many looks", pair.expected_comparison);
-        }
-        add(pair.geometric, pair.geometric_file, "rays", "rays");
-        html += fmt::format(
-            "<figure class=\"pair\"><div class=\"row\">{}</div>\n<figcaption><span>{}</span>{}</figcaption></figure>\n",
-            pictures, eye, numbers);
+        html += figure_html(by, looks_of(made), folder);
     }
     return html + "</div>";
 }
@@ -162,26 +168,34 @@ std::string table(const Rows& rows) {
     return html + "</table>\n";
 }
 
-std::string wavelengths_text(const Report& report) {
+std::string wavelengths_text(const Made& made) {
     std::string text;
-    for (const FieldGrid& hologram : report.holograms)
+    for (const FieldGrid& hologram : grids_of(made))
         text += (text.empty() ? "" : ", ") + format_length(hologram.wavelength);
     return text;
 }
 
-std::string samples_text(const Report& report) {
-    const Grid& plane = report.holograms.front().plane;
+const Grid& plane_of(const Made& made) { return made.holograms.front()->grid().plane; }
+
+std::string samples_text(const Made& made) {
+    const Grid& plane = plane_of(made);
     return fmt::format("{} × {}", plane.width, plane.height);
 }
 
-std::string tables_html(const Report& report) {
-    const LightFieldGrid& grid = report.light_field;
-    const Grid& plane = report.holograms.front().plane;
-    const double field_bytes =
-        8.0 * static_cast<double>(plane.samples()) * static_cast<double>(report.holograms.size());
-    const Camera& camera = report.pairs.front().camera;
+// How many looks are averaged.
+std::string looks_text(const Made& made) {
+    const std::size_t looks = looks_of(made);
+    if (looks == 0) return "infinitely many";
+    return std::to_string(looks) + (made.photographs.front().speckle_free ? "; and infinitely many" : "");
+}
+
+std::string tables_html(const Report& report, const Made& made) {
+    const LightFieldGrid& grid = made.request.light_field.grid;
+    const Grid& plane = plane_of(made);
+    const double field_bytes = 8.0 * static_cast<double>(plane.samples()) * static_cast<double>(made.holograms.size());
+    const Camera& camera = made.photographs.front().camera.camera;
     Rows object{{"Scene", fmt::format("{}, {} triangles", report.scene, report.triangles)},
-                {"Renderer", report.algorithm},
+                {"Renderer", made.request.light_field.renderer},
                 {"Hogels", fmt::format("{} × {}, {} apart", grid.hogels_s, grid.hogels_t, format_length(grid.pitch))},
                 {"Directions", fmt::format("{} × {} in each hogel", grid.directions_u, grid.directions_v)},
                 {"Field of view", fmt::format("{:.4g}° × {:.4g}°", 2 * std::atan(grid.half_u()) / degree,
@@ -191,24 +205,49 @@ std::string tables_html(const Report& report) {
                                          ? format_bytes(static_cast<double>(report.light_field_bytes))
                                          : "not kept; scene and options are, from which it can be rendered again: " +
                                                report.render_command}};
-    Rows hologram{{"Samples", samples_text(report)},
+    Rows hologram{{"Samples", samples_text(made)},
                   {"Pitch", fmt::format("{:.4g} µm", plane.pitch_x * 1e6)},
-                  {"Wavelengths", wavelengths_text(report)},
+                  {"Wavelengths", wavelengths_text(made)},
                   {"Size if it were stored", format_bytes(field_bytes)},
                   {"Lens", fmt::format("{} wide, {} away", format_length(camera.pupil), format_length(camera.eye.z))},
-                  {"Looks averaged", report.looks == 0 ? "infinitely many"
-                                     : report.expected ? fmt::format("{}; and infinitely many", report.looks)
-                                                       : fmt::format("{}", report.looks)},
-                  {"Exposure", fmt::format("{:.4g}", report.exposure)}};
+                  {"Looks averaged", looks_text(made)},
+                  {"Exposure", fmt::format("{:.4g}", made.exposure)}};
     Rows times;
     for (const auto& [name, seconds] : report.stages) {
         std::string title = name;
         title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
         times.emplace_back(title, seconds_text(seconds));
     }
-    times.emplace_back("In all", fmt::format("{}, {} thread{}", seconds_text(seconds_in_all(report)), report.threads,
-                                             report.threads == 1 ? "" : "s"));
+    const std::size_t threads = thread_count();
+    times.emplace_back("In all", fmt::format("{}, {} thread{}", seconds_text(seconds_in_all(report)), threads,
+                                             threads == 1 ? "" : "s"));
     return table(object) + table(hologram) + table(times);
+}
+
+using Json = nlohmann::ordered_json;
+
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json json_of(const MadePhotographs& by) {
+    const Camera& camera = by.camera.camera;
+    Json json{{"eye_name", by.camera.eye_name},
+              {"focus_name", by.camera.focus_name},
+              {"eye", {camera.eye.x, camera.eye.y, camera.eye.z}},
+              {"focus_depth", camera.focus_depth},
+              {"pupil", camera.pupil},
+              {"pixels", {camera.picture.width, camera.picture.height}},
+              {"geometric", by.camera.ray_file() + ".png"}};
+    if (by.speckle_free)
+        json.update({{"expected", by.camera.speckle_free_file() + ".png"},
+                     {"expected_psnr", number_or_null(by.speckle_free->comparison.psnr)},
+                     {"expected_ssim", number_or_null(by.speckle_free->comparison.ssim)}});
+    if (by.waves)
+        json.update({{"wave", by.camera.wave_file() + ".png"},
+                     {"psnr", number_or_null(by.waves->comparison.psnr)},
+                     {"ssim", number_or_null(by.waves->comparison.ssim)},
+                     {"max_error", number_or_null(by.waves->comparison.max_error)},
+                     {"linear_psnr", number_or_null(by.waves->comparison.linear_psnr)}});
+    return json;
 }
 
 std::string run_value(const Report& report, const std::string& name) {
@@ -219,68 +258,53 @@ std::string run_value(const Report& report, const std::string& name) {
 
 }  // namespace
 
-std::string report_html(const Report& report, const std::filesystem::path& folder) {
-    const LightFieldGrid& grid = report.light_field;
-    const Camera& camera = report.pairs.front().camera;
+std::size_t looks_of(const Made& made) { return made.photographs.front().waves ? made.request.hologram.looks : 0; }
+
+std::vector<FieldGrid> grids_of(const Made& made) {
+    std::vector<FieldGrid> grids;
+    for (const auto& hologram : made.holograms) grids.push_back(hologram->grid());
+    return grids;
+}
+
+std::string report_html(const Report& report, const Made& made, const std::filesystem::path& folder) {
+    const LightFieldGrid& grid = made.request.light_field.grid;
+    const Camera& camera = made.photographs.front().camera.camera;
     return fill(report_page, {{"scene", escape(report.scene)},
-                              {"samples", samples_text(report)},
-                              {"colours", report.holograms.size() == 3 ? "three colours" : "one colour"},
-                              {"hologram_width", format_length(report.holograms.front().plane.size_x())},
+                              {"samples", samples_text(made)},
+                              {"colours", made.holograms.size() == 3 ? "three colours" : "one colour"},
+                              {"hologram_width", format_length(plane_of(made).size_x())},
                               {"hogels", fmt::format("{} × {}", grid.hogels_s, grid.hogels_t)},
                               {"pupil", format_length(camera.pupil)},
                               {"eye_distance", format_length(camera.eye.z)},
-                              {"pictures", pictures_html(report, folder)},
-                              {"tables", tables_html(report)},
+                              {"pictures", pictures_html(made, folder)},
+                              {"tables", tables_html(report, made)},
                               {"software", escape(run_value(report, "software"))},
                               {"command", escape(run_value(report, "command") + " " + report.scene)}});
 }
 
-std::string report_json(const Report& report) {
-    using Json = nlohmann::ordered_json;
-    const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
-    const LightFieldGrid& grid = report.light_field;
+std::string report_json(const Report& report, const Made& made) {
+    const LightFieldGrid& grid = made.request.light_field.grid;
     Json json;
     for (const auto& [name, value] : report.run) json["run"][name] = value;
     json["work"] = report.work;
     json["scene"] = {{"name", report.scene}, {"input", report.scene_input}, {"triangles", report.triangles}};
-    json["light_field"] = {{"algorithm", report.algorithm},
-                           {"hogels", {grid.hogels_s, grid.hogels_t}},
-                           {"directions", {grid.directions_u, grid.directions_v}},
-                           {"pitch", grid.pitch},
-                           {"tan_half", {grid.half_u(), grid.half_v()}},
-                           {"render", report.render_command}};
+    json["light_field"] = {
+        {"algorithm", made.request.light_field.renderer},       {"hogels", {grid.hogels_s, grid.hogels_t}},
+        {"directions", {grid.directions_u, grid.directions_v}}, {"pitch", grid.pitch},
+        {"tan_half", {grid.half_u(), grid.half_v()}},           {"render", report.render_command}};
     if (report.light_field_bytes > 0)
         json["light_field"].update({{"file", "lightfield.h5"}, {"bytes", report.light_field_bytes}});
-    for (const FieldGrid& hologram : report.holograms)
+    for (const FieldGrid& hologram : grids_of(made))
         json["holograms"].push_back({{"wavelength", hologram.wavelength},
                                      {"samples", {hologram.plane.width, hologram.plane.height}},
                                      {"pitch", hologram.plane.pitch_x}});
-    json["looks"] = report.looks;
-    json["pupil_samples"] = report.pupil_samples;
-    json["exposure"] = number(report.exposure);
-    for (const PhotographPair& pair : report.pairs) {
-        const Camera& camera = pair.camera;
-        json["photographs"].push_back({{"eye_name", pair.eye_name},
-                                       {"focus_name", pair.focus_name},
-                                       {"eye", {camera.eye.x, camera.eye.y, camera.eye.z}},
-                                       {"focus_depth", camera.focus_depth},
-                                       {"pupil", camera.pupil},
-                                       {"pixels", {camera.picture.width, camera.picture.height}},
-                                       {"geometric", pair.geometric_file + ".png"}});
-        if (report.expected)
-            json["photographs"].back().update({{"expected", pair.expected_file + ".png"},
-                                               {"expected_psnr", number(pair.expected_comparison.psnr)},
-                                               {"expected_ssim", number(pair.expected_comparison.ssim)}});
-        if (report.looks == 0) continue;
-        json["photographs"].back().update({{"wave", pair.wave_file + ".png"},
-                                           {"psnr", number(pair.comparison.psnr)},
-                                           {"ssim", number(pair.comparison.ssim)},
-                                           {"max_error", number(pair.comparison.max_error)},
-                                           {"linear_psnr", number(pair.comparison.linear_psnr)}});
-    }
+    json["looks"] = looks_of(made);
+    json["pupil_samples"] = made.request.rays.pupil_samples;
+    json["exposure"] = number_or_null(made.exposure);
+    for (const MadePhotographs& by : made.photographs) json["photographs"].push_back(json_of(by));
     for (const auto& [name, seconds] : report.stages) json["stages"].push_back({{"name", name}, {"seconds", seconds}});
     json["seconds"] = seconds_in_all(report);
-    json["threads"] = report.threads;
+    json["threads"] = thread_count();
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

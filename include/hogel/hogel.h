@@ -15,6 +15,7 @@
 #include "hogel/hologram.h"
 #include "hogel/image.h"
 #include "hogel/light_field.h"
+#include "hogel/make.h"
 #include "hogel/parameters.h"
 #include "hogel/parts.h"
 #include "hogel/pattern.h"

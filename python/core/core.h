@@ -12,6 +12,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "hogel/image.h"
 #include "hogel/progress.h"
 #include "hogel/provenance.h"
 
@@ -39,6 +40,7 @@ void add_elsewhere(py::module_& module);
 void add_views(py::module_& module);
 void add_plans(py::module_& module);
 void add_file_parts(py::module_& module);
+void add_make(py::module_& module);
 
 /// Runs work on another thread, without the lock of the interpreter, and waits for it. The calling thread looks
 /// for signals every 50 ms, so that Ctrl-C stops the work, which then leaves nothing half-written, and raises
@@ -60,5 +62,8 @@ std::shared_ptr<const py::object> share(py::object object);
 
 /// The value of a dictionary or a list of pairs as metadata; None: empty.
 Metadata metadata_of(const py::object& entries);
+
+/// The measures of a comparison of pictures, by name.
+py::dict dictionary_of(const ImageComparison& comparison);
 
 }  // namespace hogel::python

@@ -24,6 +24,8 @@ std::shared_ptr<Image> image_of(const py::array_t<float, py::array::c_style>& pi
     return image;
 }
 
+}  // namespace
+
 py::dict dictionary_of(const ImageComparison& comparison) {
     py::dict facts;
     facts["psnr"] = comparison.psnr;
@@ -32,8 +34,6 @@ py::dict dictionary_of(const ImageComparison& comparison) {
     facts["linear_psnr"] = comparison.linear_psnr;
     return facts;
 }
-
-}  // namespace
 
 void add_images(py::module_& module) {
     py::class_<Image, std::shared_ptr<Image>>(module, "Image")

@@ -23,4 +23,5 @@ PYBIND11_MODULE(_core, module) {
     add_views(module);
     add_plans(module);
     add_file_parts(module);
+    add_make(module);
 }

@@ -9,7 +9,7 @@ from . import _core
 #: Values that are what their members are.
 OPTIONS = (
     "BandCamera Basis BakeOptions CodingMethod CompressionOptions DirectCamera ExternalField FilePart Fourier HologramRequest Light "
-    "LightFieldRequest Lines Lossless Material MaxError Modulator OrderSelection OverlapAdd PatternOptions PhaseAdded PhaseCode "
+    "LightFieldRequest Lines Lossless MakeRequest Material MaxError Modulator NamedCamera OrderSelection OverlapAdd PatternOptions PhaseAdded PhaseCode "
     "PixelsPerBit PlaneWaveCamera ScenePose ShadingOptions SpeckleFreeCamera Sqnr Step TextureSampling ViewExportOptions ViewOptions"
 ).split()
 #: What is given when one is made; the other members are set after that.
@@ -21,6 +21,7 @@ _MADE_OF = {
     "Modulator": ("width", "height", "pitch", "levels", "name"),
     "PatternOptions": ("modulator",),
     "FilePart": ("number", "count"),
+    "NamedCamera": ("eye_name", "focus_name", "camera"),
     "Light": ("direction", "intensity"),
 }
 

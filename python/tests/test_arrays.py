@@ -289,6 +289,7 @@ class OwnCode(unittest.TestCase):
             "Modulator": core.Modulator(8, 6, 1e-6, 4, "own"),
             "PatternOptions": core.PatternOptions(core.Modulator(8, 6, 1e-6)),
             "Light": hogel.light((1, 2, 3), "yellow", 2),
+            "NamedCamera": core.NamedCamera("left", "near", hogel.camera("1mm")),
             "Sqnr": core.Sqnr(31.0),
             "PixelsPerBit": core.PixelsPerBit(4.0, core.RateRule.planes, 0.1),
             "Step": core.Step(0.1),

@@ -43,6 +43,17 @@ void ResultLog::keep(std::string_view bytes) {
     ++results_;
 }
 
+void once(const std::function<void()>& work) {
+    if (result_log() == nullptr) return work();
+    shared_jobs<std::uint8_t>(
+        1, {},
+        [&](std::size_t) {
+            work();
+            return std::uint8_t{1};
+        },
+        [](std::size_t, std::uint8_t&) {}, DoneBy::whole_team);
+}
+
 }  // namespace hogel::work
 
 namespace hogel {
@@ -55,15 +66,7 @@ ResumeScope::ResumeScope(const std::filesystem::path& file, const std::vector<st
 
 ResumeScope::~ResumeScope() { work::set_result_log(nullptr); }
 
-void ResumeScope::once(const std::function<void()>& work) {
-    work::shared_jobs<std::uint8_t>(
-        1, {},
-        [&](std::size_t) {
-            work();
-            return std::uint8_t{1};
-        },
-        [](std::size_t, std::uint8_t&) {}, work::DoneBy::whole_team);
-}
+void ResumeScope::once(const std::function<void()>& work) { work::once(work); }
 
 void ResumeScope::complete() { log_->remove(); }
 

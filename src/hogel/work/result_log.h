@@ -43,4 +43,8 @@ class ResultLog {
 ResultLog* result_log();
 void set_result_log(ResultLog* log);
 
+/// Does a piece of work whose results are in files of their own, unless the ResumeScope that exists says that it was
+/// done the last time. All processes of a team call it.
+void once(const std::function<void()>& work);
+
 }  // namespace hogel::work
