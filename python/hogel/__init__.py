@@ -45,6 +45,7 @@ from .hologram import Hologram
 from .light_field import LightField
 from .method import hologram_request
 from .pattern import Pattern
+from .recipe import Made, Photographs, make
 from .picture import Picture
 from .pose import light
 from .requests import request
@@ -71,10 +72,12 @@ __all__ = [
     "Light",
     "LightField",
     "LightFieldGrid",
+    "Made",
     "Material",
     "NotBuiltInError",
     "Pattern",
     "Perspective",
+    "Photographs",
     "Picture",
     "Plan",
     "Scene",
@@ -101,6 +104,7 @@ __all__ = [
     "length",
     "light",
     "m",
+    "make",
     "mm",
     "modulators",
     "nm",

@@ -9,9 +9,12 @@ import numpy as np
 
 from . import _core, units
 from ._indices import arranged, axes_of
+from ._keywords import passes_options_to
 from ._progress import Progress, reporting
 from ._samples import Samples, array_of, choice
 from .errors import usage_error
+from .pattern import Pattern, pattern_of
+from .photographs import photograph_fields
 from .picture import Picture
 
 
@@ -317,6 +320,43 @@ class Field(Samples):
         with reporting(progress, "cutting the order out") as report:
             return Field(_core.select_order(self._source, how, report)[0], "in memory")
 
+    @passes_options_to(photograph_fields)
+    def photograph(self, **options: Any) -> Any:
+        """The photograph of the field as a hologram of one wavelength: Hologram.photograph().
+
+        >>> import hogel, numpy as np
+        >>> wave = hogel.Field.from_array(np.ones((64, 64), np.complex64), pitch="4um", wavelength="633nm")
+        >>> wave.photograph(pupil="10mm", resolution=16)
+        Picture(16x16 pixels, 1 channel)
+        """
+        return photograph_fields([self._source], None, None, **options)
+
+    @passes_options_to(pattern_of)
+    def slm(self, **options: Any) -> Pattern:
+        """The pattern of a modulator that shows the field: Hologram.slm().
+
+        >>> import hogel, numpy as np
+        >>> wave = hogel.Field.from_array(np.ones((32, 32), np.complex64), pitch="8um", wavelength="532nm")
+        >>> np.asarray(wave.slm(encoding="phase", pixels=32, pixel_pitch="8um")).shape
+        (32, 32, 1)
+        """
+        return pattern_of([self._source], None, **options)
+
+    def picture(self, display: str = "intensity", *, progress: Progress = None) -> Picture:
+        """What the samples are, as `hogel propagate --display` shows them: their intensity |F|², amplitude, phase (black at
+        -pi, white at pi), real part (black at minus the largest modulus, white at it), or log, the logarithm of the
+        intensity over four decades.
+
+        >>> import hogel, numpy as np
+        >>> wave = hogel.Field.from_array(np.full((32, 64), 2j, np.complex64), pitch="2um", wavelength="633nm")
+        >>> [round(float(np.asarray(wave.picture(display))[0, 0, 0]), 2) for display in ("intensity", "amplitude", "phase")]
+        [4.0, 2.0, 0.52]
+        """
+        quantity = choice(_core.FieldQuantity, "intensity" if display == "log" else display, "display")
+        with reporting(progress, "reading") as report:
+            image = _core.picture_of(self._source, quantity, self._look, report)
+        return Picture(_core.logarithmic(image) if display == "log" else image)
+
     def intensity(self) -> Picture:
         """The picture of |F|².
 
@@ -325,8 +365,7 @@ class Field(Samples):
         >>> wave.intensity()
         Picture(64x32 pixels, 1 channel)
         """
-        values = np.asarray(self)
-        return Picture(values.real**2 + values.imag**2)
+        return self.picture()
 
     def _repr_png_(self) -> bytes:
         return self.intensity().png()

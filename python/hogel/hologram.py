@@ -13,12 +13,11 @@ from ._keywords import passes_options_to
 from ._progress import Progress, reporting
 from ._samples import Path
 from .camera import camera as camera_of
-from .camera import camera_record
 from .elsewhere import description, external_fields, external_record, reconstructed
-from .errors import BadInputError, UsageError, usage_error
+from .errors import UsageError, usage_error
 from .field import Field
-from .pattern import Pattern, modulator_of, pattern_of
-from .picture import Picture
+from .pattern import Pattern, pattern_of
+from .photographs import photograph_fields
 
 
 class Hologram:
@@ -268,49 +267,10 @@ class Hologram:
         >>> lf.hologram().photograph(eye="10,0,300mm", pupil="20mm", resolution=24)
         Picture(24x24 pixels, 3 channels)
         """
-        if len(self) not in (1, 3):
-            raise UsageError(f"photograph: a photograph takes one or three wavelengths, not {len(self)}")
-        views = [camera_of(self.grid.size_x, self.grid.size_y, **options)] if cameras is None else list(cameras)
-        camera = _CAMERA_MODELS.get(camera, camera)
-        how = _wave_camera(camera, expected, diffuser, units.length(film_distance, "film_distance"), preview)
-        if preview and self._known is None:
-            raise usage_error("preview", "leaves out waves of hogels; of a hologram in a file or memory only samples are known")
-        for field in self:
-            for view in views:
-                _core.require_light_towards(field._source.grid, view, diffuser == "vertical")
-        with reporting(progress, "wave photograph") as report:
-            images = _core.photograph_colours(self._sources, views, how, report)
-        pictures = [Picture(image) for image in images]
-        if not any(np.asarray(picture).any() for picture in pictures):
-            raise BadInputError("hologram: is empty; no light comes from it to the eye")
-        if self._made is not None and cameras is None:
-            acted = {**self._photo_record(views, camera, expected, diffuser, film_distance), **camera_record(**options)}
-            acted["preview"] = "yes" if preview else ""
-            pictures[0]._made = ("photo", {name: text for name, text in {**self._made, **acted}.items() if text})
-        return pictures[0] if cameras is None else pictures
-
-    def _photo_record(self, views: Any, camera: str, expected: bool, diffuser: str, film_distance: Any) -> _record.Record:
-        """The options of photograph() that act beside those of its camera."""
-        acted = {"display": "intensity", "camera": camera}
-        if camera == "full":
-            acted["film-distance"] = _record.length(film_distance)
-        if self._known is None:
-            if camera == "auto":
-                acted["camera"] = "narrow"
-            if camera != "full":
-                acted["diffuser"] = diffuser
-            return acted
-        light_field, wanted = self._known
-        acted["wave"] = "yes"
-        if camera != "full":
-            how = _wave_camera(camera, expected, diffuser, 0)
-            chosen, _ = _core.choose_band_source(light_field, wanted, views, how)
-            acted["camera"] = "eye" if chosen == _core.BandSource.hogel_spectra else "narrow"
-        if "seed" in (self._made or {}):
-            acted["looks"] = "expected" if expected else str(wanted.looks)
-        if expected:
-            acted["seed"] = ""
-        return acted
+        return photograph_fields(
+            self._sources, self._known, self._made, cameras=cameras, camera=camera, expected=expected, diffuser=diffuser,
+            film_distance=film_distance, preview=preview, progress=progress, **options,
+        )
 
     def slm(
         self,
@@ -336,11 +296,10 @@ class Hologram:
         >>> np.asarray(pattern).shape, np.asarray(pattern).dtype
         ((64, 64, 1), dtype('uint8'))
         """
-        modulator = modulator_of(device, pixels, pixel_pitch, levels)
-        made = self._made if self.is_opened else None
         return pattern_of(
-            self._sources, made, encoding, modulator, reference, clip, window, iterations, phase_code, device, pixels, pixel_pitch,
-            progress,
+            self._sources, self._made if self.is_opened else None, encoding=encoding, device=device, pixels=pixels,
+            pixel_pitch=pixel_pitch, levels=levels, reference=reference, clip=clip, window=window, iterations=iterations,
+            phase_code=phase_code, progress=progress,
         )
 
     def compare(self, other: "Hologram", *, progress: Progress = None) -> dict[str, float]:
@@ -360,32 +319,3 @@ class Hologram:
         text = repr(self[0])
         waves = ", ".join(units.say_length(value) for value in self.wavelengths)
         return text.replace("Field(", "Hologram(", 1).replace(units.say_length(self.wavelengths[0]), waves, 1)
-
-
-#: The names of the library's camera models, beside the shorter ones.
-_CAMERA_MODELS = {"hogel-spectra": "eye", "samples": "narrow", "plane-waves": "full"}
-
-
-def _wave_camera(name: str, expected: bool, diffuser: str, film_distance: float, preview: bool = False) -> Any:
-    if name not in ("auto", "eye", "narrow", "full"):
-        raise usage_error("camera", f"auto, eye, narrow or full were expected, not '{name}'")
-    if diffuser not in ("none", "vertical"):
-        raise usage_error("diffuser", f"none or vertical were expected, not '{diffuser}'")
-    if film_distance != 0 and name != "full":
-        raise usage_error("film_distance", "the thin lens belongs to the full camera; add camera='full'")
-    if name == "full":
-        if expected or preview or diffuser != "none":
-            raise usage_error("expected, preview, diffuser", "are not for the full camera")
-        return _core.PlaneWaveCamera(film_distance=film_distance)
-    if preview and (expected or name == "narrow"):
-        raise usage_error("preview", "is for a number of looks and the eye camera")
-    if expected:
-        if diffuser != "none":
-            raise usage_error("expected", "the mean of infinitely many looks is not known behind a diffuser")
-        return _core.SpeckleFreeCamera()
-    model = _core.BandCamera()
-    model.preview = preview
-    sources = {"eye": _core.BandSource.hogel_spectra, "narrow": _core.BandSource.samples}
-    model.source = sources.get(name, _core.BandSource.automatic)
-    model.vertical_diffuser = diffuser == "vertical"
-    return model

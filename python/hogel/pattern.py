@@ -153,19 +153,21 @@ def modulator_of(
 def pattern_of(
     fields: list[_core.FieldSource],
     made: Optional[_record.Record],
-    encoding: str,
-    modulator: _core.Modulator,
-    reference: units.Angle,
-    clip: Optional[float],
-    window: Optional[int],
-    iterations: int,
-    phase_code: Union[str, _core.PhaseCode],
-    device: Optional[str],
-    pixels: Optional[units.Counts],
-    pixel_pitch: Optional[units.Length],
-    progress: Progress,
+    *,
+    encoding: str = "auto",
+    device: Optional[str] = None,
+    pixels: Optional[units.Counts] = None,
+    pixel_pitch: Optional[units.Length] = None,
+    levels: int = 256,
+    reference: units.Angle = 0,
+    clip: Optional[float] = None,
+    window: Optional[int] = None,
+    iterations: int = 0,
+    phase_code: Union[str, _core.PhaseCode] = "hogel",
+    progress: Progress = None,
 ) -> Pattern:
     """See Hologram.slm(). `made`: the options of the command line that opened the fields, if they were opened."""
+    modulator = modulator_of(device, pixels, pixel_pitch, levels)
     if len(fields) not in (1, 3):
         raise UsageError(f"slm: a pattern takes one or three wavelengths, not {len(fields)}")
     options = _core.PatternOptions(modulator)

@@ -226,6 +226,32 @@ class Elsewhere(InFolder):
         self.assertLess(np.abs(np.asarray(read[0]) - np.exp(1j * phase)).max(), 0.03)
         np.testing.assert_allclose(pattern.transmission(), np.asarray(read[0]), atol=1e-3)
 
+    def test_a_field_is_a_hologram_of_one_wavelength(self):
+        noise = random_array(2, 48, 64)
+        wave = hogel.Field.from_array((noise[0] + 1j * noise[1]).astype(np.complex64), pitch="4um", wavelength="532nm")
+        holo = hogel.Hologram(wave)
+        view = dict(pupil="15mm", resolution=16, focus="1mm")
+        self.assertTrue(np.array_equal(wave.photograph(**view), holo.photograph(**view)))
+        device = dict(encoding="phase", pixels=(40, 32), pixel_pitch="4um")
+        self.assertTrue(np.array_equal(wave.slm(**device), holo.slm(**device)))
+        with self.assertRaisesRegex(TypeError, "did you mean 'eye'"):
+            wave.photograph(eyes="0,0,300mm")
+
+    def test_pictures_of_a_field(self):
+        noise = random_array(2, 8, 16) - 0.5
+        values = (noise[0] + 1j * noise[1]).astype(np.complex64)
+        wave = hogel.Field.from_array(values, pitch="4um", wavelength="532nm")
+        shown = {name: np.asarray(wave.picture(name))[..., 0] for name in ("intensity", "amplitude", "phase", "real", "log")}
+        grey = np.vectorize(hogel._core.srgb_encode)
+        np.testing.assert_allclose(shown["intensity"], abs(values) ** 2, rtol=1e-5)
+        np.testing.assert_allclose(shown["amplitude"], abs(values), rtol=1e-5)
+        np.testing.assert_allclose(grey(shown["phase"]), 0.5 + np.angle(values) / (2 * np.pi), atol=1e-5)
+        np.testing.assert_allclose(grey(shown["real"]), 0.5 + 0.5 * values.real / abs(values).max(), atol=1e-5)
+        np.testing.assert_allclose(grey(shown["log"]), 1 + np.log10(shown["intensity"] / shown["intensity"].max()) / 4, atol=1e-5)
+        self.assertTrue(np.array_equal(wave.intensity(), wave.picture()))
+        with self.assertRaises(hogel.UsageError):
+            wave.picture("colour")
+
     def test_focus_is_found(self):
         points = np.zeros((256, 256), np.complex64)
         points[64::32, 64::32] = 1

@@ -374,6 +374,31 @@ class SameBytes(InFolder):
             for theirs, ours in zip(pictures, made):
                 self.assertTrue(np.array_equal(theirs, np.asarray(ours).astype(np.float16)))  # .exr has halves
 
+    def test_make_in_one_call(self):
+        """The pictures of every camera, with their exposure, and of every kind."""
+        words = ["--resolution", "40", "--eye-distance", "200mm", "--pupil", "4mm", "--pupil-samples", "16"]
+        options = dict(resolution=40, eye_distance=200 * mm, pupil=4 * mm, pupil_samples=16)
+        for number, looks in enumerate((2, "expected")):
+            with self.subTest(looks):
+                folder, ours = Path(f"c{number}"), Path(f"p{number}")
+                command_line("make", "pumpkin", "-o", folder, *SMALL, *words, "--looks", looks, "--seed", 3)
+                made = hogel.make("pumpkin", looks=looks, seed=3, **RENDER, **options)
+                report = json.loads((folder / "report.json").read_text())
+                self.assertEqual(report["exposure"], made.exposure)
+                for theirs, by in zip(report["photographs"], made.photographs):
+                    self.assertEqual((theirs["eye_name"], theirs["focus_name"]), (by.eye, by.focus))
+                    self.assertEqual(theirs["expected_ssim"], by.speckle_free_comparison["ssim"])
+                    self.assertEqual(theirs.get("psnr"), by.waves_comparison and by.waves_comparison["psnr"])
+                ours.mkdir()
+                made.save(ours)
+                pictures = sorted(path.name for path in folder.iterdir() if path.suffix in (".png", ".exr"))
+                self.assertEqual(len(pictures), 24 if looks == "expected" else 36)
+                self.assertEqual(pictures, sorted(path.name for path in ours.iterdir()))
+                for name in pictures:
+                    a, b = hogel.Picture.open(folder / name), hogel.Picture.open(ours / name)
+                    self.assertTrue(np.array_equal(a, b), name)
+                    self.assertEqual(a.camera, b.camera)
+
     def test_compare(self):
         command_line("render", "pumpkin", "-o", "a.h5", *SMALL)
         command_line("compress", "a.h5", "-o", "b.hgl", "--sqnr", "30")
