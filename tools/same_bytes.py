@@ -124,7 +124,7 @@ int main() { for (const int64_t target : hwy::SupportedAndGeneratedTargets()) st
 """
 # Scripts whose subject is time, the network, or files that are made with the time of day.
 NOT_COMPARED = {"view.txt", "json.txt", "manual.txt", "options.txt", "provenance.txt", "provenance_photo.txt"}
-TIMES = re.compile(r"\b[\d.]+ ?(s|ms|min|minutes?|seconds?|h)\b|\d[\d.,]* [kMG]?B/s|\"(seconds|threads)\": *[\d.e+-]+|\d+ threads")
+TIMES = re.compile(r"\b[\d.]+ ?(s|ms|min|minutes?|seconds?|h)\b|\d[\d.,]* [kMG]?B/s|\"(seconds|threads)\": *[\d.e+-]+|\d+ threads?")
 
 
 def png_pixels(data):

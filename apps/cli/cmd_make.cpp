@@ -105,10 +105,11 @@ std::string state_plan(MakeRequest& request, const Session& session) {
 
 // The command that renders the light field again.
 // @param run  what the light field says of the run
-std::string render_command(Metadata run) {
-    for (auto& [key, value] : run)
-        if (key == "command") value = "hogel render";
-    return command_line_of(run) + " -o lightfield.h5";
+std::string render_command(const Metadata& run) {
+    Metadata rendering = run;
+    for (auto& entry : rendering)
+        if (entry.first == "command") entry.second = "hogel render";
+    return command_line_of(rendering) + " -o lightfield.h5";
 }
 
 // A file that is removed in the end, unless it is to be kept.
