@@ -40,10 +40,13 @@ std::vector<const Parameter*> options_of(const Command& command) {
     return options;
 }
 
-bool takes_scene(const Command& command) {
-    return std::ranges::any_of(command.all(), [](const Parameter& each) {
-        return each.is_positional && each.type.find("SCENE") != std::string::npos;
-    });
+// Words that the operand of a command may be.
+std::vector<std::string> operand_words(const Command& command) {
+    for (const Parameter& each : command.all()) {
+        if (!each.is_positional) continue;
+        return each.type.find("SCENE") != std::string::npos ? scenes().names() : each.choices;
+    }
+    return {};
 }
 
 std::string command_names(const Commands& commands) {
@@ -53,7 +56,7 @@ std::string command_names(const Commands& commands) {
 }
 
 std::string bash(const Commands& commands) {
-    std::string options, choices, with_scenes = "-";
+    std::string options, choices, operands;
     for (const Command* command : commands) {
         std::vector<std::string> names{"--help"};
         for (const Parameter* each : options_of(*command)) {
@@ -64,7 +67,8 @@ std::string bash(const Commands& commands) {
                                        fmt::join(each->choices, " "));
         }
         options += fmt::format("            {}) words='{}' ;;\n", command->name(), fmt::join(names, " "));
-        if (takes_scene(*command)) with_scenes += "|" + command->name();
+        if (const auto words = operand_words(*command); !words.empty())
+            operands += fmt::format("        {}) words='{}' ;;\n", command->name(), fmt::join(words, " "));
     }
     return fmt::format(R"(# Completions of hogel for bash.
 _hogel() {{
@@ -81,13 +85,13 @@ _hogel() {{
         mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
         return
     fi
-    case ${{COMP_WORDS[1]}} in {}) words='{}' ;; esac
+    case ${{COMP_WORDS[1]}} in
+{}    esac
     mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current"; compgen -f -- "$current")
 }}
 complete -o filenames -F _hogel hogel hogel-mpi
 )",
-                       command_names(commands), command_names(commands), choices, options, with_scenes,
-                       fmt::join(scenes().names(), " "));
+                       command_names(commands), command_names(commands), choices, options, operands);
 }
 
 std::string zsh_option(const Parameter& parameter) {
@@ -110,8 +114,8 @@ std::string zsh(const Commands& commands) {
         names += fmt::format("        '{}:{}'\n", command->name(), replaced(command->summary(), "'", "'\\''"));
         cases += fmt::format("        {})\n            _arguments '--help[Print this help and exit]'", command->name());
         for (const Parameter* each : options_of(*command)) cases += zsh_option(*each);
-        if (takes_scene(*command))
-            cases += fmt::format(" \\\n                '1:scene:(({}))'", fmt::join(scenes().names(), " "));
+        if (const auto words = operand_words(*command); !words.empty())
+            cases += fmt::format(" \\\n                '1:operand:(({}))'", fmt::join(words, " "));
         cases += " \\\n                '*:file:_files' ;;\n";
     }
     return fmt::format(R"(#compdef hogel hogel-mpi
@@ -149,7 +153,8 @@ std::string fish(const Commands& commands) {
                 line += " -r";
             lines += fmt::format("{} -d '{}'\n", line, quoted_help(*each));
         }
-        if (takes_scene(*command)) lines += fmt::format("{} -a '{}'\n", chosen, fmt::join(scenes().names(), " "));
+        if (const auto words = operand_words(*command); !words.empty())
+            lines += fmt::format("{} -a '{}'\n", chosen, fmt::join(words, " "));
     }
     return lines;
 }
@@ -174,7 +179,7 @@ void add_completion(Command& command, Session& session) {
         "  hogel completion zsh > ~/.zfunc/_hogel\n"
         "  hogel completion fish > ~/.config/fish/completions/hogel.fish");
     auto shell = std::make_shared<std::string>();
-    command.positional("shell", *shell, "bash|zsh|fish", "The shell");
+    command.positional("shell", *shell, "bash|zsh|fish", "The shell").knows({"bash", "zsh", "fish"});
     command.work([shell, &session] { return print_completion(*shell, session); });
 }
 

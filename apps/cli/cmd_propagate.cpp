@@ -228,7 +228,7 @@ int propagate_fields(Options& options, const Session& session) {
         throw Error(
             ErrorCode::usage,
             fmt::format("--resume: {} is written at once; give -o a name in .h5, or leave it out", options.output));
-    options.is_picture = kind == OutputKind::picture;
+    options.is_picture = kind == OutputKind::picture || options.display == "field";
     const Fields fields =
         open_and_reconstruct(session, options.input, options.field, options.pitch, options.wavelengths);
     if (kind == OutputKind::picture && options.display == "phase") require_one_wavelength(fields, "--display phase");

@@ -269,14 +269,18 @@ void add_slm(Command& command, Session& session) {
         devices += fmt::format("\n{}: {}x{} at {}, {} levels", modulator.name, modulator.width, modulator.height,
                                format_length(modulator.pitch), modulator.levels);
     command.group("Modulator");
-    command.text("--device", options->device, "NAME", devices).sets_parameter("pixel_pitch");
-    command.counts("--pixels", options->pixels, "Any other: pixels across and down").acts_if([options] {
-        return options->device.empty();
-    });
-    command.positive_length("--pixel-pitch", options->pixel_pitch, "Distance of its pixels").acts_if([options] {
-        return options->device.empty();
-    });
-    command.count("--levels", options->levels, "Levels of its pixels").acts_if([options] {
+    const Parameter& device = command.text("--device", options->device, "NAME", devices)
+                                  .sets_parameter("pixel_pitch")
+                                  .knows(modulators().names());
+    command.counts("--pixels", options->pixels, "Any other: pixels across and down")
+        .no_default()
+        .excludes(device)
+        .acts_if([options] { return options->device.empty(); });
+    command.positive_length("--pixel-pitch", options->pixel_pitch, "Distance of its pixels")
+        .no_default()
+        .excludes(device)
+        .acts_if([options] { return options->device.empty(); });
+    command.count("--levels", options->levels, "Levels of its pixels").excludes(device).acts_if([options] {
         return options->device.empty() && !options->is_one_of({Encoding::binary});
     });
     std::string codes = "Levels of phases as this program writes them:";

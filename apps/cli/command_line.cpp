@@ -38,9 +38,10 @@ CLI::Option* add_option(CLI::App& app, Parameter& parameter) {
     const std::string names = option_names(parameter);
     const std::string what = option_name(parameter);
     if (parameter.kind == ParameterKind::flag)
-        return app.add_flag_function(
-            names, [&parameter, what](std::int64_t count) { parameter.read({count > 0 ? "yes" : "no"}, what); },
-            parameter.help);
+        return app
+            .add_flag_function(
+                names, [&parameter, what](std::int64_t) { parameter.read({"yes"}, what); }, parameter.help)
+            ->disable_flag_override();
     CLI::Option* option = nullptr;
     if (parameter.kind == ParameterKind::texts)
         option =
@@ -67,21 +68,37 @@ void add_options(CLI::App& app, Command& command) {
 }  // namespace
 
 bool Command::is_basic(const Parameter& parameter) const {
-    return parameter.is_required || std::ranges::count(basics_, parameter.name) > 0;
+    return parameter.is_required || parameter.name == "like" || std::ranges::count(basics_, parameter.name) > 0;
 }
 
 void Command::add_like_option() {
     text("--like", like_, "FILE", "Take the options that made this file, but for those that are given here")
         .no_default()
-        .never_acts();
+        .never_acts()
+        .group = default_group;
 }
 
 void Command::complete() {
-    if (!like_.empty()) take_like(*this, like_);
+    if (const Parameter* like = look_up("like"); like != nullptr && like->is_given()) {
+        if (like_.empty()) throw Error(ErrorCode::usage, "--like: '' names no file");
+        from_like_ = take_like(*this, like_);
+    }
+    require_parameters();
+}
+
+void Command::require_parameters() const {
     for (const Parameter& each : all())
         if (each.is_required && !each.is_given())
             throw Error(ErrorCode::usage,
                         fmt::format("{} is required; see 'hogel {} --help'", option_name(each), name()));
+}
+
+// Which of the options that a message names are taken from the file of --like.
+std::string Command::origins(const std::string& message) const {
+    std::vector<std::string> options;
+    for (const std::string& each : from_like_)
+        if (message.find("--" + each) != std::string::npos) options.push_back("--" + each);
+    return options.empty() ? "" : fmt::format(" ({} as {} says)", fmt::join(options, ", "), like_);
 }
 
 std::string Command::describe(const Error& error) const {
@@ -101,7 +118,9 @@ std::string Command::describe(const Error& error) const {
         else if (!setters.empty())
             take(setters.front());
     }
-    return options.empty() ? error.what() : fmt::format("{}: {}", fmt::join(options, ", "), error.what());
+    const std::string message =
+        options.empty() ? error.what() : fmt::format("{}: {}", fmt::join(options, ", "), error.what());
+    return message + origins(message);
 }
 
 namespace {
@@ -142,6 +161,12 @@ struct CommandLine::Impl {
         return found != commands.end() ? found->get() : nullptr;
     }
 
+    Command* chosen() const { return find(app.get_subcommands().front()->get_name()); }
+    bool has_unknown_option() const {
+        return app.get_subcommands().empty() ||
+               std::ranges::any_of(app.remaining(true), [](const std::string& word) { return word.starts_with('-'); });
+    }
+
     // The help or the version, for which these words ask.
     std::string what_is_asked(const CLI::ParseError& error, const std::vector<std::string>& words) const {
         const auto chosen = app.get_subcommands();
@@ -154,7 +179,7 @@ struct CommandLine::Impl {
         if (std::ranges::count(words, "--json") > 0) return schema(command);
         const auto asked =
             std::ranges::find_if(words, [](const std::string& word) { return word == "--help" || word == "-h"; });
-        const bool has_part = asked != words.end() && asked + 1 != words.end() && !(asked + 1)->starts_with('-');
+        const bool has_part = asked != words.end() && asked + 1 != words.end() && has_group(command, *(asked + 1));
         return help(command, has_part ? *(asked + 1) : "");
     }
 };
@@ -185,6 +210,8 @@ const Command* CommandLine::parse(int argc, const char* const* argv) {
     // "help render all" is "render --help all".
     if (!words.empty() && words.front() == "help") {
         words.erase(words.begin());
+        if (const Command* command = words.size() == 2 ? impl_->find(words.front()) : nullptr)
+            require_group(*command, words.back());
         words.insert(words.begin() + (words.empty() ? 0 : 1), "--help");
     }
     if (!words.empty() && !words.front().starts_with('-') && impl_->find(words.front()) == nullptr)
@@ -194,7 +221,12 @@ const Command* CommandLine::parse(int argc, const char* const* argv) {
     try {
         impl_->app.parse(std::move(words));
     } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() != 0) throw Error(ErrorCode::usage, explain(impl_->app, error));
+        if (error.get_exit_code() != 0) {
+            // What is missing says more than a word that is left over.
+            const bool is_left_over = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+            if (is_left_over && !impl_->has_unknown_option()) impl_->chosen()->require_parameters();
+            throw Error(ErrorCode::usage, explain(impl_->app, error));
+        }
         write_standard_output(impl_->what_is_asked(error, given));
         return nullptr;
     }

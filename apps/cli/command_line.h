@@ -38,13 +38,17 @@ class Command : public Parameters {
     void add_like_option();
     /// Reads what --like names, and throws Error(usage) where a required parameter has no value.
     void complete();
+    void require_parameters() const;
 
     /// The message of an error, after the options that set its parameters: "--eye, --pitch: the eye sees ...". Of the
     /// options that set one parameter it names the given ones, or the first one if none is given.
     std::string describe(const Error& error) const;
 
   private:
+    std::string origins(const std::string& message) const;
+
     std::string name_, summary_, examples_, like_;
+    std::vector<std::string> from_like_;
     std::vector<std::string> basics_;
     std::function<int()> work_;
 };

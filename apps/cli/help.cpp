@@ -116,6 +116,7 @@ std::vector<std::string> headings(const Command& command) {
 // What a group is called after --help: "light-field-of-a-scene".
 std::string word_of(std::string heading) {
     heading.resize(std::min(heading.find(" ("), heading.size()));
+    std::erase(heading, ',');
     for (char& c : heading) c = c == ' ' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return heading;
 }
@@ -170,15 +171,11 @@ std::string short_help(const Command& command) {
            "\n";
 }
 
-// The heading of which this is the word or its beginning.
+// The heading of which this is the word or its beginning, or an empty text.
 std::string find_heading(const Command& command, const std::string& word) {
-    std::vector<std::string> words;
-    for (const std::string& heading : headings(command)) {
+    for (const std::string& heading : headings(command))
         if (word_of(heading).starts_with(word)) return heading;
-        words.push_back(word_of(heading));
-    }
-    throw Error(ErrorCode::usage, fmt::format("{} has no options '{}'; expected all or one of {}", command.name(), word,
-                                              fmt::join(words, ", ")));
+    return "";
 }
 
 const char* kind_name(ParameterKind kind) {
@@ -245,6 +242,18 @@ std::string HelpFormatter::make_usage(const CLI::App* /*app*/, std::string name)
     return "\nUsage: " + name + " COMMAND ...\n";
 }
 
+bool has_group(const Command& command, const std::string& word) {
+    return word == "all" || !find_heading(command, word).empty();
+}
+
+void require_group(const Command& command, const std::string& word) {
+    if (word.starts_with('-') || has_group(command, word)) return;
+    std::vector<std::string> words;
+    for (const std::string& heading : headings(command)) words.push_back(word_of(heading));
+    throw Error(ErrorCode::usage, fmt::format("{} has no options '{}'; expected all or one of {}", command.name(), word,
+                                              fmt::join(words, ", ")));
+}
+
 std::string help(const Command& command, const std::string& part) {
     const std::string begin = fmt::format("{}\n\nUsage: {}\n", command.summary(), usage(command));
     if (part.empty() && !command.basics().empty()) return begin + short_help(command);
@@ -278,8 +287,10 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
     }
     const CLI::App& command = *chosen.front();
     const auto unknown = std::ranges::find_if(rest, [](const std::string& word) { return word.starts_with('-'); });
-    const std::string problem =
-        unknown != rest.end() ? explain_unknown_option(command, *unknown) : std::string(error.what());
+    const std::string said = error.what();
+    if (const std::size_t end = said.find(" was given a disallowed flag override"); end != std::string::npos)
+        return fmt::format("--{} takes no value", said.substr(0, end));
+    const std::string problem = unknown != rest.end() ? explain_unknown_option(command, *unknown) : said;
     return fmt::format("{}; see 'hogel {} --help'", problem, command.get_name());
 }
 

@@ -16,8 +16,12 @@ class HelpFormatter final : public CLI::Formatter {
 };
 
 /// The help of a command. @param part  empty: three examples and the basic options; "all"; or the beginning of a
-/// group's heading in small letters, with '-' for blanks: "light-field". Throws Error(usage) for another.
+/// group's heading in small letters, with '-' for blanks: "light-field".
 std::string help(const Command& command, const std::string& part);
+/// Whether a word is one of those: all, or the beginning of a group.
+bool has_group(const Command& command, const std::string& word);
+/// Throws Error(usage) where it is not, but for an option.
+void require_group(const Command& command, const std::string& word);
 /// Its parameters as a JSON object.
 std::string schema(const Command& command);
 

@@ -238,13 +238,15 @@ void add_render_options(Command& command, RenderOptions& options) {
     std::string algorithms;
     for (const RendererInfo& renderer : renderers().rows())
         algorithms += fmt::format("\n{}: {}", renderer.name, renderer.text);
-    command.text("--algorithm", options.algorithm, "NAME", "Renderer:" + algorithms).acts_if(is_rendered);
+    command.text("--algorithm", options.algorithm, "NAME", "Renderer:" + algorithms)
+        .acts_if(is_rendered)
+        .knows(renderers().names());
     std::string shadings;
     for (const ShadingInfo& shading : shading_models().rows())
         shadings += fmt::format("\n{}: {}", shading.name, shading.text);
-    command.text("--shading", options.shading, "NAME", "Where light is computed:" + shadings).acts_if([&options] {
-        return options.scene.is_lit;
-    });
+    command.text("--shading", options.shading, "NAME", "Where light is computed:" + shadings)
+        .knows(shading_models().names())
+        .acts_if([&options] { return options.scene.is_lit; });
     command.count("--shadow-map", options.shadow_map, "Texels along a side of a lamp's shadow map").acts_if([&options] {
         return options.has_shadow_maps;
     });

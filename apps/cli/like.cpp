@@ -67,6 +67,15 @@ void require_same_command(const Metadata& entries, const Command& command, const
                     fmt::format("--like: {} was made by '{}', not by 'hogel {}'", file, made->second, command.name()));
 }
 
+// The files of `hogel make` say what acted on each of them; its report says all.
+void require_run_of_make(const Command& command, const std::string& file) {
+    if (command.name() == "make" && !is_run(file))
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("--like: {} is one file of a run; name the folder or its report.json", file));
+    if (command.name() != "make" && std::filesystem::is_directory(file))
+        throw Error(ErrorCode::bad_input, fmt::format("--like: {} is a folder; name one of its files", file));
+}
+
 // The names of parameters that were given, and of those that must not be given with them.
 std::set<std::string> names_to_keep(const Command& command) {
     std::set<std::string> keep;
@@ -83,7 +92,9 @@ std::set<std::string> names_to_keep(const Command& command) {
 
 }  // namespace
 
-void take_like(Command& command, const std::string& file) {
+std::vector<std::string> take_like(Command& command, const std::string& file) {
+    require_run_of_make(command, file);
+    std::vector<std::string> taken;
     const Metadata entries = made_by(file);
     require_same_command(entries, command, file);
     const std::set<std::string> keep = names_to_keep(command);
@@ -95,8 +106,12 @@ void take_like(Command& command, const std::string& file) {
             throw Error(ErrorCode::bad_input, fmt::format("--like: {} was made with --{}, which hogel {} does not have",
                                                           file, name, command.name()));
         if (!keep.contains(name) && !(parameter->kind == ParameterKind::flag && value == "no"))
-            parameter->read_value(value, fmt::format("{}: --{}", file, name));
+            taken.push_back(name);
+        else
+            continue;
+        parameter->read_value(value, fmt::format("{}: --{}", file, name));
     }
+    return taken;
 }
 
 std::string shell_word(const std::string& word) {
@@ -137,11 +152,14 @@ std::string command_line_of(const Metadata& entries) {
         const Parameter* const parameter = command->look_up(key.substr(option_prefix.size()));
         if (parameter == nullptr) continue;
         if (parameter->is_positional)
-            operands += " " + shell_word(value);
+            operands += " " + shell_word((value.starts_with('-') ? "./" : "") + value);
         else
             options += written_option(*parameter, value);
     }
-    return made->second + operands + options;
+    // A file of `hogel make` that does not say of which scene it is.
+    const bool has_operand =
+        std::ranges::any_of(command->all(), [](const Parameter& each) { return each.is_positional; });
+    return has_operand && operands.empty() ? "" : made->second + operands + options;
 }
 
 }  // namespace hogel::cli

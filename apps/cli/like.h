@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "hogel/provenance.h"
 
@@ -11,7 +12,8 @@ class Command;
 
 /// Sets the parameters of a command to those that made a file, but for those that are given and those that these
 /// exclude. Throws Error(bad_input) for a file that does not say what made it, or that another command made.
-void take_like(Command& command, const std::string& file);
+/// @return the names of the parameters that were set
+std::vector<std::string> take_like(Command& command, const std::string& file);
 
 /// The command line that made a file which stores these entries, without its output: "hogel render pumpkin --hogels
 /// 64x64". Empty where they name no command.

@@ -80,7 +80,7 @@ class HOGEL_API Parameter {
     std::string help;                   ///< what it does; lines after the first explain choices
     std::string group;                  ///< the heading under which a help shows it
     std::string shown_default;          ///< the text that a help shows as the default; empty: none
-    std::vector<std::string> choices;   ///< of ParameterKind::choice
+    std::vector<std::string> choices;   ///< of ParameterKind::choice; words that a text may be
     std::optional<double> low, high;    ///< of ParameterKind::number: the least and the greatest
     std::vector<std::string> excluded;  ///< names of parameters that must not be given together with it
     std::vector<std::string> needed;    ///< names of parameters without which it must not be given
@@ -96,6 +96,8 @@ class HOGEL_API Parameter {
     Parameter& no_default() { return default_text(""); }
     Parameter& range(double least, double greatest);
     Parameter& positive();
+    /// Words that a text may be, for completion.
+    Parameter& knows(std::vector<std::string> words);
     /// A variable that becomes true if the parameter is given.
     Parameter& sets(bool& given);
     Parameter& sets_parameter(const std::string& other);

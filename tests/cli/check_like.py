@@ -67,6 +67,7 @@ CASES = [
     ("propagate f.h5 --distance 1mm --order +1", "o.h5"),
     ("propagate f.h5 --distance 1mm --reconstruct fourier --focal 40mm", "o.h5"),
     (f"propagate f.npy --distance 1mm {FIELD}", "o.png"),
+    ("propagate f.h5 --distance 1mm --display field", "o.exr"),
     (f"slm s.h5 {MODULATOR} --encoding phase", "o.png"),
     (f"slm s.h5 {MODULATOR} --encoding gerchberg-saxton", "o.png"),
     (f"slm s.h5 {MODULATOR} --encoding burckhardt", "o.png"),
@@ -90,7 +91,7 @@ CASES = [
 
 # Options that are not drawn: where results go and how the work is done, files, and what takes long.
 FIXED = set("output quiet verbose threads json resume part region force store-hologram keep-light-field like method device bounces rays "
-            "iterations camera film-distance densify layers size pitch pixels resolution hogels directions frames planes".split())
+            "iterations camera film-distance densify layers size pitch pixels resolution hogels directions frames planes pictures".split())
 
 
 def hogel(*words):

@@ -61,6 +61,11 @@ Parameter& Parameter::positive() {
     return *this;
 }
 
+Parameter& Parameter::knows(std::vector<std::string> words) {
+    choices = std::move(words);
+    return *this;
+}
+
 Parameter& Parameter::sets(bool& given) {
     is_set_ = &given;
     return *this;
