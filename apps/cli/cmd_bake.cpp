@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "error_parameters.h"
+#include "hogel/parameters.h"
 #include "hogel/pipeline.h"
 #include "hogel/units.h"
 #include "inputs.h"
@@ -13,7 +13,7 @@ namespace {
 
 struct Options {
     std::string scene, output;
-    RenderOptions place;
+    LightFieldParameters place;
     BakeOptions bake{.rays = defaults.bake_rays, .bounces = defaults.bake_bounces};
 };
 
@@ -53,7 +53,7 @@ void add_bake(Command& command, Session& session) {
     command.count("--bounces", options->bake.bounces, "How often light is reflected");
     command.count("--tessellate", options->bake.tessellation, "Parts into which the sides of triangles are cut");
     command.positive_length("--size", options->place.size, "Width of the hologram that the scene is fitted to");
-    add_scene_options(command, options->place.scene);
+    options->place.scene.declare(command);
     command.look_up("seed")->acts_if([] { return true; });
     command.add_like_option();
     command.work([options, &session] { return bake(*options, session); });

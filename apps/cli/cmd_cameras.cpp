@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "commands.h"
-#include "error_parameters.h"
+#include "hogel/parameters.h"
 #include "hogel/pipeline.h"
 #include "hogel/units.h"
 #include "outputs.h"

@@ -3,7 +3,7 @@
 #include <fmt/ranges.h>
 
 #include "commands.h"
-#include "error_parameters.h"
+#include "hogel/parameters.h"
 #include "hogel/pipeline.h"
 #include "hogel/units.h"
 #include "inputs.h"

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "commands.h"
-#include "error_parameters.h"
+#include "hogel/parameters.h"
 #include "hogel/pipeline.h"
 #include "hogel/scene_hologram.h"
 #include "hogel/units.h"
@@ -18,8 +18,8 @@ namespace {
 
 struct Options {
     std::string input, output;
-    RenderOptions render;
-    HologramChoices hologram;
+    LightFieldParameters render;
+    HologramParameters hologram;
     bool half = false, resume = false;
     PartOption part;
 
@@ -54,7 +54,7 @@ int straight_from_scene(Options& options, const SceneHologramMethod& method, con
                           static_cast<std::size_t>(std::lround(height / pitch)), pitch, pitch, 0, 0},
                          wavelength});
     for (const FieldGrid& grid : grids) validate(grid, ErrorCode::usage, "hologram");
-    RenderOptions& render = options.render;
+    LightFieldParameters& render = options.render;
     render.cache_spacing = 0;  // it is in widths of a ray, and there are no rays
     const auto scene = light_scene(session, load_scene(session, options.input, render), render);
     render.scene.has_background = false;  // what no surface sends out is not seen
@@ -94,7 +94,7 @@ int hologram(Options& options, const Session& session) {
     require_hdf5(options.output);
     HologramFileOptions file;
     file.type = options.type();
-    HologramRequest request = options.hologram.request(session, 1);
+    HologramRequest request = options.hologram.request(session.seed, 1);
     const auto check = [&](std::span<const LightFieldGrid> faces) {
         // Other members may be those of the file that is opened.
         request.pitch = request_for(faces, options.hologram, session, 1).pitch;
@@ -157,9 +157,9 @@ void add_hologram(Command& command, Session& session) {
     command.flag("--half", options->half, "Store 16-bit floats rather than 32-bit ones");
     add_resume_flag(command, options->resume);
     add_part_option(command, options->part);
-    add_scene_hologram_options(command, options->hologram);
-    add_render_options(command, options->render);
-    add_hemicube_option(command, options->render);
+    options->hologram.declare_with_scene_methods(command);
+    options->render.declare(command);
+    options->render.declare_hemicube(command);
     command.add_like_option();
     command.work([options, &session] { return hologram(*options, session); });
 }

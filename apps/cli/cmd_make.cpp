@@ -7,8 +7,8 @@
 
 #include "camera_options.h"
 #include "commands.h"
-#include "error_parameters.h"
 #include "hogel/make.h"
+#include "hogel/parameters.h"
 #include "hogel/progress.h"
 #include "hogel/team.h"
 #include "hogel/units.h"
@@ -23,8 +23,8 @@ namespace {
 
 struct Options {
     std::string scene, output;
-    RenderOptions render;
-    HologramChoices hologram;
+    LightFieldParameters render;
+    HologramParameters hologram;
     double eye_distance = defaults.eye_distance;
     double pupil = defaults.pupil;
     std::size_t resolution = defaults.resolution;
@@ -76,7 +76,7 @@ MakeRequest request_of(const Options& options, const Session& session) {
     const Looks looks = options.looks.empty() ? Looks() : parse_looks(options.looks);
     MakeRequest request;
     request.light_field = options.render.request();
-    request.hologram = options.hologram.request(session, looks.count);
+    request.hologram = options.hologram.request(session.seed, looks.count);
     request.adapt_pitch = !session.command->given("--pitch");
     request.camera = camera_model(options.camera, looks.expected);
     request.rays = {options.pupil_samples};
@@ -330,7 +330,7 @@ void add_make(Command& command, Session& session) {
         });
     command.count("--pupil-samples", options->pupil_samples, "Points of the pupil in a photograph by rays")
         .acts_if([options] { return options->is_one_of({Output::ray_photographs}); });
-    add_render_options(command, options->render);
+    options->render.declare(command);
     command.add_like_option();
     command.work([options, &session] {
         options->camera = camera_name(options->camera);

@@ -6,8 +6,8 @@
 
 #include "camera_options.h"
 #include "commands.h"
-#include "error_parameters.h"
 #include "fields.h"
+#include "hogel/parameters.h"
 #include "hogel/pipeline.h"
 #include "hogel/team.h"
 #include "hologram_pitch.h"
@@ -20,8 +20,8 @@ namespace {
 
 struct Options {
     std::string input, output;
-    RenderOptions render;
-    HologramChoices hologram;
+    LightFieldParameters render;
+    HologramParameters hologram;
     FieldOptions field;
     CameraOptions view;
     std::string looks = std::to_string(defaults.looks);
@@ -311,9 +311,9 @@ void add_photo(Command& command, Session& session) {
     add_resume_flag(command, options->resume);
     add_camera_options(command, options->view);
     add_photo_options(command, *options);
-    add_hologram_options(command, options->hologram);
-    add_render_options(command, options->render);
-    add_hemicube_option(command, options->render);
+    options->hologram.declare(command);
+    options->render.declare(command);
+    options->render.declare_hemicube(command);
     command.look_up("seed")->acts_if([options] { return options->hologram.is_seeded && !options->is_expected(); });
     add_field_options(command, options->field, false);
     add_reconstruction_options(command, options->field);

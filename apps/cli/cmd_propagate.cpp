@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "commands.h"
-#include "error_parameters.h"
 #include "fields.h"
+#include "hogel/parameters.h"
 #include "hogel/pipeline.h"
 #include "hogel/propagate.h"
 #include "hogel/team.h"

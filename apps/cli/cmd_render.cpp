@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "commands.h"
-#include "error_parameters.h"
+#include "hogel/parameters.h"
 #include "hogel/pipeline.h"
 #include "hogel/resources.h"
 #include "hogel/units.h"
@@ -17,7 +17,7 @@ namespace {
 struct Options {
     std::string scene;
     LightFieldOutput output;
-    RenderOptions render;
+    LightFieldParameters render;
     bool resume = false;
     PartOption part;
     Counts region;  // empty: the size that the renderer prefers
@@ -126,12 +126,12 @@ void add_render(Command& command, Session& session) {
                            "Store 32-bit floats rather than 16-bit ones");
     add_resume_flag(command, options->resume);
     add_part_option(command, options->part);
-    add_render_options(command, options->render);
+    options->render.declare(command);
     command.counts("--region", options->region, "Hogels that a renderer is given at once (default: what it prefers)")
         .no_default()
         .never_acts();
-    add_hemicube_option(command, options->render);
-    add_direction_options(command, options->render);
+    options->render.declare_hemicube(command);
+    options->render.declare_directions(command);
     command.add_like_option();
     command.work([options, &session] { return render(*options, session); });
 }

@@ -12,9 +12,9 @@
 #include <sstream>
 #include <vector>
 
-#include "error_parameters.h"
 #include "help.h"
 #include "hogel/error.h"
+#include "hogel/parameters.h"
 #include "hogel/parts.h"
 #include "hogel/version.h"
 #include "like.h"
@@ -223,7 +223,7 @@ const Command* CommandLine::parse(int argc, const char* const* argv) {
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) {
             // What is missing says more than a word that is left over.
-            const bool is_left_over = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+            const bool is_left_over = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
             if (is_left_over && !impl_->has_unknown_option()) impl_->chosen()->require_parameters();
             throw Error(ErrorCode::usage, explain(impl_->app, error));
         }

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "commands.h"
-#include "error_parameters.h"
+#include "hogel/parameters.h"
 #include "session.h"
 
 namespace hogel::cli {

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "error_parameters.h"
 #include "hogel/error.h"
+#include "hogel/parameters.h"
 #include "hogel/pipeline.h"
 #include "hogel/reconstruct.h"
 #include "hogel/units.h"

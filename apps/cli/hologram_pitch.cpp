@@ -8,14 +8,14 @@
 
 namespace hogel::cli {
 
-HologramRequest request_for(std::span<const LightFieldGrid> faces, const HologramChoices& choices,
+HologramRequest request_for(std::span<const LightFieldGrid> faces, const HologramParameters& choices,
                             const Session& session, std::size_t looks) {
-    HologramRequest request = choices.request(session, looks);
+    HologramRequest request = choices.request(session.seed, looks);
     if (!session.command->given("--pitch")) request.pitch = diffracting_pitch(faces, request);
     return request;
 }
 
-void say_pitch(const HologramRequest& request, const HologramChoices& choices, const Session& session) {
+void say_pitch(const HologramRequest& request, const HologramParameters& choices, const Session& session) {
     if (request.pitch == choices.pitch) return;
     session.say(fmt::format("pitch: {}, which diffracts the field of view; {}, the default, does not",
                             format_length(request.pitch), format_length(choices.pitch)));

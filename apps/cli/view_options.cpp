@@ -64,9 +64,9 @@ void add_view_options(Command& command, ViewOptions& options) {
         .text("--original", options.original, "X.h5",
               "The light field that a .hgl file was made of, beside which errors are shown (default: the whole file)")
         .no_default();
-    add_hologram_options(command, options.hologram);
-    add_render_options(command, options.render);
-    add_hemicube_option(command, options.render);
+    options.hologram.declare(command);
+    options.render.declare(command);
+    options.render.declare_hemicube(command);
     add_field_options(command, options.field, false, true);
     add_reconstruction_options(command, options.field);
 }

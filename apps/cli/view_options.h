@@ -24,8 +24,8 @@ struct ViewOptions {
     std::size_t looks = defaults.looks;
     std::size_t layers = 0;  ///< of a .hgl stream; 0: all
     std::string original;    ///< a light field beside which errors are shown; empty: the whole stream
-    RenderOptions render;
-    HologramChoices hologram;
+    LightFieldParameters render;
+    HologramParameters hologram;
     FieldOptions field;
 };
 void add_view_options(Command& command, ViewOptions& options);

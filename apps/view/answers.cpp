@@ -7,8 +7,8 @@
 #include <iterator>
 #include <numbers>
 
-#include "cli/error_parameters.h"
 #include "hogel/image.h"
+#include "hogel/parameters.h"
 
 namespace hogel::view {
 namespace {
@@ -47,7 +47,7 @@ Response failure(const Error& error) {
     return failure(error.code() == ErrorCode::usage       ? 400
                    : error.code() == ErrorCode::cancelled ? 503
                                                           : 500,
-                   error.what(), cli::names_of_parameters(error.parameter()));
+                   error.what(), names_of_parameters(error.parameter()));
 }
 
 Response answer_with(const Json& json) { return {200, json_type, dump(json)}; }

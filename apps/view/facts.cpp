@@ -9,7 +9,7 @@
 namespace hogel::view {
 
 nlohmann::ordered_json facts_of_scene(const Settings& settings, const std::vector<Advice>& advice, bool is_file) {
-    const cli::RenderOptions& render = settings.options().render;
+    const LightFieldParameters& render = settings.options().render;
     const HologramRequest hologram =
         cli::request_for(render.request().grids(), settings.options().hologram, settings.session(), 1);
     // As they were typed, without what the conversion to radians and back adds.

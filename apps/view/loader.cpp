@@ -8,11 +8,11 @@
 #include <cmath>
 #include <utility>
 
-#include "cli/error_parameters.h"
 #include "cli/fields.h"
 #include "cli/hologram_pitch.h"
 #include "cli/inputs.h"
 #include "hogel/error.h"
+#include "hogel/parameters.h"
 #include "view/facts.h"
 #include "view/hologram_subject.h"
 
@@ -40,7 +40,7 @@ LightField with_fewer_samples(const std::shared_ptr<const ShadedScene>& lit, Lig
 
 // The parameters that an error is about: the changed options, if a refused request names none.
 std::vector<std::string> parameters_of(const Error& error, const std::map<std::string, std::string>& changed) {
-    std::vector<std::string> names = cli::names_of_parameters(error.parameter());
+    std::vector<std::string> names = names_of_parameters(error.parameter());
     if (names.empty() && error.code() == ErrorCode::usage)
         for (const auto& [name, value] : changed) names.push_back(name);
     return names;
@@ -277,7 +277,7 @@ void Loader::show_scene(bool moving) {
     // Other samples of a hologram need no other light field.
     if (now_->whole && now_->made->same_light_field(now_->settings)) return show_other_waves();
     now_->whole.reset();
-    const LightFieldRequest request = cli::scene_request(now_->settings.options().render);
+    const LightFieldRequest request = now_->settings.options().render.scene_request();
     viewer_.say("lighting", 0);
     if (!now_->model) now_->model.emplace(now_->settings.input(), request.import, progress("reading"));
     const Clock::time_point began = Clock::now();
@@ -340,7 +340,7 @@ std::shared_ptr<const ShadedScene> Loader::light(const Scene& scene, const Light
 }
 
 LightField Loader::renderer_of(const std::shared_ptr<const ShadedScene>& lit, const LightFieldRequest& request) {
-    return cli::with_parameter("algorithm", [&] { return hogel::render_light_field(lit, request); });
+    return with_parameter("algorithm", [&] { return hogel::render_light_field(lit, request); });
 }
 
 }  // namespace hogel::view

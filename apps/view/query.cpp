@@ -11,7 +11,6 @@
 #include <optional>
 #include <utility>
 
-#include "cli/error_parameters.h"
 #include "hogel/error.h"
 #include "hogel/parameters.h"
 
@@ -177,7 +176,7 @@ View parse_view(const Words& words) {
     view.camera.resolution = {512, 0};
     for (const auto& word : words) {
         const std::string& name = word.first;
-        const bool known = cli::with_parameter(parameter_of(name), [&] { return read_word(view, name, word.second); });
+        const bool known = with_parameter(parameter_of(name), [&] { return read_word(view, name, word.second); });
         if (!known && !std::ranges::count(of_others, name))
             throw Error(ErrorCode::usage, fmt::format("query: '{}' is unknown", name.substr(0, 40)));
     }

@@ -28,6 +28,7 @@
 #include "hogel/provenance.h"
 #include "hogel/reconstruct.h"
 #include "hogel/renderer.h"
+#include "hogel/requests.h"
 #include "hogel/resources.h"
 #include "hogel/resume.h"
 #include "hogel/scene.h"

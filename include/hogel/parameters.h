@@ -5,11 +5,15 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "hogel/error.h"
 #include "hogel/export.h"
 #include "hogel/geometry.h"
 #include "hogel/provenance.h"
@@ -218,5 +222,35 @@ HOGEL_API std::optional<double> parse_number(const std::string& text);
 /// to be meant. They throw Error(usage), which begins with `what`.
 HOGEL_API Vec3 parse_point(const std::string& text, const std::string& what);
 HOGEL_API double parse_any_length(const std::string& text, const std::string& what);
+
+/// The names in Error::parameter().
+HOGEL_API std::vector<std::string> names_of_parameters(const std::string& parameters);
+
+/// The same with other names, see with_renamed_parameters().
+HOGEL_API std::string renamed_parameters(const std::string& parameters,
+                                         std::span<const std::pair<std::string_view, std::string_view>> names);
+
+/// Calls the work. An Error(usage) that names no parameter gets this one: "hogels, directions".
+template <class Work>
+auto with_parameter(const std::string& parameter, const Work& work) {
+    try {
+        return work();
+    } catch (const Error& error) {
+        if (!error.parameter().empty()) throw;
+        throw Error(error.code(), parameter, error.what());
+    }
+}
+
+/// Calls the work. In parameters of an Error the first name of each pair becomes the second, which is what the command
+/// calls it, or several, "hogels, size", or empty if the command does not set it here.
+template <class Work>
+auto with_renamed_parameters(std::initializer_list<std::pair<std::string_view, std::string_view>> names,
+                             const Work& work) {
+    try {
+        return work();
+    } catch (const Error& error) {
+        throw Error(error.code(), renamed_parameters(error.parameter(), names), error.what());
+    }
+}
 
 }  // namespace hogel

@@ -23,6 +23,7 @@ namespace py = pybind11;
 void add_errors(py::module_& module);
 void add_units(py::module_& module);
 void add_grids(py::module_& module);
+void add_keywords(py::module_& module);
 void add_scenes(py::module_& module);
 void add_surfaces(py::module_& module);
 void add_shading(py::module_& module);

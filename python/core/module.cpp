@@ -24,4 +24,5 @@ PYBIND11_MODULE(_core, module) {
     add_plans(module);
     add_file_parts(module);
     add_make(module);
+    add_keywords(module);
 }

@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import functools
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, TypeVar
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
@@ -15,6 +15,38 @@ def _keywords(function: Callable[..., Any]) -> list[str]:
     """The names of the options that a function takes."""
     passed_on: list[str] = getattr(function, "_passed_on", [])
     return passed_on + [p.name for p in inspect.signature(function).parameters.values() if p.kind is p.KEYWORD_ONLY]
+
+
+def _refuse_unknown(function: Callable[..., Any], options: Iterable[str], known: list[str]) -> None:
+    for name in options:
+        if name not in known:
+            near = difflib.get_close_matches(name, known, 1, 0.5)
+            hint = f"; did you mean '{near[0]}'?" if near else ""
+            raise TypeError(f"{function.__qualname__}() got an unexpected keyword argument '{name}'{hint}")
+
+
+def takes(parameters: Sequence[tuple[str, str, str]]) -> Callable[[_Function], _Function]:
+    """For a function whose **options are parameters of the command line: name, default and help. They are in its signature and its
+    documentation, and a TypeError for an unknown one names the nearest."""
+
+    def decorate(function: _Function) -> _Function:
+        own = inspect.signature(function)
+        first = [p for p in own.parameters.values() if p.kind is not p.VAR_KEYWORD]
+        names = [name for name, _, _ in parameters]
+        more = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=Any) for name in names]
+        known = sorted([*names, *(p.name for p in first)])
+
+        @functools.wraps(function)
+        def checked(*arguments: Any, **options: Any) -> Any:
+            _refuse_unknown(function, options, known)
+            return function(*arguments, **options)
+
+        setattr(checked, "__signature__", own.replace(parameters=[*first, *more]))
+        rows = [f"    {name:<17}{help.partition(chr(10))[0]}{f' [{shown}]' if shown else ''}" for name, shown, help in parameters]
+        checked.__doc__ = (function.__doc__ or "") + "\n" + "\n".join(rows) + "\n"
+        return checked  # type: ignore[return-value]
+
+    return decorate
 
 
 def passes_options_to(*others: Callable[..., Any]) -> Callable[[_Function], _Function]:
@@ -28,11 +60,7 @@ def passes_options_to(*others: Callable[..., Any]) -> Callable[[_Function], _Fun
 
         @functools.wraps(function)
         def checked(*arguments: Any, **options: Any) -> Any:
-            for name in options:
-                if name not in known:
-                    near = difflib.get_close_matches(name, known, 1, 0.5)
-                    hint = f"; did you mean '{near[0]}'?" if near else ""
-                    raise TypeError(f"{function.__qualname__}() got an unexpected keyword argument '{name}'{hint}")
+            _refuse_unknown(function, options, known)
             return function(*arguments, **options)
 
         setattr(checked, "_passed_on", passed_on)

@@ -233,21 +233,8 @@ class LightField(Rays):
         wanted.shading = shading
         return _core.plan_light_field(self._light_field, wanted, triangles, float, depth)
 
-    def hologram(
-        self,
-        *,
-        wavelength: Union[units.Length, Sequence[units.Length], None] = None,
-        pitch: Optional[units.Length] = None,
-        method: str = "fourier",
-        phase: Optional[str] = None,
-        lobes: str = "radiance",
-        basis: Optional[str] = None,
-        tolerance: float = 0,
-        line_pitch: Optional[units.Length] = None,
-        looks: int = 1,
-        seed: int = 1,
-        progress: Progress = None,
-    ) -> Hologram:
+    @passes_options_to(hologram_request)
+    def hologram(self, *, progress: Progress = None, **options: Any) -> Hologram:
         """The hologram of the light field, computed when it is read: one field for each wavelength, without any three
         (red, green, blue). The options are those of `hogel hologram`. Without a pitch it has that of hogel.defaults, or
         where that does not diffract the field of view, one that does, with a warning (UserWarning) that says which.
@@ -257,9 +244,9 @@ class LightField(Rays):
         >>> lf.hologram(wavelength="532nm", pitch="1.5625um")
         Hologram(256x256 samples 1.5625 um apart, 0.4 mm x 0.4 mm, 532 nm, computed when read)
         """
-        wanted = hologram_request(wavelength, pitch, method, phase, lobes, basis, tolerance, line_pitch, looks, seed)
-        common = self._for_holograms(wanted, basis is None)
-        if pitch is None:
+        wanted = hologram_request(**options)
+        common = self._for_holograms(wanted, options.get("basis") is None)
+        if options.get("pitch") is None:
             usual, wanted.pitch = wanted.pitch, _core.diffracting_pitch(common, wanted)
             if wanted.pitch != usual:
                 taken, other = units.say_length(wanted.pitch), units.say_length(usual)
@@ -270,7 +257,8 @@ class LightField(Rays):
         fields = _core.make_holograms(prepared, wanted)
         record = None
         if self._made is not None:
-            acted = hologram_record(wanted, self.grid, wavelength, pitch, method, phase, lobes, tolerance)
+            of_files = {name: value for name, value in options.items() if name != "looks"}
+            acted = hologram_record(wanted, self.grid, **of_files)
             record = {**_record.renamed(self._made, "scene", "input"), **acted}
         made = Hologram(fields, "computed when read", known=(prepared, wanted), made=record)
         made._identity = self._identity

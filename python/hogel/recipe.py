@@ -138,7 +138,7 @@ def make(
     count = 0 if looks is None else 1 if expected else int(looks)
     if looks is not None and count < 1:
         raise usage_error("looks", "a positive number was expected")
-    wanted.hologram = hologram_request(wavelength, pitch, looks=count, seed=seed)
+    wanted.hologram = hologram_request(wavelength=wavelength, pitch=pitch, looks=count, seed=seed)
     wanted.adapt_pitch = pitch is None
     wanted.camera = wave_camera(camera, expected)
     wanted.eye_distance = units.optional_length(eye_distance, defaults["eye_distance"], "eye_distance")

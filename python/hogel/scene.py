@@ -250,7 +250,7 @@ class Scene:
         made = LightField(_core.render_light_field(shaded, wanted), "rendered when read")
         made._rendering = wanted, _core.triangle_count(placed), _core.shading_model(placed, wanted.shading)
         if self._made is not None:
-            made._made = {**self._acted(placed, options), **render_record(wanted, placed, shaded, **options)}
+            made._made = {**self._acted(placed, options), **render_record(placed, shaded, **options)}
             made._identity = _core.describe_input(self.name, placed)
         return made
 

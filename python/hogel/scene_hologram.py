@@ -56,7 +56,7 @@ def scene_hologram(
             fields.append(_core.make_scene_hologram(method, shaded, grid, _core.channel_of(wave), seed, apart, number, report))
     made = Hologram(fields)
     if record_of is not None:
-        rendering = render_record(wanted, placed, shaded, **options)
+        rendering = render_record(placed, shaded, **options)
         acted = {name: rendering[name] for name in ("hogels", "size", "shading", "shadow-map") if name in rendering}
         acted.update(record_of(placed))
         acted.pop("background", None)  # what no surface sends out is not seen

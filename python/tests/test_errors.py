@@ -43,7 +43,7 @@ class Errors(InFolder):
             (lambda: lf.save("a.hgl", half=True, resume=True), "resume"),
             (lambda: lf.hologram().photograph(expected=True, diffuser="vertical"), "expected"),
             (lambda: lf.hologram().slm(pixels=8), "pixels, pixel_pitch"),
-            (lambda: hogel.Scene.load("sphere").render(hogels=0), "hogels, size"),
+            (lambda: hogel.Scene.load("sphere").render(hogels=0), "hogels"),
             (lambda: hogel.Field.from_array(np.ones((2, 2), np.complex64), wavelength=1e-6), "pitch"),
             (lambda: hogel.Picture(np.ones((2, 2, 2))), "pixels"),
             (lambda: hogel.angle("16", "fov"), "fov"),

@@ -183,7 +183,14 @@ Parameter& Parameters::positionals(const std::string& name, ParameterValue<std::
 Parameter& Parameters::parsed(const std::string& name, const std::string& type, const std::string& help,
                               std::function<void(const std::string& text)> read) {
     Parameter& made = add(name, ParameterKind::text, type, help);
-    made.read_ = [read = std::move(read)](const std::string& text, const std::string&) { read(text); };
+    made.read_ = [read = std::move(read)](const std::string& text, const std::string& what) {
+        try {
+            read(text);
+        } catch (const Error& error) {
+            if (error.parameter().empty()) throw;
+            throw Error(error.code(), fmt::format("{}: {}", what, error.what()));
+        }
+    };
     return made;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "error_parameters.h"
+#include "hogel/parameters.h"
 
 #include <algorithm>
 
-namespace hogel::cli {
+namespace hogel {
 
 std::vector<std::string> names_of_parameters(const std::string& parameters) {
     constexpr std::string_view separator = ", ";
@@ -28,4 +28,4 @@ std::string renamed_parameters(const std::string& parameters,
     return renamed;
 }
 
-}  // namespace hogel::cli
+}  // namespace hogel

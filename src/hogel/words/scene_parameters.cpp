@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene_options.h"
+#include "hogel/requests.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "hogel/error.h"
 #include "hogel/image.h"
 
-namespace hogel::cli {
+namespace hogel {
 namespace {
 
 constexpr double radians_per_degree = std::numbers::pi / 180;
@@ -30,25 +30,25 @@ std::vector<std::string> split(const std::string& text, char separator) {
     }
 }
 
-[[noreturn]] void refuse(const std::string& option, const std::string& text, const std::string& expected) {
-    throw Error(ErrorCode::usage, fmt::format("{}: '{}' is not {}", option, text, expected));
+[[noreturn]] void refuse(const std::string& parameter, const std::string& text, const std::string& expected) {
+    throw Error(ErrorCode::usage, parameter, fmt::format("'{}' is not {}", text, expected));
 }
 
 // @param text  the whole text, for messages
-Vec3 parse_vector(const std::string& numbers, const std::string& text, const std::string& option,
+Vec3 parse_vector(const std::string& numbers, const std::string& text, const std::string& parameter,
                   const std::string& expected) {
     const std::vector<std::string> parts = split(numbers, ',');
     std::array<double, 3> values{};
-    if (parts.size() != 3) refuse(option, text, expected);
+    if (parts.size() != 3) refuse(parameter, text, expected);
     for (std::size_t i = 0; i < 3; ++i) {
         const auto number = parse_number(parts[i]);
-        if (!number) refuse(option, text, expected);
+        if (!number) refuse(parameter, text, expected);
         values[i] = *number;
     }
     return {values[0], values[1], values[2]};
 }
 
-Rgb parse_color(const std::string& text, const std::string& option) {
+Rgb parse_color(const std::string& text, const std::string& parameter) {
     constexpr std::array<std::pair<std::string_view, std::uint32_t>, 7> names{{{"black", 0x000000},
                                                                                {"white", 0xffffff},
                                                                                {"grey", 0x808080},
@@ -64,7 +64,7 @@ Rgb parse_color(const std::string& text, const std::string& option) {
                text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos) {
         code = static_cast<std::uint32_t>(std::stoul(text.substr(1), nullptr, 16));
     } else {
-        refuse(option, text, "a colour; write #rrggbb, or black, white, grey, red, green, blue or yellow");
+        refuse(parameter, text, "a colour; write #rrggbb, or black, white, grey, red, green, blue or yellow");
     }
     const auto part = [&](unsigned shift) { return srgb_decode(static_cast<float>(code >> shift & 0xff) / 255); };
     return {part(16), part(8), part(0)};
@@ -74,20 +74,19 @@ Light parse_light(const std::string& text) {
     constexpr const char* expected =
         "a light; write where it comes from, X,Y,Z, then :COLOUR and :STRENGTH if you like";
     const std::vector<std::string> parts = split(text, ':');
-    if (parts.size() > 3) refuse("--light", text, expected);
-    const Vec3 from = parse_vector(parts[0], text, "--light", expected);
+    if (parts.size() > 3) refuse("light", text, expected);
+    const Vec3 from = parse_vector(parts[0], text, "light", expected);
     const double size = length(from);
-    if (!(size > 0 && std::isfinite(size))) refuse("--light", text, "a direction");
+    if (!(size > 0 && std::isfinite(size))) refuse("light", text, "a direction");
     double strength = usual_strength;
     if (parts.size() == 3) {
         const auto number = parse_number(parts[2]);
-        if (!number || !(*number >= 0)) refuse("--light", text, expected);
+        if (!number || !(*number >= 0)) refuse("light", text, expected);
         strength = *number;
     }
     Light light;
     light.direction = -1 / size * from;
-    light.intensity =
-        static_cast<float>(strength) * (parts.size() > 1 ? parse_color(parts[1], "--light") : Rgb{1, 1, 1});
+    light.intensity = static_cast<float>(strength) * (parts.size() > 1 ? parse_color(parts[1], "light") : Rgb{1, 1, 1});
     return light;
 }
 
@@ -98,64 +97,63 @@ Vec3 parse_up(const std::string& text) {
     if (axis == "x") return {sign, 0, 0};
     if (axis == "y") return {0, sign, 0};
     if (axis == "z") return {0, 0, sign};
-    refuse("--up", text, "an axis; write x, y, z, -x, -y or -z");
+    refuse("up", text, "an axis; write x, y, z, -x, -y or -z");
 }
 
 Vec3 parse_rotation(const std::string& text) {
     constexpr const char* expected = "a rotation; write the angles about x, y and z, such as -90,0,0deg";
-    if (!text.ends_with("deg")) refuse("--rotate", text, expected);
-    const Vec3 angles = parse_vector(text.substr(0, text.size() - 3), text, "--rotate", expected);
+    if (!text.ends_with("deg")) refuse("rotate", text, expected);
+    const Vec3 angles = parse_vector(text.substr(0, text.size() - 3), text, "rotate", expected);
     return radians_per_degree * angles;
 }
 
 }  // namespace
 
-ScenePose SceneOptions::complete_pose() const {
+ScenePose SceneParameters::complete_pose() const {
     ScenePose complete = pose;
     for (const std::string& light : lights) complete.lights.push_back(parse_light(light));
     if (!texture.empty()) complete.texture = std::make_shared<const Image>(read_image(texture));
     return complete;
 }
 
-void add_scene_options(Command& command, SceneOptions& options) {
-    command.group("Scene", [&options] { return options.is_loaded; });
-    command.parsed(
+void SceneParameters::declare(Parameters& parameters) {
+    parameters.group("Scene", [this] { return is_loaded; });
+    parameters.parsed(
         "--up", "AXIS",
         "The axis of the scene that points upwards: y (default; of STL, 3MF and AMF files z), x, or -x, -y, -z",
-        [&options](const std::string& text) { options.pose.up = parse_up(text); });
-    command.parsed("--rotate", "X,Y,Zdeg", "Turn the scene about x (to the right), then y (up), then z (to the viewer)",
-                   [&options](const std::string& text) { options.pose.rotation = parse_rotation(text); });
-    command
-        .text("--scene-camera", options.pose.camera, "NAME",
+        [this](const std::string& text) { pose.up = parse_up(text); });
+    parameters.parsed("--rotate", "X,Y,Zdeg",
+                      "Turn the scene about x (to the right), then y (up), then z (to the viewer)",
+                      [this](const std::string& text) { pose.rotation = parse_rotation(text); });
+    parameters
+        .text("--scene-camera", pose.camera, "NAME",
               "Take the view of a camera of the scene's file, by its name or number (default: front)")
         .no_default();
-    command.number("--scale", options.pose.scale, "F", "Enlarge the scene, after it was fitted to the hologram")
+    parameters.number("--scale", pose.scale, "F", "Enlarge the scene, after it was fitted to the hologram")
         .positive()
         .no_default();
-    command.point("--move", options.pose.shift, "Move the scene, after that: right, up and towards the viewer")
-        .no_default();
-    command.parsed("--colour", "COLOUR", "Colour of all surfaces in place of their own: #rrggbb or a name such as red",
-                   [&options](const std::string& text) { options.pose.color = parse_color(text, "--colour"); });
-    command.text("--texture", options.texture, "FILE", "Picture on all surfaces that have texture coordinates")
-        .no_default();
-    command
-        .texts("--light", options.lights, "X,Y,Z[:COLOUR[:F]]",
+    parameters.point("--move", pose.shift, "Move the scene, after that: right, up and towards the viewer").no_default();
+    parameters.parsed("--colour", "COLOUR",
+                      "Colour of all surfaces in place of their own: #rrggbb or a name such as red",
+                      [this](const std::string& text) { pose.color = parse_color(text, "colour"); });
+    parameters.text("--texture", texture, "FILE", "Picture on all surfaces that have texture coordinates").no_default();
+    parameters
+        .texts("--light", lights, "X,Y,Z[:COLOUR[:F]]",
                fmt::format("A light in place of the scene's own: where it comes from, its colour (default: white) and "
                            "its strength (default: {}); may be given several times",
                            usual_strength))
-        .acts_if([&options] { return options.is_lit; });
-    command
+        .acts_if([this] { return is_lit; });
+    parameters
         .parsed("--background", "COLOUR", "Of rays that meet nothing (default: the scene's, of a mesh file black)",
-                [&options](const std::string& text) { options.pose.background = parse_color(text, "--background"); })
-        .acts_if([&options] { return options.has_background; });
-    command.parsed("--ground", "COLOUR", "Put a level ground of this colour under the scene (default: none)",
-                   [&options](const std::string& text) { options.pose.ground = parse_color(text, "--ground"); });
-    command
-        .number("--point-size", options.point_size, "F",
-                "Size of a point cloud's discs; 1 (default) just closes its surface")
+                [this](const std::string& text) { pose.background = parse_color(text, "background"); })
+        .acts_if([this] { return has_background; });
+    parameters.parsed("--ground", "COLOUR", "Put a level ground of this colour under the scene (default: none)",
+                      [this](const std::string& text) { pose.ground = parse_color(text, "ground"); });
+    parameters
+        .number("--point-size", point_size, "F", "Size of a point cloud's discs; 1 (default) just closes its surface")
         .positive()
         .no_default()
-        .acts_if([&options] { return options.has_points; });
+        .acts_if([this] { return has_points; });
 }
 
-}  // namespace hogel::cli
+}  // namespace hogel

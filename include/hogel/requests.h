@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hogel/export.h"
+#include "hogel/parameters.h"
+#include "hogel/pipeline.h"
+
+namespace hogel {
+
+// Parameters that commands share, from which a request is made. Each struct holds their values, with the defaults,
+// declares them in a table, which it must outlive, and makes the request.
+
+/// The parameters of a scene: how it is turned, placed, coloured and lit.
+struct HOGEL_API SceneParameters {
+    ScenePose pose;  ///< without `lights` and `texture`
+    std::vector<std::string> lights;
+    std::string texture;  ///< name of a picture
+    double point_size = 1;
+
+    /// With the lights and the picture. Throws Error(usage) for a light that is not one, and what read_image() throws.
+    ScenePose complete_pose() const;
+    void declare(Parameters& parameters);
+
+    // What decides which parameters act, known once a scene is loaded.
+    bool is_loaded = false;
+    bool is_file = false;  ///< no built-in scene
+    bool is_lit = false, has_points = false;
+    bool has_background = true;
+};
+
+/// The parameters of a light field of a scene.
+struct HOGEL_API LightFieldParameters {
+    std::string algorithm{defaults.renderer};
+    std::string shading{defaults.shading};
+    std::size_t shadow_map = defaults.shadow_map;
+    double cache_spacing = defaults.cache_spacing;
+    Counts hogels{defaults.hogels, defaults.hogels};
+    Counts directions{defaults.directions, defaults.directions};
+    Counts samples{1, 1};  ///< per ray: along a hogel's side, along a side of a direction's cell
+    double size = defaults.size;
+    Angles field_of_view{defaults.field_of_view, defaults.field_of_view};
+    bool field_of_view_given = false;  ///< otherwise a hemicube spans 180 degrees
+    Angles toward;
+    bool hemicube = false;
+    double focal_plane = 0;          ///< depth of a fixed focal plane, metres
+    bool focal_plane_given = false;  ///< otherwise hogels have the same directions
+    double frequencies = 0;          ///< wavelength whose frequency grid gives the directions, metres; 0: perspective
+    bool as_is = false;
+    std::size_t interpolate = 0;     ///< side of the regions of hogels, with `interpolate_given`
+    bool interpolate_given = false;  ///< otherwise every sample is shaded by itself
+    bool fronts_only = false;        ///< whether back faces are culled
+    double front = defaults.front;
+    SceneParameters scene;
+
+    // What decides which parameters act, known once a light field is rendered.
+    bool is_rendered = false, has_shadow_maps = false, is_lit_by_samples = false;
+
+    /// The grid of the front. Throws Error(usage).
+    LightFieldGrid grid() const;
+    /// Without how the scene is turned, placed and lit. Throws Error(usage).
+    LightFieldRequest request() const;
+    /// With that, for load_scene(). Throws Error(usage), and what read_image() throws.
+    LightFieldRequest scene_request() const;
+    /// With the shading model that `auto` stands for.
+    LightFieldRequest request(const Scene& loaded) const;
+
+    /// Those of the scene and of the light field, without the ones that follow.
+    void declare(Parameters& parameters);
+    /// --hemicube, for those who use all faces.
+    void declare_hemicube(Parameters& parameters);
+    /// --focal-plane, --frequencies and --interpolate, for those who make light fields.
+    void declare_directions(Parameters& parameters);
+};
+/// The parameters of a hologram of a light field.
+struct HOGEL_API HologramParameters {
+    std::vector<double> wavelengths;
+    double pitch = defaults.pitch;
+    std::string method = "fourier";  ///< a row of hologram_methods()
+    std::string phase;               ///< empty: the default of the method
+    std::string average = "radiance";
+    std::string basis;  ///< empty: that of the light field's coefficients, or else cdf97
+    double tolerance = 0;
+    double spacing = defaults.spacing;
+    std::size_t planes = defaults.planes;
+    double lines = 0;  ///< distance of the lines of the method lines, metres; 0: that of samples
+
+    HologramMethod hologram_method() const;
+    HologramRequest request(std::uint64_t seed, std::size_t looks) const;
+
+    void declare(Parameters& parameters);
+    /// Those, and the ones of methods that compute the hologram of a scene without a light field.
+    void declare_with_scene_methods(Parameters& parameters);
+
+    // What decides which parameters act, known once a hologram is made, or a field with a pitch and wavelengths is
+    // read.
+    bool is_made = false, is_sampled = false;
+    std::optional<HologramMethod> made_by;  ///< of a light field
+    bool is_seeded = false;                 ///< whether looks differ, so that their number acts on a photograph
+    bool has_spacing = false, has_planes = false;
+
+    /// Sets the values with which a hologram of a light field with this front is made.
+    void resolve(const HologramRequest& request, const LightFieldGrid& front);
+};
+}  // namespace hogel

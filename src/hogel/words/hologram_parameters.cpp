@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "hogel/error.h"
+#include "hogel/requests.h"
+#include "hogel/scene_hologram.h"
+#include "hogel/table.h"
+
+namespace hogel {
+namespace {
+
+// The names of averages of lobes, and of phases.
+const std::vector<std::string> average_names{"radiance", "amplitude"};
+const std::vector<std::string> phase_names{"random", "fixed", "designed"};
+
+void declare_hologram(Parameters& parameters, HologramParameters& options, const std::vector<std::string>& names,
+                      const std::string& help) {
+    parameters.group("Hologram");
+    const auto is_sampled = [&options] { return options.is_made || options.is_sampled; };
+    const auto is_made = [&options] { return options.is_made; };
+    const auto has_lobes = [&options] {
+        return options.made_by &&
+               (std::holds_alternative<Fourier>(*options.made_by) || std::holds_alternative<Lines>(*options.made_by));
+    };
+    const auto is_basis = [&options] { return options.made_by && std::holds_alternative<Basis>(*options.made_by); };
+    const auto has_phases = [&options] {
+        return options.made_by && !std::holds_alternative<PhaseAdded>(*options.made_by) &&
+               !std::holds_alternative<OwnMethod>(*options.made_by);
+    };
+    parameters.wavelengths(options.wavelengths).acts_if(is_sampled);
+    parameters
+        .positive_length("--pitch", options.pitch,
+                         "Distance of samples, rounded to divide a hogel; less by default where the field of view "
+                         "needs it")
+        .acts_if(is_sampled);
+    parameters
+        .positive_length("--line-pitch", options.lines,
+                         "Distance of the lines of --method lines or basis-lines (default: as far apart as samples)")
+        .no_default()
+        .acts_if([&options] { return options.made_by && line_pitch(*options.made_by).has_value(); });
+    parameters.choice("--method", options.method, names, "NAME", help).acts_if(is_made);
+    parameters
+        .choice("--phase", options.phase, phase_names, "NAME",
+                "Phases of each hogel's directions\n"
+                "random: independent everywhere (default)\n"
+                "fixed: the same in all hogels (basis: default; olas: none, a smooth surface)\n"
+                "designed: the same in all hogels, for a fringe of flat modulus")
+        .acts_if(has_phases);
+    parameters
+        .choice("--lobes", options.average, average_names, "radiance|amplitude",
+                "What a hogel's lobes take from the directions that they light: their mean radiance, or "
+                "(always with basis) mean amplitude")
+        .acts_if(has_lobes);
+    parameters
+        .text("--basis", options.basis, "NAME",
+              fmt::format("Transform of the directions whose basis fringes are summed: pieces (one a "
+                          "direction), {} (default: the file's, or {})",
+                          fmt::join(transform_names(), ", "), defaults.basis))
+        .acts_if(is_basis);
+    parameters
+        .number("--tolerance", options.tolerance, "0..1",
+                "Share of a hogel's amplitude that left-out basis fringes may carry")
+        .range(0, 1)
+        .acts_if(is_basis);
+    if (Parameter* const seed = parameters.look_up("seed")) seed->acts_if([&options] { return options.is_seeded; });
+}
+
+// The methods of the table, with a line of help each.
+std::string help_of_methods() {
+    std::string help = "How a light field becomes fringes";
+    for (const HologramMethodInfo& method : hologram_methods().rows())
+        help += fmt::format("\n{}: {}{}", method.name, method.text, method.needs_depth ? "; needs depth" : "");
+    return help;
+}
+
+// Gives a method the options of the command line; refuses those that it does not have.
+struct Adjust {
+    const HologramParameters& choices;
+
+    void operator()(Fourier& method) const {
+        method.phases = phases(Phases::random);
+        method.average = average();
+    }
+    void operator()(Lines& method) const {
+        method.line_pitch = choices.lines;
+        method.phases = phases(Phases::random);
+        method.average = average();
+    }
+    void operator()(Basis& method) const {
+        const Phases chosen = phases(Phases::fixed);
+        if (chosen == Phases::random)
+            refuse("basis fringes have the same phases in all hogels: fixed or designed, not random");
+        method.phases = chosen == Phases::designed ? SharedPhases::designed : SharedPhases::fixed;
+        method.transform = choices.basis.empty() ? std::string(defaults.basis) : choices.basis;
+        method.tolerance = choices.tolerance;
+        if (method.line_pitch) method.line_pitch = choices.lines;
+    }
+    void operator()(PhaseAdded&) const {
+        if (!choices.phase.empty()) refuse("is not for the method phase-added, whose phases are those of the points");
+    }
+    void operator()(OverlapAdd& method) const {
+        const Phases chosen = phases(Phases::random);
+        if (chosen == Phases::designed) refuse("the method olas has phases that are random or fixed, not designed");
+        method.phases = chosen == Phases::fixed ? PointPhases::fixed : PointPhases::random;
+    }
+    void operator()(OwnMethod&) const {}
+
+  private:
+    Phases phases(Phases otherwise) const {
+        return choices.phase == "random"     ? Phases::random
+               : choices.phase == "fixed"    ? Phases::fixed
+               : choices.phase == "designed" ? Phases::designed
+                                             : otherwise;
+    }
+    LobeAverage average() const {
+        return choices.average == "amplitude" ? LobeAverage::amplitude : LobeAverage::radiance;
+    }
+    void refuse(const char* expected) const { throw Error(ErrorCode::usage, "phase", expected); }
+};
+
+}  // namespace
+
+HologramMethod HologramParameters::hologram_method() const {
+    const std::vector<std::string> known = transform_names();
+    if (!basis.empty() && basis != "pieces" && !std::ranges::count(known, basis))
+        throw_unknown("transform", basis, known, "basis");
+    HologramMethod chosen = hologram_methods().find(method).method;
+    if (lines > 0 && !line_pitch(chosen))
+        throw Error(ErrorCode::usage, "line_pitch",
+                    fmt::format("belongs to the methods lines and basis-lines, not {}", method));
+    std::visit(Adjust{*this}, chosen);
+    return chosen;
+}
+
+HologramRequest HologramParameters::request(std::uint64_t seed, std::size_t looks) const {
+    HologramRequest request;
+    request.channels.clear();
+    for (const double wavelength : wavelengths) request.channels.push_back({wavelength, channel_of(wavelength)});
+    request.pitch = pitch;
+    request.method = hologram_method();
+    request.looks = looks;
+    request.seed = seed;
+    return request;
+}
+
+void HologramParameters::resolve(const HologramRequest& request, const LightFieldGrid& front) {
+    is_made = true;
+    made_by = request.method;
+    // The samples divide a hogel evenly, so they may be a little farther apart or closer than was asked.
+    const double columns = std::max(1.0, std::round(front.pitch / request.pitch)), effective = front.pitch / columns;
+    if (std::abs(effective - pitch) > 1e-9 * pitch) pitch = effective;
+    if (const std::optional<double> apart = line_pitch(request.method)) lines = *apart > 0 ? *apart : effective;
+    if (const auto* fringes = std::get_if<Basis>(&request.method)) basis = fringes->transform;
+    if (phase.empty()) phase = std::holds_alternative<Basis>(request.method) ? "fixed" : "random";
+    const auto* windows = std::get_if<OverlapAdd>(&request.method);
+    is_seeded = windows == nullptr || windows->phases == PointPhases::random;
+}
+
+void HologramParameters::declare(Parameters& parameters) {
+    declare_hologram(parameters, *this, hologram_methods().names(), help_of_methods());
+}
+
+void HologramParameters::declare_with_scene_methods(Parameters& parameters) {
+    std::vector<std::string> names = hologram_methods().names();
+    std::string help = help_of_methods() + "\nWithout a light field, from a scene:";
+    for (const SceneHologramMethod& method : scene_hologram_methods().rows()) {
+        names.emplace_back(method.name);
+        help += fmt::format("\n{}: {}", method.name, method.text);
+    }
+    declare_hologram(parameters, *this, names, help);
+    parameters.positive_length("--spacing", spacing, "Of points on surfaces and along edges; height of hpo lines")
+        .acts_if([this] { return has_spacing; });
+    parameters.count("--planes", planes, "Depth planes of fresnel and planes").acts_if([this] { return has_planes; });
+}
+
+}  // namespace hogel
