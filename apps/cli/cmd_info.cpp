@@ -95,6 +95,8 @@ FileSummary summarize_views(const std::string& path, const Progress& progress) {
                     {"understood", views.summary}};
     if (!views.notes.empty()) summary.text.emplace_back("notes", fmt::format("{}", fmt::join(views.notes, "; ")));
     if (!views.assumed.empty()) summary.text.emplace_back("assumed", fmt::format("{}", fmt::join(views.assumed, ", ")));
+    if (std::filesystem::is_regular_file(path) && file_kind(path) == FileKind::picture)  // a quilt
+        for (const auto& entry : read_metadata(path)) summary.text.push_back(entry);
     summary.numbers = {{"views_across", static_cast<double>(views.columns)},
                        {"views_down", static_cast<double>(views.rows)},
                        {"width", static_cast<double>(grid.hogels_s)},
@@ -106,6 +108,12 @@ FileSummary summarize_views(const std::string& path, const Progress& progress) {
 }
 
 FileSummary summarize_any(const std::string& path, const Progress& progress) {
+    if (const auto run = run_of_make(path)) {
+        FileSummary summary;
+        summary.text = {{"kind", "run of hogel make"}};
+        summary.text.insert(summary.text.end(), run->begin(), run->end());
+        return summary;
+    }
     if (is_view_set(path)) return summarize_views(path, progress);
     switch (file_kind(path)) {
         case FileKind::light_field:

@@ -294,6 +294,31 @@ int propagate_fields(Options& options, const Session& session) {
     return 0;
 }
 
+void add_output_options(Command& command, Options& options) {
+    command
+        .choice("--display", options.display, {"intensity", "amplitude", "log", "phase", "field"},
+                "intensity|amplitude|log|phase|field",
+                "What a picture shows; log: four decades, phase: black at -pi to white at pi,\n"
+                "field: real and imaginary parts, in a file (.exr) of channels")
+        .acts_if([&options] { return options.is_picture; });
+    command.positive_length("--output-pitch", options.output_pitch, "Of the output's samples")
+        .default_text("that of the input")
+        .acts_if([&options] { return options.output_pitch > 0; });
+    command.counts("--output-samples", options.output_samples, "Of the output, across and down")
+        .default_text("as many as the input has");
+    command.length("--offset-x", options.offset_x, "Of the output's middle from that of the input, to the right");
+    command.length("--offset-y", options.offset_y, "Of the output's middle from that of the input, upwards");
+}
+
+// Of another program's field.
+void add_sampling_options(Command& command, Options& options) {
+    const auto is_external = [&options] { return options.field.is_external; };
+    command.positive_length("--pitch", options.pitch, "Of another program's samples").acts_if([&options] {
+        return options.field.is_external && options.pitch > 0;
+    });
+    command.wavelengths(options.wavelengths).acts_if(is_external);
+}
+
 }  // namespace
 
 void add_propagate(Command& command, Session& session) {
@@ -313,24 +338,8 @@ void add_propagate(Command& command, Session& session) {
         .never_acts();
     command.length("--distance", options->distance, "Towards the viewer; negative goes back behind the hologram")
         .required();
-    command
-        .choice("--display", options->display, {"intensity", "amplitude", "log", "phase", "field"},
-                "intensity|amplitude|log|phase|field",
-                "What a picture shows; log: four decades, phase: black at -pi to white at pi,\n"
-                "field: real and imaginary parts, in a file (.exr) of channels")
-        .acts_if([options] { return options->is_picture; });
-    command.positive_length("--output-pitch", options->output_pitch, "Of the output's samples")
-        .default_text("that of the input")
-        .acts_if([options] { return options->output_pitch > 0; });
-    command.counts("--output-samples", options->output_samples, "Of the output, across and down")
-        .default_text("as many as the input has");
-    command.length("--offset-x", options->offset_x, "Of the output's middle from that of the input, to the right");
-    command.length("--offset-y", options->offset_y, "Of the output's middle from that of the input, upwards");
-    const auto is_external = [options] { return options->field.is_external; };
-    command.positive_length("--pitch", options->pitch, "Of another program's samples").acts_if([options] {
-        return options->field.is_external && options->pitch > 0;
-    });
-    command.wavelengths(options->wavelengths).acts_if(is_external);
+    add_output_options(command, *options);
+    add_sampling_options(command, *options);
     add_field_options(command, options->field, false);
     add_reconstruction_options(command, options->field);
     add_resume_flag(command, options->resume);

@@ -216,6 +216,70 @@ int slm(Options& options, const Session& session) {
     return 0;
 }
 
+void add_pattern_options(Command& command, Options& options) {
+    std::vector<std::string> names = encodings().names();
+    names.insert(names.begin(), "auto");
+    command.group("Pattern");
+    command.choice(
+        "--encoding", options.encoding, names, "NAME",
+        "auto: phase, double-phase or gradient: the first that correlates with the field by 0.998, or the best\n"
+        "phase: the field's phase alone: for fields of even modulus, such as plane and spherical waves\n"
+        "double-phase: the modulus as the difference of two phases: for any field, dark, without iteration\n"
+        "gerchberg-saxton: phases iterated to show the spectra of hogels: for random phases, not smooth ones\n"
+        "gradient: phases that show the field behind its aperture, which must be of that size: for any field\n"
+        "intensity: |F + R|² with a reference beam R\n"
+        "bipolar: 2 Re(F R*), raised to be positive\n"
+        "burckhardt, lee: three or four real components, in columns by turns\n"
+        "binary: where Re(F R*) is positive");
+    command
+        .angle("--reference", options.pattern.reference_angle,
+               "Angle of the reference beam; 0: between the least and the most that will do")
+        .acts_if([&options] {
+            return options.is_one_of({Encoding::intensity, Encoding::bipolar, Encoding::binary});
+        });
+    command.number("--clip", options.pattern.clip, "0..1",
+                   "Share of the samples whose modulus may be cut to the largest");
+    command.count("--window", options.pattern.window, "Gerchberg-Saxton: pixels of a hogel's side").acts_if([&options] {
+        return options.is_one_of({Encoding::gerchberg_saxton});
+    });
+    command
+        .count("--iterations", options.pattern.iterations,
+               "Gerchberg-Saxton: how many steps (default: 40); gradient: at most (default: 200), until the\n"
+               "correlation with the field no longer gains")
+        .no_default()
+        .acts_if([&options] {
+            return options.is_one_of({Encoding::gerchberg_saxton, Encoding::gradient});
+        });
+}
+
+void add_modulator_options(Command& command, Options& options) {
+    std::string devices = "Modulator:";
+    for (const Modulator& modulator : modulators().rows())
+        devices += fmt::format("\n{}: {}x{} at {}, {} levels", modulator.name, modulator.width, modulator.height,
+                               format_length(modulator.pitch), modulator.levels);
+    command.group("Modulator");
+    const Parameter& device = command.text("--device", options.device, "NAME", devices)
+                                  .sets_parameter("pixel_pitch")
+                                  .knows(modulators().names());
+    command.counts("--pixels", options.pixels, "Any other: pixels across and down")
+        .no_default()
+        .excludes(device)
+        .acts_if([&options] { return options.device.empty(); });
+    command.positive_length("--pixel-pitch", options.pixel_pitch, "Distance of its pixels")
+        .no_default()
+        .excludes(device)
+        .acts_if([&options] { return options.device.empty(); });
+    command.count("--levels", options.levels, "Levels of its pixels").excludes(device).acts_if([&options] {
+        return options.device.empty() && !options.is_one_of({Encoding::binary});
+    });
+    std::string codes = "Levels of phases as this program writes them:";
+    for (const PhaseCodeInfo& code : phase_codes().rows()) codes += fmt::format("\n{}: {}", code.name, code.text);
+    command
+        .text("--phase-code", options.phase_code, "CODE",
+              codes + "\nany other: range=ANGLE,offset=ANGLE,invert, in deg, rad or pi (2pi)")
+        .acts_if([&options] { return is_phase_only(encodings().find(options.encoding).encoding); });
+}
+
 }  // namespace
 
 void add_slm(Command& command, Session& session) {
@@ -231,64 +295,8 @@ void add_slm(Command& command, Session& session) {
         .required()
         .never_acts();
     add_resume_flag(command, options->resume);
-    std::vector<std::string> names = encodings().names();
-    names.insert(names.begin(), "auto");
-    command.group("Pattern");
-    command.choice(
-        "--encoding", options->encoding, names, "NAME",
-        "auto: phase, double-phase or gradient: the first that correlates with the field by 0.998, or the best\n"
-        "phase: the field's phase alone: for fields of even modulus, such as plane and spherical waves\n"
-        "double-phase: the modulus as the difference of two phases: for any field, dark, without iteration\n"
-        "gerchberg-saxton: phases iterated to show the spectra of hogels: for random phases, not smooth ones\n"
-        "gradient: phases that show the field behind its aperture, which must be of that size: for any field\n"
-        "intensity: |F + R|² with a reference beam R\n"
-        "bipolar: 2 Re(F R*), raised to be positive\n"
-        "burckhardt, lee: three or four real components, in columns by turns\n"
-        "binary: where Re(F R*) is positive");
-    command
-        .angle("--reference", options->pattern.reference_angle,
-               "Angle of the reference beam; 0: between the least and the most that will do")
-        .acts_if([options] {
-            return options->is_one_of({Encoding::intensity, Encoding::bipolar, Encoding::binary});
-        });
-    command.number("--clip", options->pattern.clip, "0..1",
-                   "Share of the samples whose modulus may be cut to the largest");
-    command.count("--window", options->pattern.window, "Gerchberg-Saxton: pixels of a hogel's side").acts_if([options] {
-        return options->is_one_of({Encoding::gerchberg_saxton});
-    });
-    command
-        .count("--iterations", options->pattern.iterations,
-               "Gerchberg-Saxton: how many steps (default: 40); gradient: at most (default: 200), until the\n"
-               "correlation with the field no longer gains")
-        .no_default()
-        .acts_if([options] {
-            return options->is_one_of({Encoding::gerchberg_saxton, Encoding::gradient});
-        });
-    std::string devices = "Modulator:";
-    for (const Modulator& modulator : modulators().rows())
-        devices += fmt::format("\n{}: {}x{} at {}, {} levels", modulator.name, modulator.width, modulator.height,
-                               format_length(modulator.pitch), modulator.levels);
-    command.group("Modulator");
-    const Parameter& device = command.text("--device", options->device, "NAME", devices)
-                                  .sets_parameter("pixel_pitch")
-                                  .knows(modulators().names());
-    command.counts("--pixels", options->pixels, "Any other: pixels across and down")
-        .no_default()
-        .excludes(device)
-        .acts_if([options] { return options->device.empty(); });
-    command.positive_length("--pixel-pitch", options->pixel_pitch, "Distance of its pixels")
-        .no_default()
-        .excludes(device)
-        .acts_if([options] { return options->device.empty(); });
-    command.count("--levels", options->levels, "Levels of its pixels").excludes(device).acts_if([options] {
-        return options->device.empty() && !options->is_one_of({Encoding::binary});
-    });
-    std::string codes = "Levels of phases as this program writes them:";
-    for (const PhaseCodeInfo& code : phase_codes().rows()) codes += fmt::format("\n{}: {}", code.name, code.text);
-    command
-        .text("--phase-code", options->phase_code, "CODE",
-              codes + "\nany other: range=ANGLE,offset=ANGLE,invert, in deg, rad or pi (2pi)")
-        .acts_if([options] { return is_phase_only(encodings().find(options->encoding).encoding); });
+    add_pattern_options(command, *options);
+    add_modulator_options(command, *options);
     options->field.code_option = "--input-phase-code";
     add_field_options(command, options->field, true);
     add_reconstruction_options(command, options->field);

@@ -22,24 +22,8 @@ namespace {
 
 constexpr std::string_view option_prefix = "option ";
 
-// The report of a run of `hogel make`, in its folder.
-bool is_run(const std::filesystem::path& path) { return is_directory(path) || path.extension() == ".json"; }
-
-Metadata read_run(const std::filesystem::path& path) {
-    const std::filesystem::path report = is_directory(path) ? path / "report.json" : path;
-    std::ifstream file(report);
-    const auto json = nlohmann::json::parse(file, nullptr, false);
-    const auto run = json.is_object() ? json.find("run") : json.end();
-    if (run == json.end() || !run->is_object())
-        throw Error(ErrorCode::bad_input, fmt::format("--like: {} is no report of 'hogel make'", report.string()));
-    Metadata entries;
-    for (const auto& [name, value] : run->items())
-        if (value.is_string()) entries.emplace_back(name, value.get<std::string>());
-    return entries;
-}
-
 Metadata read_entries(const std::string& file) {
-    if (is_run(file)) return read_run(file);
+    if (const auto run = run_of_make(file)) return *run;
     switch (file_kind(file)) {
         case FileKind::picture:
             return read_metadata(file);
@@ -68,11 +52,13 @@ void require_same_command(const Metadata& entries, const Command& command, const
 }
 
 // The files of `hogel make` say what acted on each of them; its report says all.
-void require_run_of_make(const Command& command, const std::string& file) {
-    if (command.name() == "make" && !is_run(file))
+void require_file_of(const Command& command, const std::string& file) {
+    const bool is_run = run_of_make(file).has_value();
+    if (command.name() == "make" && !is_run)
         throw Error(ErrorCode::bad_input,
-                    fmt::format("--like: {} is one file of a run; name the folder or its report.json", file));
-    if (command.name() != "make" && std::filesystem::is_directory(file))
+                    fmt::format("--like: {} is no run of 'hogel make'; name its folder or its report.json", file));
+    std::error_code none;
+    if (!is_run && std::filesystem::is_directory(file, none))
         throw Error(ErrorCode::bad_input, fmt::format("--like: {} is a folder; name one of its files", file));
 }
 
@@ -92,8 +78,22 @@ std::set<std::string> names_to_keep(const Command& command) {
 
 }  // namespace
 
+std::optional<Metadata> run_of_make(const std::filesystem::path& path) {
+    std::error_code none;
+    const std::filesystem::path report = is_directory(path, none) ? path / "report.json" : path;
+    if (report.extension() != ".json") return {};
+    std::ifstream file(report);
+    const auto json = nlohmann::json::parse(file, nullptr, false);
+    const auto run = json.is_object() ? json.find("run") : json.end();
+    if (run == json.end() || !run->is_object()) return {};
+    Metadata entries;
+    for (const auto& [name, value] : run->items())
+        if (value.is_string()) entries.emplace_back(name, value.get<std::string>());
+    return entries;
+}
+
 std::vector<std::string> take_like(Command& command, const std::string& file) {
-    require_run_of_make(command, file);
+    require_file_of(command, file);
     std::vector<std::string> taken;
     const Metadata entries = made_by(file);
     require_same_command(entries, command, file);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,9 @@ class Command;
 /// exclude. Throws Error(bad_input) for a file that does not say what made it, or that another command made.
 /// @return the names of the parameters that were set
 std::vector<std::string> take_like(Command& command, const std::string& file);
+
+/// What `hogel make` says of its run in the report of this folder, or in this report.json; nothing for other paths.
+std::optional<Metadata> run_of_make(const std::filesystem::path& path);
 
 /// The command line that made a file which stores these entries, without its output: "hogel render pumpkin --hogels
 /// 64x64". Empty where they name no command.
