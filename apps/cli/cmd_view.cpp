@@ -18,7 +18,7 @@ namespace {
 std::filesystem::path viewer() {
     std::error_code none;
     const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", none);
-    const std::filesystem::path beside = self.parent_path() / "hogel-view";
+    std::filesystem::path beside = self.parent_path() / "hogel-view";
     if (!self.empty() && std::filesystem::exists(beside, none)) return beside;
     throw Error(ErrorCode::not_built_in,
                 "view: this build of hogel lacks the viewer, hogel-view; the build option HOGEL_VIEW=ON brings it, "

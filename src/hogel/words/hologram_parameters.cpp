@@ -168,9 +168,9 @@ void HologramParameters::declare(Parameters& parameters) {
 void HologramParameters::declare_with_scene_methods(Parameters& parameters) {
     std::vector<std::string> names = hologram_methods().names();
     std::string help = help_of_methods() + "\nWithout a light field, from a scene:";
-    for (const SceneHologramMethod& method : scene_hologram_methods().rows()) {
-        names.emplace_back(method.name);
-        help += fmt::format("\n{}: {}", method.name, method.text);
+    for (const SceneHologramMethod& direct : scene_hologram_methods().rows()) {
+        names.emplace_back(direct.name);
+        help += fmt::format("\n{}: {}", direct.name, direct.text);
     }
     declare_hologram(parameters, *this, names, help);
     parameters.positive_length("--spacing", spacing, "Of points on surfaces and along edges; height of hpo lines")

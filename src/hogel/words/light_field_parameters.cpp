@@ -88,8 +88,8 @@ void LightFieldParameters::declare(Parameters& parameters) {
         .acts_if(when_rendered)
         .knows(renderers().names());
     std::string shadings;
-    for (const ShadingInfo& shading : shading_models().rows())
-        shadings += fmt::format("\n{}: {}", shading.name, shading.text);
+    for (const ShadingInfo& model : shading_models().rows())
+        shadings += fmt::format("\n{}: {}", model.name, model.text);
     parameters.text("--shading", shading, "NAME", "Where light is computed:" + shadings)
         .knows(shading_models().names())
         .acts_if([this] { return scene.is_lit; });

@@ -96,10 +96,10 @@ struct Asked {
         parameters.whole("--seed", seed, 1000, "");
     }
 
-    void read(const std::string& name, const std::string& text) {
-        parameters.look_up(name)->read_value(text, "--" + name);
+    void read(const std::string& parameter, const std::string& text) {
+        parameters.look_up(parameter)->read_value(text, "--" + parameter);
     }
-    std::string written(const std::string& name) { return parameters.look_up(name)->written(); }
+    std::string written(const std::string& parameter) { return parameters.look_up(parameter)->written(); }
 };
 
 TEST(Parameters, have_names_letters_and_other_names) {

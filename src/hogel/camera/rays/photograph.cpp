@@ -19,7 +19,6 @@ namespace {
 using camera::rays::Block;
 using camera::rays::Exposure;
 using camera::rays::HeldHogels;
-using camera::rays::hold;
 
 struct FaceBlock {
     std::size_t face;
@@ -124,7 +123,8 @@ Plan plan_ray_photographs(std::span<const LightFieldGrid> faces, std::span<const
     for (const Camera& camera : cameras) {
         const auto pixels = static_cast<double>(camera.picture.samples());
         const double rays = points * static_cast<double>(camera::rays::bytes_of_rays(faces.front(), camera));
-        const bool are_kept = rays <= static_cast<double>(camera::rays::max_kept_rays / cameras.size());
+        const std::size_t kept_of_each = camera::rays::max_kept_rays / cameras.size();
+        const bool are_kept = rays <= static_cast<double>(kept_of_each);
         plan.memory += points * sizeof(Exposure::LensPoint) +
                        pixels * static_cast<double>(faces.front().channels) * sizeof(float) + (are_kept ? rays : 0);
         plan.seconds += rates::on_all_threads(points * (hogels * rates::seen_hogel + pixels * rates::seen_pixel));
