@@ -310,7 +310,7 @@ void add_output_options(Command& command, Options& options) {
     command.length("--offset-y", options.offset_y, "Of the output's middle from that of the input, upwards");
 }
 
-// Of another program's field.
+// The sampling of another program's field.
 void add_sampling_options(Command& command, Options& options) {
     const auto is_external = [&options] { return options.field.is_external; };
     command.positive_length("--pitch", options.pitch, "Of another program's samples").acts_if([&options] {

@@ -24,13 +24,6 @@
 namespace hogel::cli {
 namespace {
 
-// What a parameter is called on the command line: "-o,--output".
-std::string option_names(const Parameter& parameter) {
-    if (parameter.is_positional) return parameter.name;
-    return (parameter.letter.empty() ? "" : "-" + parameter.letter + ",") + "--" + parameter.name +
-           (parameter.alias.empty() ? "" : ",--" + parameter.alias);
-}
-
 // What a parameter is called in messages.
 std::string option_name(const Parameter& parameter) { return (parameter.is_positional ? "" : "--") + parameter.name; }
 
@@ -72,7 +65,7 @@ bool Command::is_basic(const Parameter& parameter) const {
 }
 
 void Command::add_like_option() {
-    text("--like", like_, "FILE", "Take the options that made this file, but for those that are given here")
+    text("--like", like_, "FILE", "Take the options that made this file, except the ones given here")
         .no_default()
         .never_acts()
         .group = default_group;

@@ -26,7 +26,7 @@ class Command : public Parameters {
     /// Command lines, indented by two blanks, that end the help.
     void examples(const std::string& lines) { examples_ = lines; }
     const std::string& examples() const { return examples_; }
-    /// The options that --help shows beside those that are required, if there are too many to show all.
+    /// The options that --help shows beside the required ones, if there are too many to show all.
     const std::vector<std::string>& basics() const { return basics_; }
     void basics(std::vector<std::string> names) { basics_ = std::move(names); }
     bool is_basic(const Parameter& parameter) const;

@@ -84,8 +84,7 @@ std::string entry(const std::string& name, const std::string& description) {
 
 std::string entry(const Parameter& parameter) {
     if (parameter.is_positional) return entry(parameter.type, parameter.help);
-    std::string name = parameter.letter.empty() ? "" : fmt::format("-{},", parameter.letter);
-    name += "--" + parameter.name + (parameter.alias.empty() ? "" : ",--" + parameter.alias);
+    std::string name = option_names(parameter);
     if (!parameter.type.empty()) name += " " + parameter.type;
     std::string words = parameter.help;
     // The default is appended to the first line; the following lines explain the choices.
@@ -237,6 +236,12 @@ Result schema_of(const Parameter& parameter) {
 }
 
 }  // namespace
+
+std::string option_names(const Parameter& parameter) {
+    if (parameter.is_positional) return parameter.name;
+    return (parameter.letter.empty() ? "" : "-" + parameter.letter + ",") + "--" + parameter.name +
+           (parameter.alias.empty() ? "" : ",--" + parameter.alias);
+}
 
 std::string HelpFormatter::make_usage(const CLI::App* /*app*/, std::string name) const {
     return "\nUsage: " + name + " COMMAND ...\n";

@@ -4,6 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "hogel/parameters.h"
+
 namespace hogel::cli {
 
 class Command;
@@ -15,6 +17,8 @@ class HelpFormatter final : public CLI::Formatter {
     std::string make_usage(const CLI::App* app, std::string name) const override;
 };
 
+/// What a parameter is called on the command line: "-o,--output", or a name without dashes.
+std::string option_names(const Parameter& parameter);
 /// The help of a command. @param part  empty: three examples and the basic options; "all"; or the beginning of a
 /// group's heading in small letters, with '-' for blanks: "light-field".
 std::string help(const Command& command, const std::string& part);

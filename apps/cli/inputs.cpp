@@ -30,11 +30,7 @@ Scene load_scene(const Session& session, const std::string& name, LightFieldPara
     const LightFieldRequest request = options.scene_request();
     Stage stage(session, "scene");
     Scene scene = hogel::load_scene(name, request, stage.progress());
-    SceneParameters& known = options.scene;
-    known.is_loaded = true;
-    known.is_file = scenes().look_up(name) == nullptr;
-    known.is_lit = std::ranges::any_of(scene.meshes, [](const Mesh& mesh) { return mesh.radiance.empty(); });
-    known.has_points = std::ranges::any_of(scene.meshes, [](const Mesh& mesh) { return mesh.name == points_name; });
+    options.scene.resolve(scene, scenes().look_up(name) == nullptr);
     for (const std::string& note : scene.notes) session.say(fmt::format("{}: note: {}", name, note));
     return scene;
 }
@@ -42,26 +38,21 @@ Scene load_scene(const Session& session, const std::string& name, LightFieldPara
 std::shared_ptr<const ShadedScene> light_scene(const Session& session, const Scene& scene,
                                                LightFieldParameters& options) {
     const LightFieldRequest request = options.request();
-    options.shading = shading_model(scene, request.shading);
+    options.resolve(scene);
     if (request.shading.model == "auto" && options.shading == "direct")
         session.detail(fmt::format("shading: direct, because {}", scene.has_large_triangles
                                                                       ? "its triangles are large"
                                                                       : "of its maps of gloss or relief"));
-    if (const double bytes = shadow_map_bytes(scene, request.shading); bytes > 0) {
-        options.has_shadow_maps = true;
-        session.detail(fmt::format("shadow maps: {}", format_bytes(bytes)));
-    }
+    if (options.has_shadow_maps)
+        session.detail(fmt::format("shadow maps: {}", format_bytes(shadow_map_bytes(scene, request.shading))));
     Stage stage(session, "lighting");
     return hogel::light_scene(scene, request, stage.progress());
 }
 
 LightField render_light_field(const Session& session, const Scene& scene, LightFieldParameters& options) {
-    options.is_rendered = true;
-    if (options.hemicube && !options.field_of_view_given) options.field_of_view = {std::numbers::pi, std::numbers::pi};
     const LightFieldRequest request = options.request();
     const auto lit = light_scene(session, scene, options);
-    for (std::size_t i = 0; i < lit->triangles.size() && !options.is_lit_by_samples; ++i)
-        options.is_lit_by_samples = lit->is_lit(i);
+    options.resolve(*lit);
     return with_parameter(options.frequencies > 0 ? "algorithm, frequencies" : "algorithm",
                           [&] { return hogel::render_light_field(lit, request); });
 }

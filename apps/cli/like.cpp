@@ -22,8 +22,21 @@ namespace {
 
 constexpr std::string_view option_prefix = "option ";
 
-Metadata read_entries(const std::string& file) {
-    if (const auto run = run_of_make(file)) return *run;
+// The command in what a file says of its making, or an empty text.
+std::string command_in(const Metadata& entries) {
+    const auto made = std::ranges::find(entries, "command", &Metadata::value_type::first);
+    return made == entries.end() ? "" : made->second;
+}
+
+// What a file says of its making. The files of `hogel make` say what acted on each of them; its report says all.
+Metadata entries_of(const std::string& file, const Command& command) {
+    if (const std::optional<Metadata> run = run_of_make(file)) return *run;
+    if (command.name() == "make")
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("--like: {} is no run of 'hogel make'; name its folder or its report.json", file));
+    std::error_code none;
+    if (std::filesystem::is_directory(file, none))
+        throw Error(ErrorCode::bad_input, fmt::format("--like: {} is a folder; name one of its files", file));
     switch (file_kind(file)) {
         case FileKind::picture:
             return read_metadata(file);
@@ -34,35 +47,15 @@ Metadata read_entries(const std::string& file) {
     }
 }
 
-// What a file says of its making, without what it says of its sources.
-Metadata made_by(const std::string& file) {
-    Metadata entries;
-    for (const auto& entry : read_entries(file))
-        if (entry.first == "command" || entry.first.starts_with(option_prefix)) entries.push_back(entry);
-    return entries;
-}
-
 void require_same_command(const Metadata& entries, const Command& command, const std::string& file) {
-    const auto made = std::ranges::find(entries, "command", &Metadata::value_type::first);
-    if (made == entries.end())
-        throw Error(ErrorCode::bad_input, fmt::format("--like: {} does not say what made it", file));
-    if (made->second != "hogel " + command.name())
+    const std::string made = command_in(entries);
+    if (made.empty()) throw Error(ErrorCode::bad_input, fmt::format("--like: {} does not say what made it", file));
+    if (made != "hogel " + command.name())
         throw Error(ErrorCode::bad_input,
-                    fmt::format("--like: {} was made by '{}', not by 'hogel {}'", file, made->second, command.name()));
+                    fmt::format("--like: {} was made by '{}', not by 'hogel {}'", file, made, command.name()));
 }
 
-// The files of `hogel make` say what acted on each of them; its report says all.
-void require_file_of(const Command& command, const std::string& file) {
-    const bool is_run = run_of_make(file).has_value();
-    if (command.name() == "make" && !is_run)
-        throw Error(ErrorCode::bad_input,
-                    fmt::format("--like: {} is no run of 'hogel make'; name its folder or its report.json", file));
-    std::error_code none;
-    if (!is_run && std::filesystem::is_directory(file, none))
-        throw Error(ErrorCode::bad_input, fmt::format("--like: {} is a folder; name one of its files", file));
-}
-
-// The names of parameters that were given, and of those that must not be given with them.
+// The names of the given parameters, and of the ones that they exclude.
 std::set<std::string> names_to_keep(const Command& command) {
     std::set<std::string> keep;
     for (const Parameter& each : command.all()) {
@@ -93,11 +86,10 @@ std::optional<Metadata> run_of_make(const std::filesystem::path& path) {
 }
 
 std::vector<std::string> take_like(Command& command, const std::string& file) {
-    require_file_of(command, file);
-    std::vector<std::string> taken;
-    const Metadata entries = made_by(file);
+    const Metadata entries = entries_of(file, command);
     require_same_command(entries, command, file);
     const std::set<std::string> keep = names_to_keep(command);
+    std::vector<std::string> taken;
     for (const auto& [key, value] : entries) {
         if (!key.starts_with(option_prefix)) continue;
         const std::string name = key.substr(option_prefix.size());
@@ -105,11 +97,10 @@ std::vector<std::string> take_like(Command& command, const std::string& file) {
         if (parameter == nullptr)
             throw Error(ErrorCode::bad_input, fmt::format("--like: {} was made with --{}, which hogel {} does not have",
                                                           file, name, command.name()));
-        if (!keep.contains(name) && !(parameter->kind == ParameterKind::flag && value == "no"))
-            taken.push_back(name);
-        else
-            continue;
+        const bool is_off = parameter->kind == ParameterKind::flag && value == "no";
+        if (keep.contains(name) || is_off) continue;
         parameter->read_value(value, fmt::format("{}: --{}", file, name));
+        taken.push_back(name);
     }
     return taken;
 }
@@ -139,12 +130,12 @@ std::string written_option(const Parameter& parameter, const std::string& value)
 }  // namespace
 
 std::string command_line_of(const Metadata& entries) {
-    const auto made = std::ranges::find(entries, "command", &Metadata::value_type::first);
+    const std::string made = command_in(entries);
     constexpr std::string_view program = "hogel ";
-    if (made == entries.end() || !made->second.starts_with(program)) return "";
+    if (!made.starts_with(program)) return "";
     Session none;
     const CommandLine line(commands(), none);
-    const Command* const command = line.look_up(made->second.substr(program.size()));
+    const Command* const command = line.look_up(made.substr(program.size()));
     if (command == nullptr) return "";
     std::string operands, options;
     for (const auto& [key, value] : entries) {
@@ -159,7 +150,7 @@ std::string command_line_of(const Metadata& entries) {
     // A file of `hogel make` that does not say of which scene it is.
     const bool has_operand =
         std::ranges::any_of(command->all(), [](const Parameter& each) { return each.is_positional; });
-    return has_operand && operands.empty() ? "" : made->second + operands + options;
+    return has_operand && operands.empty() ? "" : made + operands + options;
 }
 
 }  // namespace hogel::cli

@@ -12,8 +12,8 @@ namespace hogel::cli {
 
 class Command;
 
-/// Sets the parameters of a command to those that made a file, but for those that are given and those that these
-/// exclude. Throws Error(bad_input) for a file that does not say what made it, or that another command made.
+/// Sets the parameters of a command to the values that made a file. The given ones, and what these exclude, stay as
+/// they are. Throws Error(bad_input) for a file that does not say what made it, or that another command made.
 /// @return the names of the parameters that were set
 std::vector<std::string> take_like(Command& command, const std::string& file);
 

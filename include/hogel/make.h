@@ -65,7 +65,7 @@ struct MakeRequest {
     HologramRequest hologram{.looks = 0};  ///< looks = 0: enough_looks()
     /// Whether to take a smaller pitch than that of `hologram` where that does not diffract the field of view.
     bool adapt_pitch = true;
-    /// Of the photographs by waves. With SpeckleFreeCamera these are the speckle-free ones alone.
+    /// The camera of the photographs by waves. With SpeckleFreeCamera only the speckle-free ones are made.
     CameraModel camera = BandCamera();
     /// Whether there are photographs without speckle too; none: where is_speckle_free_cheap().
     std::optional<bool> speckle_free;

@@ -25,6 +25,9 @@ struct HOGEL_API SceneParameters {
 
     /// With the lights and the picture. Throws Error(usage) for a light that is not one, and what read_image() throws.
     ScenePose complete_pose() const;
+    /// Notes what decides which parameters act.
+    /// @param is_from_file  it is no built-in scene
+    void resolve(const Scene& loaded, bool is_from_file);
     void declare(Parameters& parameters);
 
     // What decides which parameters act, known once a scene is loaded.
@@ -69,6 +72,9 @@ struct HOGEL_API LightFieldParameters {
     LightFieldRequest scene_request() const;
     /// With the shading model that `auto` stands for.
     LightFieldRequest request(const Scene& loaded) const;
+    /// Sets the values with which a scene at the hologram is lit, and those with which it is rendered.
+    void resolve(const Scene& placed);
+    void resolve(const ShadedScene& lit);
 
     /// Those of the scene and of the light field, without the ones that follow.
     void declare(Parameters& parameters);

@@ -145,17 +145,11 @@ py::list described(const Parameters& table, const std::function<bool(const Param
     return rows;
 }
 
-Metadata light_field_record(const py::dict& keywords, const Scene& placed, const ShadedScene& shaded) {
+Metadata light_field_record(const py::dict& keywords, const Scene& placed, const ShadedScene& lit) {
     LightFieldKeywords asked(keywords);
-    LightFieldParameters& values = asked.values;
-    const LightFieldRequest request = values.request(placed);
-    values.scene.is_loaded = values.is_rendered = true;
-    values.scene.is_lit = std::ranges::any_of(placed.meshes, [](const Mesh& mesh) { return mesh.radiance.empty(); });
-    values.shading = request.shading.model;
-    values.has_shadow_maps = shadow_map_bytes(placed, request.shading) > 0;
-    for (std::size_t i = 0; i < shaded.triangles.size() && !values.is_lit_by_samples; ++i)
-        values.is_lit_by_samples = shaded.is_lit(i);
-    if (values.hemicube && !values.field_of_view_given) values.field_of_view = {std::numbers::pi, std::numbers::pi};
+    asked.values.scene.resolve(placed, false);
+    asked.values.resolve(placed);
+    asked.values.resolve(lit);
     return asked.table.acting();
 }
 

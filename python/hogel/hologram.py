@@ -12,7 +12,6 @@ from . import _core, _record, units
 from ._keywords import passes_options_to
 from ._progress import Progress, reporting
 from ._samples import Path
-from .camera import camera as camera_of
 from .elsewhere import description, external_fields, external_record, reconstructed
 from .errors import UsageError, usage_error
 from .field import Field
@@ -239,19 +238,8 @@ class Hologram:
                 made._made["output-pitch"] = _record.length(plane.pitch_x)
         return made
 
-    @passes_options_to(camera_of)
-    def photograph(
-        self,
-        *,
-        cameras: Optional[Sequence[_core.Camera]] = None,
-        camera: str = "auto",
-        expected: bool = False,
-        diffuser: str = "none",
-        film_distance: units.Length = 0,
-        preview: bool = False,
-        progress: Progress = None,
-        **options: Any,
-    ) -> Any:
+    @passes_options_to(photograph_fields)
+    def photograph(self, **options: Any) -> Any:
         """A picture by waves, through the camera that the options describe (hogel.camera()): eye, gaze, focus, pupil,
         resolution and so on. With `cameras` a list of pictures, one for each.
 
@@ -267,28 +255,13 @@ class Hologram:
         >>> lf.hologram().photograph(eye="10,0,300mm", pupil="20mm", resolution=24)
         Picture(24x24 pixels, 3 channels)
         """
-        return photograph_fields(
-            self._sources, self._known, self._made, cameras=cameras, camera=camera, expected=expected, diffuser=diffuser,
-            film_distance=film_distance, preview=preview, progress=progress, **options,
-        )
+        return photograph_fields(self._sources, self._known, self._made, **options)
 
-    def slm(
-        self,
-        *,
-        encoding: str = "auto",
-        device: Optional[str] = None,
-        pixels: Optional[units.Counts] = None,
-        pixel_pitch: Optional[units.Length] = None,
-        levels: int = 256,
-        reference: units.Angle = 0,
-        clip: Optional[float] = None,
-        window: Optional[int] = None,
-        iterations: int = 0,
-        phase_code: Union[str, _core.PhaseCode] = "hogel",
-        progress: Progress = None,
-    ) -> Pattern:
+    @passes_options_to(pattern_of)
+    def slm(self, **options: Any) -> Pattern:
         """The pattern of a modulator that shows the hologram: a device by name (hogel.modulators()), or pixels and
-        pixel_pitch. The options are those of `hogel slm`.
+        pixel_pitch. The options are those of `hogel slm`: encoding, device, pixels, pixel_pitch, levels, reference, clip,
+        window, iterations and phase_code.
 
         >>> import hogel, numpy as np
         >>> wave = hogel.Field.from_array(np.exp(1j * np.arange(64.0))[:, None] * np.ones(64), pitch="8um", wavelength="532nm")
@@ -296,11 +269,7 @@ class Hologram:
         >>> np.asarray(pattern).shape, np.asarray(pattern).dtype
         ((64, 64, 1), dtype('uint8'))
         """
-        return pattern_of(
-            self._sources, self._made if self.is_opened else None, encoding=encoding, device=device, pixels=pixels,
-            pixel_pitch=pixel_pitch, levels=levels, reference=reference, clip=clip, window=window, iterations=iterations,
-            phase_code=phase_code, progress=progress,
-        )
+        return pattern_of(self._sources, self._made if self.is_opened else None, **options)
 
     def compare(self, other: "Hologram", *, progress: Progress = None) -> dict[str, float]:
         """sqnr and psnr (decibels) and max_error of another hologram of this sampling.

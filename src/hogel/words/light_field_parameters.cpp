@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "hogel/error.h"
 #include "hogel/requests.h"
@@ -66,6 +67,19 @@ LightFieldRequest LightFieldParameters::request() const {
     request.grids();
     with_renamed_parameters({{"directions", "directions, samples"}}, [&] { finer(request.grid, request.samples); });
     return request;
+}
+
+void LightFieldParameters::resolve(const Scene& placed) {
+    const ShadingOptions asked = request().shading;
+    shading = shading_model(placed, asked);
+    has_shadow_maps = shadow_map_bytes(placed, asked) > 0;
+}
+
+void LightFieldParameters::resolve(const ShadedScene& lit) {
+    is_rendered = true;
+    if (hemicube && !field_of_view_given) field_of_view = {std::numbers::pi, std::numbers::pi};
+    is_lit_by_samples = false;
+    for (std::size_t i = 0; i < lit.triangles.size() && !is_lit_by_samples; ++i) is_lit_by_samples = lit.is_lit(i);
 }
 
 LightFieldRequest LightFieldParameters::scene_request() const {

@@ -116,6 +116,13 @@ ScenePose SceneParameters::complete_pose() const {
     return complete;
 }
 
+void SceneParameters::resolve(const Scene& loaded, bool is_from_file) {
+    is_loaded = true;
+    is_file = is_from_file;
+    is_lit = std::ranges::any_of(loaded.meshes, [](const Mesh& mesh) { return mesh.radiance.empty(); });
+    has_points = std::ranges::any_of(loaded.meshes, [](const Mesh& mesh) { return mesh.name == points_name; });
+}
+
 void SceneParameters::declare(Parameters& parameters) {
     parameters.group("Scene", [this] { return is_loaded; });
     parameters.parsed(
