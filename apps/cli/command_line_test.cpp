@@ -93,6 +93,8 @@ std::string drawn_text(const Parameter& parameter, std::mt19937_64& random) {
             return fmt::format("{},{}rad", number(0, 2), number(0, 2));
         case ParameterKind::point:
             return fmt::format("{},{},{}mm", number(-9, 9), number(-9, 9), number(100, 300));
+        case ParameterKind::rotation:
+            return fmt::format("{},{},{}deg", number(-90, 90), number(-90, 90), number(-90, 90));
     }
     return "";
 }

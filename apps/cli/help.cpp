@@ -207,6 +207,8 @@ const char* kind_name(ParameterKind kind) {
             return "angle";
         case ParameterKind::angles:
             return "angles";
+        case ParameterKind::rotation:
+            return "rotation";
         case ParameterKind::point:
             return "point";
     }

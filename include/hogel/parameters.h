@@ -48,7 +48,8 @@ enum class ParameterKind {
     wavelengths,      ///< "633nm,532nm,460nm", up to three, or "rgb" for the three of Defaults
     angle,            ///< "40deg"
     angles,           ///< "40deg" or "40,30deg"
-    point             ///< "0,0,300mm"
+    point,            ///< "0,0,300mm"
+    rotation          ///< "-90,0,0deg": angles about x, then y, then z
 };
 
 /// The variable of a parameter: one that has a default from the start, or one that is empty until it is set.
@@ -182,6 +183,7 @@ class HOGEL_API Parameters {
     Parameter& counts(const std::string& name, ParameterValue<Counts> counts, const std::string& help);
     Parameter& resolution(const std::string& name, ParameterValue<Counts> counts, const std::string& help);
     Parameter& point(const std::string& name, ParameterValue<Vec3> point, const std::string& help);
+    Parameter& rotation(const std::string& name, ParameterValue<Vec3> radians, const std::string& help);
     /// --wavelength, the colours that a hologram is made for. Sets the variable to the three of Defaults.
     Parameter& wavelengths(std::vector<double>& wavelengths);
 
@@ -215,6 +217,7 @@ HOGEL_API std::string lengths_text(const std::vector<double>& metres);
 HOGEL_API std::string angle_text(double radians);
 HOGEL_API std::string angles_text(const Angles& angles);
 HOGEL_API std::string point_text(const Vec3& metres);
+HOGEL_API std::string rotation_text(const Vec3& radians);
 
 /// A finite number without a unit, or nothing if the text is not one.
 HOGEL_API std::optional<double> parse_number(const std::string& text);

@@ -16,6 +16,12 @@ namespace hogel {
 // Parameters that commands share, from which a request is made. Each struct holds their values, with the defaults,
 // declares them in a table, which it must outlive, and makes the request.
 
+/// A light of --light, "X,Y,Z:COLOUR:STRENGTH": the direction that it comes from, its colour (default: white) and its
+/// irradiance. Throws Error(usage).
+HOGEL_API Light parse_light(const std::string& text);
+/// The text of which parse_light() makes this light, to the last bit of its direction; empty if there is none.
+HOGEL_API std::string light_text(const Light& light);
+
 /// The parameters of a scene: how it is turned, placed, coloured and lit.
 struct HOGEL_API SceneParameters {
     ScenePose pose;  ///< without `lights` and `texture`

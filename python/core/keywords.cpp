@@ -34,7 +34,10 @@ std::string element_text(ParameterKind kind, const py::handle& value) {
     if (kind == ParameterKind::counts || kind == ParameterKind::resolution) return whole_text(value);
     const std::optional<double> number = number_of(value);
     if (!number || !std::isfinite(*number)) return py::str(value);
-    return kind == ParameterKind::angle || kind == ParameterKind::angles ? angle_text(*number) : length_text(*number);
+    if (kind == ParameterKind::text) return fmt::format("{}", *number);
+    const bool is_angle =
+        kind == ParameterKind::angle || kind == ParameterKind::angles || kind == ParameterKind::rotation;
+    return is_angle ? angle_text(*number) : length_text(*number);
 }
 
 std::string list_text(ParameterKind kind, const py::handle& values) {
@@ -49,6 +52,8 @@ std::string list_text(ParameterKind kind, const py::handle& values) {
         return angles_text({numbers[0], numbers[1]});
     if (kind == ParameterKind::point && texts.size() == 3 && numbers.size() == 3)
         return point_text({numbers[0], numbers[1], numbers[2]});
+    if (kind == ParameterKind::rotation && texts.size() == 3 && numbers.size() == 3)
+        return rotation_text({numbers[0], numbers[1], numbers[2]});
     const bool counts = kind == ParameterKind::counts || kind == ParameterKind::resolution;
     return fmt::format("{}", fmt::join(texts, counts ? "x" : ","));
 }
@@ -67,12 +72,12 @@ std::string text_of(ParameterKind kind, const py::handle& value) {
             return py::str(value);
         case ParameterKind::texts:
             return py::str(" ").attr("join")(value).cast<std::string>();
-        case ParameterKind::text:
         case ParameterKind::choice:
             return py::str(value);
         default:
             break;
     }
+    if (kind == ParameterKind::text && PySequence_Check(value.ptr()) == 0) return py::str(value);
     return PySequence_Check(value.ptr()) == 0 ? element_text(kind, value) : list_text(kind, value);
 }
 

@@ -34,9 +34,9 @@ struct HologramKeywords {
     }
 };
 
-Metadata light_field_record(const py::dict& keywords, const Scene& placed, const ShadedScene& lit) {
+Metadata light_field_record(const py::dict& keywords, const Scene& placed, bool is_file, const ShadedScene& lit) {
     LightFieldKeywords asked(keywords);
-    asked.values.scene.resolve(placed, false);
+    asked.values.scene.resolve(placed, is_file);
     asked.values.resolve(placed);
     asked.values.resolve(lit);
     return asked.table.acting();
@@ -46,6 +46,13 @@ Metadata light_field_record(const py::dict& keywords, const Scene& placed, const
 
 void add_keywords(py::module_& module) {
     using py::arg;
+    module.def("parse_light", parse_light, arg("text"));
+    module.def("light_text", light_text, arg("light"));
+    module.def("scene_keywords", [] { return described(Keywords<SceneParameters>().table); });
+    module.def(
+        "scene_pose",
+        [](const py::dict& keywords) { return Keywords<SceneParameters>(keywords).values.complete_pose(); },
+        arg("keywords"));
     module.def("light_field_keywords", [] {
         const LightFieldKeywords none{py::dict()};
         return described(none.table, [](const Parameter& each) { return each.group != "Scene" && each.name != "fit"; });
@@ -55,10 +62,23 @@ void add_keywords(py::module_& module) {
         arg("keywords"));
     module.def(
         "light_field_record",
-        [](const py::dict& keywords, const Scene& placed, const std::shared_ptr<ShadedScene>& shaded) {
-            return light_field_record(keywords, placed, *shaded);
+        [](const py::dict& keywords, const Scene& placed, bool is_file, const std::shared_ptr<ShadedScene>& shaded) {
+            return light_field_record(keywords, placed, is_file, *shaded);
         },
-        arg("keywords"), arg("placed"), arg("shaded"));
+        arg("keywords"), arg("placed"), arg("is_file"), arg("shaded"));
+    module.def(
+        "scene_record",
+        [](const py::dict& keywords, const Scene& placed, bool is_file) {
+            LightFieldKeywords asked(keywords);
+            asked.values.scene.resolve(placed, is_file);
+            Metadata record;
+            for (const auto& entry : asked.table.acting())
+                if (asked.table.look_up(entry.first)->group == "Scene" || entry.first == "as-is" ||
+                    entry.first == "front")
+                    record.push_back(entry);
+            return record;
+        },
+        arg("keywords"), arg("placed"), arg("is_file"));
     module.def("hologram_keywords", [] {
         const HologramKeywords none{py::dict()};
         return described(none.table, [](const Parameter&) { return true; });

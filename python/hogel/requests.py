@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from . import _core, _record
+from . import _core
 from ._keywords import takes
 
 
@@ -18,7 +18,3 @@ def request(**options: Any) -> _core.LightFieldRequest:
     """
     return _core.light_field_request(options)
 
-
-def render_record(placed: _core.Scene, shaded: _core.ShadedScene, **options: Any) -> _record.Record:
-    """The options of request() that act, as `hogel render` says them."""
-    return dict(_core.light_field_record(options, placed, shaded))

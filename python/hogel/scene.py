@@ -9,13 +9,12 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from . import _core, _record, units
-from . import pose as pose_of
-from ._keywords import passes_options_to
+from ._keywords import passes_options_to, takes
 from ._progress import Progress, reporting
 from .errors import BadInputError, UsageError, usage_error
 from .hologram import Hologram
 from .light_field import LightField
-from .requests import render_record, request
+from .requests import request
 from .scene_hologram import scene_hologram
 
 #: Renderers of one's own, by name: see add_renderer().
@@ -49,88 +48,41 @@ class Scene:
     """
 
     def __init__(
-        self, name: str, scene: Optional[_core.Scene], pose: _core.ScenePose, made: Optional[_record.Record] = None
+        self, name: str, scene: Optional[_core.Scene], pose: _core.ScenePose, made: Optional[dict[str, Any]] = None
     ) -> None:
+        # `made`: the options of load().
         self.name, self._scene, self._pose, self._made = name, scene, pose, made
 
     @classmethod
-    def load(
-        cls,
-        name: Union[str, os.PathLike[str]],
-        *,
-        up: Union[str, Sequence[float], None] = None,
-        rotate: Union[str, Sequence[units.Angle]] = (0, 0, 0),
-        scale: float = 1,
-        move: Union[str, Sequence[units.Length]] = (0, 0, 0),
-        colour: Optional[pose_of.Colour] = None,
-        texture: Any = None,
-        light: Sequence[Union[str, _core.Light]] = (),
-        background: Optional[pose_of.Colour] = None,
-        ground: Optional[pose_of.Colour] = None,
-        point_size: float = 1,
-        scene_camera: str = "",
-        progress: Progress = None,
-    ) -> "Scene":
+    @takes(_core.scene_keywords())
+    def load(cls, name: Union[str, os.PathLike[str]], *, progress: Progress = None, **options: Any) -> "Scene":
         """A built-in scene of that name (hogel.scenes()), or a mesh file, which is read at once. The rest turns, places,
-        colours and lights it, as the options of these names do; angles are about x, y and z.
+        colours and lights it, as the options of these names do. A colour is a text or three linear numbers, `texture` a file
+        or a Picture, `light` a list of texts and of hogel.light().
 
         >>> import hogel
         >>> hogel.Scene.load("sphere", colour="#804020", background="grey")
         Scene('sphere', built in)
         """
-        pose = _core.ScenePose()
-        if up is not None:
-            pose.up = pose_of.up(up)
-        given = rotate
-        if isinstance(rotate, str):
-            if not rotate.endswith("deg"):
-                raise usage_error("rotate", f"'{rotate}' is not a rotation; write the angles about x, y and z, such as -90,0,0deg")
-            rotate = [part + "deg" for part in rotate[:-3].split(",")]
-        rotations = [units.angle(part, "rotate") for part in rotate]
-        if len(rotations) != 3:
-            raise usage_error("rotate", "three angles were expected, about x, y and z")
-        pose.rotation = (rotations[0], rotations[1], rotations[2])
-        pose.scale = float(scale)
-        pose.shift = units.point(move, "move")
-        if colour is not None:
-            pose.color = pose_of.linear(colour, "colour")
-        if texture is not None:
-            from .picture import Picture
-
-            pose.texture = (texture if isinstance(texture, Picture) else Picture.open(texture))._image
-        pose.lights = [pose_of.light_of(part) if isinstance(part, str) else part for part in light]
-        if background is not None:
-            pose.background = pose_of.linear(background, "background")
-        if ground is not None:
-            pose.ground = pose_of.linear(ground, "ground")
-        pose.camera = scene_camera
+        texture, lights = options.pop("texture", None), options.pop("light", None) or ()
+        texts = [light if isinstance(light, str) else _core.light_text(light) for light in lights]
+        picture = getattr(texture, "_image", None)
+        if picture is None:
+            options["texture"] = texture
+        pose = _core.scene_pose(options)
+        pose.lights = [_core.parse_light(light) if isinstance(light, str) else light for light in lights]
+        if picture is not None:
+            pose.texture = picture
+        # What no text says is not known to the command line.
+        made = {**options, "light": texts} if picture is None and all(texts) else None
         text = os.fspath(name)
-        made = {"scene": text}
-        if up is not None:
-            made["up"] = up if isinstance(up, str) else ",".join(map(_record.number, up))
-        if scene_camera:
-            made["scene-camera"] = scene_camera
-        if any(rotations):
-            made["rotate"] = _record.angle(given) if isinstance(given, str) else pose_of.say_rotation(rotations)
-        if scale != 1:
-            made["scale"] = _record.number(scale)
-        if any(pose.shift):
-            made["move"] = _record.length(move)
-        for option, value in (("colour", colour), ("background", background), ("ground", ground)):
-            if value is not None:
-                made[option] = _record.colour(value)
-        if texture is not None and not hasattr(texture, "_image"):
-            made["texture"] = os.fspath(texture)
-        if light:
-            made["light"] = " ".join(part if isinstance(part, str) else pose_of.say_light(part) for part in light)
-        if point_size != 1:
-            made["point-size"] = _record.number(point_size)
         if text in (known for known, _ in _core.scenes()):
             return cls(text, None, pose, made)
         if _core.input_kind(text) != _core.InputKind.scene:
             raise BadInputError(f"{text}: is not a scene")
+        size = options.get("point_size")
         with reporting(progress, "scene") as report:
-            return cls(text, _core.import_scene(text, float(point_size), report), pose, made)
+            return cls(text, _core.import_scene(text, 1.0 if size is None else float(size), report), pose, made)
 
     @classmethod
     def mesh(
@@ -250,23 +202,16 @@ class Scene:
         made = LightField(_core.render_light_field(shaded, wanted), "rendered when read")
         made._rendering = wanted, _core.triangle_count(placed), _core.shading_model(placed, wanted.shading)
         if self._made is not None:
-            made._made = {**self._acted(placed, options), **render_record(placed, shaded, **options)}
+            of_scene = {**self._made, **options}
+            record = _core.light_field_record(of_scene, placed, self._scene is not None, shaded)
+            made._made = {"scene": self.name, **dict(record)}
             made._identity = _core.describe_input(self.name, placed)
         return made
 
     def _acted(self, placed: _core.Scene, options: dict[str, Any]) -> _record.Record:
         """The options of load() that act on the scene at the hologram."""
-        made = dict(self._made or {})
-        if not placed.is_lit:
-            made.pop("light", None)
-        if not placed.has_points:
-            made.pop("point-size", None)
-        if self._scene is not None:
-            as_is = bool(options.get("as_is", False))
-            made["as-is"] = _record.words(as_is)
-            if not as_is:
-                made["front"] = _record.words(options.get("front"), _core.defaults["front"])
-        return made
+        of_scene = {**(self._made or {}), **options}
+        return {"scene": self.name, **dict(_core.scene_record(of_scene, placed, self._scene is not None))}
 
     @passes_options_to(request)
     def hologram(

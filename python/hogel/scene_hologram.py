@@ -10,7 +10,7 @@ from . import _core, _record, units
 from ._progress import Progress, reporting
 from .errors import usage_error
 from .hologram import Hologram
-from .requests import render_record, request
+from .requests import request
 
 
 def scene_hologram(
@@ -56,7 +56,7 @@ def scene_hologram(
             fields.append(_core.make_scene_hologram(method, shaded, grid, _core.channel_of(wave), seed, apart, number, report))
     made = Hologram(fields)
     if record_of is not None:
-        rendering = render_record(placed, shaded, **options)
+        rendering = dict(_core.light_field_record(options, placed, False, shaded))
         acted = {name: rendering[name] for name in ("hogels", "size", "shading", "shadow-map") if name in rendering}
         acted.update(record_of(placed))
         acted.pop("background", None)  # what no surface sends out is not seen

@@ -267,6 +267,10 @@ Parameter& Parameters::point(const std::string& name, ParameterValue<Vec3> point
     return add<Vec3>(name, ParameterKind::point, "X,Y,Z", help, point, parse_point, point_text);
 }
 
+Parameter& Parameters::rotation(const std::string& name, ParameterValue<Vec3> radians, const std::string& help) {
+    return add<Vec3>(name, ParameterKind::rotation, "X,Y,Zdeg", help, radians, words::parse_rotation, rotation_text);
+}
+
 Parameter& Parameters::wavelengths(std::vector<double>& wavelengths) {
     wavelengths = words::parse_wavelengths("rgb", "");
     Parameter& made =

@@ -15,7 +15,6 @@
 namespace hogel {
 namespace {
 
-constexpr double radians_per_degree = std::numbers::pi / 180;
 // The irradiance of a light of the command line without a strength: that of the light that comes first where there is
 // none (add_default_lights()).
 constexpr double usual_strength = 2.2;
@@ -49,6 +48,12 @@ Vec3 parse_vector(const std::string& numbers, const std::string& text, const std
 }
 
 Rgb parse_color(const std::string& text, const std::string& parameter) {
+    constexpr const char* expected =
+        "a colour; write #rrggbb, linear R,G,B, or black, white, grey, red, green, blue or yellow";
+    if (text.find(',') != std::string::npos) {
+        const Vec3 parts = parse_vector(text, text, parameter, expected);
+        return {static_cast<float>(parts.x), static_cast<float>(parts.y), static_cast<float>(parts.z)};
+    }
     constexpr std::array<std::pair<std::string_view, std::uint32_t>, 7> names{{{"black", 0x000000},
                                                                                {"white", 0xffffff},
                                                                                {"grey", 0x808080},
@@ -64,11 +69,13 @@ Rgb parse_color(const std::string& text, const std::string& parameter) {
                text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos) {
         code = static_cast<std::uint32_t>(std::stoul(text.substr(1), nullptr, 16));
     } else {
-        refuse(parameter, text, "a colour; write #rrggbb, or black, white, grey, red, green, blue or yellow");
+        refuse(parameter, text, expected);
     }
     const auto part = [&](unsigned shift) { return srgb_decode(static_cast<float>(code >> shift & 0xff) / 255); };
     return {part(16), part(8), part(0)};
 }
+
+}  // namespace
 
 Light parse_light(const std::string& text) {
     constexpr const char* expected =
@@ -90,21 +97,26 @@ Light parse_light(const std::string& text) {
     return light;
 }
 
+std::string light_text(const Light& light) {
+    if (light.kind != Light::Kind::directional || !light.casts_shadows || light.outer_cone < std::numbers::pi)
+        return "";
+    const Vec3 from = Vec3{} - light.direction;
+    return fmt::format("{},{},{}:{},{},{}:1", from.x, from.y, from.z, light.intensity.r, light.intensity.g,
+                       light.intensity.b);
+}
+
+namespace {
+
 Vec3 parse_up(const std::string& text) {
+    constexpr const char* expected = "an axis; write x, y, z, -x, -y or -z";
+    if (text.find(',') != std::string::npos) return parse_vector(text, text, "up", expected);
     const bool opposite = text.starts_with('-');
     const std::string axis = opposite ? text.substr(1) : text;
     const double sign = opposite ? -1 : 1;
     if (axis == "x") return {sign, 0, 0};
     if (axis == "y") return {0, sign, 0};
     if (axis == "z") return {0, 0, sign};
-    refuse("up", text, "an axis; write x, y, z, -x, -y or -z");
-}
-
-Vec3 parse_rotation(const std::string& text) {
-    constexpr const char* expected = "a rotation; write the angles about x, y and z, such as -90,0,0deg";
-    if (!text.ends_with("deg")) refuse("rotate", text, expected);
-    const Vec3 angles = parse_vector(text.substr(0, text.size() - 3), text, "rotate", expected);
-    return radians_per_degree * angles;
+    refuse("up", text, expected);
 }
 
 }  // namespace
@@ -127,11 +139,13 @@ void SceneParameters::declare(Parameters& parameters) {
     parameters.group("Scene", [this] { return is_loaded; });
     parameters.parsed(
         "--up", "AXIS",
-        "The axis of the scene that points upwards: y (default; of STL, 3MF and AMF files z), x, or -x, -y, -z",
+        "The direction of the scene that points upwards: y (default; of STL, 3MF and AMF files z), x, -x, -y, -z, or "
+        "X,Y,Z",
         [this](const std::string& text) { pose.up = parse_up(text); });
-    parameters.parsed("--rotate", "X,Y,Zdeg",
-                      "Turn the scene about x (to the right), then y (up), then z (to the viewer)",
-                      [this](const std::string& text) { pose.rotation = parse_rotation(text); });
+    parameters
+        .rotation("--rotate", pose.rotation,
+                  "Turn the scene about x (to the right), then y (up), then z (to the viewer)")
+        .no_default();
     parameters
         .text("--scene-camera", pose.camera, "NAME",
               "Take the view of a camera of the scene's file, by its name or number (default: front)")
@@ -141,7 +155,7 @@ void SceneParameters::declare(Parameters& parameters) {
         .no_default();
     parameters.point("--move", pose.shift, "Move the scene, after that: right, up and towards the viewer").no_default();
     parameters.parsed("--colour", "COLOUR",
-                      "Colour of all surfaces in place of their own: #rrggbb or a name such as red",
+                      "Colour of all surfaces in place of their own: #rrggbb, linear R,G,B, or a name such as red",
                       [this](const std::string& text) { pose.color = parse_color(text, "colour"); });
     parameters.text("--texture", texture, "FILE", "Picture on all surfaces that have texture coordinates").no_default();
     parameters

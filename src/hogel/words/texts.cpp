@@ -142,6 +142,17 @@ Angles parse_angles(const std::string& text, const std::string& what) {
     return {parse_angle(with_unit(text.substr(0, comma), unit_of(down)), what), parse_angle(down, what)};
 }
 
+Vec3 parse_rotation(const std::string& text, const std::string& what) {
+    const std::size_t first = text.find(','), second = text.find(',', first + 1);
+    const std::string z = text.substr(second + 1), unit = unit_of(z);
+    if (first == std::string::npos || second == std::string::npos || z.find(',') != std::string::npos || unit.empty())
+        throw Error(ErrorCode::usage,
+                    fmt::format("{}: '{}' is not a rotation; write the angles about x, y and z, such as -90,0,0deg",
+                                what, text));
+    const auto component = [&](const std::string& part) { return parse_angle(with_unit(part, unit), what); };
+    return {component(text.substr(0, first)), component(text.substr(first + 1, second - first - 1)), component(z)};
+}
+
 std::vector<double> parse_wavelengths(const std::string& text, const std::string& what) {
     if (text == "rgb") return {defaults.red, defaults.green, defaults.blue};
     return parse_lengths(text, what);
@@ -224,6 +235,10 @@ std::string angle_text(double radians) {
 std::string angles_text(const Angles& angles) {
     if (angles.across == angles.down) return angle_text(angles.across);
     return words::list_text({angle_text(angles.across), angle_text(angles.down)});
+}
+
+std::string rotation_text(const Vec3& radians) {
+    return words::list_text({angle_text(radians.x), angle_text(radians.y), angle_text(radians.z)});
 }
 
 std::string point_text(const Vec3& metres) {

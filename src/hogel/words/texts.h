@@ -22,6 +22,7 @@ Counts parse_counts(const std::string& text, const std::string& what);
 /// With rows 0 for a single number.
 Counts parse_resolution(const std::string& text, const std::string& what);
 Angles parse_angles(const std::string& text, const std::string& what);
+Vec3 parse_rotation(const std::string& text, const std::string& what);
 std::vector<double> parse_wavelengths(const std::string& text, const std::string& what);
 bool parse_flag(const std::string& text, const std::string& what);
 std::string parse_choice(const std::string& text, const std::string& what, std::span<const std::string> choices);
