@@ -2,14 +2,13 @@
 #include "view/query.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <initializer_list>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "hogel/error.h"
 #include "hogel/parameters.h"
@@ -17,7 +16,7 @@
 namespace hogel::view {
 namespace {
 
-constexpr std::size_t max_query = 2048, max_words = 64;
+constexpr std::size_t max_query = 2048, max_words = 64, max_text = 100;
 // A picture's cost: a screen of 3840x2160 with 64 points of the pupil takes seconds, and stops when the next is asked.
 constexpr std::size_t max_side = 4096, max_samples = 1024, max_looks = 1024;
 // Words that stand beside those of a view.
@@ -62,25 +61,6 @@ std::size_t whole(const std::string& name, const std::string& text, std::size_t 
     return number;
 }
 
-double positive_length(const std::string& name, const std::string& text) {
-    const double metres = parse_any_length(text, name);
-    if (!(metres > 0)) refuse(name, text, "a positive length");
-    return metres;
-}
-
-std::string choice(const std::string& name, const std::string& text, std::initializer_list<const char*> known) {
-    for (const char* each : known)
-        if (text == each) return text;
-    refuse(name, text.substr(0, 40), fmt::format("{}", fmt::join(known, " or ")));
-}
-
-Counts resolution(const std::string& text) {
-    const std::size_t cross = text.find('x');
-    Counts counts{whole("resolution", text.substr(0, cross), max_side), 0};
-    if (cross != std::string::npos) counts.rows = whole("resolution", text.substr(cross + 1), max_side);
-    return counts;
-}
-
 double exposure(const std::string& text) {
     if (text == "auto") return 0;
     const std::optional<double> number = parse_number(text);
@@ -88,13 +68,12 @@ double exposure(const std::string& text) {
     return *number;
 }
 
-By method(const std::string& text) {
-    constexpr std::pair<const char*, By> known[] = {{"rays", By::rays},         {"waves", By::waves},
-                                                    {"side", By::side},         {"difference", By::difference},
-                                                    {"original", By::original}, {"error", By::error}};
-    for (const auto& [name, by] : known)
-        if (text == name) return by;
-    refuse("by", text.substr(0, 40), "rays or waves or side or difference or original or error");
+constexpr std::pair<const char*, By> methods[] = {{"rays", By::rays},         {"waves", By::waves},
+                                                  {"side", By::side},         {"difference", By::difference},
+                                                  {"original", By::original}, {"error", By::error}};
+
+By method(std::string_view text) {
+    return std::ranges::find(methods, text, [](const auto& row) { return std::string_view(row.first); })->second;
 }
 
 double fraction(const Words& words, const std::string& name) {
@@ -111,44 +90,56 @@ std::string parameter_of(std::string name) {
     return name;
 }
 
-// Takes a word of a view; false for another one.
-bool read_word(View& view, const std::string& name, const std::string& text) {
-    if (name == "eye")
-        view.camera.eye = parse_point(text, name);
-    else if (name == "gaze")
-        view.camera.gaze = parse_point(text, name);
-    else if (name == "focus")
-        view.camera.focus = parse_any_length(text, name);
-    else if (name == "pupil")
-        view.camera.pupil = positive_length(name, text);
-    else if (name == "by")
-        view.by = method(text);
-    else if (name == "looks")
-        view.looks = whole(name, text, max_looks);
-    else if (name == "preview")
-        view.preview = choice(name, text, {"yes", "no"}) == "yes";
-    else if (name == "eyes")
-        view.eyes = positive_length(name, text);
-    else if (name == "resolution")
-        view.camera.resolution = resolution(text);
-    else if (name == "pupil-samples")
-        view.pupil_samples = whole(name, text, max_samples);
-    else if (name == "exposure")
-        view.exposure = exposure(text);
-    else if (name == "display")
-        view.logarithmic = choice(name, text, {"intensity", "log"}) == "log";
-    else if (name == "format")
-        view.format = choice(name, text, {"jpeg", "png", "exr"});
-    else if (name == "quality")
-        view.quality = static_cast<int>(whole(name, text, 100));
-    else if (name == "moving")
-        view.moving = choice(name, text, {"yes", "no"}) == "yes";
-    else if (name == "id")
-        view.id = text.substr(0, 40);
-    else
-        return false;
-    return true;
-}
+// The words of a view, and those values that it has in another form.
+struct ViewWords {
+    View view;
+    std::string by = "rays", exposure = "auto", display = "intensity";
+    std::size_t quality = 90;
+    Parameters table;
+
+    ViewWords() {
+        view.camera.resolution = {512, 0};
+        std::vector<std::string> names;
+        for (const auto& row : methods) names.emplace_back(row.first);
+        table.point("--eye", view.camera.eye, "");
+        table.point("--gaze", view.camera.gaze, "");
+        table.length("--focus", view.camera.focus, "");
+        table.positive_length("--pupil", view.camera.pupil, "");
+        table.resolution("--resolution", view.camera.resolution, "");
+        table.choice("--by", by, names, "", "");
+        table.count("--looks", view.looks, "").range(1, max_looks);
+        table.flag("--preview", view.preview, "");
+        table.positive_length("--eyes", view.eyes, "");
+        table.count("--pupil-samples", view.pupil_samples, "").range(1, max_samples);
+        table.text("--exposure", exposure, "", "");
+        table.choice("--display", display, {"intensity", "log"}, "", "");
+        table.choice("--format", view.format, {"jpeg", "png", "exr"}, "", "");
+        table.count("--quality", quality, "").range(1, 100);
+        table.flag("--moving", view.moving, "");
+        table.text("--id", view.id, "", "");
+    }
+
+    // Takes a word; false for one of something else.
+    bool read(const std::string& name, const std::string& text) {
+        Parameter* const word = table.look_up(name);
+        if (word == nullptr) return false;
+        if (name != "id" && text.size() > max_text)
+            refuse(name, text.substr(0, 40), fmt::format("a text of at most {} characters", max_text));
+        word->read({text}, name);
+        if (std::max(view.camera.resolution.columns, view.camera.resolution.rows) > max_side)
+            refuse(name, text, fmt::format("at most {} pixels on a side", max_side));
+        if (name == "exposure") view.exposure = hogel::view::exposure(text);
+        return true;
+    }
+
+    View complete() {
+        view.by = method(by);
+        view.logarithmic = display == "log";
+        view.quality = static_cast<int>(quality);
+        view.id.resize(std::min<std::size_t>(view.id.size(), 40));
+        return view;
+    }
+};
 
 }  // namespace
 
@@ -172,15 +163,14 @@ Words parse_query(std::string_view query) {
 }
 
 View parse_view(const Words& words) {
-    View view;
-    view.camera.resolution = {512, 0};
+    ViewWords view;
     for (const auto& word : words) {
         const std::string& name = word.first;
-        const bool known = with_parameter(parameter_of(name), [&] { return read_word(view, name, word.second); });
+        const bool known = with_parameter(parameter_of(name), [&] { return view.read(name, word.second); });
         if (!known && !std::ranges::count(of_others, name))
             throw Error(ErrorCode::usage, fmt::format("query: '{}' is unknown", name.substr(0, 40)));
     }
-    return view;
+    return view.complete();
 }
 
 View of_eye(View view, int side) {
