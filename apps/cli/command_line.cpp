@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
-#include <ranges>
 #include <sstream>
 #include <vector>
 
@@ -24,12 +23,9 @@
 namespace hogel::cli {
 namespace {
 
-// What a parameter is called in messages.
-std::string option_name(const Parameter& parameter) { return (parameter.is_positional ? "" : "--") + parameter.name; }
-
 CLI::Option* add_option(CLI::App& app, Parameter& parameter) {
     const std::string names = option_names(parameter);
-    const std::string what = option_name(parameter);
+    const std::string what = parameter.option();
     if (parameter.kind == ParameterKind::flag)
         return app
             .add_flag_function(
@@ -82,8 +78,7 @@ void Command::complete() {
 void Command::require_parameters() const {
     for (const Parameter& each : all())
         if (each.is_required && !each.is_given())
-            throw Error(ErrorCode::usage,
-                        fmt::format("{} is required; see 'hogel {} --help'", option_name(each), name()));
+            throw Error(ErrorCode::usage, fmt::format("{} is required; see 'hogel {} --help'", each.option(), name()));
 }
 
 // Which of the options that a message names are taken from the file of --like.
@@ -95,24 +90,7 @@ std::string Command::origins(const std::string& message) const {
 }
 
 std::string Command::describe(const Error& error) const {
-    std::vector<std::string> options;
-    const auto take = [&](const Parameter* parameter) {
-        const std::string option = option_name(*parameter);
-        if (!std::ranges::count(options, option)) options.push_back(option);
-    };
-    for (std::string name : names_of_parameters(error.parameter())) {
-        std::vector<const Parameter*> setters;
-        for (const Parameter& each : all())
-            if (std::ranges::count(each.other_names, name)) setters.push_back(&each);
-        std::ranges::replace(name, '_', '-');
-        if (const Parameter* own = look_up(name)) setters.insert(setters.begin(), own);
-        if (std::ranges::any_of(setters, &Parameter::is_given))
-            std::ranges::for_each(setters | std::views::filter(&Parameter::is_given), take);
-        else if (!setters.empty())
-            take(setters.front());
-    }
-    const std::string message =
-        options.empty() ? error.what() : fmt::format("{}: {}", fmt::join(options, ", "), error.what());
+    const std::string message = Parameters::describe(error);
     return message + origins(message);
 }
 

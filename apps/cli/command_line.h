@@ -40,8 +40,7 @@ class Command : public Parameters {
     void complete();
     void require_parameters() const;
 
-    /// The message of an error, after the options that set its parameters: "--eye, --pitch: the eye sees ...". Of the
-    /// options that set one parameter it names the given ones, or the first one if none is given.
+    /// As Parameters::describe(), with the options that the file of --like gave.
     std::string describe(const Error& error) const;
 
   private:

@@ -84,12 +84,6 @@ double fraction(const Words& words, const std::string& name) {
     return *number;
 }
 
-// The name in Error::parameter() of a word.
-std::string parameter_of(std::string name) {
-    std::ranges::replace(name, '-', '_');
-    return name;
-}
-
 // The words of a view, and those values that it has in another form.
 struct ViewWords {
     View view;
@@ -123,12 +117,7 @@ struct ViewWords {
     bool read(const std::string& name, const std::string& text) {
         Parameter* const word = table.look_up(name);
         if (word == nullptr) return false;
-        if (name != "id" && text.size() > max_text)
-            refuse(name, text.substr(0, 40), fmt::format("a text of at most {} characters", max_text));
-        word->read({text}, name);
-        if (std::max(view.camera.resolution.columns, view.camera.resolution.rows) > max_side)
-            refuse(name, text, fmt::format("at most {} pixels on a side", max_side));
-        if (name == "exposure") view.exposure = hogel::view::exposure(text);
+        with_parameter(word->keyword(), [&] { set(*word, text); });
         return true;
     }
 
@@ -138,6 +127,17 @@ struct ViewWords {
         view.quality = static_cast<int>(quality);
         view.id.resize(std::min<std::size_t>(view.id.size(), 40));
         return view;
+    }
+
+  private:
+    void set(Parameter& word, const std::string& text) {
+        const std::string& name = word.name;
+        if (name != "id" && text.size() > max_text)
+            refuse(name, text.substr(0, 40), fmt::format("a text of at most {} characters", max_text));
+        word.read({text}, name);
+        if (std::max(view.camera.resolution.columns, view.camera.resolution.rows) > max_side)
+            refuse(name, text, fmt::format("at most {} pixels on a side", max_side));
+        if (name == "exposure") view.exposure = hogel::view::exposure(text);
     }
 };
 
@@ -166,8 +166,7 @@ View parse_view(const Words& words) {
     ViewWords view;
     for (const auto& word : words) {
         const std::string& name = word.first;
-        const bool known = with_parameter(parameter_of(name), [&] { return view.read(name, word.second); });
-        if (!known && !std::ranges::count(of_others, name))
+        if (!view.read(name, word.second) && !std::ranges::count(of_others, name))
             throw Error(ErrorCode::usage, fmt::format("query: '{}' is unknown", name.substr(0, 40)));
     }
     return view.complete();

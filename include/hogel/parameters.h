@@ -92,6 +92,11 @@ class HOGEL_API Parameter {
     /// Other names by which errors call what it sets, see Error::parameter(): "focus" of to-focus.
     std::vector<std::string> other_names;
 
+    /// What messages call it: "--focal-plane", or without dashes if it is positional.
+    std::string option() const { return (is_positional ? "" : "--") + name; }
+    /// What Error::parameter() and Python call it: "focal_plane".
+    std::string keyword() const;
+
     // What a declaration adds.
     Parameter& required();
     Parameter& excludes(const Parameter& other) { return excludes(other.name); }
@@ -194,6 +199,11 @@ class HOGEL_API Parameters {
     Parameter* look_up(std::string_view name);
     /// Whether a parameter, of a name with or without dashes, is given. Throws Error(internal) for an unknown name.
     bool given(std::string_view name) const;
+    /// Throws Error(usage) if a parameter is given together with one that it excludes, or without one that it needs.
+    void require_compatible() const;
+    /// The message of an error, after the options that set its parameters: "--eye, --pitch: the eye sees ...". Of the
+    /// options that set one parameter it names the given ones, or the first one if none is given.
+    std::string describe(const Error& error) const;
     /// Each name and Parameter::value().
     Metadata values() const;
     /// Those of parameters that act and have a value: what is to be stored in the files that the command writes.

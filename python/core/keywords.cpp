@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -91,40 +90,23 @@ void read(Parameter& parameter, const std::string& name, const py::handle& value
     }
 }
 
-std::string keyword_of(const Parameter& parameter) {
-    std::string name = parameter.name;
-    std::ranges::replace(name, '-', '_');
-    return name;
-}
-
 }  // namespace
 
 void read_keywords(Parameters& parameters, const py::dict& keywords) {
     for (Parameter& parameter : parameters.all()) {
-        const std::string name = keyword_of(parameter);
+        const std::string name = parameter.keyword();
         if (!keywords.contains(name)) continue;
         const py::object value = keywords[name.c_str()];
         if (value.is_none() || value.is(py::bool_(false))) continue;
         read(parameter, name, value);
     }
-    for (const Parameter& parameter : parameters.all()) {
-        if (!parameter.is_given()) continue;
-        const auto refuse = [&](const std::string& other, const char* why) {
-            const std::string names =
-                fmt::format("{}, {}", keyword_of(*parameters.look_up(other)), keyword_of(parameter));
-            throw Error(ErrorCode::usage, names, fmt::format("{}: {}", names, why));
-        };
-        for (const std::string& other : parameter.excluded)
-            if (parameters.given(other)) refuse(other, "only one of them can be asked for");
-        for (const std::string& other : parameter.needed)
-            if (!parameters.given(other)) refuse(other, "the second belongs to the first, which is not given");
-    }
+    parameters.require_compatible();
 }
 
 py::list described(const Parameters& table, const std::function<bool(const Parameter&)>& is_wanted) {
     py::list rows;
     for (const Parameter& each : table.all())
-        if (is_wanted(each)) rows.append(py::make_tuple(keyword_of(each), each.shown_default, each.help));
+        if (is_wanted(each)) rows.append(py::make_tuple(each.keyword(), each.shown_default, each.help));
     return rows;
 }
 

@@ -73,7 +73,9 @@ _CLASSES = {
 
 
 def of(status: int, message: str, parameter: str = "") -> Error:
-    """The error of an exit status."""
+    """The error of an exit status, whose message begins with its parameters."""
+    if parameter and not message.startswith(f"{parameter}:"):
+        message = f"{parameter}: {message}"
     error = _CLASSES.get(status, InternalError)(message)
     error.parameter = parameter
     return error

@@ -16,6 +16,12 @@
 
 namespace hogel {
 
+std::string Parameter::keyword() const {
+    std::string keyword = name;
+    std::ranges::replace(keyword, '-', '_');
+    return keyword;
+}
+
 Parameter& Parameter::required() {
     is_required = true;
     shown_default.clear();  // it would never be used
@@ -308,6 +314,40 @@ Metadata Parameters::acting() const {
         if (std::string value = each.acts() ? each.value() : ""; !value.empty())
             values.emplace_back(each.name, std::move(value));
     return values;
+}
+
+void Parameters::require_compatible() const {
+    for (const Parameter& each : all_) {
+        if (!each.is_given()) continue;
+        for (const std::string& other : each.excluded)
+            if (given(other))
+                throw Error(ErrorCode::usage, fmt::format("{}, {}", look_up(other)->keyword(), each.keyword()),
+                            "only one of them can be asked for");
+        for (const std::string& other : each.needed)
+            if (!given(other))
+                throw Error(ErrorCode::usage, each.keyword(),
+                            fmt::format("is without effect unless {} is given", look_up(other)->keyword()));
+    }
+}
+
+std::string Parameters::describe(const Error& error) const {
+    std::vector<std::string> options;
+    const auto take = [&](const Parameter* parameter) {
+        const std::string option = parameter->option();
+        if (!std::ranges::count(options, option)) options.push_back(option);
+    };
+    for (const std::string& name : names_of_parameters(error.parameter())) {
+        std::vector<const Parameter*> setters;
+        for (const Parameter& each : all_) {
+            if (each.keyword() == name) setters.insert(setters.begin(), &each);
+            if (std::ranges::count(each.other_names, name)) setters.push_back(&each);
+        }
+        if (std::ranges::any_of(setters, &Parameter::is_given))
+            std::ranges::for_each(setters | std::views::filter(&Parameter::is_given), take);
+        else if (!setters.empty())
+            take(setters.front());
+    }
+    return options.empty() ? error.what() : fmt::format("{}: {}", fmt::join(options, ", "), error.what());
 }
 
 Metadata Parameters::values() const {
