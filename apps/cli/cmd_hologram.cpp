@@ -9,7 +9,6 @@
 #include "hogel/pipeline.h"
 #include "hogel/scene_hologram.h"
 #include "hogel/units.h"
-#include "hologram_pitch.h"
 #include "inputs.h"
 #include "outputs.h"
 
@@ -97,8 +96,8 @@ int hologram(Options& options, const Session& session) {
     HologramRequest request = options.hologram.request(session.seed, 1);
     const auto check = [&](std::span<const LightFieldGrid> faces) {
         // Other members may be those of the file that is opened.
-        request.pitch = request_for(faces, options.hologram, session, 1).pitch;
-        say_pitch(request, options.hologram, session);
+        request.pitch = options.hologram.request(faces, session.seed, 1).pitch;
+        session.say(options.hologram.note_about_pitch(request));
         check_holograms(faces, request, kind == InputKind::scene);
         state_plan(session, plan_holograms(faces, request, file), "synthesising the hologram", options.output);
     };

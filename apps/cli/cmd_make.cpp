@@ -12,7 +12,6 @@
 #include "hogel/progress.h"
 #include "hogel/team.h"
 #include "hogel/units.h"
-#include "hologram_pitch.h"
 #include "inputs.h"
 #include "like.h"
 #include "outputs.h"
@@ -77,7 +76,7 @@ MakeRequest request_of(const Options& options, const Session& session) {
     MakeRequest request;
     request.light_field = options.render.request();
     request.hologram = options.hologram.request(session.seed, looks.count);
-    request.adapt_pitch = !session.command->given("--pitch");
+    request.adapt_pitch = !options.hologram.pitch_given;
     request.camera = camera_model(options.camera, looks.expected);
     request.rays = {options.pupil_samples};
     request.eye_distance = options.eye_distance;
@@ -199,7 +198,7 @@ void require_files(const Options& options) {
 // What the options ask for of the scene. Says what is chosen otherwise than was asked.
 MakeRequest resolved_request(const Options& options, const Scene& scene, const Session& session) {
     MakeRequest request = resolve(request_of(options, session), bounds(scene));
-    say_pitch(request.hologram, options.hologram, session);
+    session.say(options.hologram.note_about_pitch(request.hologram));
     with_renamed_parameters({{"wavelength", "hogels, size"}}, [&] {
         require_holograms(request.light_field.grids(), request.hologram, cameras_of(request));
     });

@@ -10,7 +10,6 @@
 #include "hogel/parameters.h"
 #include "hogel/pipeline.h"
 #include "hogel/team.h"
-#include "hologram_pitch.h"
 #include "inputs.h"
 #include "movie.h"
 #include "outputs.h"
@@ -131,8 +130,8 @@ std::vector<Image> photographs_of_light_field(Options& options, const Session& s
     }
     light_field = with_common_directions(light_field);
     const HologramRequest request =
-        request_for(light_field.grids(), options.hologram, session, parse_looks(options.looks).count);
-    say_pitch(request, options.hologram, session);
+        options.hologram.request(light_field.grids(), session.seed, parse_looks(options.looks).count);
+    session.say(options.hologram.note_about_pitch(request));
     check_holograms(light_field.grids(), request, kind == InputKind::scene, cameras);
     const CameraModel model = options.camera_model();
     if (!std::holds_alternative<PlaneWaveCamera>(model))

@@ -35,7 +35,7 @@ std::size_t terminal_width() {
 }  // namespace
 
 void Session::say(const std::string& line) const {
-    if (!quiet) write_error_stream(printable(line) + "\n");
+    if (!quiet && !line.empty()) write_error_stream(printable(line) + "\n");
 }
 
 void Session::detail(const std::string& line) const {

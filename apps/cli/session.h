@@ -30,7 +30,7 @@ struct Session {
     std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
     std::stop_source stop;  ///< requests all work to stop
 
-    /// Prints a line on stderr, unless -q; detail() prints one only with -v.
+    /// Prints a line on stderr, unless it is empty or with -q; detail() prints one only with -v.
     void say(const std::string& line) const;
     void detail(const std::string& line) const;
 

@@ -4,14 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "cli/hologram_pitch.h"
-
 namespace hogel::view {
 
 nlohmann::ordered_json facts_of_scene(const Settings& settings, const std::vector<Advice>& advice, bool is_file) {
     const LightFieldParameters& render = settings.options().render;
     const HologramRequest hologram =
-        cli::request_for(render.request().grids(), settings.options().hologram, settings.session(), 1);
+        settings.options().hologram.request(render.request().grids(), settings.session().seed, 1);
     // As they were typed, without what the conversion to radians and back adds.
     const auto degrees = [](double radians) { return std::round(radians * 180 / std::numbers::pi * 1e9) / 1e9; };
     const Vec3 turn = render.scene.pose.rotation, move = render.scene.pose.shift;

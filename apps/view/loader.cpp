@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "cli/fields.h"
-#include "cli/hologram_pitch.h"
 #include "cli/inputs.h"
 #include "hogel/error.h"
 #include "hogel/parameters.h"
@@ -201,7 +200,7 @@ std::vector<Advice> Loader::advice() const {
     const cli::ViewOptions& options = now_->settings.options();
     const LightFieldRequest request = options.render.request();
     std::vector<Advice> all =
-        advise(*now_->box, request, cli::request_for(request.grids(), options.hologram, now_->settings.session(), 1));
+        advise(*now_->box, request, options.hologram.request(request.grids(), now_->settings.session().seed, 1));
     const double most = 0.5 * static_cast<double>(memory()), samples = request.grid.samples();
     if (samples > most)
         all.push_back({"hogels",
@@ -234,8 +233,8 @@ std::unique_ptr<Waves> Loader::waves_of(const LightField& light_field, bool rend
         const cli::ViewOptions& options = settings.options();
         LightField common = with_common_directions(light_field);
         const HologramRequest request =
-            cli::request_for(common.grids(), options.hologram, settings.session(), options.looks);
-        cli::say_pitch(request, options.hologram, settings.session());
+            options.hologram.request(common.grids(), settings.session().seed, options.looks);
+        settings.session().say(options.hologram.note_about_pitch(request));
         cli::check_holograms(common.grids(), request, rendered);
         if (rendered)
             common = hogel::prepare_for_reading(common, request.channels.size(), needs_depth(request.method), making);

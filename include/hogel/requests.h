@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -93,6 +94,7 @@ struct HOGEL_API LightFieldParameters {
 struct HOGEL_API HologramParameters {
     std::vector<double> wavelengths;
     double pitch = defaults.pitch;
+    bool pitch_given = false;  ///< otherwise a request of a light field has one that diffracts its field of view
     std::string method = "fourier";  ///< a row of hologram_methods()
     std::string phase;               ///< empty: the default of the method
     std::string average = "radiance";
@@ -104,6 +106,10 @@ struct HOGEL_API HologramParameters {
 
     HologramMethod hologram_method() const;
     HologramRequest request(std::uint64_t seed, std::size_t looks) const;
+    /// Of a light field of these faces.
+    HologramRequest request(std::span<const LightFieldGrid> faces, std::uint64_t seed, std::size_t looks) const;
+    /// A line about the pitch of that request, where it is neither given nor the default; otherwise empty.
+    std::string note_about_pitch(const HologramRequest& request) const;
 
     void declare(Parameters& parameters);
     /// Those, and the ones of methods that compute the hologram of a scene without a light field.

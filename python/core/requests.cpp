@@ -85,11 +85,18 @@ void add_keywords(py::module_& module) {
     });
     module.def(
         "hologram_request",
-        [](const py::dict& keywords, std::size_t looks) {
+        [](const py::dict& keywords, std::size_t looks, const LightField* light_field) {
             const HologramKeywords asked(keywords);
-            return asked.values.request(asked.seed, looks);
+            return light_field == nullptr ? asked.values.request(asked.seed, looks)
+                                          : asked.values.request(light_field->grids(), asked.seed, looks);
         },
-        arg("keywords"), arg("looks"));
+        arg("keywords"), arg("looks"), arg("light_field") = nullptr);
+    module.def(
+        "note_about_pitch",
+        [](const py::dict& keywords, const HologramRequest& request) {
+            return HologramKeywords(keywords).values.note_about_pitch(request);
+        },
+        arg("keywords"), arg("request"));
     module.def(
         "hologram_record",
         [](const py::dict& keywords, const HologramRequest& request, const LightFieldGrid& front) {

@@ -246,11 +246,10 @@ class LightField(Rays):
         """
         wanted = hologram_request(**options)
         common = self._for_holograms(wanted, options.get("basis") is None)
-        if options.get("pitch") is None:
-            usual, wanted.pitch = wanted.pitch, _core.diffracting_pitch(common, wanted)
-            if wanted.pitch != usual:
-                taken, other = units.say_length(wanted.pitch), units.say_length(usual)
-                warnings.warn(f"pitch: {taken}, which diffracts the field of view; {other}, the default, does not", stacklevel=2)
+        wanted.pitch = _core.hologram_request(options, 1, common).pitch
+        note = _core.note_about_pitch(options, wanted)
+        if note:
+            warnings.warn(note, stacklevel=3)
         _core.require_holograms(common, wanted)
         again = LightField(common, self.where)
         prepared = again._prepared(len(wanted.channels), _core.needs_depth(wanted.method), progress)

@@ -10,6 +10,7 @@
 #include "hogel/requests.h"
 #include "hogel/scene_hologram.h"
 #include "hogel/table.h"
+#include "hogel/units.h"
 
 namespace hogel {
 namespace {
@@ -37,6 +38,7 @@ void declare_hologram(Parameters& parameters, HologramParameters& options, const
         .positive_length("--pitch", options.pitch,
                          "Distance of samples, rounded to divide a hogel; less by default where the field of view "
                          "needs it")
+        .sets(options.pitch_given)
         .acts_if(is_sampled);
     parameters
         .positive_length("--line-pitch", options.lines,
@@ -146,6 +148,19 @@ HologramRequest HologramParameters::request(std::uint64_t seed, std::size_t look
     request.looks = looks;
     request.seed = seed;
     return request;
+}
+
+HologramRequest HologramParameters::request(std::span<const LightFieldGrid> faces, std::uint64_t seed,
+                                            std::size_t looks) const {
+    HologramRequest made = request(seed, looks);
+    if (!pitch_given) made.pitch = diffracting_pitch(faces, made);
+    return made;
+}
+
+std::string HologramParameters::note_about_pitch(const HologramRequest& request) const {
+    if (request.pitch == pitch) return "";
+    return fmt::format("pitch: {}, which diffracts the field of view; {}, the default, does not",
+                       format_length(request.pitch), format_length(pitch));
 }
 
 void HologramParameters::resolve(const HologramRequest& request, const LightFieldGrid& front) {
