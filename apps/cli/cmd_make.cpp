@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <initializer_list>
 #include <optional>
 
-#include "camera_options.h"
 #include "commands.h"
 #include "hogel/make.h"
 #include "hogel/parameters.h"
@@ -22,25 +19,8 @@ namespace {
 
 struct Options {
     std::string scene, output;
-    LightFieldParameters render;
-    HologramParameters hologram;
-    double eye_distance = defaults.eye_distance;
-    double pupil = defaults.pupil;
-    std::size_t resolution = defaults.resolution;
-    std::string looks;  // empty: enough_looks()
-    std::size_t pupil_samples = defaults.pupil_samples;
-    std::string camera = "auto";
+    MakeParameters make;
     bool store_hologram = false, keep_light_field = false, force = false, resume = false;
-
-    /// What is made, which decides which options act. The report lists those of all.
-    enum class Output { light_field, hologram, photographs, expected_photographs, ray_photographs, report };
-    Output made = Output::report;
-    bool is_one_of(std::initializer_list<Output> outputs) const {
-        return made == Output::report || std::ranges::count(outputs, made) > 0;
-    }
-    bool is_photograph() const {
-        return is_one_of({Output::photographs, Output::expected_photographs, Output::ray_photographs});
-    }
 };
 
 // The stages of the work, one after the other. Prints how long each took, and keeps the times for the report.
@@ -70,36 +50,22 @@ class Stages {
     std::optional<Stage> stage_;
 };
 
-// What the options ask for.
-MakeRequest request_of(const Options& options, const Session& session) {
-    const Looks looks = options.looks.empty() ? Looks() : parse_looks(options.looks);
-    MakeRequest request;
-    request.light_field = options.render.request();
-    request.hologram = options.hologram.request(session.seed, looks.count);
-    request.adapt_pitch = !options.hologram.pitch_given;
-    request.camera = camera_model(options.camera, looks.expected);
-    request.rays = {options.pupil_samples};
-    request.eye_distance = options.eye_distance;
-    request.pupil = options.pupil;
-    request.resolution = options.resolution;
-    return request;
-}
-
-// Prints the resources that the work needs, decides whether there are photographs without speckle, and returns the name
-// of the camera that is chosen. Throws if the resources are not available.
-std::string state_plan(MakeRequest& request, const Session& session) {
+// Prints the resources that the work needs, and decides how it is photographed and whether there are photographs
+// without speckle. Throws if the resources are not available.
+void state_plan(MakeRequest& request, Options& options, const Session& session) {
     const std::vector<LightFieldGrid> faces = request.light_field.grids();
     const std::vector<Camera> cameras = cameras_of(request);
-    std::string camera = say_camera(session, faces, request.hologram, cameras, request.camera);
+    WaveCameraParameters& waves = options.make.waves;
+    const std::string reason = waves.resolve(faces, request.hologram, cameras);
+    session.detail(fmt::format("camera: {}, because {}", waves.camera, reason));
     state_plan(session, plan_photographs(faces, request.hologram, cameras, request.camera),
                "photographing the hologram");
-    request.speckle_free = std::holds_alternative<SpeckleFreeCamera>(request.camera) ||
-                           is_speckle_free_cheap(faces, request.hologram, cameras, request.camera);
+    request.speckle_free =
+        waves.is_expected() || is_speckle_free_cheap(faces, request.hologram, cameras, request.camera);
     if (!*request.speckle_free)
         session.detail(fmt::format(
             "without pictures of infinitely many looks, which take about {:.0f} s; --looks expected makes them",
             plan_photographs(faces, request.hologram, cameras, SpeckleFreeCamera()).seconds));
-    return camera;
 }
 
 // The command that renders the light field again.
@@ -135,22 +101,20 @@ struct Records {
 };
 
 // Sets the values of the options that were chosen otherwise than was asked.
-// @param camera  the name of the one that is chosen
-Records records_of(Options& options, const MakeRequest& request, const std::string& camera, const Session& session) {
-    using Output = Options::Output;
+Records records_of(MakeParameters& make, const MakeRequest& request, const Session& session) {
+    using Output = MakeParameters::Output;
     const auto run_of = [&](Output output) {
-        options.made = output;
-        options.render.scene.is_loaded = options.is_one_of({Output::light_field});
+        make.made = output;
+        make.render.scene.is_loaded = make.is_one_of({Output::light_field});
         return run_metadata(session);
     };
     Records records;
     records.light_field = run_of(Output::light_field);
-    options.hologram.resolve(request.hologram, request.light_field.grid);
-    options.camera = camera;
-    options.looks = "expected";
+    make.hologram.resolve(request.hologram, request.light_field.grid);
+    const bool is_expected = make.waves.is_expected();
+    make.waves.looks = "expected";
     records.speckle_free = run_of(Output::expected_photographs);
-    if (!std::holds_alternative<SpeckleFreeCamera>(request.camera))
-        options.looks = fmt::format("{}", request.hologram.looks);
+    if (!is_expected) make.waves.looks = fmt::format("{}", request.hologram.looks);
     records.waves = run_of(Output::photographs);
     records.rays = run_of(Output::ray_photographs);
     records.hologram = run_of(Output::hologram);
@@ -197,8 +161,8 @@ void require_files(const Options& options) {
 
 // What the options ask for of the scene. Says what is chosen otherwise than was asked.
 MakeRequest resolved_request(const Options& options, const Scene& scene, const Session& session) {
-    MakeRequest request = resolve(request_of(options, session), bounds(scene));
-    session.say(options.hologram.note_about_pitch(request.hologram));
+    MakeRequest request = resolve(options.make.request(session.seed), bounds(scene));
+    session.say(options.make.hologram.note_about_pitch(request.hologram));
     with_renamed_parameters({{"wavelength", "hogels, size"}}, [&] {
         require_holograms(request.light_field.grids(), request.hologram, cameras_of(request));
     });
@@ -241,9 +205,9 @@ void write_outputs(const std::filesystem::path& folder, const Made& made, const 
 
 int make(Options& options, const Session& session) {
     require_files(options);
-    const Scene scene = load_scene(session, options.scene, options.render);
+    const Scene scene = load_scene(session, options.scene, options.make.render);
     MakeRequest request = resolved_request(options, scene, session);
-    const std::string camera = state_plan(request, session);
+    state_plan(request, options, session);
 
     const std::filesystem::path done_before = std::filesystem::path(options.output) / "make";
     const bool resumes = options.resume && std::filesystem::exists(done_before.string() + ".part");
@@ -256,9 +220,9 @@ int make(Options& options, const Session& session) {
 
     Stages stages(session, report);
     stages.begin("light field");
-    const LightField rendered = render_light_field(session, scene, options.render);
-    require_memory(session, rendered, options.render, scene);
-    const Records records = records_of(options, request, camera, session);
+    const LightField rendered = render_light_field(session, scene, options.make.render);
+    require_memory(session, rendered, options.make.render, scene);
+    const Records records = records_of(options.make, request, session);
     MakeOptions files =
         files_in(folder.path(), options, records, options.resume ? std::optional(report.scene_input) : std::nullopt);
     files.stage = [&](const std::string& name) { return stages.begin(name); };
@@ -278,16 +242,14 @@ int make(Options& options, const Session& session) {
 }  // namespace
 
 void add_make(Command& command, Session& session) {
-    using Output = Options::Output;
     auto options = std::make_shared<Options>();
-    options->hologram.wavelengths = {defaults.red, defaults.green, defaults.blue};
     command.examples(
         "  hogel make pumpkin -o pumpkin\n"
         "  hogel make bunny.ply -o bunny --hogels 128x128 --size 8mm --looks 4");
     command.basics(
         {"hogels", "directions", "size", "fov", "rotate", "light", "pupil", "eye-distance", "resolution", "looks"});
     command.positional("scene", options->scene, "SCENE", "Mesh file or built-in scene").acts_if([options] {
-        return options->is_one_of({Output::light_field});
+        return options->make.is_one_of({MakeParameters::Output::light_field});
     });
     command.text("-o,--output", options->output, "DIR", "Folder for everything that is made").required().never_acts();
     add_force_flag(command, options->force);
@@ -303,38 +265,9 @@ void add_make(Command& command, Session& session) {
         .flag("--resume", options->resume,
               "Keep what is done when interrupted, in DIR, and go on from there the next time")
         .never_acts();
-    command.group("Hologram");
-    command
-        .positive_length("--pitch", options->hologram.pitch,
-                         "Distance of samples, rounded to divide a hogel; less by default where the field of view "
-                         "needs it")
-        .acts_if([options] {
-            return options->is_one_of({Output::hologram, Output::photographs, Output::expected_photographs});
-        });
-    command.look_up("seed")->acts_if([options] { return options->is_one_of({Output::hologram, Output::photographs}); });
-    command.group("Camera", [options] { return options->is_photograph(); });
-    command.positive_length("--eye-distance", options->eye_distance, "Of the lens from the hologram's plane")
-        .sets_parameter("eye")
-        .sets_parameter("focus");
-    command.positive_length("--pupil", options->pupil, "Diameter of the lens");
-    add_wave_camera_option(command, options->camera, {"auto", "eye", "narrow"}).acts_if([options] {
-        return options->is_one_of({Output::photographs});
-    });
-    command.count("--resolution", options->resolution, "Pixels across a photograph");
-    add_looks_option(command, "--looks", options->looks,
-                     "Photographs averaged against speckle; fewer are enough where a pixel holds much of it")
-        .default_text(fmt::format("up to {}", defaults.looks))
-        .acts_if([options] {
-            return options->is_one_of({Output::photographs, Output::expected_photographs});
-        });
-    command.count("--pupil-samples", options->pupil_samples, "Points of the pupil in a photograph by rays")
-        .acts_if([options] { return options->is_one_of({Output::ray_photographs}); });
-    options->render.declare(command);
+    options->make.declare(command);
     command.add_like_option();
-    command.work([options, &session] {
-        options->camera = camera_name(options->camera);
-        return make(*options, session);
-    });
+    command.work([options, &session] { return make(*options, session); });
 }
 
 }  // namespace hogel::cli

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "cli/camera_options.h"
+#include "hogel/requests.h"
 
 namespace hogel::view {
 
@@ -26,9 +26,9 @@ enum class By {
 constexpr bool needs_waves(By by) { return by == By::waves || by == By::side || by == By::difference; }
 
 /// One picture, in words that are the options of `hogel photo` without their dashes. So a query, the address of the
-/// page and a command line say the same, and cli::make_cameras() makes the same camera of them.
+/// page and a command line say the same, and CameraParameters::cameras() makes the same camera of them.
 struct View {
-    cli::CameraOptions camera;
+    CameraParameters camera;
     std::size_t pupil_samples = 16;
     By by = By::rays;
     std::size_t looks = 0;  ///< of waves, whose mean is shown; 0: all of the subject

@@ -77,7 +77,7 @@ Image side_by_side(const Image& left, const Image& right) {
 }
 
 Camera Subject::camera(const View& view) const {
-    const Camera camera = cli::make_cameras(view.camera, width(), height()).front();
+    const Camera camera = view.camera.cameras(width(), height()).front();
     if (camera.picture.samples() > max_pixels)
         throw Error(ErrorCode::usage, "resolution",
                     fmt::format("resolution: {}x{} pixels; expected at most {} in all", camera.picture.width,

@@ -8,8 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "hogel/camera.h"
 #include "hogel/export.h"
+#include "hogel/make.h"
 #include "hogel/parameters.h"
+#include "hogel/photograph.h"
 #include "hogel/pipeline.h"
 
 namespace hogel {
@@ -92,7 +95,7 @@ struct HOGEL_API LightFieldParameters {
 };
 /// The parameters of a hologram of a light field.
 struct HOGEL_API HologramParameters {
-    std::vector<double> wavelengths;
+    std::vector<double> wavelengths{defaults.red, defaults.green, defaults.blue};
     double pitch = defaults.pitch;
     bool pitch_given = false;  ///< otherwise a request of a light field has one that diffracts its field of view
     std::string method = "fourier";  ///< a row of hologram_methods()
@@ -112,6 +115,8 @@ struct HOGEL_API HologramParameters {
     std::string note_about_pitch(const HologramRequest& request) const;
 
     void declare(Parameters& parameters);
+    /// --pitch alone.
+    Parameter& declare_pitch(Parameters& parameters);
     /// Those, and the ones of methods that compute the hologram of a scene without a light field.
     void declare_with_scene_methods(Parameters& parameters);
 
@@ -125,4 +130,108 @@ struct HOGEL_API HologramParameters {
     /// Sets the values with which a hologram of a light field with this front is made.
     void resolve(const HologramRequest& request, const LightFieldGrid& front);
 };
+
+/// The parameters of a camera, and of its way from the first picture of a film to the last.
+struct HOGEL_API CameraParameters {
+    Vec3 eye{0, 0, defaults.eye_distance}, gaze;
+    double focus = 0;
+    Angles focus_tilt;
+    double pupil = defaults.pupil;
+    std::optional<double> f_number;  ///< in place of the pupil, with the focal length
+    double focal_length = defaults.focal_length;
+    double angle_of_view = 0;                   ///< horizontal; 0: the angle that frames the hologram
+    Counts resolution{defaults.resolution, 0};  ///< rows 0: as many as the hologram's shape takes
+    std::optional<Vec3> last_eye;
+    std::optional<double> last_focus;
+    std::size_t frames = 1;
+    double frame_rate = defaults.frame_rate;
+    bool is_film = false;  ///< whether the frame rate acts
+
+    /// The camera of each picture of a hologram of this size, metres. Throws Error(usage).
+    std::vector<Camera> cameras(double width, double height) const;
+    /// Those of one camera.
+    void declare(Parameters& parameters);
+    /// --to-eye, --to-focus, --frames and --frame-rate.
+    void declare_motion(Parameters& parameters);
+};
+
+/// What a photograph is computed from.
+enum class PhotographSource {
+    rays,     ///< of a light field
+    hogels,   ///< of a hologram that is computed when it is read
+    samples,  ///< of a hologram in a file or in memory
+};
+
+/// The parameters of the camera that photographs waves.
+struct HOGEL_API WaveCameraParameters {
+    /// auto, eye, narrow or full; in the words of the library hogel-spectra, samples or plane-waves.
+    std::string camera = "auto";
+    std::string looks = {};  ///< a number, or expected: the mean of infinitely many; empty: enough_looks()
+    bool preview = false;
+    double film_distance = 0;  ///< of a thin lens, metres; 0: a perfect lens
+    std::string diffuser = "none";
+
+    bool is_expected() const { return looks == "expected"; }
+    /// HologramRequest::looks: 0 if empty, 1 for expected. Throws Error(usage).
+    std::size_t number_of_looks() const;
+    CameraModel model() const;
+
+    // What decides which parameters act.
+    PhotographSource source = PhotographSource::hogels;
+    bool has_looks = true;  ///< whether they differ
+
+    /// Notes what is photographed. Throws Error(usage) for parameters that exclude each other or that it excludes.
+    void resolve(PhotographSource photographed);
+    /// Sets the camera to the one that is chosen for holograms of a light field with these faces, and returns the
+    /// reason. Throws Error(usage) where the one that is asked for cannot photograph them.
+    std::string resolve(std::span<const LightFieldGrid> faces, const HologramRequest& request,
+                        std::span<const Camera> cameras);
+
+    /// --camera, with or without the one of plane waves.
+    Parameter& declare_camera(Parameters& parameters, bool with_plane_waves);
+    /// --looks, with other names and help before that of `expected`.
+    Parameter& declare_looks(Parameters& parameters, const std::string& names, const std::string& help);
+    /// --camera, --preview, --film-distance and --diffuser.
+    void declare(Parameters& parameters);
+
+  private:
+    std::string name() const;
+};
+
+/// The parameters of a photograph by rays or by waves.
+struct HOGEL_API PhotoParameters {
+    CameraParameters view;
+    WaveCameraParameters waves{.looks = std::to_string(defaults.looks)};
+    std::size_t pupil_samples = defaults.pupil_samples;  ///< of a photograph by rays
+    std::string exposure = "auto";
+    std::string display = "intensity";
+    bool geometric = false, wave = false;  ///< neither: by rays of a light field, by waves of a scene
+
+    bool is_linear = false;  ///< whether the picture is stored without an exposure
+
+    /// Notes what is photographed. Throws Error(usage) for parameters that exclude each other or that it excludes.
+    void resolve(PhotographSource photographed);
+    void declare(Parameters& parameters);
+};
+
+/// The parameters of make().
+struct HOGEL_API MakeParameters {
+    LightFieldParameters render;
+    HologramParameters hologram;
+    double eye_distance = defaults.eye_distance;
+    double pupil = defaults.pupil;
+    WaveCameraParameters waves;
+    std::size_t resolution = defaults.resolution;
+    std::size_t pupil_samples = defaults.pupil_samples;
+
+    /// What is made, which decides which parameters act. The report lists those of all.
+    enum class Output { light_field, hologram, photographs, expected_photographs, ray_photographs, report };
+    Output made = Output::report;
+    bool is_one_of(const std::vector<Output>& outputs) const;
+
+    MakeRequest request(std::uint64_t seed) const;
+    /// @param with_plane_waves  whether --camera may be the one of plane waves
+    void declare(Parameters& parameters, bool with_plane_waves = false);
+};
+
 }  // namespace hogel

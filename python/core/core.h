@@ -24,6 +24,7 @@ void add_errors(py::module_& module);
 void add_units(py::module_& module);
 void add_grids(py::module_& module);
 void add_keywords(py::module_& module);
+void add_photo_keywords(py::module_& module);
 void add_scenes(py::module_& module);
 void add_surfaces(py::module_& module);
 void add_shading(py::module_& module);

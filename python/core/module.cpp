@@ -25,4 +25,5 @@ PYBIND11_MODULE(_core, module) {
     add_file_parts(module);
     add_make(module);
     add_keywords(module);
+    add_photo_keywords(module);
 }

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _core, units
 from ._indices import arranged, axes_of
-from ._keywords import passes_options_to
+from ._keywords import passes_options_to, takes
 from ._progress import Progress, reporting
 from ._samples import Samples, array_of, choice
 from .errors import usage_error
@@ -320,8 +320,8 @@ class Field(Samples):
         with reporting(progress, "cutting the order out") as report:
             return Field(_core.select_order(self._source, how, report)[0], "in memory")
 
-    @passes_options_to(photograph_fields)
-    def photograph(self, **options: Any) -> Any:
+    @takes(_core.wave_photograph_keywords())
+    def photograph(self, *, cameras: Optional[Sequence[_core.Camera]] = None, progress: Progress = None, **options: Any) -> Any:
         """The photograph of the field as a hologram of one wavelength: Hologram.photograph().
 
         >>> import hogel, numpy as np
@@ -329,7 +329,7 @@ class Field(Samples):
         >>> wave.photograph(pupil="10mm", resolution=16)
         Picture(16x16 pixels, 1 channel)
         """
-        return photograph_fields([self._source], None, None, **options)
+        return photograph_fields([self._source], None, None, cameras, progress, options)
 
     @passes_options_to(pattern_of)
     def slm(self, **options: Any) -> Pattern:

@@ -9,7 +9,7 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from . import _core, _record, units
-from ._keywords import passes_options_to
+from ._keywords import passes_options_to, takes
 from ._progress import Progress, reporting
 from ._samples import Path
 from .elsewhere import description, external_fields, external_record, reconstructed
@@ -238,24 +238,18 @@ class Hologram:
                 made._made["output-pitch"] = _record.length(plane.pitch_x)
         return made
 
-    @passes_options_to(photograph_fields)
-    def photograph(self, **options: Any) -> Any:
+    @takes(_core.wave_photograph_keywords())
+    def photograph(self, *, cameras: Optional[Sequence[_core.Camera]] = None, progress: Progress = None, **options: Any) -> Any:
         """A picture by waves, through the camera that the options describe (hogel.camera()): eye, gaze, focus, pupil,
-        resolution and so on. With `cameras` a list of pictures, one for each.
-
-        camera        how waves are photographed: auto, eye, narrow or full; or, in the words of the library,
-                      hogel-spectra, samples or plane-waves
-        expected      the mean of infinitely many looks, of a hologram that is computed when it is read
-        diffuser      "vertical": a diffuser before a hologram with horizontal parallax only
-        preview       without waves that pass far from the lens: a quick look at a hologram that is computed when it is read
-
+        resolution and so on. With `cameras` a list of pictures, one for each. Waves are photographed by the `camera` auto, eye,
+        narrow or full, in the words of the library hogel-spectra, samples or plane-waves.
 
         >>> import hogel, os, tempfile
         >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
         >>> lf.hologram().photograph(eye="10,0,300mm", pupil="20mm", resolution=24)
         Picture(24x24 pixels, 3 channels)
         """
-        return photograph_fields(self._sources, self._known, self._made, **options)
+        return photograph_fields(self._sources, self._known, self._made, cameras, progress, options)
 
     @passes_options_to(pattern_of)
     def slm(self, **options: Any) -> Pattern:

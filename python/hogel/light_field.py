@@ -10,12 +10,11 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from . import _core, _record, units
-from ._keywords import passes_options_to
+from ._keywords import passes_options_to, takes
 from ._progress import Progress, reporting
 from ._rays import Rays
 from ._samples import Path, array_of
 from ._saving import save_light_field
-from .camera import camera, camera_record
 from .compression import compress
 from .errors import UsageError, usage_error
 from .exports import export_views, write_printer_images
@@ -269,11 +268,8 @@ class LightField(Rays):
             return _core.open_for_holograms(self.where, wanted, any_transform)
         return _core.with_common_directions(self._light_field)
 
-    @passes_options_to(camera)
-    def photograph(
-        self, *, cameras: Optional[Sequence[_core.Camera]] = None, pupil_samples: Optional[int] = None,
-        progress: Progress = None, **options: Any
-    ) -> Any:
+    @takes(_core.ray_photograph_keywords())
+    def photograph(self, *, cameras: Optional[Sequence[_core.Camera]] = None, progress: Progress = None, **options: Any) -> Any:
         """A picture by rays, through the camera that the options describe (hogel.camera()): eye, gaze, focus, pupil,
         resolution and so on. With `cameras` a list of pictures, one for each.
 
@@ -282,14 +278,16 @@ class LightField(Rays):
         >>> lf.photograph(eye="10,0,300mm", focus="1mm", resolution=24)
         Picture(24x24 pixels, 3 channels)
         """
-        points = _core.defaults["pupil_samples"] if pupil_samples is None else int(pupil_samples)
-        views = [camera(self.grid.width, self.grid.height, **options)] if cameras is None else list(cameras)
+        points = _core.pupil_samples(options)
+        views = [_core.camera(options, self.grid.width, self.grid.height)] if cameras is None else list(cameras)
         with reporting(progress, "photograph") as report:
             pictures = [Picture(image) for image in _core.photograph_rays(self._light_field, views, points, report)]
-        if self._made is not None and cameras is None:
-            acted = {"geometric": "yes", "pupil-samples": str(points), "display": "intensity", **camera_record(**options)}
+        if cameras is not None:
+            return pictures
+        if self._made is not None:
+            acted = dict(_core.ray_photograph_record(options))
             pictures[0]._made = ("photo", {**_record.renamed(self._made, "scene", "input"), **acted})
-        return pictures[0] if cameras is None else pictures
+        return pictures[0]
 
     @passes_options_to(export_views)
     def export(self, target: Path, **options: Any) -> _core.ExportedViews:

@@ -7,16 +7,12 @@ import warnings
 from dataclasses import dataclass
 from typing import Any, Optional, Sequence, Union
 
-from . import _core, _record, units
-from ._keywords import passes_options_to
+from . import _core, _record
+from ._keywords import takes
 from ._progress import Progress, reporting
-from .errors import usage_error
 from .hologram import Hologram
 from .light_field import LightField
-from .method import hologram_request
-from .photographs import wave_camera
 from .picture import Picture
-from .requests import request
 from .scene import Scene
 
 
@@ -97,30 +93,11 @@ def _compared(made: Optional[_core.ComparedImage]) -> tuple[Optional[Picture], O
     return (None, None) if made is None else (Picture(made.image), made.comparison)
 
 
-@passes_options_to(request)
-def make(
-    scene: Union[str, "os.PathLike[str]", Scene],
-    *,
-    wavelength: Union[units.Length, Sequence[units.Length], None] = None,
-    pitch: Optional[units.Length] = None,
-    eye_distance: Optional[units.Length] = None,
-    pupil: Optional[units.Length] = None,
-    resolution: Optional[int] = None,
-    looks: Union[int, str, None] = None,
-    pupil_samples: Optional[int] = None,
-    camera: str = "auto",
-    seed: int = 1,
-    progress: Progress = None,
-    **options: Any,
-) -> Made:
+@takes(_core.make_keywords())
+def make(scene: Union[str, "os.PathLike[str]", Scene], *, progress: Progress = None, **options: Any) -> Made:
     """Renders a scene, makes its hologram, and photographs it by waves and by rays from three eyes with two focuses, all in
     memory: the pictures of `hogel make`. `scene`: a name, a file, or a Scene; the options are those of `hogel make`, among
     them those of Scene.render().
-
-    eye_distance, pupil, resolution  of the camera: metres, metres, pixels across
-    looks          photographs averaged against speckle, enough without; "expected": the mean of infinitely many alone
-    pupil_samples  points of the pupil in photographs by rays
-    camera         how waves are photographed: see Hologram.photograph()
 
     >>> import hogel
     >>> made = hogel.make("pumpkin", hogels=8, directions=8, size="0.4mm", resolution=16, looks=2)
@@ -129,26 +106,10 @@ def make(
     >>> made.photographs[0].speckle_free_comparison["psnr"] > made.photographs[0].waves_comparison["psnr"]
     True
     """
-    defaults = _core.defaults
-    wanted = _core.MakeRequest()
-    wanted.light_field = request(**options)
-    expected = looks == "expected"
-    if isinstance(looks, str) and not expected:
-        raise usage_error("looks", f"a number of pictures or expected was expected, not '{looks}'")
-    count = 0 if looks is None else 1 if expected else int(looks)
-    if looks is not None and count < 1:
-        raise usage_error("looks", "a positive number was expected")
-    wanted.hologram = hologram_request(wavelength=wavelength, pitch=pitch, looks=count, seed=seed)
-    wanted.adapt_pitch = pitch is None
-    wanted.camera = wave_camera(camera, expected)
-    wanted.eye_distance = units.optional_length(eye_distance, defaults["eye_distance"], "eye_distance")
-    wanted.pupil = units.optional_length(pupil, defaults["pupil"], "pupil")
-    wanted.resolution = defaults["resolution"] if resolution is None else int(resolution)
-    wanted.pupil_samples = defaults["pupil_samples"] if pupil_samples is None else int(pupil_samples)
+    wanted = _core.make_request(options)
     placed = (scene if isinstance(scene, Scene) else Scene.load(scene)).placed(wanted.light_field, progress)
     with reporting(progress, "make") as report:
         made = _core.make(placed, wanted, report)
-    if made.request.hologram.pitch != wanted.hologram.pitch:
-        taken, usual = units.say_length(made.request.hologram.pitch), units.say_length(wanted.hologram.pitch)
-        warnings.warn(f"pitch: {taken}, which diffracts the field of view; {usual}, the default, does not", stacklevel=3)
+    if note := _core.note_about_pitch(options, made.request.hologram):
+        warnings.warn(note, stacklevel=3)
     return Made(made)

@@ -34,12 +34,7 @@ void declare_hologram(Parameters& parameters, HologramParameters& options, const
                !std::holds_alternative<OwnMethod>(*options.made_by);
     };
     parameters.wavelengths(options.wavelengths).acts_if(is_sampled);
-    parameters
-        .positive_length("--pitch", options.pitch,
-                         "Distance of samples, rounded to divide a hogel; less by default where the field of view "
-                         "needs it")
-        .sets(options.pitch_given)
-        .acts_if(is_sampled);
+    options.declare_pitch(parameters).acts_if(is_sampled);
     parameters
         .positive_length("--line-pitch", options.lines,
                          "Distance of the lines of --method lines or basis-lines (default: as far apart as samples)")
@@ -174,6 +169,14 @@ void HologramParameters::resolve(const HologramRequest& request, const LightFiel
     if (phase.empty()) phase = std::holds_alternative<Basis>(request.method) ? "fixed" : "random";
     const auto* windows = std::get_if<OverlapAdd>(&request.method);
     is_seeded = windows == nullptr || windows->phases == PointPhases::random;
+}
+
+Parameter& HologramParameters::declare_pitch(Parameters& parameters) {
+    return parameters
+        .positive_length("--pitch", pitch,
+                         "Distance of samples, rounded to divide a hogel; less by default where the field of view "
+                         "needs it")
+        .sets(pitch_given);
 }
 
 void HologramParameters::declare(Parameters& parameters) {

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cameras, photographs and the whole recipe from keywords, by the parameters that the command line has.
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "hogel/field.h"
+#include "hogel/requests.h"
+#include "keywords.h"
+
+namespace hogel::python {
+namespace {
+
+using py::arg;
+/// The light field and the request of holograms that are computed when they are read.
+using Origin = std::optional<std::pair<LightField, HologramRequest>>;
+
+// The parameters of photographs, with the values of keywords.
+struct PhotoKeywords {
+    bool expected = false;  // --looks expected
+    PhotoParameters values;
+    Parameters table;
+
+    explicit PhotoKeywords(const py::dict& keywords = {}) {
+        values.is_linear = true;  // what saves the picture says its exposure
+        values.declare(table);
+        table
+            .flag("--expected", expected, "The mean of infinitely many looks, of a hologram that is computed when read")
+            .never_acts();
+        read_keywords(table, keywords);
+        if (expected) values.waves.looks = "expected";
+    }
+    void resolve(PhotographSource source) {
+        with_renamed_parameters({{"looks", "expected"}}, [&] { values.resolve(source); });
+    }
+};
+
+struct MakeKeywords {
+    std::uint64_t seed = 1;
+    MakeParameters values;
+    Parameters table;
+
+    explicit MakeKeywords(const py::dict& keywords = {}) {
+        table.whole("--seed", seed, std::numeric_limits<std::uint64_t>::max(), "Seed of the random phases");
+        table.wavelengths(values.hologram.wavelengths);
+        values.declare(table, true);
+        values.render.declare_hemicube(table);
+        values.render.declare_directions(table);
+        read_keywords(table, keywords);
+    }
+};
+
+// The parameters of one camera, and others of photographs.
+py::list described_photo(const std::vector<std::string>& others) {
+    const PhotoKeywords photo;
+    const Keywords<CameraParameters> camera;
+    return described(photo.table, [&](const Parameter& each) {
+        return camera.table.look_up(each.name) != nullptr || std::ranges::count(others, each.name) > 0;
+    });
+}
+
+CameraModel wave_camera(const py::dict& keywords, const Fields& fields) {
+    PhotoKeywords asked(keywords);
+    const bool on_demand =
+        std::ranges::any_of(fields, [](const auto& field) { return field->stereogram() != nullptr; });
+    asked.resolve(on_demand ? PhotographSource::hogels : PhotographSource::samples);
+    return asked.values.waves.model();
+}
+
+Metadata wave_photograph_record(const py::dict& keywords, const Origin& origin, const std::vector<Camera>& cameras) {
+    PhotoKeywords asked(keywords);
+    WaveCameraParameters& waves = asked.values.waves;
+    asked.resolve(origin ? PhotographSource::hogels : PhotographSource::samples);
+    if (!origin) {
+        if (waves.camera == "auto") waves.camera = "narrow";
+        return asked.table.acting();
+    }
+    const auto& [light_field, request] = *origin;
+    waves.resolve(light_field.grids(), request, cameras);
+    HologramParameters hologram;
+    hologram.resolve(request, light_field.grid());
+    waves.has_looks = hologram.is_seeded;
+    if (!waves.is_expected()) waves.looks = std::to_string(request.looks);
+    return asked.table.acting();
+}
+
+void add_cameras(py::module_& module) {
+    module.def("camera_keywords", [] { return described(Keywords<CameraParameters>().table); });
+    module.def(
+        "camera",
+        [](const py::dict& keywords, double width, double height) {
+            return Keywords<CameraParameters>(keywords).values.cameras(width, height).front();
+        },
+        arg("keywords"), arg("width"), arg("height"));
+}
+
+void add_ray_photographs(py::module_& module) {
+    module.def("ray_photograph_keywords", [] { return described_photo({"pupil-samples"}); });
+    module.def(
+        "pupil_samples", [](const py::dict& keywords) { return PhotoKeywords(keywords).values.pupil_samples; },
+        arg("keywords"));
+    module.def(
+        "ray_photograph_record",
+        [](const py::dict& keywords) {
+            PhotoKeywords asked(keywords);
+            asked.resolve(PhotographSource::rays);
+            return asked.table.acting();
+        },
+        arg("keywords"));
+}
+
+}  // namespace
+
+void add_photo_keywords(py::module_& module) {
+    add_cameras(module);
+    add_ray_photographs(module);
+    module.def("wave_photograph_keywords", [] {
+        return described_photo({"camera", "expected", "preview", "film-distance", "diffuser"});
+    });
+    module.def("wave_camera", &wave_camera, arg("keywords"), arg("fields"));
+    module.def("wave_photograph_record", &wave_photograph_record, arg("keywords"), arg("origin"), arg("cameras"));
+    module.def("make_keywords", [] {
+        return described(MakeKeywords().table,
+                         [](const Parameter& each) { return each.group != "Scene" && each.name != "fit"; });
+    });
+    module.def(
+        "make_request",
+        [](const py::dict& keywords) {
+            const MakeKeywords asked(keywords);
+            return asked.values.request(asked.seed);
+        },
+        arg("keywords"));
+}
+
+}  // namespace hogel::python
