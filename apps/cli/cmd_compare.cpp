@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "commands.h"
-#include "fields.h"
 #include "hogel/pipeline.h"
+#include "hogel/requests.h"
 
 namespace hogel::cli {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 struct Options {
     std::string a, b;
     std::optional<double> min_psnr, min_sqnr, exposure;
-    FieldOptions field;
+    FieldParameters field;
 };
 
 SampleComparison compare_samples(const Options& options, FileKind kind, const Session& session) {
@@ -22,9 +22,11 @@ SampleComparison compare_samples(const Options& options, FileKind kind, const Se
     if (kind == FileKind::light_field)
         return compare(open_light_field_or_views(options.a), open_light_field_or_views(options.b), stage.progress());
     const auto open = [&](const std::string& name) {
-        if (!is_external(name, options.field)) return open_hologram(name);
-        FieldOptions field = options.field;
-        return open_fields(session, name, field, field.pitch, field.wavelengths);
+        if (!options.field.is_external(name)) return open_hologram(name);
+        FieldParameters field = options.field;
+        OpenedFields opened = field.open(name, *session.command);
+        for (const std::string& note : opened.notes) session.say(note);
+        return std::move(opened.fields);
     };
     const Fields a = open(options.a), b = open(options.b);
     return compare(a, b, stage.progress());
@@ -40,8 +42,8 @@ bool misses(const Session& session, const char* name, std::optional<double> boun
 }
 
 // Sets of views are light fields.
-FileKind kind_of(const std::string& path, const FieldOptions& options) {
-    if (is_external(path, options)) return FileKind::hologram;
+FileKind kind_of(const std::string& path, const FieldParameters& field) {
+    if (field.is_external(path)) return FileKind::hologram;
     return is_view_set(path) ? FileKind::light_field : file_kind(path);
 }
 
@@ -49,7 +51,7 @@ FileKind kind_of(const std::string& path, const FieldOptions& options) {
 FileKind common_kind(const Options& options) {
     const FileKind a = kind_of(options.a, options.field), b = kind_of(options.b, options.field);
     const auto is_picture = [&](const std::string& path, FileKind kind) {
-        return kind == FileKind::picture || (kind == FileKind::hologram && is_pattern(path, options.field));
+        return kind == FileKind::picture || (kind == FileKind::hologram && options.field.is_pattern(path));
     };
     if (is_picture(options.a, a) && is_picture(options.b, b)) return FileKind::picture;
     if (a != b)
@@ -102,7 +104,7 @@ void add_compare(Command& command, Session& session) {
     command.number(
         "--exposure", options->exposure, "NUMBER",
         "What linear values of pictures are multiplied by (default: 1, or less where A is brighter than white)");
-    add_field_options(command, options->field, true, true);
+    options->field.declare(command, true, true);
     command.work([options, &session] { return compare_files(*options, session); });
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "commands.h"
-#include "fields.h"
 #include "focus_plot.h"
 #include "hogel/focus.h"
 #include "hogel/pipeline.h"
@@ -17,7 +16,7 @@ namespace {
 
 struct Options {
     std::string input, plot;
-    FieldOptions field;
+    FieldParameters field;
     double from = 0, to = 0;
     std::size_t planes = 0, colour = 0;
     Counts region{0, 0};
@@ -106,13 +105,7 @@ int focus(Options& options, const Session& session) {
         require_plot_name(options.plot);
         require_writable(options.plot, {&options.input, 1});
     }
-    if (!is_external(options.input, options.field)) {
-        require_described(options.input, options.field);
-        if (input_kind(options.input) != InputKind::hologram)
-            throw Error(ErrorCode::bad_input, fmt::format("{}: is not a hologram", options.input));
-    }
-    const Fields fields =
-        open_and_reconstruct(session, options.input, options.field, options.field.pitch, options.field.wavelengths);
+    const Fields fields = open_and_reconstruct(session, options.input, options.field);
     Fields chosen = fields;
     if (session.command->given("--colour")) {
         if (options.colour > fields.size())
@@ -153,8 +146,8 @@ void add_focus(Command& command, Session& session) {
     command.counts("--region", options->region, "Samples of the middle that are looked at")
         .default_text("1024x1024, or all");
     command.count("--colour", options->colour, "Which of several fields, from 1").default_text("all together");
-    add_field_options(command, options->field, true);
-    add_reconstruction_options(command, options->field);
+    options->field.declare(command);
+    options->field.declare_reconstruction(command);
     command.work([options, &session] { return focus(*options, session); });
 }
 

@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "commands.h"
-#include "fields.h"
 #include "hogel/files.h"
 #include "hogel/image.h"
 #include "hogel/printable.h"
+#include "hogel/requests.h"
 #include "hogel/scene.h"
 #include "like.h"
 #include "outputs.h"
@@ -56,8 +56,8 @@ FileSummary summarize_mesh(const std::string& path, const Progress& progress) {
 }
 
 // What a field of another program says, and what the options say of it.
-FileSummary summarize_field(const std::string& path, const FieldOptions& options, const Command& command) {
-    const ExternalFacts facts = external_facts(path, external_field(options));
+FileSummary summarize_field(const std::string& path, const FieldParameters& field, const Command& command) {
+    const ExternalFacts facts = external_facts(path, field.external_field());
     FileSummary summary;
     summary.kind = FileKind::hologram;
     summary.text = {{"kind", "field of another program"}, {"file_format", facts.format}, {"numbers", facts.numbers}};
@@ -65,19 +65,19 @@ FileSummary summarize_field(const std::string& path, const FieldOptions& options
     const auto add = [&](const std::string& name, double value) { summary.numbers.emplace_back(name, value); };
     add("bytes", static_cast<double>(std::filesystem::file_size(path)));
     add("fields", static_cast<double>(facts.colours));
-    const std::vector<double>& waves = command.given("--wavelength") ? options.wavelengths : facts.wavelengths;
-    const double pitch_x = command.given("--pitch") ? options.pitch : facts.pitch_x,
-                 pitch_y = command.given("--pitch") ? options.pitch : facts.pitch_y;
+    const std::vector<double>& waves = command.given("--wavelength") ? field.wavelengths : facts.wavelengths;
+    const double pitch_x = command.given("--pitch") ? field.pitch : facts.pitch_x,
+                 pitch_y = command.given("--pitch") ? field.pitch : facts.pitch_y;
     for (std::size_t i = 0; i < facts.colours; ++i) {
-        const std::string field = fmt::format("field{}_", i);
-        if (i < waves.size()) add(field + "wavelength_m", waves[i]);
-        add(field + "samples_x", static_cast<double>(facts.width));
-        add(field + "samples_y", static_cast<double>(facts.height));
+        const std::string prefix = fmt::format("field{}_", i);
+        if (i < waves.size()) add(prefix + "wavelength_m", waves[i]);
+        add(prefix + "samples_x", static_cast<double>(facts.width));
+        add(prefix + "samples_y", static_cast<double>(facts.height));
         if (pitch_x > 0 && pitch_y > 0) {
-            add(field + "pitch_x_m", pitch_x);
-            add(field + "pitch_y_m", pitch_y);
-            add(field + "width_m", static_cast<double>(facts.width) * pitch_x);
-            add(field + "height_m", static_cast<double>(facts.height) * pitch_y);
+            add(prefix + "pitch_x_m", pitch_x);
+            add(prefix + "pitch_y_m", pitch_y);
+            add(prefix + "width_m", static_cast<double>(facts.width) * pitch_x);
+            add(prefix + "height_m", static_cast<double>(facts.height) * pitch_y);
         }
     }
     return summary;
@@ -130,9 +130,9 @@ FileSummary summarize_any(const std::string& path, const Progress& progress) {
                 fmt::format("{}: is neither a light field, a hologram, a picture nor a mesh", path));
 }
 
-int info(const std::string& path, const FieldOptions& options, const Session& session) {
-    FileSummary summary = is_external(path, options) && !is_pattern(path, options)
-                              ? summarize_field(path, options, *session.command)
+int info(const std::string& path, const FieldParameters& field, const Session& session) {
+    FileSummary summary = field.is_external(path) && !field.is_pattern(path)
+                              ? summarize_field(path, field, *session.command)
                               : summarize_any(path, Progress(session.stop.get_token()));
     if (std::string line = command_line_of(summary.text); !line.empty())
         summary.text.emplace_back("command_line", std::move(line));
@@ -148,12 +148,12 @@ int info(const std::string& path, const FieldOptions& options, const Session& se
 
 void add_info(Command& command, Session& session) {
     auto path = std::make_shared<std::string>();
-    auto options = std::make_shared<FieldOptions>();
+    auto field = std::make_shared<FieldParameters>();
     command.examples("  hogel info pumpkin.h5\n  hogel info hologram.h5 --json");
     command.positional("file", *path, "FILE",
                        "Light field, hologram, set of views, another program's field, picture or mesh");
-    add_field_options(command, *options, true, true);
-    command.work([path, options, &session] { return info(*path, *options, session); });
+    field->declare(command, true, true);
+    command.work([path, field, &session] { return info(*path, *field, session); });
 }
 
 }  // namespace hogel::cli

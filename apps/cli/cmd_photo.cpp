@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "commands.h"
-#include "fields.h"
 #include "hogel/parameters.h"
 #include "hogel/pipeline.h"
 #include "hogel/team.h"
@@ -20,7 +19,7 @@ struct Options {
     std::string input, output;
     LightFieldParameters render;
     HologramParameters hologram;
-    FieldOptions field;
+    FieldParameters field;
     PhotoParameters photo;
     bool resume = false;
 
@@ -57,9 +56,10 @@ std::vector<Image> develop(Stage& stage, const Fields& fields, std::span<const C
 }
 
 std::vector<Image> photographs_of_hologram(Options& options, const Session& session) {
-    const Fields fields = open_and_reconstruct(session, options.input, options.field, options.hologram.pitch,
-                                               options.hologram.wavelengths);
-    options.hologram.is_sampled = options.field.is_external;
+    options.field.pitch = options.hologram.pitch;
+    options.field.wavelengths = options.hologram.wavelengths;
+    const Fields fields = open_and_reconstruct(session, options.input, options.field);
+    options.hologram.resolve(options.field);
     if (fields.size() != 1 && fields.size() != 3)
         throw Error(ErrorCode::bad_input, fmt::format("{}: has {} wavelengths; a photograph takes one or three",
                                                       options.input, fields.size()));
@@ -190,9 +190,8 @@ void write_photographs(const Options& options, std::span<const Image> pictures, 
 
 int photo(Options& options, const Session& session) {
     const double given = options.photo.exposure == "auto" ? 0 : parse_exposure(options.photo.exposure);
-    const bool external = is_external(options.input, options.field);
-    if (!external) require_described(options.input, options.field);
-    const InputKind kind = external ? InputKind::hologram : input_kind(options.input);
+    options.field.require_described(options.input);
+    const InputKind kind = options.field.is_external(options.input) ? InputKind::hologram : input_kind(options.input);
     if (options.photo.view.frames > 1)
         with_parameter("frames", [&] { require_movie(options.output); });
     else
@@ -232,8 +231,8 @@ void add_photo(Command& command, Session& session) {
     options->render.declare_hemicube(command);
     command.look_up("seed")->acts_if(
         [options] { return options->hologram.is_seeded && !options->photo.waves.is_expected(); });
-    add_field_options(command, options->field, false);
-    add_reconstruction_options(command, options->field);
+    options->field.declare(command, false);
+    options->field.declare_reconstruction(command);
     command.add_like_option();
     command.work([options, &session] { return photo(*options, session); });
 }

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "commands.h"
-#include "fields.h"
 #include "hogel/parameters.h"
 #include "hogel/pipeline.h"
 #include "hogel/propagate.h"
@@ -21,30 +20,10 @@ namespace {
 
 struct Options {
     std::string input, output;
-    double distance = 0;
-    double pitch = defaults.pitch;
-    std::vector<double> wavelengths;
-    FieldOptions field;
-    std::string display = "intensity";
-    double output_pitch = 0;  // of the output; 0: that of the input
-    Counts output_samples;    // none: as many as the input has
-    double offset_x = 0, offset_y = 0;
+    PropagateParameters plane;
+    FieldParameters field;
     bool resume = false;
-    bool is_picture = false;  // which the display acts on
 };
-
-// The samples of the output, by default those of the field.
-Grid output_grid(const Options& options, const Grid& field) {
-    Grid output = field;
-    if (options.output_pitch > 0) output.pitch_x = output.pitch_y = options.output_pitch;
-    if (options.output_samples.columns > 0) {
-        output.width = options.output_samples.columns;
-        output.height = options.output_samples.rows;
-    }
-    output.center_x += options.offset_x;
-    output.center_y += options.offset_y;
-    return output;
-}
 
 // Names of files that hold fields alone; .exr files may also be pictures.
 bool is_array_name(const std::filesystem::path& path) {
@@ -171,7 +150,7 @@ FieldQuantity quantity_of(const std::string& display) {
 void report(const Options& options, OutputKind kind, std::span<const FieldGrid> grids, const ResultList& methods,
             const Result& picture, const Session& session) {
     Result result{
-        {"wavelengths_m", wavelengths_of(grids)}, {"distance_m", options.distance}, {"propagations", methods}};
+        {"wavelengths_m", wavelengths_of(grids)}, {"distance_m", options.plane.distance}, {"propagations", methods}};
     if (kind == OutputKind::hologram) return report_samples(session, options.output, result);
     const Grid& plane = grids.front().plane;
     if (kind == OutputKind::array)
@@ -205,7 +184,7 @@ std::vector<Result> methods_of(const Fields& fields, const Options& options,
     std::vector<Result> methods;
     for (std::size_t c = 0; c < fields.size(); ++c) {
         const FieldGrid& grid = fields[c]->grid();
-        const PropagationMethod method = propagation_method(grid, options.distance, propagations[c]);
+        const PropagationMethod method = propagation_method(grid, options.plane.distance, propagations[c]);
         session.detail(
             fmt::format("{}: by {}, Fresnel number {:.3g}, {}x{} frequencies, {}x{} tiles, predicted error {:.1e}",
                         format_length(grid.wavelength), method.name, method.fresnel_number, method.frequencies_x,
@@ -222,16 +201,16 @@ std::vector<Result> methods_of(const Fields& fields, const Options& options,
 }
 
 int propagate_fields(Options& options, const Session& session) {
-    const OutputKind kind = output_kind(options.output, options.display);
+    const OutputKind kind = output_kind(options.output, options.plane.display);
     require_writable(options.output, {&options.input, 1});
     if (options.resume && kind != OutputKind::hologram)
         throw Error(
             ErrorCode::usage,
             fmt::format("--resume: {} is written at once; give -o a name in .h5, or leave it out", options.output));
-    options.is_picture = kind == OutputKind::picture || options.display == "field";
-    const Fields fields =
-        open_and_reconstruct(session, options.input, options.field, options.pitch, options.wavelengths);
-    if (kind == OutputKind::picture && options.display == "phase") require_one_wavelength(fields, "--display phase");
+    options.plane.is_picture = kind == OutputKind::picture || options.plane.display == "field";
+    const Fields fields = open_and_reconstruct(session, options.input, options.field);
+    if (kind == OutputKind::picture && options.plane.display == "phase")
+        require_one_wavelength(fields, "--display phase");
     if (kind == OutputKind::picture && fields.size() != 1 && fields.size() != 3)
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: has {} wavelengths; a picture takes one or three", options.input, fields.size()));
@@ -242,24 +221,22 @@ int propagate_fields(Options& options, const Session& session) {
     std::vector<PropagateOptions> propagations;
     for (const auto& field : fields) {
         inputs.push_back(field->grid());
-        propagations.push_back({.scratch = scratch, .output = output_grid(options, field->grid().plane)});
+        propagations.push_back({.scratch = scratch, .output = options.plane.output(field->grid().plane)});
         grids.push_back({*propagations.back().output, field->grid().wavelength});
     }
     std::vector<Result> methods = with_renamed_parameters(
         {{"pitch", "output_pitch"}}, [&] { return methods_of(fields, options, propagations, session); });
-    state_plan(session, plan_propagation(inputs, options.distance, propagations.front()), "propagation",
+    state_plan(session, plan_propagation(inputs, options.plane.distance, propagations.front()), "propagation",
                options.output);
     Stage stage(session, "propagation");
     std::vector<std::optional<double>> shares(grids.size());
     const auto colour = [&](std::size_t c, FieldSink& sink) {
-        shares[c] =
-            propagate_measured(*fields[c], options.distance, sink, propagations[c], stage.progress(c, grids.size()));
+        shares[c] = propagate_measured(*fields[c], options.plane.distance, sink, propagations[c],
+                                       stage.progress(c, grids.size()));
         if (shares[c]) methods[c].emplace_back("light_share", *shares[c]);
     };
     const Grid& plane = grids.front().plane;
-    // No value of the option says that the samples of the input are farther apart in one direction.
-    options.output_pitch = plane.pitch_x == plane.pitch_y ? plane.pitch_x : 0;
-    options.output_samples = {plane.width, plane.height};
+    options.plane.resolve(plane);
     Metadata metadata = with_history(run_metadata(session), to_metadata(fields.front()->provenance()));
     if (kind == OutputKind::hologram) {
         HologramFileOptions file{.metadata = metadata};
@@ -275,12 +252,12 @@ int propagate_fields(Options& options, const Session& session) {
         for (std::size_t c = 0; c < grids.size(); ++c) {
             Field field(grids[c]);
             colour(c, field);
-            const Image one = picture_of(field.samples, quantity_of(options.display));
+            const Image one = picture_of(field.samples, quantity_of(options.plane.display));
             for (std::size_t i = 0; i < one.pixels.size(); ++i)
                 picture.pixels.data()[i * grids.size() + c] = one.pixels.data()[i];
         }
-        if (options.display == "log") picture = logarithmic(picture);
-        const bool grey = options.display == "log" || options.display == "phase";
+        if (options.plane.display == "log") picture = logarithmic(picture);
+        const bool grey = options.plane.display == "log" || options.plane.display == "phase";
         const double exposure = grey ? 1 : automatic_exposure(picture);
         metadata.emplace_back("exposure", fmt::format("{:.9g}", exposure));
         exposed = {{"width", picture.width()}, {"height", picture.height()}, {"exposure", exposure}};
@@ -288,35 +265,10 @@ int propagate_fields(Options& options, const Session& session) {
     }
     if (!is_first_process()) return 0;
     session.say(fmt::format("{}: {}x{} samples at {}, {} on", options.output, plane.width, plane.height,
-                            format_length(plane.pitch_x), format_length(options.distance)));
+                            format_length(plane.pitch_x), format_length(options.plane.distance)));
     state_shares(inputs, shares, session);
     report(options, kind, grids, {methods.begin(), methods.end()}, exposed, session);
     return 0;
-}
-
-void add_output_options(Command& command, Options& options) {
-    command
-        .choice("--display", options.display, {"intensity", "amplitude", "log", "phase", "field"},
-                "intensity|amplitude|log|phase|field",
-                "What a picture shows; log: four decades, phase: black at -pi to white at pi,\n"
-                "field: real and imaginary parts, in a file (.exr) of channels")
-        .acts_if([&options] { return options.is_picture; });
-    command.positive_length("--output-pitch", options.output_pitch, "Of the output's samples")
-        .default_text("that of the input")
-        .acts_if([&options] { return options.output_pitch > 0; });
-    command.counts("--output-samples", options.output_samples, "Of the output, across and down")
-        .default_text("as many as the input has");
-    command.length("--offset-x", options.offset_x, "Of the output's middle from that of the input, to the right");
-    command.length("--offset-y", options.offset_y, "Of the output's middle from that of the input, upwards");
-}
-
-// The sampling of another program's field.
-void add_sampling_options(Command& command, Options& options) {
-    const auto is_external = [&options] { return options.field.is_external; };
-    command.positive_length("--pitch", options.pitch, "Of another program's samples").acts_if([&options] {
-        return options.field.is_external && options.pitch > 0;
-    });
-    command.wavelengths(options.wavelengths).acts_if(is_external);
 }
 
 }  // namespace
@@ -336,12 +288,9 @@ void add_propagate(Command& command, Session& session) {
               "Hologram (.h5), array (.npy, .npz, .mat) or picture (.png, .exr)")
         .required()
         .never_acts();
-    command.length("--distance", options->distance, "Towards the viewer; negative goes back behind the hologram")
-        .required();
-    add_output_options(command, *options);
-    add_sampling_options(command, *options);
-    add_field_options(command, options->field, false);
-    add_reconstruction_options(command, options->field);
+    options->plane.declare(command);
+    options->field.declare(command);
+    options->field.declare_reconstruction(command);
     add_resume_flag(command, options->resume);
     command.add_like_option();
     command.work([options, &session] { return propagate_fields(*options, session); });

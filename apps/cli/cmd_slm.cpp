@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "commands.h"
-#include "fields.h"
 #include "hogel/image.h"
 #include "hogel/pattern.h"
 #include "hogel/pipeline.h"
@@ -30,7 +29,7 @@ struct Options {
     std::size_t levels = 256;
     PatternOptions pattern;
     std::string phase_code = "hogel";
-    FieldOptions field;
+    FieldParameters field;
     bool resume = false;
 
     /// Whether the encoding, once it is chosen, is one of these.
@@ -168,13 +167,7 @@ int slm(Options& options, const Session& session) {
     require_raw_pixels_name(options.output);
     require_writable(options.output, {&options.input, 1});
     Kept kept(session, options.resume, options.output, options.resume ? describe_input(options.input) : "");
-    if (!is_external(options.input, options.field)) {
-        require_described(options.input, options.field);
-        if (input_kind(options.input) != InputKind::hologram)
-            throw Error(ErrorCode::bad_input, fmt::format("{}: is not a hologram", options.input));
-    }
-    const Fields fields =
-        open_and_reconstruct(session, options.input, options.field, options.field.pitch, options.field.wavelengths);
+    const Fields fields = open_and_reconstruct(session, options.input, options.field);
     const std::size_t colours = fields.size();
     if (colours != 1 && colours != 3)
         throw Error(ErrorCode::bad_input,
@@ -298,8 +291,8 @@ void add_slm(Command& command, Session& session) {
     add_pattern_options(command, *options);
     add_modulator_options(command, *options);
     options->field.code_option = "--input-phase-code";
-    add_field_options(command, options->field, true);
-    add_reconstruction_options(command, options->field);
+    options->field.declare(command);
+    options->field.declare_reconstruction(command);
     command.add_like_option();
     command.work([options, &session] { return slm(*options, session); });
 }

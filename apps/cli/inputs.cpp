@@ -71,6 +71,13 @@ LightField open_or_render(const Session& session, const std::string& name, Light
     return rendered;
 }
 
+Fields open_and_reconstruct(const Session& session, const std::string& name, FieldParameters& options) {
+    Stage stage(session, "opening the hologram");
+    OpenedFields opened = options.open_and_reconstruct(name, *session.command, stage.progress());
+    for (const std::string& note : opened.notes) session.say(note);
+    return std::move(opened.fields);
+}
+
 LightField prepare_for_reading(const Session& session, const LightField& light_field, std::size_t times,
                                bool with_depth) {
     Stage stage(session, "rendering");

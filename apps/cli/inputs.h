@@ -38,6 +38,9 @@ void require_memory(const Session& session, const LightField& rendered, const Li
 /// The light field of a file, or of a scene, which is rendered when it is read.
 LightField open_or_render(const Session& session, const std::string& name, LightFieldParameters& options);
 
+/// Opens a hologram or another program's field as FieldParameters::open_and_reconstruct() does, and prints the notes.
+Fields open_and_reconstruct(const Session& session, const std::string& name, FieldParameters& options);
+
 /// See prepare_for_reading() in hogel/pipeline.h.
 LightField prepare_for_reading(const Session& session, const LightField& light_field, std::size_t times,
                                bool with_depth);

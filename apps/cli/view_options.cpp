@@ -67,8 +67,8 @@ void add_view_options(Command& command, ViewOptions& options) {
     options.hologram.declare(command);
     options.render.declare(command);
     options.render.declare_hemicube(command);
-    add_field_options(command, options.field, false, true);
-    add_reconstruction_options(command, options.field);
+    options.field.declare(command, false, true);
+    options.field.declare_reconstruction(command);
 }
 
 std::string require_viewable(const ViewOptions& options) {
@@ -80,9 +80,8 @@ std::string require_viewable(const ViewOptions& options) {
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: holds no lightfield.h5; 'hogel make --keep-light-field' keeps it", options.input));
     }
-    if (is_external(options.input, options.field)) return options.input;
-    require_described(options.input, options.field);
-    input_kind(options.input);
+    options.field.require_described(options.input);
+    if (!options.field.is_external(options.input)) input_kind(options.input);
     return options.input;
 }
 

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "command_line.h"
-#include "fields.h"
 #include "inputs.h"
 
 namespace hogel::cli {
@@ -26,7 +25,7 @@ struct ViewOptions {
     std::string original;    ///< a light field beside which errors are shown; empty: the whole stream
     LightFieldParameters render;
     HologramParameters hologram;
-    FieldOptions field;
+    FieldParameters field;
 };
 void add_view_options(Command& command, ViewOptions& options);
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <utility>
 
-#include "cli/fields.h"
 #include "cli/inputs.h"
 #include "hogel/error.h"
 #include "hogel/parameters.h"
@@ -64,10 +63,11 @@ std::size_t Loader::memory() const { return static_cast<std::size_t>(now_->setti
 void Loader::open_input(State& state) {
     const cli::ViewOptions& options = state.settings.options();
     const std::string& input = state.settings.input();
-    if (cli::is_external(input, options.field) || input_kind(input) == InputKind::hologram) {
-        cli::ViewOptions values = options;
-        state.fields = cli::open_and_reconstruct(state.settings.session(), input, values.field, values.hologram.pitch,
-                                                 values.hologram.wavelengths);
+    if (options.field.is_external(input) || input_kind(input) == InputKind::hologram) {
+        FieldParameters field = options.field;
+        field.pitch = options.hologram.pitch;
+        field.wavelengths = options.hologram.wavelengths;
+        state.fields = cli::open_and_reconstruct(state.settings.session(), input, field);
     } else if (input_kind(input) == InputKind::light_field) {
         state.file = open_light_field_or_views(input);
     }

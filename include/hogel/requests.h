@@ -10,8 +10,11 @@
 
 #include "hogel/camera.h"
 #include "hogel/export.h"
+#include "hogel/field.h"
+#include "hogel/files.h"
 #include "hogel/make.h"
 #include "hogel/parameters.h"
+#include "hogel/phase_code.h"
 #include "hogel/photograph.h"
 #include "hogel/pipeline.h"
 
@@ -93,6 +96,8 @@ struct HOGEL_API LightFieldParameters {
     /// --focal-plane, --frequencies and --interpolate, for those who make light fields.
     void declare_directions(Parameters& parameters);
 };
+struct FieldParameters;
+
 /// The parameters of a hologram of a light field.
 struct HOGEL_API HologramParameters {
     std::vector<double> wavelengths{defaults.red, defaults.green, defaults.blue};
@@ -129,6 +134,72 @@ struct HOGEL_API HologramParameters {
 
     /// Sets the values with which a hologram of a light field with this front is made.
     void resolve(const HologramRequest& request, const LightFieldGrid& front);
+    /// Sets those of a field that is opened.
+    void resolve(const FieldParameters& field);
+};
+
+/// What FieldParameters::open() has opened, and lines that say where it took what parameters say rather than the file,
+/// and which orders it found.
+struct OpenedFields {
+    Fields fields;
+    std::vector<std::string> notes;
+};
+
+/// The parameters of a field that another program wrote, and of the image that is reconstructed of any hologram.
+struct HOGEL_API FieldParameters {
+    std::string code_option = "--phase-code";  ///< otherwise where a command has another parameter of this name
+    double pitch = 0;                          ///< metres
+    std::vector<double> wavelengths;           ///< metres
+    std::string values, phase_code, imaginary, phases, zero = "median", variable;
+    std::optional<PhaseCode> own_code;  ///< in place of the one that `phase_code` names
+    bool conjugate = false;
+    std::string order, reconstruct = "none";
+    double aperture = 0;  ///< cycles per sample
+    std::optional<Vec3> reference_source;
+    std::optional<double> focal;  ///< metres
+
+    bool is_opened = false;  ///< whether a field of another program is open, so that its parameters act
+
+    /// The parameters of what the file holds.
+    /// @param sampling  whether also --pitch and --wavelength, which otherwise the command has, and sets here
+    /// @param brief     without what the help of `photo` explains
+    void declare(Parameters& parameters, bool sampling = true, bool brief = false);
+    /// Those of a lens or a reference wave between the hologram and its image.
+    void declare_reconstruction(Parameters& parameters);
+
+    /// Whether a name is that of another program's field: an array, a pattern, or a picture that parameters describe.
+    bool is_external(const std::string& name) const;
+    /// Whether a file is a picture that describes its field, as patterns do, and no parameter describes it.
+    bool is_pattern(const std::string& name) const;
+    /// Throws Error(usage) for a picture whose numbers neither it nor a parameter describes.
+    void require_described(const std::string& name) const;
+    /// What the parameters say of a file, without its sampling. Throws Error(usage).
+    ExternalField external_field() const;
+
+    /// Opens a hologram or another program's field, and sets the values that the file says.
+    /// @param table  of the command, with --pitch and --wavelength
+    /// Throws Error(usage) where neither says the sampling, and for a hologram of which parameters say what only it can
+    /// say; Error(bad_input) for anything else, and what open_hologram() and open_external_field() throw.
+    OpenedFields open(const std::string& name, const Parameters& table);
+    /// Likewise, then cuts out the order of the object and makes the image behind a lens.
+    OpenedFields open_and_reconstruct(const std::string& name, const Parameters& table, const Progress& progress = {});
+};
+
+/// The parameters of a plane to which fields are propagated.
+struct HOGEL_API PropagateParameters {
+    double distance = 0;                ///< metres
+    double output_pitch = 0;            ///< metres; 0: that of the field
+    Counts output_samples;              ///< none: as many as the field has
+    double offset_x = 0, offset_y = 0;  ///< metres from the middle of the field
+    std::string display = "intensity";  ///< what a picture of the output shows
+
+    bool is_picture = false;  ///< whether there is one, so that `display` acts
+
+    void declare(Parameters& parameters);
+    /// The samples of the output for a field with these.
+    Grid output(const Grid& field) const;
+    /// Sets the values of the output.
+    void resolve(const Grid& output);
 };
 
 /// The parameters of a camera, and of its way from the first picture of a film to the last.

@@ -5,12 +5,48 @@
 #include "hogel/files.h"
 #include "hogel/focus.h"
 #include "hogel/reconstruct.h"
+#include "hogel/requests.h"
+#include "keywords.h"
 
 namespace hogel::python {
 namespace {
 
 using py::arg;
 using Source = std::shared_ptr<const FieldSource>;
+
+// The parameters of Hologram.open(), with the values of keywords.
+struct FieldKeywords {
+    FieldParameters values;
+    Parameters table;
+
+    explicit FieldKeywords(py::dict keywords = {}) {
+        values.declare(table, true, true);
+        values.declare_reconstruction(table);
+        // An object, whose text may not be exact.
+        if (keywords.contains("phase_code") && py::isinstance<PhaseCode>(keywords["phase_code"])) {
+            values.own_code = keywords["phase_code"].cast<PhaseCode>();
+            keywords = keywords.attr("copy")();
+            keywords["phase_code"] = "own";
+        }
+        read_keywords(table, keywords);
+    }
+};
+
+void add_openers(py::module_& module) {
+    module.def("field_keywords", [] {
+        const FieldKeywords none;
+        return described(none.table);
+    });
+    module.def(
+        "open_fields",
+        [](const py::dict& keywords, const std::string& name, const py::object& report) {
+            FieldKeywords asked(keywords);
+            const OpenedFields opened = run_for(
+                report, [&](const Progress& p) { return asked.values.open_and_reconstruct(name, asked.table, p); });
+            return py::make_tuple(opened.fields, asked.table.acting());
+        },
+        arg("keywords"), arg("name"), arg("report"), "The fields of a file, and the options that acted.");
+}
 
 void add_external_fields(py::module_& module) {
     py::class_<ExternalField> field(module, "ExternalField");
@@ -140,6 +176,7 @@ void add_orders(py::module_& module) {
 
 void add_elsewhere(py::module_& module) {
     add_external_fields(module);
+    add_openers(module);
     add_focus(module);
     add_orders(module);
 }

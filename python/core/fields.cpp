@@ -10,6 +10,8 @@
 #include "hogel/pipeline.h"
 #include "hogel/propagate.h"
 #include "hogel/reconstruct.h"
+#include "hogel/requests.h"
+#include "keywords.h"
 
 namespace hogel::python {
 namespace {
@@ -146,6 +148,27 @@ void add_propagation(py::module_& module) {
             });
         },
         arg("field"), arg("distance"), arg("output"), arg("look"), arg("max_error"), arg("report"));
+    module.def("propagate_keywords", [] {
+        const Keywords<PropagateParameters> none;
+        return described(none.table,
+                         [](const Parameter& each) { return each.name != "distance" && each.name != "display"; });
+    });
+    module.def(
+        "propagation_plane",
+        [](const py::dict& keywords, const Grid& plane) {
+            const Keywords<PropagateParameters> asked(keywords);
+            if (!asked.table.given("distance")) throw Error(ErrorCode::usage, "distance", "distance: it is required");
+            return py::make_tuple(asked.values.distance, asked.values.output(plane));
+        },
+        arg("keywords"), arg("plane"), "The distance, and the samples of the output for a field with these.");
+    module.def(
+        "propagate_record",
+        [](const py::dict& keywords, const Grid& output) {
+            Keywords<PropagateParameters> asked(keywords);
+            asked.values.resolve(output);
+            return asked.table.acting();
+        },
+        arg("keywords"), arg("output"));
     module.def(
         "propagation_method",
         [](const FieldGrid& field, double distance, const std::optional<Grid>& output, double max_error) {

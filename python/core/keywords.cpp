@@ -27,9 +27,10 @@ std::string whole_text(const py::handle& value) {
     return py::str(value);
 }
 
-// One number of a parameter, or a text.
+// One number of a parameter, a text, or a path.
 std::string element_text(ParameterKind kind, const py::handle& value) {
     if (py::isinstance<py::str>(value)) return value.cast<std::string>();
+    if (py::hasattr(value, "__fspath__")) return py::str(value.attr("__fspath__")());
     if (kind == ParameterKind::counts || kind == ParameterKind::resolution) return whole_text(value);
     const std::optional<double> number = number_of(value);
     if (!number || !std::isfinite(*number)) return py::str(value);
@@ -76,7 +77,6 @@ std::string text_of(ParameterKind kind, const py::handle& value) {
         default:
             break;
     }
-    if (kind == ParameterKind::text && PySequence_Check(value.ptr()) == 0) return py::str(value);
     return PySequence_Check(value.ptr()) == 0 ? element_text(kind, value) : list_text(kind, value);
 }
 

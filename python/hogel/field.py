@@ -178,17 +178,8 @@ class Field(Samples):
         with reporting(progress, "reading") as report:
             return Field(_core.load_field(self._source, self._look, report), "in memory")
 
-    def propagate(
-        self,
-        distance: units.Length,
-        *,
-        output_pitch: Optional[units.Length] = None,
-        output_samples: Optional[units.Counts] = None,
-        offset_x: units.Length = 0,
-        offset_y: units.Length = 0,
-        max_error: float = 1e-3,
-        progress: Progress = None,
-    ) -> "Field":
+    @takes(_core.propagate_keywords())
+    def propagate(self, distance: units.Length, *, max_error: float = 1e-3, progress: Progress = None, **options: Any) -> "Field":
         """The field on a parallel plane, farther along +z, towards the viewer, or backwards if negative: its plane waves,
         exactly, at the samples of the field or at others.
 
@@ -197,8 +188,7 @@ class Field(Samples):
         >>> wave.propagate("1mm", output_samples=(16, 8), output_pitch="4um")
         Field(16x8 samples 4 um apart, 64 um x 32 um, 633 nm, in memory)
         """
-        output = self._output(output_pitch, output_samples, offset_x, offset_y)
-        far = units.length(distance, "distance")
+        far, output = _core.propagation_plane({"distance": distance, **options}, self.grid)
         with reporting(progress, "propagating") as report:
             moved = _core.propagate(self._source, far, output, self._look, max_error, report)
         return Field(moved, "in memory")
@@ -228,19 +218,6 @@ class Field(Samples):
         if area != 1:
             np.multiply(np.asarray(moved), np.float32(area), out=np.asarray(moved))
         return moved
-
-    def _output(self, pitch: Any, samples: Any, offset_x: Any, offset_y: Any) -> _core.Grid:
-        field = self.grid
-        width, height = (field.width, field.height) if samples is None else units.counts(samples, "output_samples")
-        step = None if pitch is None else units.length(pitch, "output_pitch")
-        return _core.Grid(
-            width,
-            height,
-            field.pitch_x if step is None else step,
-            field.pitch_y if step is None else step,
-            field.center_x + units.length(offset_x, "offset_x"),
-            field.center_y + units.length(offset_y, "offset_y"),
-        )
 
     def focus(
         self,

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
-from typing import Any, Optional, Union
+from collections.abc import Iterator
+from typing import Any, Optional
 
 import numpy as np
 
@@ -12,7 +12,6 @@ from . import _core, _record, units
 from ._keywords import passes_options_to, takes
 from ._progress import Progress, reporting
 from ._samples import Path
-from .elsewhere import description, external_fields, external_record, reconstructed
 from .errors import UsageError, usage_error
 from .field import Field
 from .pattern import Pattern, pattern_of
@@ -44,38 +43,12 @@ class Hologram:
             raise UsageError("hologram: at least one field was expected")
 
     @classmethod
-    def open(
-        cls,
-        path: Path,
-        *,
-        pitch: Optional[units.Length] = None,
-        wavelength: Union[units.Length, Sequence[units.Length], None] = None,
-        values: Optional[str] = None,
-        phase_code: Union[str, _core.PhaseCode, None] = None,
-        imaginary: Optional[Path] = None,
-        phases: Optional[Path] = None,
-        zero: Optional[float] = None,
-        variable: str = "",
-        conjugate: bool = False,
-        order: Optional[str] = None,
-        aperture: float = 0,
-        reference_source: Union[str, Sequence[units.Length], None] = None,
-        reconstruct: str = "none",
-        focal: Optional[units.Length] = None,
-    ) -> "Hologram":
+    @takes(_core.field_keywords())
+    def open(cls, path: Path, *, progress: Progress = None, **options: Any) -> "Hologram":
         """Opens a hologram (.h5), a pattern of slm(), which says what it is, or the field of another program: .npy, .npz,
-        .mat, .ohc, .exr, or pictures of amplitudes, phases, or real and imaginary parts. The options are those of `hogel photo` of these names
-        (docs/holograms-from-elsewhere.md).
-
-        pitch, wavelength  metres, for files that do not say them
-        values             what real numbers are: amplitude, phase, intensity, real-imaginary or amplitude-phase
-        phase_code         how numbers stand for phases
-        imaginary, phases  a second picture; zero: the level of 0 in pictures of parts
-        variable           the array of a file that has several
-        conjugate          its waves go as e^(+iwt)
-        order, aperture    the diffraction order that is the object's: "0", "+1", "-1" or "FX,FY", cycles a sample, and the
-                           radius that is cut out around it; reference_source: a point x, y, z
-        reconstruct        "fourier" or "fresnel": what makes the image, of the length `focal`
+        .mat, .ohc, .exr, or pictures of amplitudes, phases, or real and imaginary parts. The options are those of `hogel photo`
+        (docs/holograms-from-elsewhere.md). `phase_code` may also be a PhaseCode; `order` is "0", "+1", "-1" or a frequency
+        "FX,FY", cycles per sample; `reconstruct` is "fourier" or "fresnel".
 
         >>> import hogel, numpy as np, os, tempfile
         >>> path = os.path.join(tempfile.mkdtemp(), "wave.npy")
@@ -84,20 +57,9 @@ class Hologram:
         (8, 16)
         """
         name = os.fspath(path)
-        described = values is not None or phase_code is not None or imaginary is not None or phases is not None
-        if not described and not _core.is_external_field(name):
-            if pitch is not None or wavelength is not None:
-                raise usage_error("pitch, wavelength", f"{name} has its own")
-            fields, acted = reconstructed(list(_core.open_hologram(name)), None, order, aperture, reference_source, reconstruct, focal)
-            return cls(fields, name, made={"input": name, **acted})
-        what = description(values, phase_code, imaginary, phases, zero, variable, conjugate)
-        fields = external_fields(name, pitch, wavelength, what)
-        record = external_record(
-            name, what, pitch=pitch, wavelength=wavelength, values=values, phase_code=phase_code, imaginary=imaginary,
-            phases=phases, variable=variable,
-        )
-        fields, acted = reconstructed(fields, values, order, aperture, reference_source, reconstruct, focal)
-        return cls(fields, name, made={**record, **acted})
+        with reporting(progress, "opening the hologram") as report:
+            fields, record = _core.open_fields(options, name, report)
+        return cls(fields, name, made={"input": name, **dict(record)})
 
     def __len__(self) -> int:
         return len(self._sources)
@@ -226,16 +188,8 @@ class Hologram:
         """
         made = Hologram([field.propagate(distance, **options) for field in self])
         if self._made is not None and self.is_opened:
-            plane = made.grid
-            made._made = {
-                **self._made,
-                "distance": _record.length(distance),
-                "offset-x": _record.length(options.get("offset_x")),
-                "offset-y": _record.length(options.get("offset_y")),
-                "output-samples": f"{plane.width}x{plane.height}",
-            }
-            if plane.pitch_x == plane.pitch_y:
-                made._made["output-pitch"] = _record.length(plane.pitch_x)
+            record = _core.propagate_record({"distance": distance, **options}, made.grid)
+            made._made = {**self._made, **dict(record)}
         return made
 
     @takes(_core.wave_photograph_keywords())

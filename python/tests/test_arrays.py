@@ -225,6 +225,19 @@ class Elsewhere(InFolder):
         read = hogel.Hologram.open("p.png", phase_code="hogel", pitch="8um", wavelength="532nm")
         self.assertLess(np.abs(np.asarray(read[0]) - np.exp(1j * phase)).max(), 0.03)
         np.testing.assert_allclose(pattern.transmission(), np.asarray(read[0]), atol=1e-3)
+        code = hogel._core.PhaseCode(range=np.pi, offset=1, inverted=True)
+        own = hogel.Hologram.open("p.png", phase_code=code, pitch="8um", wavelength="532nm")
+        expected = [[code.phase(level, 255) for level in row] for row in np.asarray(pattern)[..., 0]]
+        np.testing.assert_allclose(np.asarray(own[0]), np.exp(1j * np.array(expected)), atol=1e-6)
+
+    def test_holograms_describe_themselves(self):
+        hogel.Hologram(hogel.Field.from_array(random_array(8, 8), pitch="8um", wavelength="532nm")).save("h.h5")
+        for option, value in ("pitch", "8um"), ("phase_code", "hogel"), ("conjugate", True):
+            with self.assertRaisesRegex(hogel.UsageError, f"^{option}: h.h5 is a hologram") as caught:
+                hogel.Hologram.open("h.h5", **{option: value})
+            self.assertEqual(caught.exception.parameter, option)
+        with self.assertRaisesRegex(TypeError, "did you mean 'wavelength'"):
+            hogel.Hologram.open("h.h5", wavelengths="532nm")
 
     def test_a_field_is_a_hologram_of_one_wavelength(self):
         noise = random_array(2, 48, 64)

@@ -288,7 +288,10 @@ class SameBytes(InFolder):
             ("levels.png", ["--phase-code", "slmsuite"], dict(phase_code="slmsuite")),
             ("levels.png", ["--values", "intensity", "--order", "+1", "--aperture", "0.1"],
              dict(values="intensity", order="+1", aperture=0.1)),
-            ("wave.npy", ["--reconstruct", "fourier", "--focal", "100mm"], dict(reconstruct="fourier", focal="100mm")),
+            ("levels.png", ["--imaginary", "levels.png", "--zero", "128"], dict(imaginary=Path("levels.png"), zero=128.0)),
+            ("wave.npy", ["--order", "0.1,0", "--reference-source", "0,1,-20mm"],
+             dict(order="0.1,0", reference_source=(0, 1 * mm, -20 * mm))),
+            ("wave.npy", ["--reconstruct", "fourier", "--focal", "100mm"], dict(reconstruct="fourier", focal=100 * mm)),
         ]
         for number, (name, words, options) in enumerate(cases):
             with self.subTest(f"{name} {' '.join(words)}"):

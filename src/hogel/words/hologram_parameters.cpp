@@ -171,6 +171,12 @@ void HologramParameters::resolve(const HologramRequest& request, const LightFiel
     is_seeded = windows == nullptr || windows->phases == PointPhases::random;
 }
 
+void HologramParameters::resolve(const FieldParameters& field) {
+    is_sampled = field.is_opened;
+    pitch = field.pitch;
+    wavelengths = field.wavelengths;
+}
+
 Parameter& HologramParameters::declare_pitch(Parameters& parameters) {
     return parameters
         .positive_length("--pitch", pitch,

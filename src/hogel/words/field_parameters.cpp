@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "hogel/error.h"
+#include "hogel/reconstruct.h"
+#include "hogel/requests.h"
+#include "hogel/units.h"
+
+namespace hogel {
+namespace {
+
+// A parameter as errors name it.
+std::string name_in_errors(std::string option) {
+    option.erase(0, option.find_first_not_of('-'));
+    std::ranges::replace(option, '-', '_');
+    return option;
+}
+
+// Whether parameters say what a file's numbers are.
+bool are_described(const FieldParameters& field) {
+    return !field.values.empty() || !field.phase_code.empty() || !field.imaginary.empty() || !field.phases.empty();
+}
+
+// Throws where the input is no hologram, or where parameters describe it.
+void require_hologram(const std::string& name, const FieldParameters& field, const Parameters& table) {
+    field.require_described(name);
+    std::error_code status;
+    if (std::filesystem::is_regular_file(name, status) && file_kind(name) == FileKind::unknown)
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("{}: is neither a hologram nor a field of a format that is read: .npy, .npz, .mat of "
+                                "MATLAB 5 to 7.3 (save -v7), .ohc, .exr and pictures",
+                                name));
+    if (input_kind(name) != InputKind::hologram)
+        throw Error(ErrorCode::bad_input, fmt::format("{}: is not a hologram", name));
+    for (const char* each : {"--values", field.code_option.c_str(), "--imaginary", "--phases", "--zero", "--variable",
+                             "--conjugate", "--pitch", "--wavelength"})
+        if (table.given(each))
+            throw Error(ErrorCode::usage, name_in_errors(each),
+                        fmt::format("{} is a hologram, which describes itself", name));
+}
+
+// Lengths as messages say them.
+std::string short_lengths(const std::vector<double>& lengths) {
+    std::vector<std::string> texts;
+    for (const double length : lengths) std::erase(texts.emplace_back(format_length(length)), ' ');
+    return fmt::format("{}", fmt::join(texts, ","));
+}
+
+// The notes on parameters that were taken where the file says something else.
+std::vector<std::string> contradictions(const std::string& name, const FieldParameters& field, const Parameters& table,
+                                        const ExternalFacts& facts, const ExternalField& what) {
+    std::vector<std::string> notes;
+    const auto compare = [&](const std::string& option, const std::string& taken, const std::string& said) {
+        if (table.given(option) && !said.empty() && said != taken)
+            notes.push_back(fmt::format("{}: {} {} is taken, but the file says {}", name, option, taken, said));
+    };
+    if (facts.pitch_x > 0 && (facts.pitch_x != what.pitch_x || facts.pitch_y != what.pitch_y))
+        compare("--pitch", short_lengths({what.pitch_x}),
+                short_lengths(facts.pitch_x == facts.pitch_y ? std::vector{facts.pitch_x}
+                                                             : std::vector{facts.pitch_x, facts.pitch_y}));
+    compare("--wavelength", short_lengths(field.wavelengths), short_lengths(facts.wavelengths));
+    compare("--values", field.values, facts.values);
+    if (!facts.phase_code.empty() && what.phase_code && *what.phase_code != parse_phase_code(facts.phase_code))
+        compare(field.code_option, field.phase_code, facts.phase_code);
+    return notes;
+}
+
+// Sets the values that say what numbers are to what the file says where they are not given.
+void complete_values(FieldParameters& field, const Parameters& table, const ExternalFacts& facts,
+                     const ExternalField& what) {
+    const bool phases = field.values.empty() || field.values == "phase";
+    if (!table.given(field.code_option)) {
+        if (phases && !facts.phase_code.empty())
+            field.phase_code = facts.phase_code;
+        else if (!table.given("values"))
+            field.values = facts.values;
+    }
+    // Numbers that are not whole have the zero 0 by default.
+    const bool whole = facts.numbers.starts_with("whole");
+    if (!what.imaginary.empty() && !whole && !table.given("zero")) field.zero = "0";
+}
+
+// Sets the pitch and the wavelengths where they are not given.
+void complete_sampling(FieldParameters& field, const std::string& name, const Parameters& table,
+                       const ExternalFacts& facts, ExternalField& what) {
+    const std::string why = facts.complaint.empty() ? "" : fmt::format(": {}", facts.complaint);
+    if (table.given("pitch")) {
+        what.pitch_x = what.pitch_y = field.pitch;
+    } else if (facts.pitch_x > 0 && facts.pitch_y > 0) {
+        what.pitch_x = facts.pitch_x;
+        what.pitch_y = facts.pitch_y;
+        field.pitch = facts.pitch_x == facts.pitch_y ? facts.pitch_x : 0;
+    } else {
+        throw Error(ErrorCode::usage, "pitch",
+                    fmt::format("{} does not say how far its samples are apart{}", name, why));
+    }
+    if (!table.given("wavelength")) {
+        if (facts.wavelengths.empty())
+            throw Error(ErrorCode::usage, "wavelength",
+                        fmt::format("{} does not say of which light it is{}", name, why));
+        field.wavelengths = facts.wavelengths;
+    }
+    const std::size_t count = field.wavelengths.size();
+    if (count != facts.colours)
+        throw Error(ErrorCode::usage, "wavelength",
+                    fmt::format("{} holds {}, but {} given ({})", name,
+                                facts.colours == 1 ? "one field" : fmt::format("{} fields", facts.colours),
+                                count == 1 ? "one wavelength is" : fmt::format("{} wavelengths are", count),
+                                facts.colours == 1 ? "one is needed" : "e.g. 638nm,520nm,450nm"));
+}
+
+OrderSelection selection_of(const FieldParameters& field) {
+    using Which = OrderSelection::Which;
+    if (field.aperture < 0) throw Error(ErrorCode::usage, "aperture", "a positive radius was expected");
+    OrderSelection selection;
+    selection.without_mean = field.values == "intensity";
+    selection.reference_source = field.reference_source;
+    selection.radius = field.aperture;
+    if (field.order.empty() || field.order == "0") return selection;
+    const std::size_t comma = field.order.find(',');
+    const auto x = parse_number(field.order.substr(0, comma));
+    const auto y = comma == std::string::npos ? std::nullopt : parse_number(field.order.substr(comma + 1));
+    if (field.order == "+1") {
+        selection.which = Which::right;
+    } else if (field.order == "-1") {
+        selection.which = Which::left;
+    } else if (x && y) {
+        selection.which = Which::at;
+        selection.frequency_x = *x;
+        selection.frequency_y = *y;
+    } else {
+        throw Error(ErrorCode::usage, "order",
+                    fmt::format("'{}' is none of +1, -1, 0 and FX,FY in cycles per sample, e.g. 0.25,0", field.order));
+    }
+    return selection;
+}
+
+// Cuts the order out of opened fields and makes the image behind a lens, as the parameters say.
+void make_images(const FieldParameters& field, OpenedFields& opened, const Progress& progress) {
+    const bool image = field.reconstruct != "none";
+    if (image != field.focal.has_value())
+        throw Error(ErrorCode::usage, "focal",
+                    image ? fmt::format("reconstruct {} needs a focal length or distance", field.reconstruct)
+                          : "a focal length is that of a reconstruction; give reconstruct, too");
+    const OrderSelection selection = selection_of(field);
+    const bool select =
+        !field.order.empty() || field.aperture > 0 || selection.without_mean || selection.reference_source;
+    for (std::size_t c = 0; c < opened.fields.size(); ++c) {
+        std::shared_ptr<const FieldSource>& source = opened.fields[c];
+        if (select) {
+            SelectedOrder order = select_order(*source, selection, progress.part(c, opened.fields.size()));
+            opened.notes.push_back(fmt::format("{}: the order at {:.4f}, {:.4f} cycles per sample, within {:.4f}",
+                                               format_length(source->grid().wavelength), order.frequency_x,
+                                               order.frequency_y, order.radius));
+            source = std::make_shared<Field>(std::move(order.field));
+        }
+        if (image)
+            source = with_parameter("focal", [&] {
+                return std::make_shared<Field>(field.reconstruct == "fourier" ? fourier_image(*source, *field.focal)
+                                                                              : fresnel_image(*source, *field.focal));
+            });
+    }
+}
+
+// The help of the parameters that say what a file's numbers are.
+std::string help_of_values(bool brief) {
+    if (brief) return ": amplitude, phase, intensity; of pairs real-imaginary, amplitude-phase";
+    return ", in arrays and pictures:\namplitude, phase: phases in radians, or as whole numbers in a phase code\n"
+           "intensity: light that a camera recorded; its mean is subtracted\n"
+           "real-imaginary, amplitude-phase: of arrays with two numbers a sample";
+}
+
+std::string help_of_codes(bool brief) {
+    if (brief) return fmt::format(": {}, or a description", fmt::join(phase_codes().names(), ", "));
+    std::string help = ":";
+    for (const PhaseCodeInfo& code : phase_codes().rows()) help += fmt::format("\n{}: {}", code.name, code.text);
+    return help + "\nany other: range=ANGLE,offset=ANGLE,invert, in deg, rad or pi (2pi)";
+}
+
+}  // namespace
+
+void FieldParameters::declare(Parameters& parameters, bool sampling, bool brief) {
+    parameters.group(brief ? "Fields of other programs (see 'hogel help photo')" : "Fields of other programs",
+                     [this] { return is_opened; });
+    if (sampling) {
+        parameters.positive_length("--pitch", pitch, "Of another program's samples")
+            .default_text("what the file says")
+            .acts_if([this] { return pitch > 0; });  // one number says nothing of two
+        parameters.wavelengths(wavelengths).default_text("what the file says");
+    }
+    parameters.choice("--values", values, {"amplitude", "phase", "intensity", "real-imaginary", "amplitude-phase"},
+                      "KIND", "What real numbers are" + help_of_values(brief));
+    parameters.text(code_option, phase_code, "CODE", "How numbers stand for phases" + help_of_codes(brief));
+    parameters.text("--imaginary", imaginary, "P", "Picture of imaginary parts; the input has the real ones");
+    parameters.text("--phases", phases, "P", "Picture of phases; the input has the amplitudes");
+    parameters
+        .text("--zero", zero, "LEVEL|median",
+              "Level of 0 in pictures of real and imaginary parts; median: that of each")
+        .acts_if([this] { return !imaginary.empty(); });
+    parameters.text("--variable", variable, "NAME", "Array of a file that has several, or two: re,im");
+    parameters.flag("--conjugate", conjugate, "Its waves go as e^(+iwt)");
+}
+
+void FieldParameters::declare_reconstruction(Parameters& parameters) {
+    parameters.group("Reconstruction");
+    parameters.text("--order", order, "0|+1|-1|FX,FY",
+                    "Diffraction order that is the object's, cut out and moved to the middle of the spectrum:\n"
+                    "+1, -1: the brightest to the right or left of frequency zero\n"
+                    "FX,FY: about this frequency, cycles per sample to the right and upwards");
+    parameters
+        .number("--aperture", aperture, "CYCLES",
+                "Radius of the opening around the order, cycles per sample (default: half its distance from 0)")
+        .no_default();
+    parameters.point("--reference-source", reference_source,
+                     "Source of the spherical reference wave; in front of the hologram (z > 0): where it converges");
+    parameters
+        .choice("--reconstruct", reconstruct, {"none", "fourier", "fresnel"}, "none|fourier|fresnel",
+                "What stands between the hologram and its image, which is then in the plane of depth 0:\n"
+                "fourier: a lens, at its focal length --focal from both\n"
+                "fresnel: the distance --focal, by one Fourier transform")
+        .no_default();
+    parameters.length("--focal", focal, "Focal length of that lens, or that distance");
+}
+
+bool FieldParameters::is_external(const std::string& name) const {
+    std::error_code status;
+    if (!std::filesystem::is_regular_file(name, status)) return false;
+    const bool described = are_described(*this);
+    // An array of four axes can be a light field or a field of several colours: who says what its numbers are means the
+    // latter.
+    if (!described && is_view_set(name)) return false;
+    return is_external_field(name) || (described && file_kind(name) == FileKind::picture);
+}
+
+bool FieldParameters::is_pattern(const std::string& name) const {
+    return !are_described(*this) && is_external(name) && external_facts(name).format == "picture";
+}
+
+void FieldParameters::require_described(const std::string& name) const {
+    std::error_code status;
+    if (!is_external(name) && std::filesystem::is_regular_file(name, status) && file_kind(name) == FileKind::picture)
+        throw Error(ErrorCode::usage, name_in_errors(code_option) + ", values, imaginary, phases",
+                    fmt::format("{} is a picture; one of these must say what its numbers are", name));
+}
+
+ExternalField FieldParameters::external_field() const {
+    using Values = ExternalField::Values;
+    ExternalField what;
+    what.values = values == "phase"             ? Values::phase
+                  : values == "real-imaginary"  ? Values::real_imaginary
+                  : values == "amplitude-phase" ? Values::amplitude_phase
+                  : values.empty()              ? Values::complex
+                                                : Values::amplitude;
+    what.phase_code = own_code;
+    if (!own_code && !phase_code.empty()) what.phase_code = parse_phase_code(phase_code);
+    if (what.phase_code && values.empty() && phases.empty()) what.values = Values::phase;
+    what.imaginary = imaginary;
+    what.phases = phases;
+    if (zero != "median") {
+        what.zero = parse_number(zero);
+        if (!what.zero) throw Error(ErrorCode::usage, "zero", fmt::format("'{}' is neither median nor a number", zero));
+    }
+    what.variable = variable;
+    what.conjugate = conjugate;
+    return what;
+}
+
+OpenedFields FieldParameters::open(const std::string& name, const Parameters& table) {
+    if (!is_external(name)) {
+        require_hologram(name, *this, table);
+        return {open_hologram(name), {}};
+    }
+    return with_renamed_parameters({{"phase_code", name_in_errors(code_option)}}, [&] {
+        ExternalField what = external_field();
+        const ExternalFacts facts = external_facts(name, what);
+        if (!what.variable.empty() && facts.format != "npz" && facts.format != "mat" && facts.format != "exr")
+            throw Error(ErrorCode::usage, "variable", fmt::format("{} has no variables with names", name));
+        is_opened = true;
+        complete_sampling(*this, name, table, facts, what);
+        OpenedFields opened{{}, contradictions(name, *this, table, facts, what)};
+        complete_values(*this, table, facts, what);
+        for (what.colour = 0; what.colour < facts.colours; ++what.colour) {
+            what.wavelength = wavelengths[what.colour];
+            opened.fields.push_back(open_external_field(name, what));
+        }
+        return opened;
+    });
+}
+
+OpenedFields FieldParameters::open_and_reconstruct(const std::string& name, const Parameters& table,
+                                                   const Progress& progress) {
+    OpenedFields opened = open(name, table);
+    make_images(*this, opened, progress);
+    return opened;
+}
+
+}  // namespace hogel
