@@ -25,9 +25,9 @@ std::filesystem::path viewer() {
                 "with the package libboost-dev");
 }
 
-int view(const ViewOptions& options, const Session& session) {
+int view(const ViewerParameters& options, const Session& session) {
     const std::filesystem::path program = viewer();
-    require_viewable(options);
+    options.viewable();
     execv(program.c_str(), session.arguments);
     throw Error(ErrorCode::not_built_in,
                 fmt::format("{}: cannot be started: {}", program.string(), std::strerror(errno)));
@@ -36,7 +36,7 @@ int view(const ViewOptions& options, const Session& session) {
 }  // namespace
 
 void add_view(Command& command, Session& session) {
-    auto options = std::make_shared<ViewOptions>();
+    auto options = std::make_shared<ViewerParameters>();
     add_view_options(command, *options);
     command.work([options, &session] { return view(*options, session); });
 }

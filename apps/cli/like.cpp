@@ -8,7 +8,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "command_line.h"
 #include "commands.h"
@@ -105,30 +104,6 @@ std::vector<std::string> take_like(Command& command, const std::string& file) {
     return taken;
 }
 
-std::string shell_word(const std::string& word) {
-    const bool plain = !word.empty() && word.find_first_not_of(
-                                            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                            "0123456789._-+=,:/@%") == std::string::npos;
-    if (plain) return word;
-    std::string text = "'";
-    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
-}
-
-namespace {
-
-// An option as it stands on a command line, with a blank before it.
-std::string written_option(const Parameter& parameter, const std::string& value) {
-    if (parameter.kind == ParameterKind::flag) return value == "yes" ? " --" + parameter.name : "";
-    if (parameter.kind != ParameterKind::texts) return fmt::format(" --{} {}", parameter.name, shell_word(value));
-    std::string text;
-    std::istringstream values(value);
-    for (std::string each; values >> each;) text += fmt::format(" --{} {}", parameter.name, shell_word(each));
-    return text;
-}
-
-}  // namespace
-
 std::string command_line_of(const Metadata& entries) {
     const std::string made = command_in(entries);
     constexpr std::string_view program = "hogel ";
@@ -145,7 +120,7 @@ std::string command_line_of(const Metadata& entries) {
         if (parameter->is_positional)
             operands += " " + shell_word((value.starts_with('-') ? "./" : "") + value);
         else
-            options += written_option(*parameter, value);
+            options += parameter->option_text(value);
     }
     // A file of `hogel make` that does not say of which scene it is.
     const bool has_operand =

@@ -24,7 +24,4 @@ std::optional<Metadata> run_of_make(const std::filesystem::path& path);
 /// 64x64". Empty where they name no command.
 std::string command_line_of(const Metadata& entries);
 
-/// A word of a command line as a shell reads it.
-std::string shell_word(const std::string& word);
-
 }  // namespace hogel::cli

@@ -8,8 +8,7 @@ namespace hogel::view {
 
 nlohmann::ordered_json facts_of_scene(const Settings& settings, const std::vector<Advice>& advice, bool is_file) {
     const LightFieldParameters& render = settings.options().render;
-    const HologramRequest hologram =
-        settings.options().hologram.request(render.request().grids(), settings.session().seed, 1);
+    const HologramRequest hologram = settings.options().hologram.request(render.request().grids(), settings.seed(), 1);
     // As they were typed, without what the conversion to radians and back adds.
     const auto degrees = [](double radians) { return std::round(radians * 180 / std::numbers::pi * 1e9) / 1e9; };
     const Vec3 turn = render.scene.pose.rotation, move = render.scene.pose.shift;

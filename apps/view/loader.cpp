@@ -8,7 +8,6 @@
 #include <cmath>
 #include <utility>
 
-#include "cli/inputs.h"
 #include "hogel/error.h"
 #include "hogel/parameters.h"
 #include "view/facts.h"
@@ -46,8 +45,12 @@ std::vector<std::string> parameters_of(const Error& error, const std::map<std::s
 
 }  // namespace
 
-Loader::Loader(Settings settings, Viewer& viewer)
-    : viewer_(viewer), now_(std::make_shared<State>(std::move(settings))), coarse_samples_(first_look_samples) {
+Loader::Loader(Settings settings, Viewer& viewer, std::function<void(const std::string& line)> say, std::stop_token end)
+    : viewer_(viewer),
+      say_(std::move(say)),
+      end_(std::move(end)),
+      now_(std::make_shared<State>(std::move(settings))),
+      coarse_samples_(first_look_samples) {
     open_input(*now_);
     shown_ = now_;
     describe();
@@ -61,13 +64,14 @@ Loader::~Loader() {
 std::size_t Loader::memory() const { return static_cast<std::size_t>(now_->settings.options().memory * 1e9); }
 
 void Loader::open_input(State& state) {
-    const cli::ViewOptions& options = state.settings.options();
+    ViewerParameters options = state.settings.options();
     const std::string& input = state.settings.input();
     if (options.field.is_external(input) || input_kind(input) == InputKind::hologram) {
-        FieldParameters field = options.field;
-        field.pitch = options.hologram.pitch;
-        field.wavelengths = options.hologram.wavelengths;
-        state.fields = cli::open_and_reconstruct(state.settings.session(), input, field);
+        options.field.pitch = options.hologram.pitch;
+        options.field.wavelengths = options.hologram.wavelengths;
+        OpenedFields opened = options.field.open_and_reconstruct(input, state.settings.table());
+        for (const std::string& note : opened.notes) say_(note);
+        state.fields = std::move(opened.fields);
     } else if (input_kind(input) == InputKind::light_field) {
         state.file = open_light_field_or_views(input);
     }
@@ -138,7 +142,7 @@ void Loader::run(const std::stop_token& end) {
             viewer_.say("", 1);
         } catch (const Error& error) {
             if (error.code() == ErrorCode::cancelled) continue;  // for a newer task
-            give_up(*task, now_->settings.session().command->describe(error), parameters_of(error, task->options));
+            give_up(*task, now_->settings.table().describe(error), parameters_of(error, task->options));
         } catch (const std::exception& error) {
             give_up(*task, error.what(), {});
         }
@@ -197,10 +201,10 @@ void Loader::describe() {
 }
 
 std::vector<Advice> Loader::advice() const {
-    const cli::ViewOptions& options = now_->settings.options();
+    const ViewerParameters& options = now_->settings.options();
     const LightFieldRequest request = options.render.request();
     std::vector<Advice> all =
-        advise(*now_->box, request, options.hologram.request(request.grids(), now_->settings.session().seed, 1));
+        advise(*now_->box, request, options.hologram.request(request.grids(), now_->settings.seed(), 1));
     const double most = 0.5 * static_cast<double>(memory()), samples = request.grid.samples();
     if (samples > most)
         all.push_back({"hogels",
@@ -224,18 +228,17 @@ Progress Loader::progress(const char* what) {
 // The holograms that `hogel photo --wave` makes, of the light field in memory where it is rendered. They serve all
 // pages, so that making them stops only where none is left.
 std::unique_ptr<Waves> Loader::waves_of(const LightField& light_field, bool rendered) {
-    const auto making = Progress(now_->settings.session().stop.get_token(), [viewer = &viewer_](double fraction) {
+    const auto making = Progress(end_, [viewer = &viewer_](double fraction) {
         const bool watched = viewer->is_watched();
         viewer->say(watched && fraction < 1 ? "preparing waves" : "", watched ? fraction : 1);
         return watched;
     });
-    const auto make = [settings = now_->settings, light_field, rendered, making] {
-        const cli::ViewOptions& options = settings.options();
+    const auto make = [settings = now_->settings, say = say_, light_field, rendered, making] {
+        const ViewerParameters& options = settings.options();
         LightField common = with_common_directions(light_field);
-        const HologramRequest request =
-            options.hologram.request(common.grids(), settings.session().seed, options.looks);
-        settings.session().say(options.hologram.note_about_pitch(request));
-        cli::check_holograms(common.grids(), request, rendered);
+        const HologramRequest request = options.hologram.request(common.grids(), settings.seed(), options.looks);
+        if (const std::string note = options.hologram.note_about_pitch(request); !note.empty()) say(note);
+        require_holograms(common.grids(), request);
         if (rendered)
             common = hogel::prepare_for_reading(common, request.channels.size(), needs_depth(request.method), making);
         return make_holograms(common, request);
@@ -263,10 +266,9 @@ void Loader::show_file(const LightField& light_field) {
     const LightFieldGrid& grid = light_field.grid();
     const std::size_t finest = step_that_fits(grid, memory()), first = step_of_first_look(grid);
     if (finest > 1)
-        now_->settings.session().say(fmt::format("{}: every {} of {}x{} hogels, which fit into --memory {:g}",
-                                                 now_->settings.name(),
-                                                 finest == 3 ? "3rd" : fmt::format("{}th", finest), grid.hogels_s,
-                                                 grid.hogels_t, now_->settings.options().memory));
+        say_(fmt::format("{}: every {} of {}x{} hogels, which fit into --memory {:g}", now_->settings.name(),
+                         finest == 3 ? "3rd" : fmt::format("{}th", finest), grid.hogels_s, grid.hogels_t,
+                         now_->settings.options().memory));
     if (first > finest) show(light_field, every_nth_hogel(light_field, first), "opening");
     show(light_field, every_nth_hogel(light_field, finest), "reading", waves_of(light_field, false));
 }
@@ -282,8 +284,7 @@ void Loader::show_scene(bool moving) {
     const Clock::time_point began = Clock::now();
     const Scene scene = now_->model->placed(request, progress("placing"));
     if (!now_->made)
-        for (const std::string& note : scene.notes)
-            now_->settings.session().say(fmt::format("{}: note: {}", now_->settings.name(), note));
+        for (const std::string& note : scene.notes) say_(fmt::format("{}: note: {}", now_->settings.name(), note));
     now_->made = now_->settings;
     now_->box = bounds(scene);
     describe();

@@ -28,7 +28,9 @@ namespace hogel::view {
 class Loader final : public Changes {
   public:
     /// Opens the input, so that what is wrong with a file is known before there is a page.
-    Loader(Settings settings, Viewer& viewer);
+    /// @param say  prints a line
+    /// @param end  stops all work
+    Loader(Settings settings, Viewer& viewer, std::function<void(const std::string& line)> say, std::stop_token end);
     ~Loader() override;
 
     /// Begins. Calls `failed` on the loader's thread if the first input cannot be shown.
@@ -67,7 +69,7 @@ class Loader final : public Changes {
     std::optional<Task> next(const std::stop_token& end);
     void do_task(const Task& task);
     void give_up(const Task& task, std::string why, const std::vector<std::string>& parameter);
-    static void open_input(State& state);
+    void open_input(State& state);
     void show_input(bool moving);
     void show_file(const LightField& light_field);
     bool is_compressed() const;
@@ -90,6 +92,8 @@ class Loader final : public Changes {
 
     // Used by the thread alone, once it runs.
     Viewer& viewer_;
+    std::function<void(const std::string& line)> say_;
+    std::stop_token end_;
     std::shared_ptr<State> now_, shown_;  // what is prepared, and what was shown last, at first the first input
     bool is_shown_ = false;               // whether there is anything to see
     double coarse_samples_;               // of a light field that is rendered in a moment

@@ -30,7 +30,7 @@ bool Loader::is_compressed() const { return !is_view_set(now_->settings.input())
 
 void Loader::show_stream() {
     const std::string& input = now_->settings.input();
-    const cli::ViewOptions& options = now_->settings.options();
+    const ViewerParameters& options = now_->settings.options();
     const StreamInfo info = read_stream_info(input);
     const std::size_t layers = options.layers > 0 ? options.layers : info.layers_there;
     const LightField light_field = open_stream(input, {.layers = layers});

@@ -6,6 +6,7 @@
 #include <exception>
 #include <memory>
 
+#include "cli/commands.h"
 #include "cli/program.h"
 #include "cli/view_options.h"
 #include "hogel/error.h"
@@ -18,20 +19,27 @@ namespace hogel::view {
 namespace {
 
 using cli::Session;
-using cli::ViewOptions;
 
-std::string address_of(const ViewOptions& options, unsigned short port) {
+// Whether a command of hogel takes an option.
+bool takes(const std::string& command, std::string_view option) {
+    static Session none;
+    static const cli::CommandLine line(cli::commands(), none);
+    return line.look_up(command)->look_up(option) != nullptr;
+}
+
+std::string address_of(const ViewerParameters& options, unsigned short port) {
     const std::string host = options.host.find(':') == std::string::npos ? options.host : "[" + options.host + "]";
     return fmt::format("http://{}:{}/{}", host, port, options.token.empty() ? "" : "?token=" + options.token);
 }
 
-int serve(const ViewOptions& options, Session& session) {
-    const Settings settings(session, options);
+int serve(const ViewerParameters& options, Session& session) {
+    const Settings settings(*session.command, takes);
     ServerLimits limits;
     limits.body = static_cast<std::uint64_t>(options.memory * 1e9);
     Server server(options.host, static_cast<unsigned short>(options.port), limits);
     const auto viewer = std::make_shared<Viewer>(Access(options.host, server.port(), options.token));
-    Loader loader(settings, *viewer);
+    Loader loader(
+        settings, *viewer, [&session](const std::string& line) { session.say(line); }, session.stop.get_token());
     loader.start([&session] { session.stop.request_stop(); });
     const std::string address = address_of(options, server.port());
     session.result({{"address", address}, {"port", server.port()}}, address + "\n");
@@ -45,7 +53,7 @@ int serve(const ViewOptions& options, Session& session) {
 }
 
 void add_viewer(cli::Command& command, Session& session) {
-    auto options = std::make_shared<ViewOptions>();
+    auto options = std::make_shared<ViewerParameters>();
     cli::add_view_options(command, *options);
     command.work([options, &session] { return serve(*options, session); });
 }

@@ -95,11 +95,7 @@ struct ViewWords {
         view.camera.resolution = {512, 0};
         std::vector<std::string> names;
         for (const auto& row : methods) names.emplace_back(row.first);
-        table.point("--eye", view.camera.eye, "");
-        table.point("--gaze", view.camera.gaze, "");
-        table.length("--focus", view.camera.focus, "");
-        table.positive_length("--pupil", view.camera.pupil, "");
-        table.resolution("--resolution", view.camera.resolution, "");
+        view.camera.declare(table);
         table.choice("--by", by, names, "", "");
         table.count("--looks", view.looks, "").range(1, max_looks);
         table.flag("--preview", view.preview, "");

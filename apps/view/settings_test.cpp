@@ -2,7 +2,6 @@
 #include "view/settings.h"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <filesystem>
 #include <fstream>
@@ -13,28 +12,31 @@
 namespace hogel::view {
 namespace {
 
-// The settings of "hogel view WORDS...".
-Settings settings_of(std::vector<std::string> words, const std::string& input) {
-    words.insert(words.begin(), {"hogel-view", "view"});
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    cli::Session session;
-    session.arguments = arguments.data();
-    cli::ViewOptions options;
-    options.input = input;
-    return {session, options};
+using Words = Settings::Words;
+
+// The settings of "hogel view INPUT --NAME TEXT ...".
+Settings settings_of(const std::string& input, const Words& words) {
+    ViewerParameters values;
+    Parameters table;
+    values.declare(table);
+    table.look_up("input")->read({input}, "input");
+    for (const auto& [name, text] : words) table.look_up(name)->read_value(text, name);
+    return {table, [](const std::string& command, std::string_view option) {
+                return command == "make" ? option == "hogels" || option == "rotate" || option == "size"
+                                         : option != "port" && option != "no-browser" && option != "original" &&
+                                               (option != "looks" || command == "photo");
+            }};
 }
 
 TEST(Settings, changes_are_those_of_a_command_line) {
     const Settings first =
-        settings_of({"pumpkin", "--hogels", "60", "--port=0", "--size=9mm", "--no-browser"}, "pumpkin");
+        settings_of("pumpkin", {{"hogels", "60"}, {"port", "0"}, {"size", "9mm"}, {"no-browser", "yes"}});
     EXPECT_EQ(first.options().render.hogels.columns, 60u);
     EXPECT_EQ(first.photo_command(), "hogel photo pumpkin --hogels 60 --size 9mm");
     const Settings changed = first.with({{"hogels", "70x50"}, {"rotate", "0,20,0deg"}, {"size", "8mm"}});
     EXPECT_EQ(changed.options().render.hogels.rows, 50u);
     EXPECT_NEAR(changed.options().render.size, 8e-3, 1e-12);
-    EXPECT_EQ(changed.make_command(), "hogel make pumpkin --hogels 70x50 --rotate 0,20,0deg --size 8mm -o made");
+    EXPECT_EQ(changed.make_command(), "hogel make pumpkin --hogels 70x50 --size 8mm --rotate 0,20,0deg -o made");
     EXPECT_FALSE(changed.same_light_field(first));
     EXPECT_TRUE(changed.same_light_field(changed.with({{"pitch", "2um"}})));
     EXPECT_FALSE(changed.same_light_field(changed.with({{"fov", "20deg"}})));
@@ -48,7 +50,7 @@ TEST(Settings, changes_are_those_of_a_command_line) {
 
 // A file may be called like the value of an option, like a command, or like the input before it.
 TEST(Settings, names_of_files_are_nothing_else) {
-    const Settings first = settings_of({"pumpkin", "--hogels", "40", "--directions", "16"}, "pumpkin");
+    const Settings first = settings_of("pumpkin", {{"hogels", "40"}, {"directions", "16"}});
     for (const std::string name : {"40", "16", "view", "render", "help", "pumpkin", "hogels"}) {
         const Settings dropped = first.of("sphere", name);
         EXPECT_EQ(dropped.options().render.hogels.columns, 40u) << name;
@@ -56,16 +58,16 @@ TEST(Settings, names_of_files_are_nothing_else) {
         EXPECT_EQ(dropped.options().input, name);
         EXPECT_EQ(dropped.photo_command(), "hogel photo " + name + " --hogels 40 --directions 16");
         EXPECT_EQ(dropped.with({{"hogels", "50"}}).photo_command(),
-                  "hogel photo " + name + " --directions 16 --hogels 50");
+                  "hogel photo " + name + " --hogels 50 --directions 16");
         EXPECT_EQ(dropped.of("sphere", "one mesh.ply").photo_command(),
                   "hogel photo 'one mesh.ply' --hogels 40 --directions 16");
     }
-    EXPECT_EQ(settings_of({"--original", "pumpkin", "pumpkin", "--hogels", "40"}, "pumpkin").photo_command(),
+    EXPECT_EQ(settings_of("pumpkin", {{"original", "pumpkin"}, {"hogels", "40"}}).photo_command(),
               "hogel photo pumpkin --hogels 40");
 }
 
 TEST(Settings, refuse_what_a_command_line_would) {
-    const Settings first = settings_of({"pumpkin"}, "pumpkin");
+    const Settings first = settings_of("pumpkin", {});
     for (const auto& [name, value] : std::vector<std::pair<std::string, std::string>>{{"hogels", "0"},
                                                                                       {"hogels", "many"},
                                                                                       {"size", "-1mm"},
@@ -81,10 +83,9 @@ TEST(Settings, refuse_what_a_command_line_would) {
 }
 
 TEST(Settings, make_holograms_by_themselves_with_options_that_make_lacks) {
-    EXPECT_EQ(settings_of({"pumpkin", "--wavelength", "532nm"}, "pumpkin").make_command(),
+    EXPECT_EQ(settings_of("pumpkin", {{"wavelength", "532nm"}}).make_command(),
               "hogel hologram pumpkin --wavelength 532nm -o hologram.h5");
-    EXPECT_EQ(settings_of({"pumpkin", "--looks", "4", "--zero", "3"}, "pumpkin").make_command(),
-              "hogel make pumpkin -o made");
+    EXPECT_EQ(settings_of("pumpkin", {{"looks", "4"}}).make_command(), "hogel make pumpkin -o made");
 }
 
 TEST(DropFolder, keeps_what_is_shown_and_forgets_what_was) {

@@ -102,7 +102,7 @@ struct FieldParameters;
 struct HOGEL_API HologramParameters {
     std::vector<double> wavelengths{defaults.red, defaults.green, defaults.blue};
     double pitch = defaults.pitch;
-    bool pitch_given = false;  ///< otherwise a request of a light field has one that diffracts its field of view
+    bool pitch_given = false;        ///< otherwise a request of a light field has one that diffracts its field of view
     std::string method = "fourier";  ///< a row of hologram_methods()
     std::string phase;               ///< empty: the default of the method
     std::string average = "radiance";
@@ -303,6 +303,27 @@ struct HOGEL_API MakeParameters {
     MakeRequest request(std::uint64_t seed) const;
     /// @param with_plane_waves  whether --camera may be the one of plane waves
     void declare(Parameters& parameters, bool with_plane_waves = false);
+};
+
+/// The parameters of `hogel view`.
+struct HOGEL_API ViewerParameters {
+    std::string input;
+    std::string host = "127.0.0.1";
+    std::uint64_t port = 0;  ///< 0: one that is free
+    std::string token;       ///< empty: none, on this machine alone
+    bool no_browser = false;
+    double memory = 4;  ///< GB for the samples of the light field
+    std::size_t looks = defaults.looks;
+    std::size_t layers = 0;  ///< of a .hgl stream; 0: all
+    std::string original;    ///< a light field beside which errors are shown; empty: the whole stream
+    LightFieldParameters render;
+    HologramParameters hologram;
+    FieldParameters field;
+
+    void declare(Parameters& parameters);
+    /// What there is to open: the input, or in a folder that `hogel make` wrote its light field. Throws Error(usage)
+    /// and Error(bad_input) for what cannot be viewed, and Error(usage) for a host or token that is not allowed.
+    std::string viewable() const;
 };
 
 }  // namespace hogel

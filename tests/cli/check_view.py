@@ -171,7 +171,7 @@ def check_scene():
     server.wait()
     page = WebSocket(server)
     before = page.until("state")
-    expect(not before["scene"]["is_file"] and before["scene"]["make"].startswith("hogel hologram sphere --hogels 24x20"), f"{before['scene']}")
+    expect(not before["scene"]["is_file"] and before["scene"]["make"].startswith("hogel hologram sphere --wavelength 633nm --hogels 24x20"), f"{before['scene']}")
     page.send("change?rotate=0,30,0deg&light=1,0.5,1:white:3&hogels=30x25&fov=20deg")
     state = next_state(page, lambda each: each["ready"] and each["hogels_s"] == 30 and not each["work"])
     expect((state["hogels_t"], state["scene"]["rotate_deg"], state["scene"]["lights"]) == (25, [0, 30, 0], ["1,0.5,1:white:3"]), f"{state['scene']}")

@@ -22,6 +22,15 @@ std::string Parameter::keyword() const {
     return keyword;
 }
 
+std::string Parameter::option_text(const std::string& value) const {
+    if (kind == ParameterKind::flag) return value == "yes" ? " " + option() : "";
+    if (kind != ParameterKind::texts) return fmt::format(" {} {}", option(), shell_word(value));
+    std::string text;
+    for (const auto word : std::views::split(value, ' '))
+        if (!word.empty()) text += fmt::format(" {} {}", option(), shell_word({word.begin(), word.end()}));
+    return text;
+}
+
 Parameter& Parameter::required() {
     is_required = true;
     shown_default.clear();  // it would never be used

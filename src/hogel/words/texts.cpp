@@ -183,6 +183,16 @@ std::string resolution_text(const Counts& counts) {
 
 namespace hogel {
 
+std::string shell_word(const std::string& word) {
+    const bool plain = !word.empty() && word.find_first_not_of(
+                                            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                            "0123456789._-+=,:/@%") == std::string::npos;
+    if (plain) return word;
+    std::string text = "'";
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
+}
+
 std::optional<double> parse_number(const std::string& text) {
     double number = 0;
     const char* const last = text.data() + text.size();
