@@ -123,10 +123,10 @@ void report_part(const Session& session, const std::string& file, const FilePart
 
 void LightFieldOutput::require(const std::string& input) const {
     if (compressed() && single)
-        throw Error(ErrorCode::usage, fmt::format("--float: belongs to HDF5 files; {} is a compressed one", file));
+        throw Error(ErrorCode::usage, "float", fmt::format("belongs to HDF5 files; {} is a compressed one", file));
     if (sqnr && !compressed())
-        throw Error(ErrorCode::usage,
-                    fmt::format("--sqnr: belongs to compressed files, whose names end in .hgl, not to {}", file));
+        throw Error(ErrorCode::usage, "sqnr",
+                    fmt::format("belongs to compressed files, whose names end in .hgl, not to {}", file));
     require_writable(file, {&input, 1});
     if (!compressed()) require_hdf5(file);
 }

@@ -96,6 +96,34 @@ struct HOGEL_API LightFieldParameters {
     /// --focal-plane, --frequencies and --interpolate, for those who make light fields.
     void declare_directions(Parameters& parameters);
 };
+
+/// The parameters of a compressed light field. At most one of the targets is set, or `lossless`; otherwise
+/// Defaults::sqnr is the target.
+struct HOGEL_API CompressionParameters {
+    std::optional<double> sqnr, pixels_per_bit, step, max_error;
+    bool lossless = false;
+    std::string rule = "search";     ///< of pixels_per_bit
+    std::optional<double> overhead;  ///< of the other rules
+    CompressionOptions compression;  ///< the coder, the transform and the steps of chrominance
+    std::string table, symbols;      ///< empty: the default of CodingMethod
+    std::string hemicube = "faces";
+    bool no_depth = false;
+    std::optional<double> depth_error;  ///< metres
+    std::string tone = "none";
+    double tone_decades = defaults.tone_decades;
+    Counts tile;  ///< empty: the coder's preferred tile
+
+    /// Without metadata. Throws Error(usage).
+    CompressionOptions options(const LightField& light_field) const;
+    /// Sets the values that act on this light field where they are not given, and what decides which act. The options()
+    /// must be valid.
+    void resolve(const LightField& light_field);
+    void declare(Parameters& parameters);
+
+    // What decides which parameters act, known once a light field is opened.
+    bool has_sides = false, has_depth = false;
+};
+
 struct FieldParameters;
 
 /// The parameters of a hologram of a light field.

@@ -5,6 +5,7 @@
 #include "hogel/compress.h"
 #include "hogel/files.h"
 #include "hogel/pipeline.h"
+#include "keywords.h"
 
 namespace hogel::python {
 namespace {
@@ -62,6 +63,25 @@ void add_methods(py::module_& module) {
         .def(py::init<double>(), arg("radiance"))
         .def_readwrite("radiance", &MaxError::radiance);
     py::class_<Lossless>(module, "Lossless").def(py::init<>());
+}
+
+void add_compression_keywords(py::module_& module) {
+    using Asked = Keywords<CompressionParameters>;
+    module.def("compression_keywords", [] { return described(Asked().table); });
+    module.def(
+        "compression_options",
+        [](const py::dict& keywords, const LightField& light_field) {
+            return Asked(keywords).values.options(light_field);
+        },
+        arg("keywords"), arg("light_field"));
+    module.def(
+        "compression_record",
+        [](const py::dict& keywords, const LightField& light_field) {
+            Asked asked(keywords);
+            asked.values.resolve(light_field);
+            return asked.table.acting();
+        },
+        arg("keywords"), arg("light_field"));
 }
 
 }  // namespace
@@ -128,6 +148,7 @@ void add_light_field_files(py::module_& module) {
 
 void add_compression(py::module_& module) {
     add_methods(module);
+    add_compression_keywords(module);
     py::class_<CompressionOptions>(module, "CompressionOptions")
         .def(py::init<>())
         .def_readwrite("method", &CompressionOptions::method)

@@ -55,7 +55,7 @@ TABLE = [
     ("make sphere -o w --pitch 1.5um", "--fov=60deg"),
     ("compress x.h5 -o w.hgl",
      """--sqnr=0 --sqnr=130 --ppb=0 --ppb=0.001 --step=-1 --max-error=0 --coder=zip --transform=wavy
-     --transform=haar --table=jpeg --symbols=words --symbols=alphabets --rule=histogram --overhead=2 --hemicube=none --depth-error=0m --depth-error=1e-300m
+     --transform=haar --table=jpeg --symbols=words --symbols=alphabets --rule=histogram --overhead=2 --hemicube=none --depth-error=-1um --depth-error=1e-300m
      --tone=none-such --tone-decades=1 --chrominance=2000 --tile=x"""),
     ("compress x.h5 -o w.hgl --tone histogram", "--tone-decades=30"),
     ("compress x.h5 -o w.hgl --ppb 1", "--rule=none --rule=histogram --rule=planes --overhead=2"),

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parameters that act, read again, make the same request.
+#include "hogel/requests.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "hogel/error.h"
+
+namespace hogel {
+namespace {
+
+using Texts = std::vector<std::pair<std::string, std::string>>;
+
+template <class Values>
+struct Declared {
+    Values values;
+    Parameters table;
+
+    explicit Declared(const Texts& texts) {
+        values.declare(table);
+        for (const auto& [name, text] : texts) table.look_up(name)->read_value(text, name);
+    }
+};
+
+// The names of parameters that an error of the request is about.
+template <class Values, class Request>
+std::string refused(const Texts& texts, const Request& request) {
+    try {
+        request(Declared<Values>(texts).values);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::usage);
+        return error.parameter();
+    }
+    return "accepted";
+}
+
+LightField light_field(bool with_depth) {
+    const LightFieldGrid grid{2, 2, 1e-4, 2, 2, field_of_view(0.3, 0.3, 0, 0)};
+    return LightField(std::make_shared<LightFieldBuffer>(grid, with_depth));
+}
+
+using Targets = std::tuple<std::size_t, double, double, RateRule, std::optional<double>>;
+
+Targets values_of(const CompressionTarget& target) {
+    const auto* ratio = std::get_if<Sqnr>(&target);
+    const auto* rate = std::get_if<PixelsPerBit>(&target);
+    return {target.index(), ratio != nullptr ? ratio->decibels : 0, rate != nullptr ? rate->rate : 0,
+            rate != nullptr ? rate->rule : RateRule::search, rate != nullptr ? rate->overhead : std::nullopt};
+}
+
+TEST(CompressionParameters, that_act_make_the_same_options_again) {
+    const LightField deep = light_field(true);
+    for (const Texts& texts :
+         std::vector<Texts>{{},
+                            {{"sqnr", "31.5"}, {"no-depth", "yes"}, {"tile", "3x2"}},
+                            {{"coder", "threepass"}, {"ppb", "3"}, {"rule", "planes"}},
+                            {{"coder", "fringes"}, {"symbols", "alphabets"}, {"transform", "haar"}},
+                            {{"coder", "jpeg4d"}, {"table", "jpeg"}, {"chrominance", "2"}},
+                            {{"tone", "histogram"}, {"tone-decades", "2"}, {"depth-error", "0mm"}},
+                            {{"lossless", "yes"}}}) {
+        Declared<CompressionParameters> asked(texts);
+        asked.values.resolve(deep);
+        const CompressionOptions made = asked.values.options(deep);
+        const CompressionOptions again = Declared<CompressionParameters>(asked.table.acting()).values.options(deep);
+        EXPECT_EQ(again.method, made.method);
+        EXPECT_EQ(values_of(again.target), values_of(made.target));
+        EXPECT_EQ(again.tile.has_value(), made.tile.has_value());
+        EXPECT_EQ(again.with_depth, made.with_depth);
+        EXPECT_EQ(again.depth_error, made.depth_error);
+        EXPECT_EQ(again.tone_decades, made.tone_decades);
+        EXPECT_EQ(again.chrominance, made.chrominance);
+    }
+}
+
+TEST(CompressionParameters, that_a_coder_or_a_light_field_does_not_have_are_refused) {
+    const auto of = [](const Texts& texts, bool with_depth = false) {
+        return refused<CompressionParameters>(texts,
+                                              [&](const auto& values) { values.options(light_field(with_depth)); });
+    };
+    EXPECT_EQ(of({}), "accepted");
+    EXPECT_EQ(of({{"table", "own"}}), "table");
+    EXPECT_EQ(of({{"symbols", "bits"}}), "symbols");
+    EXPECT_EQ(of({{"ppb", "8"}, {"rule", "planes"}}), "rule");
+    EXPECT_EQ(of({{"ppb", "8"}, {"overhead", "2"}}), "overhead");
+    EXPECT_EQ(of({{"transform", "hart"}}), "transform");
+    EXPECT_EQ(of({{"depth-error", "1um"}}), "depth_error");
+    EXPECT_EQ(of({{"depth-error", "1um"}}, true), "accepted");
+    EXPECT_EQ(of({{"depth-error", "-1um"}}, true), "depth_error");
+}
+
+}  // namespace
+}  // namespace hogel
