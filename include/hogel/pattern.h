@@ -77,6 +77,10 @@ struct Aperture {
     double radius = 0;
 };
 
+/// An aperture in words: in cycles, and in millimetres behind a lens of 200 mm.
+/// @param per_cycle  wavelength over the pixels' pitch
+HOGEL_API std::string describe(const Aperture& aperture, double per_cycle);
+
 /// The values of a modulator's pixels for one wavelength.
 struct Pattern {
     Array<float, 2> values;  ///< [y][x]: phases in cycles [0, 1), or amplitudes [0, 1], before rounding to levels

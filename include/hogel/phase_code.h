@@ -41,4 +41,8 @@ HOGEL_API Table<PhaseCodeInfo>& phase_codes();
 /// with the units deg or rad; the largest number stands for the whole range. Throws Error(usage).
 HOGEL_API PhaseCode parse_phase_code(const std::string& text);
 
+/// The text by which parse_phase_code() knows a code: its name, or a description. That of an open code is for numbers
+/// of 8 bits, of which the largest then stands for 255/256 of the range.
+HOGEL_API std::string phase_code_text(const PhaseCode& code);
+
 }  // namespace hogel

@@ -14,6 +14,7 @@
 #include "hogel/files.h"
 #include "hogel/make.h"
 #include "hogel/parameters.h"
+#include "hogel/pattern.h"
 #include "hogel/phase_code.h"
 #include "hogel/photograph.h"
 #include "hogel/pipeline.h"
@@ -122,6 +123,29 @@ struct HOGEL_API CompressionParameters {
 
     // What decides which parameters act, known once a light field is opened.
     bool has_sides = false, has_depth = false;
+};
+
+/// The parameters of the pattern of a modulator.
+struct HOGEL_API PatternParameters {
+    std::string encoding = "auto";     ///< a row of encodings(), or auto: the one that suits the fields
+    PatternOptions pattern;            ///< without encoding, modulator and phase code
+    std::string device;                ///< a row of modulators(), in capitals or not; empty: the following
+    Counts pixels;                     ///< across and down
+    double pixel_pitch = 0;            ///< metres
+    std::size_t levels = 256;          ///< of a pixel
+    std::string phase_code = "hogel";  ///< as parse_phase_code() takes it
+
+    /// The modulator by name, or as described. Throws Error(usage).
+    Modulator modulator() const;
+    /// With the modulator and the phase code, and the encoding unless that is auto. Throws Error(usage).
+    PatternOptions options() const;
+    /// Encodes the fields of all wavelengths. Throws what options() and encode_pattern() throw.
+    SuitablePatterns encode(const Fields& fields, const Progress& progress = {}) const;
+    /// Sets the encoding with which patterns are made, and the device's name as the table writes it.
+    void resolve(Encoding chosen);
+    /// What the file of the patterns says of each wavelength, such as "efficiency at 532 nm", and the field_entries().
+    Metadata metadata(const SuitablePatterns& encoded, const Fields& fields) const;
+    void declare(Parameters& parameters);
 };
 
 struct FieldParameters;

@@ -7,6 +7,7 @@
 #include "hogel/field.h"
 #include "hogel/image.h"
 #include "hogel/phase_code.h"
+#include "keywords.h"
 
 namespace hogel::python {
 namespace {
@@ -28,6 +29,7 @@ void add_phase_codes(py::module_& module) {
         .def("level", &PhaseCode::level, arg("phase"), arg("levels"));
     module.def("phase_codes", [] { return phase_codes().names(); });
     module.def("parse_phase_code", &parse_phase_code, arg("text"));
+    module.def("phase_code_text", &phase_code_text, arg("code"));
 }
 
 void add_encodings(py::module_& module) {
@@ -96,6 +98,43 @@ void add_raw_pixels(py::module_& module) {
         arg("path"));
 }
 
+void add_pattern_keywords(py::module_& module) {
+    using Asked = Keywords<PatternParameters>;
+    py::class_<SuitablePatterns, std::shared_ptr<SuitablePatterns>>(module, "SuitablePatterns")
+        .def_readonly("encoding", &SuitablePatterns::encoding)
+        .def_property_readonly("patterns", [](const std::shared_ptr<SuitablePatterns>& encoded) {
+            std::vector<std::shared_ptr<Pattern>> patterns;
+            for (Pattern& pattern : encoded->patterns) patterns.emplace_back(encoded, &pattern);
+            return patterns;
+        });
+    module.def("pattern_keywords", [] { return described(Asked().table); });
+    module.def(
+        "pattern_options", [](const py::dict& keywords) { return Asked(keywords).values.options(); }, arg("keywords"));
+    module.def(
+        "encode_patterns",
+        [](const py::dict& keywords, const Fields& fields, const py::object& report) {
+            const Asked asked(keywords);
+            return run_for(report, [&](const Progress& p) {
+                return std::make_shared<SuitablePatterns>(asked.values.encode(fields, p));
+            });
+        },
+        arg("keywords"), arg("fields"), arg("report"));
+    module.def(
+        "pattern_record",
+        [](const py::dict& keywords, Encoding chosen) {
+            Asked asked(keywords);
+            asked.values.resolve(chosen);
+            return asked.table.acting();
+        },
+        arg("keywords"), arg("chosen"));
+    module.def(
+        "pattern_metadata",
+        [](const py::dict& keywords, const SuitablePatterns& encoded, const Fields& fields) {
+            return Asked(keywords).values.metadata(encoded, fields);
+        },
+        arg("keywords"), arg("encoded"), arg("fields"));
+}
+
 }  // namespace
 
 void add_patterns(py::module_& module) {
@@ -120,6 +159,7 @@ void add_patterns(py::module_& module) {
         .def_readonly("x", &Aperture::x)
         .def_readonly("y", &Aperture::y)
         .def_readonly("radius", &Aperture::radius);
+    module.def("describe", py::overload_cast<const Aperture&, double>(&describe), arg("aperture"), arg("per_cycle"));
     py::class_<Pattern, std::shared_ptr<Pattern>>(module, "Pattern")
         .def_property_readonly("values",
                                [](const std::shared_ptr<Pattern>& p) {
@@ -142,25 +182,7 @@ void add_patterns(py::module_& module) {
             return run_for(py::none(), [&](const Progress&) { return suitable_encoding(*field, options); });
         },
         arg("field"), arg("options"));
-    module.def(
-        "encode_suitably",
-        [](const std::vector<Source>& fields, const PatternOptions& options, const py::object& report) {
-            SuitablePatterns suitable =
-                run_for(report, [&](const Progress& p) { return encode_suitably(fields, options, p); });
-            std::vector<std::shared_ptr<Pattern>> patterns;
-            for (Pattern& pattern : suitable.patterns)
-                patterns.push_back(std::make_shared<Pattern>(std::move(pattern)));
-            return py::make_tuple(suitable.encoding, patterns);
-        },
-        arg("fields"), arg("options"), arg("report"));
-    module.def(
-        "encode_pattern",
-        [](const Source& field, const PatternOptions& options, const py::object& report) {
-            return run_for(report, [&](const Progress& p) {
-                return std::make_shared<Pattern>(encode_pattern(*field, options, p));
-            });
-        },
-        arg("field"), arg("options"), arg("report"));
+    add_pattern_keywords(module);
     module.def(
         "transmission",
         [](const Pattern& pattern, Encoding encoding, const PhaseCode& code) {

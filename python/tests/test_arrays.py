@@ -239,6 +239,18 @@ class Elsewhere(InFolder):
         with self.assertRaisesRegex(TypeError, "did you mean 'wavelength'"):
             hogel.Hologram.open("h.h5", wavelengths="532nm")
 
+    def test_phase_codes_of_patterns_are_texts_or_objects(self):
+        samples = np.exp(2j * np.pi * random_array(32, 40)).astype(np.complex64)
+        wave = hogel.Field.from_array(samples, pitch="8um", wavelength="532nm")
+        device = dict(encoding="phase", pixels=(40, 32), pixel_pitch="8um")
+        for text in "hogel", "slmsuite", "range=300deg,offset=-20deg":
+            code = hogel._core.parse_phase_code(text)
+            self.assertTrue(np.array_equal(wave.slm(**device, phase_code=text), wave.slm(**device, phase_code=code)), text)
+        of_no_name = hogel._core.PhaseCode(4.4, -0.3, True)
+        levels = np.asarray(wave.slm(**device, phase_code=of_no_name))[:, :, 0]
+        for row, column in (0, 0), (7, 11), (31, 39):
+            self.assertEqual(levels[row, column], of_no_name.level(float(np.angle(samples[row, column])), 255))
+
     def test_a_field_is_a_hologram_of_one_wavelength(self):
         noise = random_array(2, 48, 64)
         wave = hogel.Field.from_array((noise[0] + 1j * noise[1]).astype(np.complex64), pitch="4um", wavelength="532nm")

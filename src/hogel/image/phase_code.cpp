@@ -101,4 +101,11 @@ PhaseCode parse_phase_code(const std::string& text) {
     return code;
 }
 
+std::string phase_code_text(const PhaseCode& code) {
+    for (const PhaseCodeInfo& known : phase_codes().rows())
+        if (known.code == code) return known.name;
+    return fmt::format("range={}rad,offset={}rad{}", code.closed ? code.range : code.range * 255 / 256, code.offset,
+                       code.inverted ? ",invert" : "");
+}
+
 }  // namespace hogel

@@ -66,5 +66,16 @@ TEST(PhaseCode, of_other_words_is_refused) {
     EXPECT_NEAR(parse_phase_code("range=360deg").range, 2 * pi, 1e-12);
 }
 
+TEST(PhaseCode, its_text_encodes_the_same_levels_of_8_bits) {
+    for (const PhaseCodeInfo& known : phase_codes().rows()) EXPECT_EQ(phase_code_text(known.code), known.name);
+    for (const bool closed : {false, true})
+        for (const bool inverted : {false, true}) {
+            const PhaseCode code{4.4, -0.3, inverted, closed};
+            const PhaseCode again = parse_phase_code(phase_code_text(code));
+            for (double phase = -10; phase < 10; phase += 0.0317)
+                EXPECT_EQ(again.level(phase, 255), code.level(phase, 255)) << phase_code_text(code) << " " << phase;
+        }
+}
+
 }  // namespace
 }  // namespace hogel

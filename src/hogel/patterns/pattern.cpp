@@ -225,6 +225,15 @@ Table<EncodingInfo>& encodings() {
     return table;
 }
 
+std::string describe(const Aperture& aperture, double per_cycle) {
+    constexpr double focal_length = 0.2;
+    std::string middle;
+    if (aperture.x != 0 || aperture.y != 0)
+        middle = fmt::format(" around {:.4f} to the right and {:.4f} up", aperture.x, 0.0 - aperture.y);
+    return fmt::format("radius {:.4f} cycles a pixel{}, {:.2f} mm at a lens of 200 mm", aperture.radius, middle,
+                       aperture.radius * per_cycle * focal_length / 1e-3);
+}
+
 Pattern encode_pattern(const FieldSource& source, const PatternOptions& options, const Progress& progress) {
     const core::StopScope scope(progress);
     require_fitting(source.grid(), options);

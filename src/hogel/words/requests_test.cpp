@@ -95,5 +95,43 @@ TEST(CompressionParameters, that_a_coder_or_a_light_field_does_not_have_are_refu
     EXPECT_EQ(of({{"depth-error", "-1um"}}, true), "depth_error");
 }
 
+TEST(PatternParameters, that_act_make_the_same_options_again) {
+    const Texts described{{"pixels", "40x30"}, {"pixel-pitch", "8um"}, {"levels", "16"}, {"clip", "0.1"}};
+    const Texts named{{"device", "LETO"}, {"window", "8"}, {"iterations", "3"}, {"phase-code", "range=300deg,invert"}};
+    const Texts with_reference{{"device", "pluto"}, {"reference", "1.5deg"}};
+    for (const Texts& texts : {described, named, with_reference})
+        for (const EncodingInfo& encoding : encodings().rows()) {
+            Declared<PatternParameters> asked(texts);
+            asked.values.resolve(encoding.encoding);
+            const PatternOptions made = asked.values.options();
+            const PatternOptions again = Declared<PatternParameters>(asked.table.acting()).values.options();
+            EXPECT_EQ(made.encoding, encoding.encoding);
+            EXPECT_EQ(again.encoding, made.encoding);
+            EXPECT_EQ(again.clip, made.clip);
+            const auto same_for = [&](bool acts, const auto& member) {
+                EXPECT_TRUE(!acts || again.*member == made.*member) << encoding.name;
+            };
+            same_for(encoding.encoding != Encoding::binary, &PatternOptions::modulator);
+            same_for(encoding.phase_only, &PatternOptions::phase_code);
+            same_for(encoding.encoding == Encoding::gerchberg_saxton, &PatternOptions::window);
+            same_for(encoding.encoding == Encoding::gradient, &PatternOptions::iterations);
+            same_for(encoding.encoding == Encoding::bipolar, &PatternOptions::reference_angle);
+        }
+}
+
+TEST(PatternParameters, describe_one_modulator) {
+    const auto of = [](const Texts& texts) {
+        return refused<PatternParameters>(texts, [](const auto& values) { values.modulator(); });
+    };
+    EXPECT_EQ(of({{"device", "leto"}}), "accepted");
+    EXPECT_EQ(of({{"pixels", "8"}, {"pixel-pitch", "8um"}}), "accepted");
+    EXPECT_EQ(of({}), "device, pixels, pixel_pitch");
+    EXPECT_EQ(of({{"device", "leto"}, {"pixels", "8"}}), "device, pixels, pixel_pitch");
+    EXPECT_EQ(of({{"pixels", "8"}}), "pixels, pixel_pitch");
+    EXPECT_EQ(of({{"pixels", "65537x1"}, {"pixel-pitch", "8um"}}), "pixels");
+    EXPECT_EQ(of({{"pixels", "8"}, {"pixel-pitch", "8um"}, {"levels", "257"}}), "levels");
+    EXPECT_EQ(of({{"device", "zeus"}}), "device");
+}
+
 }  // namespace
 }  // namespace hogel

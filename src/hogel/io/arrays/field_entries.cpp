@@ -22,14 +22,6 @@ constexpr const char *pitch_x_key = "pitch_x_m", *pitch_y_key = "pitch_y_m", *va
 
 std::string wavelength_key(std::size_t field) { return fmt::format("field{}_wavelength_m", field); }
 
-// The name of a code, or its description. Of levels of 8 bits, so that an open range ends at 255 of 256.
-std::string phase_code_text(const PhaseCode& code) {
-    for (const PhaseCodeInfo& known : phase_codes().rows())
-        if (known.code == code) return known.name;
-    return fmt::format("range={}rad,offset={}rad{}", code.closed ? code.range : code.range * 255 / 256, code.offset,
-                       code.inverted ? ",invert" : "");
-}
-
 const std::string* find_text(const Metadata& entries, const std::string& key) {
     const auto found = std::ranges::find(entries, key, [](const auto& entry) { return entry.first; });
     return found == entries.end() ? nullptr : &found->second;

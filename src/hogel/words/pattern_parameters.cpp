@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <strings.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "hogel/error.h"
+#include "hogel/pattern.h"
+#include "hogel/requests.h"
+#include "hogel/units.h"
+
+namespace hogel {
+namespace {
+
+constexpr const char* automatic_encoding = "auto";
+
+// A device as the table writes it, typed in small letters or capitals.
+std::string device_name(const std::string& typed) {
+    for (const std::string& name : modulators().names())
+        if (strcasecmp(name.c_str(), typed.c_str()) == 0) return name;
+    return typed;
+}
+
+std::string encoding_name(Encoding encoding) {
+    for (const EncodingInfo& info : encodings().rows())
+        if (info.encoding == encoding) return info.name;
+    return "";
+}
+
+// Whether the encoding, once it is chosen, is one of these.
+bool is_one_of(const std::string& encoding, std::initializer_list<Encoding> these) {
+    return std::ranges::count(these, encodings().find(encoding).encoding) > 0;
+}
+
+// What is stored of the pattern of one wavelength.
+Metadata pattern_entries(const Pattern& pattern, double wavelength, const Modulator& modulator, Encoding encoding) {
+    const std::string name = format_length(wavelength);
+    Metadata entries{{"efficiency at " + name, fmt::format("{:.6f}", pattern.efficiency)}};
+    if (is_phase_only(encoding))
+        entries.emplace_back("correlation at " + name, fmt::format("{:.6f}", pattern.correlation));
+    if (pattern.iterations > 0) entries.emplace_back("iterations at " + name, fmt::format("{}", pattern.iterations));
+    if (pattern.reference_angle != 0)
+        entries.emplace_back("reference angle at " + name,
+                             fmt::format("{:.6f}deg", pattern.reference_angle * 180 / std::numbers::pi));
+    entries.emplace_back("power at " + name, fmt::format("{:.6g}", pattern.power));
+    entries.emplace_back("aperture at " + name, describe(pattern.aperture, wavelength / modulator.pitch));
+    return entries;
+}
+
+void declare_pattern(Parameters& parameters, PatternParameters& asked) {
+    std::vector<std::string> names = encodings().names();
+    names.insert(names.begin(), automatic_encoding);
+    parameters.group("Pattern");
+    parameters.choice(
+        "--encoding", asked.encoding, names, "NAME",
+        "auto: phase, double-phase or gradient: the first that correlates with the field by 0.998, or the best\n"
+        "phase: the field's phase alone: for fields of even modulus, such as plane and spherical waves\n"
+        "double-phase: the modulus as the difference of two phases: for any field, dark, without iteration\n"
+        "gerchberg-saxton: phases iterated to show the spectra of hogels: for random phases, not smooth ones\n"
+        "gradient: phases that show the field behind its aperture, which must be of that size: for any field\n"
+        "intensity: |F + R|² with a reference beam R\n"
+        "bipolar: 2 Re(F R*), raised to be positive\n"
+        "burckhardt, lee: three or four real components, in columns by turns\n"
+        "binary: where Re(F R*) is positive");
+    parameters
+        .angle("--reference", asked.pattern.reference_angle,
+               "Angle of the reference beam; 0: between the least and the most that will do")
+        .acts_if([&asked] {
+            return is_one_of(asked.encoding, {Encoding::intensity, Encoding::bipolar, Encoding::binary});
+        });
+    parameters.number("--clip", asked.pattern.clip, "0..1",
+                      "Share of the samples whose modulus may be cut to the largest");
+    parameters.count("--window", asked.pattern.window, "Gerchberg-Saxton: pixels of a hogel's side").acts_if([&asked] {
+        return is_one_of(asked.encoding, {Encoding::gerchberg_saxton});
+    });
+    parameters
+        .count("--iterations", asked.pattern.iterations,
+               "Gerchberg-Saxton: how many steps (default: 40); gradient: at most (default: 200), until the\n"
+               "correlation with the field no longer gains")
+        .no_default()
+        .acts_if([&asked] {
+            return is_one_of(asked.encoding, {Encoding::gerchberg_saxton, Encoding::gradient});
+        });
+}
+
+void declare_modulator(Parameters& parameters, PatternParameters& asked) {
+    std::string devices = "Modulator:";
+    for (const Modulator& modulator : modulators().rows())
+        devices += fmt::format("\n{}: {}x{} at {}, {} levels", modulator.name, modulator.width, modulator.height,
+                               format_length(modulator.pitch), modulator.levels);
+    parameters.group("Modulator");
+    const Parameter& device = parameters.text("--device", asked.device, "NAME", devices)
+                                  .sets_parameter("pixel_pitch")
+                                  .knows(modulators().names());
+    const auto is_described = [&asked] { return asked.device.empty(); };
+    parameters.counts("--pixels", asked.pixels, "Any other: pixels across and down")
+        .no_default()
+        .excludes(device)
+        .acts_if(is_described);
+    parameters.positive_length("--pixel-pitch", asked.pixel_pitch, "Distance of its pixels")
+        .no_default()
+        .excludes(device)
+        .acts_if(is_described);
+    parameters.count("--levels", asked.levels, "Levels of its pixels").excludes(device).acts_if([&asked] {
+        return asked.device.empty() && !is_one_of(asked.encoding, {Encoding::binary});
+    });
+    std::string codes = "Levels of phases as this program writes them:";
+    for (const PhaseCodeInfo& code : phase_codes().rows()) codes += fmt::format("\n{}: {}", code.name, code.text);
+    parameters
+        .text("--phase-code", asked.phase_code, "CODE",
+              codes + "\nany other: range=ANGLE,offset=ANGLE,invert, in deg, rad or pi (2pi)")
+        .acts_if([&asked] { return is_phase_only(encodings().find(asked.encoding).encoding); });
+}
+
+}  // namespace
+
+Modulator PatternParameters::modulator() const {
+    const bool is_described = pixels.columns > 0 || pixel_pitch > 0;
+    if (device.empty() == !is_described)
+        throw Error(ErrorCode::usage, "device, pixels, pixel_pitch",
+                    "name a modulator, or describe one by its pixels and their pitch");
+    if (!is_described) return modulators().find(device_name(device));
+    if (pixels.columns == 0 || pixel_pitch == 0)
+        throw Error(ErrorCode::usage, "pixels, pixel_pitch", "a modulator is described by both");
+    if (std::max(pixels.columns, pixels.rows) > 65536)
+        throw Error(ErrorCode::usage, "pixels", "at most 65536 were expected on a side");
+    if (levels < 2 || levels > 256) throw Error(ErrorCode::usage, "levels", "2 to 256 were expected");
+    return {"", pixels.columns, pixels.rows, pixel_pitch, static_cast<unsigned>(levels)};
+}
+
+PatternOptions PatternParameters::options() const {
+    PatternOptions chosen = pattern;
+    chosen.modulator = modulator();
+    chosen.phase_code = parse_phase_code(phase_code);
+    if (encoding != automatic_encoding) chosen.encoding = encodings().find(encoding).encoding;
+    return chosen;
+}
+
+SuitablePatterns PatternParameters::encode(const Fields& fields, const Progress& progress) const {
+    const PatternOptions chosen = options();
+    if (encoding == automatic_encoding) return encode_suitably(fields, chosen, progress);
+    return {chosen.encoding, encode_patterns(fields, chosen, progress)};
+}
+
+void PatternParameters::resolve(Encoding chosen) {
+    encoding = encoding_name(chosen);
+    if (!device.empty()) device = device_name(device);
+}
+
+Metadata PatternParameters::metadata(const SuitablePatterns& encoded, const Fields& fields) const {
+    using Values = ExternalField::Values;
+    const Modulator shown_by = modulator();
+    Metadata entries;
+    std::vector<double> wavelengths;
+    for (std::size_t c = 0; c < fields.size(); ++c) {
+        wavelengths.push_back(fields[c]->grid().wavelength);
+        for (auto& entry : pattern_entries(encoded.patterns[c], wavelengths[c], shown_by, encoded.encoding))
+            entries.push_back(std::move(entry));
+    }
+    ExternalField what{.pitch_x = shown_by.pitch, .pitch_y = shown_by.pitch};
+    what.values = is_phase_only(encoded.encoding) ? Values::phase : Values::amplitude;
+    what.phase_code = parse_phase_code(phase_code);
+    for (auto& entry : field_entries(what, wavelengths)) entries.push_back(std::move(entry));
+    return entries;
+}
+
+void PatternParameters::declare(Parameters& parameters) {
+    declare_pattern(parameters, *this);
+    declare_modulator(parameters, *this);
+}
+
+}  // namespace hogel
