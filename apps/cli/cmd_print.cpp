@@ -3,6 +3,7 @@
 
 #include "commands.h"
 #include "hogel/pipeline.h"
+#include "hogel/requests.h"
 #include "inputs.h"
 #include "outputs.h"
 
@@ -10,9 +11,9 @@ namespace hogel::cli {
 namespace {
 
 struct Options {
-    std::string input, output, order = "serpentine";
-    bool rows = false, force = false;
-    double exposure = 1;
+    std::string input, output;
+    PrintParameters images;
+    bool force = false;
 };
 
 int print(const Options& options, const Session& session) {
@@ -21,12 +22,9 @@ int print(const Options& options, const Session& session) {
     const LightField light_field = open_light_field_or_views(options.input);
     const OutputFolder folder(options.output, options.force);
     Stage stage(session, "pictures");
-    const auto names = write_printer_images(folder.path(), light_field,
-                                            {.rows = options.rows,
-                                             .serpentine = options.order == "serpentine",
-                                             .exposure = options.exposure,
-                                             .metadata = run_metadata(session)},
-                                            stage.progress());
+    PrinterImageOptions images = options.images.options();
+    images.metadata = run_metadata(session);
+    const auto names = write_printer_images(folder.path(), light_field, images, stage.progress());
     session.say(fmt::format("{}: {} pictures, {} to {}", options.output, names.size(),
                             names.front().filename().string(), names.back().filename().string()));
     std::uintmax_t bytes = 0;
@@ -36,7 +34,7 @@ int print(const Options& options, const Session& session) {
                     {"pictures", names.size()},
                     {"first", names.front().filename().string()},
                     {"last", names.back().filename().string()},
-                    {"exposure", options.exposure},
+                    {"exposure", images.exposure},
                     {"seconds", session.seconds()}});
     return 0;
 }
@@ -53,13 +51,7 @@ void add_print(Command& command, Session& session) {
         .required()
         .never_acts();
     add_force_flag(command, options->force);
-    command.flag("--strips", options->rows, "One picture a row of hogels, side by side, instead of one a hogel");
-    command.choice("--order", options->order, {"serpentine", "rows"}, "NAME",
-                   "serpentine: every second row from the right\nrows: all rows from the left");
-    command
-        .number("--exposure", options->exposure, "NUMBER",
-                "What linear values are multiplied by, the same in all pictures")
-        .positive();
+    options->images.declare(command);
     command.add_like_option();
     command.work([options, &session] { return print(*options, session); });
 }

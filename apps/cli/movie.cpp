@@ -88,11 +88,6 @@ FrameFolder::~FrameFolder() {
     if (lock_ >= 0) ::close(lock_);
 }
 
-bool is_film(const fs::path& path) {
-    const std::string kind = path.extension().string();
-    return !is_numbered(path) && (kind == ".mp4" || kind == ".gif" || kind == ".apng");
-}
-
 bool is_movie(const fs::path& path) { return is_numbered(path) || is_film(path); }
 
 void require_movie(const fs::path& path) {

@@ -27,8 +27,6 @@ class FrameFolder {
     int lock_ = -1;  // a descriptor of the folder that holds the lock
 };
 
-/// Whether a name is that of a film: .mp4, .gif or .apng, without numbers.
-bool is_film(const std::filesystem::path& path);
 /// Whether a name is that of several pictures: name####.png, numbered from 0, or a film.
 bool is_movie(const std::filesystem::path& path);
 

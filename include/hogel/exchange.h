@@ -169,6 +169,9 @@ HOGEL_API Table<ViewLayout>& view_layouts();
 /// Whether that program is installed.
 HOGEL_API bool can_make_films();
 
+/// Whether a name is that of a film: .mp4, .gif or .apng, without numbers ("####").
+HOGEL_API bool is_film(const std::filesystem::path& path);
+
 /// Makes a film (.mp4, .gif or .apng) of the pictures `frames` ("%06d.png") of a folder. `comment` is stored in it.
 /// Throws Error(not_built_in) without ffmpeg, Error(cannot_write) where it fails.
 HOGEL_API void make_film(const std::filesystem::path& film, const std::filesystem::path& folder,

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -49,6 +50,57 @@ struct HOGEL_API SceneParameters {
     bool is_file = false;  ///< no built-in scene
     bool is_lit = false, has_points = false;
     bool has_background = true;
+};
+
+/// The parameters with which a set of views becomes a light field.
+struct HOGEL_API ImportParameters {
+    ViewOptions views;                         ///< without what the texts and counts that follow decide
+    std::string column, projection, transfer;  ///< empty: what the set says
+    std::string mirror = "none";
+    Counts counts, middle;  ///< of views; none: what the set says, and all
+
+    /// Throws Error(usage).
+    ViewOptions options() const;
+    /// Sets the values with which these views were imported.
+    void resolve(const ImportedViews& imported);
+    void declare(Parameters& parameters);
+};
+
+/// The parameters with which a light field becomes a set of views, or a film of their middle row.
+struct HOGEL_API ExportParameters {
+    ViewExportOptions views;  ///< without `bits`, `transfer` and `metadata`
+    bool layout_given = false;
+    std::size_t bits = 0;  ///< 0: as imported
+    std::string transfer;  ///< empty: as imported
+    double frame_rate = 24;
+    bool is_film = false;
+
+    /// Throws Error(usage).
+    ViewExportOptions options() const;
+    /// Sets the values that the name of the output decides: the layout unless it is given, the format of a quilt, and
+    /// those of the pictures of a film. Throws Error(usage) for an unknown layout.
+    void resolve(const std::filesystem::path& output);
+    void declare(Parameters& parameters);
+};
+
+/// The parameters of pictures for a hologram printer.
+struct HOGEL_API PrintParameters {
+    PrinterImageOptions images;  ///< without `serpentine` and `metadata`
+    std::string order = "serpentine";
+
+    PrinterImageOptions options() const;
+    void declare(Parameters& parameters);
+};
+
+/// The parameters of cameras whose pictures become a light field, see write_cameras().
+struct HOGEL_API CamerasParameters {
+    Counts hogels{defaults.hogels, defaults.hogels};
+    Counts directions{9, 9};
+    double size = defaults.size, distance = 0.3;  ///< metres
+    Angles field_of_view{defaults.field_of_view, defaults.field_of_view};
+
+    LightFieldGrid grid() const;
+    void declare(Parameters& parameters);
 };
 
 /// The parameters of a light field of a scene.

@@ -3,11 +3,84 @@
 #include "core.h"
 #include "hogel/exchange.h"
 #include "hogel/pipeline.h"
+#include "keywords.h"
 
 namespace hogel::python {
 namespace {
 
 using py::arg;
+
+// The parameters of import_views(), with the values of keywords.
+struct ImportKeywords {
+    ImportParameters values;
+    Parameters table;
+
+    explicit ImportKeywords(const py::dict& keywords) {
+        table.flag("--depth", values.views.with_depth, "Store the depth of rays, by the disparity or depth of the set")
+            .acts_if([this] { return values.views.with_depth; });
+        values.declare(table);
+        read_keywords(table, keywords);
+    }
+};
+
+void add_import_keywords(py::module_& module) {
+    module.def("import_keywords", [] { return described(ImportKeywords{py::dict()}.table); });
+    module.def(
+        "import_options",
+        [](const py::dict& keywords, const std::filesystem::path& spool) {
+            ViewOptions options = ImportKeywords(keywords).values.options();
+            options.spool = spool;
+            return options;
+        },
+        arg("keywords"), arg("spool"));
+    module.def(
+        "import_record",
+        [](const py::dict& keywords, const ImportedViews& imported) {
+            ImportKeywords asked(keywords);
+            asked.values.resolve(imported);
+            return asked.table.acting();
+        },
+        arg("keywords"), arg("imported"));
+}
+
+void add_export_keywords(py::module_& module) {
+    using ExportKeywords = Keywords<ExportParameters>;
+    module.def("export_keywords", [] { return described(ExportKeywords().table); });
+    module.def(
+        "export_request",
+        [](const std::filesystem::path& target, const py::dict& keywords) {
+            ExportKeywords asked(keywords);
+            asked.values.resolve(target);
+            return py::make_tuple(asked.values.options(), asked.values.frame_rate, asked.table.acting());
+        },
+        arg("target"), arg("keywords"));
+}
+
+void add_cameras_keywords(py::module_& module) {
+    using CamerasKeywords = Keywords<CamerasParameters>;
+    module.def("cameras_keywords", [] { return described(CamerasKeywords().table); });
+    module.def(
+        "cameras_grid", [](const py::dict& keywords) { return CamerasKeywords(keywords).values.grid(); },
+        arg("keywords"));
+}
+
+void add_printer_images(py::module_& module) {
+    using PrintKeywords = Keywords<PrintParameters>;
+    module.def("print_keywords", [] { return described(PrintKeywords().table); });
+    module.def(
+        "print_record", [](const py::dict& keywords) { return PrintKeywords(keywords).table.acting(); },
+        arg("keywords"));
+    module.def(
+        "write_printer_images",
+        [](const std::filesystem::path& folder, const LightField& light_field, const py::dict& keywords,
+           const py::object& metadata, const py::object& report) {
+            PrinterImageOptions options = PrintKeywords(keywords).values.options();
+            options.metadata = metadata_of(metadata);
+            return run_for(report,
+                           [&](const Progress& p) { return write_printer_images(folder, light_field, options, p); });
+        },
+        arg("folder"), arg("light_field"), arg("keywords"), arg("metadata"), arg("report"));
+}
 
 void add_view_options(py::module_& module) {
     py::enum_<Transfer>(module, "Transfer")
@@ -15,29 +88,7 @@ void add_view_options(py::module_& module) {
         .value("linear", Transfer::linear)
         .value("rec709", Transfer::rec709)
         .value("gamma22", Transfer::gamma22);
-    py::class_<ViewOptions>(module, "ViewOptions")
-        .def(py::init<>())
-        .def_readwrite("layout", &ViewOptions::layout)
-        .def_readwrite("size", &ViewOptions::size)
-        .def_readwrite("distance", &ViewOptions::distance)
-        .def_readwrite("spacing", &ViewOptions::spacing)
-        .def_readwrite("field_of_view", &ViewOptions::field_of_view)
-        .def_readwrite("transfer", &ViewOptions::transfer)
-        .def_readwrite("orthographic", &ViewOptions::orthographic)
-        .def_readwrite("column_first", &ViewOptions::column_first)
-        .def_readwrite("columns", &ViewOptions::columns)
-        .def_readwrite("rows", &ViewOptions::rows)
-        .def_readwrite("middle_columns", &ViewOptions::middle_columns)
-        .def_readwrite("middle_rows", &ViewOptions::middle_rows)
-        .def_readwrite("mirror_columns", &ViewOptions::mirror_columns)
-        .def_readwrite("mirror_rows", &ViewOptions::mirror_rows)
-        .def_readwrite("disparity", &ViewOptions::disparity)
-        .def_readwrite("densify", &ViewOptions::densify)
-        .def_readwrite("estimate_disparity", &ViewOptions::estimate_disparity)
-        .def_readwrite("with_depth", &ViewOptions::with_depth)
-        .def_readwrite("depth_scale", &ViewOptions::depth_scale)
-        .def_readwrite("memory", &ViewOptions::memory)
-        .def_readwrite("spool", &ViewOptions::spool);
+    py::class_<ViewOptions>(module, "ViewOptions");
     py::class_<ImportedViews>(module, "ImportedViews")
         .def_readonly("light_field", &ImportedViews::light_field)
         .def_readonly("layout", &ImportedViews::layout)
@@ -55,13 +106,7 @@ void add_view_options(py::module_& module) {
         .def_readonly("assumed", &ImportedViews::assumed)
         .def_readonly("notes", &ImportedViews::notes);
     py::class_<ViewExportOptions>(module, "ViewExportOptions")
-        .def(py::init<>())
-        .def_readwrite("layout", &ViewExportOptions::layout)
-        .def_readwrite("format", &ViewExportOptions::format)
-        .def_readwrite("bits", &ViewExportOptions::bits)
-        .def_readwrite("transfer", &ViewExportOptions::transfer)
-        .def_readwrite("exposure", &ViewExportOptions::exposure)
-        .def_readwrite("memory", &ViewExportOptions::memory)
+        .def_readonly("layout", &ViewExportOptions::layout)
         .def_property(
             "metadata", [](const ViewExportOptions& o) { return o.metadata; },
             [](ViewExportOptions& o, const py::object& m) { o.metadata = metadata_of(m); });
@@ -117,16 +162,11 @@ void add_view_sets(py::module_& module) {
 void add_views(py::module_& module) {
     add_view_options(module);
     add_view_sets(module);
-    module.def(
-        "write_printer_images",
-        [](const std::filesystem::path& folder, const LightField& light_field, bool rows, bool serpentine,
-           double exposure, const py::object& metadata, const py::object& report) {
-            const PrinterImageOptions options{rows, serpentine, exposure, metadata_of(metadata)};
-            return run_for(report,
-                           [&](const Progress& p) { return write_printer_images(folder, light_field, options, p); });
-        },
-        arg("folder"), arg("light_field"), arg("rows"), arg("serpentine"), arg("exposure"), arg("metadata"),
-        arg("report"));
+    add_printer_images(module);
+    add_import_keywords(module);
+    add_export_keywords(module);
+    add_cameras_keywords(module);
+    module.def("is_film", &is_film, arg("path"));
     module.def("can_make_films", &can_make_films);
     module.def(
         "make_film",

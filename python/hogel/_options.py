@@ -10,7 +10,7 @@ from . import _core
 OPTIONS = (
     "BandCamera Basis BakeOptions CodingMethod CompressionOptions DirectCamera ExternalField FilePart Fourier HologramRequest Light "
     "LightFieldRequest Lines Lossless MakeRequest Material MaxError Modulator NamedCamera OrderSelection OverlapAdd PatternOptions PhaseAdded PhaseCode "
-    "PixelsPerBit PlaneWaveCamera ScenePose ShadingOptions SpeckleFreeCamera Sqnr Step TextureSampling ViewExportOptions ViewOptions"
+    "PixelsPerBit PlaneWaveCamera ScenePose ShadingOptions SpeckleFreeCamera Sqnr Step TextureSampling"
 ).split()
 #: What is given when one is made; the other members are set after that.
 _MADE_OF = {

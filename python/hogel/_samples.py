@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
-from typing import Any, Optional, Union
+from typing import Any, Union
 
 import numpy as np
 
@@ -35,12 +34,6 @@ def choice(kind: Any, name: str, what: str) -> Any:
     if name not in members:
         raise usage_error(what, f"{' or '.join(members)} were expected, not '{name}'")
     return members[name]
-
-
-def one_of(value: Optional[str], known: Sequence[str], what: str) -> Optional[str]:
-    if value is not None and value not in known:
-        raise usage_error(what, f"{' or '.join(known)} were expected, not '{value}'")
-    return value
 
 
 class Samples:

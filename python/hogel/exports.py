@@ -8,13 +8,12 @@ from collections.abc import Sequence
 from typing import Any, Optional, Union
 
 from . import _core, _record
+from ._keywords import takes
 from ._progress import Progress, reporting
 from ._rays import Rays
-from ._samples import Path, one_of
+from ._samples import Path
 from .errors import CannotWriteError, UsageError
 from .picture import Picture
-
-_FILMS = (".mp4", ".gif", ".apng")
 
 
 def views_of(light_field: Rays) -> Any:
@@ -28,19 +27,9 @@ def views_of(light_field: Rays) -> Any:
     return light_field._views
 
 
+@takes(_core.export_keywords())
 def export_views(
-    light_field: Rays,
-    target: Path,
-    *,
-    layout: Optional[str] = None,
-    pictures: str = "",
-    bits: int = 0,
-    transfer: Optional[str] = None,
-    exposure: float = 1,
-    frame_rate: float = 24,
-    force: bool = False,
-    metadata: Any = None,
-    progress: Progress = None,
+    light_field: Rays, target: Path, *, force: bool = False, metadata: Any = None, progress: Progress = None, **options: Any
 ) -> Any:
     """Writes a light field as a set of views, one for each direction: in a folder, which is made, or a file; or as a film
     of its middle row of views (.mp4, .gif, .apng). The options are those of `hogel export`. Returns columns, rows, files
@@ -52,28 +41,15 @@ def export_views(
     3
     """
     name = os.fspath(target)
-    stem, ending = os.path.splitext(os.path.basename(name))
-    if ending in _FILMS:
-        return _export_film(light_field, name, exposure, frame_rate, metadata, progress)
-    how = _core.ViewExportOptions()
-    if layout is None:
-        quilt = bool(ending) and "_qs" in stem
-        layout = {".npy": "npy", ".mat": "mat"}.get(ending, "quilt" if quilt else "rows-columns")
-    known = {row[0]: row[2] for row in _core.view_layouts()}
-    if layout not in known:
-        _core.throw_unknown("layout", layout, list(known), "layout")
-    how.layout = layout
-    how.format = pictures or (ending[1:] if layout == "quilt" else "")
-    how.bits, how.exposure = bits, exposure
-    if transfer is not None:
-        how.transfer = _core.transfer_named(transfer)
+    how, frame_rate, acted = _core.export_request(name, options)
+    if _core.is_film(name):
+        return _export_film(light_field, name, how, frame_rate, metadata, progress)
     if metadata is None:
         metadata = _record.by_function("LightField.export")
         if light_field._made is not None:
-            acted = {"layout": layout, "exposure": _record.number(exposure)}
-            metadata = _record.entries("export", {**_record.renamed(light_field._made, "source", "input"), **acted})
+            metadata = _record.entries("export", {**_record.renamed(light_field._made, "source", "input"), **dict(acted)})
     how.metadata = metadata
-    if known[layout]:
+    if {layout: is_folder for layout, _, is_folder, _ in _core.view_layouts()}[how.layout]:
         _make_folder(name, force)
     else:
         _core.require_writable(name)
@@ -90,11 +66,8 @@ def _make_folder(name: str, force: bool) -> None:
         raise CannotWriteError(f"{name}: {error.strerror}") from None
 
 
-def _export_film(light_field: Rays, name: str, exposure: float, frame_rate: float, metadata: Any, progress: Progress) -> Any:
+def _export_film(light_field: Rays, name: str, how: Any, frame_rate: float, metadata: Any, progress: Progress) -> Any:
     _core.require_writable(name)
-    how = _core.ViewExportOptions()
-    how.layout, how.format, how.bits, how.exposure = "rows-columns", "png", 8, exposure
-    how.transfer = _core.Transfer.srgb
     with tempfile.TemporaryDirectory(dir=os.path.dirname(os.path.abspath(name)), prefix=".hogel-") as folder:
         with reporting(progress, "exporting") as report:
             made = _core.export_views(light_field._light_field, folder, how, report)
@@ -125,8 +98,8 @@ def film(
     ...     hogel.film(os.path.join(tempfile.mkdtemp(), "grey.gif"), frames)
     """
     name = os.fspath(path)
-    if os.path.splitext(name)[1] not in _FILMS:
-        raise UsageError(f"{name}: films end in {', '.join(_FILMS)}")
+    if not _core.is_film(name):
+        raise UsageError(f"{name}: films end in .mp4, .gif, .apng")
     frames = [frame if isinstance(frame, Picture) else Picture(frame) for frame in pictures]
     if not frames:
         raise UsageError("film: at least one picture was expected")
@@ -142,16 +115,9 @@ def film(
             _core.make_film(name, folder, "%06d.png", rate, _comment(metadata), report)
 
 
+@takes(_core.print_keywords())
 def write_printer_images(
-    light_field: Rays,
-    folder: Path,
-    *,
-    strips: bool = False,
-    order: str = "serpentine",
-    exposure: float = 1,
-    force: bool = False,
-    metadata: Any = None,
-    progress: Progress = None,
+    light_field: Rays, folder: Path, *, force: bool = False, metadata: Any = None, progress: Progress = None, **options: Any
 ) -> list[str]:
     """Writes the directions of every hogel as a picture, numbered in the order of printing, or with strips=True those of a
     row of hogels side by side, as `hogel print` does. Returns the files.
@@ -162,13 +128,12 @@ def write_printer_images(
     64
     """
     name = os.fspath(folder)
-    one_of(order, ("serpentine", "rows"), "order")
+    acted = dict(_core.print_record(options))
     if metadata is None:
         metadata = _record.by_function("LightField.print")
         if light_field._made is not None:
-            acted = {"strips": _record.words(strips), "order": order, "exposure": _record.number(exposure)}
             metadata = _record.entries("print", {**light_field._made, **acted})
     _make_folder(name, force)
     with reporting(progress, "pictures") as report:
-        made = _core.write_printer_images(name, light_field._light_field, strips, order == "serpentine", exposure, metadata, report)
+        made = _core.write_printer_images(name, light_field._light_field, options, metadata, report)
     return [os.fspath(file) for file in made]

@@ -38,6 +38,8 @@ class Errors(InFolder):
             (lambda: hogel.Scene.load("sphere").render(algorithm="magic"), "algorithm"),
             (lambda: lf.hologram(pitch="50um"), "fov, pitch"),
             (lambda: hogel.open("nothing.h5"), ""),
+            (lambda: hogel.import_views(".", spacing="1mm", fov="16deg"), "spacing, fov"),
+            (lambda: lf.export("views", layout="magic"), "layout"),
             # Errors of the module's own.
             (lambda: lf.photograph(pupil=1, f_number=2), "pupil, f_number"),
             (lambda: lf.save("a.hgl", half=True, resume=True), "resume"),
@@ -93,6 +95,10 @@ class Errors(InFolder):
             (lambda: lf.compress("a.h5"), "hgl"),
             (lambda: lf.save("a.hgl", float=True), "^float: "),
             (lambda: lf.photograph(focus_tilt="95deg"), "^focus_tilt: "),
+            (lambda: hogel.import_views(".", column="third"), "^column: "),
+            (lambda: lf.export("views", pictures="gif"), "^pictures: "),
+            (lambda: lf.print("prints", order="columns"), "^order: "),
+            (lambda: hogel.write_cameras("cameras.json", distance="-1m"), "^distance: "),
             (lambda: lf.photograph(pupil=1, f_number=2), "^pupil, f_number: "),
             (lambda: lf.hologram().photograph(camera="best"), "^camera: "),
             (lambda: lf.hologram().photograph(camera="narrow", expected=True), "^expected: "),
@@ -133,6 +139,8 @@ class Errors(InFolder):
             (lambda: lf.photograph(cameras=[], nonsense=3), r"^LightField\.photograph\(\) .* argument 'nonsense'$"),
             (lambda: lf.export("views", layouts="hci"), r"^LightField\.export\(\) .*'layout'"),
             (lambda: lf.print("prints", strip=True), r"^LightField\.print\(\) .*'strips'"),
+            (lambda: hogel.import_views("views", mirrors="rows"), r"^import_views\(\) .*'mirror'"),
+            (lambda: hogel.write_cameras("cameras.json", distances=1), r"^write_cameras\(\) .*'distance'"),
             (lambda: lf.hologram().photograph(pupils=1), r"^Hologram\.photograph\(\) .*'pupil'"),
             (lambda: lf.hologram().propagate("1mm", ofset_x=1), r"^Hologram\.propagate\(\) .*'offset_x'"),
         ]

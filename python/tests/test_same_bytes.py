@@ -13,6 +13,7 @@ from hogel import deg, mm, nm
 
 SMALL = ["--hogels", "16x12", "--directions", "16", "--size", "0.8mm", "--fov", "16deg"]
 CAMERAS = ["--hogels", "16x12", "--directions", "4", "--size", "0.8mm", "--fov", "16deg", "--focal-plane", "-300mm"]
+SQUARE = "v -1 -1 0\nv 1 -1 0\nv 1 1 1\nv -1 1 0\nf 1 2 3\nf 1 3 4\n"
 RENDER = dict(hogels=(16, 12), directions=16, size=0.8 * mm, fov=16 * deg)
 
 
@@ -101,7 +102,7 @@ class SameBytes(InFolder):
                 self.assert_same(f"c{number}.h5", f"p{number}.h5")
 
     def test_mesh_file_with_pose(self):
-        Path("square.obj").write_text("v -1 -1 0\nv 1 -1 0\nv 1 1 1\nv -1 1 0\nf 1 2 3\nf 1 3 4\n")
+        Path("square.obj").write_text(SQUARE)
         words = ["--up", "z", "--rotate", "10,20,-30deg", "--scale", "0.9", "--move", "0.1,0,0mm", "--colour", "#804020",
                  "--light", "1,2,3:yellow:1.5", "--background", "grey", "--ground", "white", "--front", "0.4"]
         command_line("render", "square.obj", "-o", "c.h5", *SMALL, *words)
@@ -259,11 +260,15 @@ class SameBytes(InFolder):
             (["--size", "4mm", "--distance", "200mm", "--fov", "10deg"], dict(size="4mm", distance="200mm", fov="10deg")),
             (["--mirror", "columns", "--transfer", "linear", "--middle", "2x2"],
              dict(mirror="columns", transfer="linear", middle=(2, 2))),
+            (["--column", "second", "--projection", "cameras", "--spacing", "0.2mm", "--disparity", "-1.5"],
+             dict(column="second", projection="cameras", spacing=0.2 * mm, disparity=-1.5)),
+            (["--densify", "2", "--estimate-disparity", "--depth", "--depth-scale", "1000", "--views", "4x4"],
+             dict(densify=2, estimate_disparity=True, depth=True, depth_scale=1000, views="4x4")),
         ]
         for number, (words, options) in enumerate(cases):
             with self.subTest(" ".join(words)):
                 command_line("import", "views", "-o", f"c{number}.h5", *words)
-                hogel.import_views("views", **options).save(f"p{number}.h5")
+                hogel.import_views("views", **options).save(f"p{number}.h5", depth="--depth" in words)
                 self.assert_same(f"c{number}.h5", f"p{number}.h5")
         command_line("import", "views", "-o", "c.hgl", "--sqnr", "30")
         hogel.import_views("views").save("p.hgl", sqnr=30)

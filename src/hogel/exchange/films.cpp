@@ -15,6 +15,12 @@ namespace fs = std::filesystem;
 
 bool can_make_films() { return !core::find_program("ffmpeg").empty(); }
 
+bool is_film(const fs::path& path) {
+    const std::string kind = path.extension().string();
+    return path.filename().string().find('#') == std::string::npos &&
+           (kind == ".mp4" || kind == ".gif" || kind == ".apng");
+}
+
 void make_film(const fs::path& path, const fs::path& folder, const std::string& frames, double frames_a_second,
                const std::string& comment, const Progress& progress) {
     const core::StopScope scope(progress);

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "hogel/error.h"
+#include "hogel/requests.h"
+
+namespace hogel {
+namespace {
+
+// Parameters with a table, and texts that set them.
+template <class Values>
+struct FromTexts {
+    Values values;
+    Parameters table;
+
+    explicit FromTexts(const Metadata& texts) {
+        values.declare(table);
+        for (const auto& [name, text] : texts) table.look_up(name)->read_value(text, name);
+    }
+};
+
+ImportedViews imported_views() {
+    LightFieldGrid grid;
+    grid.hogels_s = grid.hogels_t = grid.directions_u = grid.directions_v = 3;
+    grid.pitch = 1e-3 / 7;
+    grid.view = field_of_view(0.2, 0.2);
+    return {.light_field = light_field_from(grid, [](double, double, double, double) { return 1.0; }),
+            .layout = "rows-columns",
+            .transfer = Transfer::linear,
+            .summary = {},
+            .assumed = {},
+            .notes = {}};
+}
+
+TEST(ImportParameters, that_acted_ask_for_the_same_again) {
+    const std::vector<Metadata> cases{
+        {},
+        {{"size", "4mm"}, {"distance", "0.2m"}, {"fov", "10deg"}},
+        {{"views", "3x4"}, {"middle", "2"}, {"column", "first"}, {"mirror", "both"}},
+        {{"projection", "orthographic"}, {"transfer", "srgb"}, {"densify", "3"}, {"depth-scale", "1000"}},
+        {{"disparity", "-1.5"}, {"spacing", "3mm"}, {"estimate-disparity", "yes"}}};
+    for (const Metadata& texts : cases) {
+        FromTexts<ImportParameters> first(texts);
+        first.values.resolve(imported_views());
+        const FromTexts<ImportParameters> again(first.table.acting());
+        const ViewOptions a = first.values.options(), b = again.values.options();
+        EXPECT_EQ(a.layout, "rows-columns");
+        EXPECT_EQ(a.size, imported_views().light_field.grid().width());
+        EXPECT_EQ(a.transfer, Transfer::linear);
+        EXPECT_EQ(a.layout, b.layout);
+        EXPECT_EQ(a.size, b.size);
+        EXPECT_EQ(a.distance, b.distance);
+        EXPECT_EQ(a.spacing, b.spacing);
+        EXPECT_EQ(a.field_of_view, b.field_of_view);
+        EXPECT_EQ(a.transfer, b.transfer);
+        EXPECT_EQ(a.orthographic, b.orthographic);
+        EXPECT_EQ(a.column_first, b.column_first);
+        EXPECT_EQ(std::pair(a.columns, a.rows), std::pair(b.columns, b.rows));
+        EXPECT_EQ(std::pair(a.middle_columns, a.middle_rows), std::pair(b.middle_columns, b.middle_rows));
+        EXPECT_EQ(std::pair(a.mirror_columns, a.mirror_rows), std::pair(b.mirror_columns, b.mirror_rows));
+        EXPECT_EQ(a.disparity, b.disparity);
+        EXPECT_EQ(a.densify, b.densify);
+        EXPECT_EQ(a.depth_scale, b.depth_scale);
+        EXPECT_EQ(a.estimate_disparity, b.estimate_disparity);
+    }
+}
+
+TEST(ExportParameters, that_acted_ask_for_the_same_again) {
+    const std::vector<Metadata> cases{
+        {}, {{"layout", "hci"}}, {{"bits", "10"}, {"pictures", "ppm"}}, {{"transfer", "linear"}, {"exposure", "0.3"}}};
+    for (const char* output : {"views", "views.npy", "views.mat", "all_qs3x3a1.exr", "walk.mp4", "walk##.gif"})
+        for (const Metadata& texts : cases) {
+            FromTexts<ExportParameters> first(texts);
+            first.values.resolve(output);
+            FromTexts<ExportParameters> again(first.table.acting());
+            again.values.resolve(output);
+            const ViewExportOptions a = first.values.options(), b = again.values.options();
+            EXPECT_EQ(a.layout, b.layout) << output;
+            EXPECT_EQ(a.format, b.format) << output;
+            EXPECT_EQ(a.bits, b.bits) << output;
+            EXPECT_EQ(a.transfer, b.transfer) << output;
+            EXPECT_EQ(a.exposure, b.exposure) << output;
+        }
+}
+
+TEST(ExportParameters, take_the_layout_of_the_name_unless_one_is_given) {
+    const auto layout = [](const char* output, const Metadata& texts) {
+        FromTexts<ExportParameters> asked(texts);
+        asked.values.resolve(output);
+        return asked.values.options().layout;
+    };
+    EXPECT_EQ(layout("views", {}), "rows-columns");
+    EXPECT_EQ(layout("views.npy", {}), "npy");
+    EXPECT_EQ(layout("views.mat", {}), "mat");
+    EXPECT_EQ(layout("all_qs3x3a1.png", {}), "quilt");
+    EXPECT_EQ(layout("views_qs", {}), "rows-columns");
+    EXPECT_EQ(layout("views.npy", {{"layout", "hci"}}), "hci");
+    EXPECT_THROW(layout("views", {{"layout", "nosuch"}}), Error);
+}
+
+TEST(ExportParameters, of_a_film_are_those_of_its_pictures) {
+    FromTexts<ExportParameters> asked({{"layout", "hci"}, {"bits", "16"}, {"frame-rate", "5"}});
+    asked.values.resolve("walk.gif");
+    const ViewExportOptions pictures = asked.values.options();
+    EXPECT_EQ(pictures.layout, "rows-columns");
+    EXPECT_EQ(pictures.bits, 8U);
+    EXPECT_EQ(asked.table.acting(), (Metadata{{"exposure", "1"}, {"frame-rate", "5"}}));
+}
+
+TEST(CamerasParameters, make_a_grid_whose_focal_plane_is_that_of_the_cameras) {
+    const FromTexts<CamerasParameters> asked(
+        {{"size", "2m"}, {"hogels", "80x60"}, {"directions", "5x1"}, {"distance", "10m"}});
+    const LightFieldGrid grid = asked.values.grid();
+    EXPECT_DOUBLE_EQ(grid.width(), 2);
+    EXPECT_DOUBLE_EQ(grid.height(), 1.5);
+    EXPECT_EQ(std::pair(grid.directions_u, grid.directions_v), (std::pair<std::size_t, std::size_t>(5, 1)));
+    ASSERT_NE(grid.focal_plane(), nullptr);
+    EXPECT_EQ(grid.focal_plane()->depth, -10);
+}
+
+}  // namespace
+}  // namespace hogel
