@@ -13,8 +13,7 @@ namespace {
 
 struct Options {
     std::string scene, output;
-    LightFieldParameters place;
-    BakeOptions bake{.rays = defaults.bake_rays, .bounces = defaults.bake_bounces};
+    BakeParameters bake;
 };
 
 int bake(Options& options, const Session& session) {
@@ -22,9 +21,9 @@ int bake(Options& options, const Session& session) {
         throw Error(ErrorCode::bad_input, fmt::format("{}: is not a scene", options.scene));
     require_baked_scene_name(options.output);
     require_writable(options.output, {&options.scene, 1});
-    BakeOptions bake_options = options.bake;
+    BakeOptions bake_options = options.bake.options;
     bake_options.seed = session.seed;
-    const Scene scene = load_scene(session, options.scene, options.place);
+    const Scene scene = load_scene(session, options.scene, options.bake.place);
     with_parameter("tessellate",
                    [&] { state_plan(session, plan_bake(scene, bake_options), "baking", options.output); });
     Stage stage(session, "baking");
@@ -49,11 +48,7 @@ void add_bake(Command& command, Session& session) {
     command.text("-o,--output", options->output, "FILE", "Mesh to write, with the radiance of every vertex: .glb")
         .required()
         .never_acts();
-    command.count("--rays", options->bake.rays, "From every vertex, for reflected light");
-    command.count("--bounces", options->bake.bounces, "How often light is reflected");
-    command.count("--tessellate", options->bake.tessellation, "Parts into which the sides of triangles are cut");
-    command.positive_length("--size", options->place.size, "Width of the hologram that the scene is fitted to");
-    options->place.scene.declare(command);
+    options->bake.declare(command);
     command.look_up("seed")->acts_if([] { return true; });
     command.add_like_option();
     command.work([options, &session] { return bake(*options, session); });

@@ -35,47 +35,26 @@ void report_hologram(const Options& options, const std::vector<FieldGrid>& grids
 
 // Computes the field of a scene by a method without a light field.
 int straight_from_scene(Options& options, const SceneHologramMethod& method, const Session& session) {
-    if (options.resume) throw Error(ErrorCode::usage, fmt::format("--resume: method {} cannot", method.name));
-    if (options.part.part) throw Error(ErrorCode::usage, fmt::format("--part: method {} cannot", method.name));
-    if (options.render.fronts_only)
-        throw Error(ErrorCode::usage, fmt::format("--cull-back-faces: method {} cannot", method.name));
+    if (options.resume) throw Error(ErrorCode::usage, "resume", fmt::format("method {} cannot", method.name));
+    if (options.part.part) throw Error(ErrorCode::usage, "part", fmt::format("method {} cannot", method.name));
     require_writable(options.output, {&options.input, 1});
     require_hdf5(options.output);
-    const double width = options.render.size;
-    const double height =
-        width * static_cast<double>(options.render.hogels.rows) / static_cast<double>(options.render.hogels.columns);
-    const double pitch = options.hologram.pitch;
-    if (!(width >= pitch && height >= pitch))
-        throw Error(ErrorCode::usage, "--size, --pitch: the hologram must hold samples");
-    std::vector<FieldGrid> grids;
-    for (const double wavelength : options.hologram.wavelengths)
-        grids.push_back({{static_cast<std::size_t>(std::lround(width / pitch)),
-                          static_cast<std::size_t>(std::lround(height / pitch)), pitch, pitch, 0, 0},
-                         wavelength});
-    for (const FieldGrid& grid : grids) validate(grid, ErrorCode::usage, "hologram");
+    const SceneHologramRequest request = options.hologram.scene_request(session.seed, options.render);
     LightFieldParameters& render = options.render;
     render.cache_spacing = 0;  // it is in widths of a ray, and there are no rays
     const auto scene = light_scene(session, load_scene(session, options.input, render), render);
     render.scene.has_background = false;  // what no surface sends out is not seen
-    options.hologram.is_made = options.hologram.is_seeded = true;
-    options.hologram.has_spacing = method.uses_spacing;
-    options.hologram.has_planes = method.uses_planes;
+    options.hologram.resolve(method);
     Metadata made_of = scene->provenance;
     std::erase_if(made_of, [](const auto& entry) { return entry.first == "background"; });
-    const auto sinks = create_hologram(
-        options.output, grids, {.type = options.type(), .metadata = with_history(run_metadata(session), made_of)});
-    SceneHologramOptions how;
-    how.seed = session.seed;
-    how.spacing = options.hologram.spacing;
-    how.planes = options.hologram.planes;
-    std::vector<SceneHologramOptions> of_each;
-    for (const FieldGrid& grid : grids) {
-        how.channel = channel_of(grid.wavelength);
-        of_each.push_back(how);
-    }
+    const auto sinks =
+        create_hologram(options.output, request.grids,
+                        {.type = options.type(), .metadata = with_history(run_metadata(session), made_of)});
     Stage stage(session, "hologram");
-    with_parameter("method", [&] { write_scene_holograms(method, *scene, grids, of_each, sinks, stage.progress()); });
-    report_hologram(options, grids, session);
+    with_parameter("method", [&] {
+        write_scene_holograms(method, *scene, request.grids, request.options, sinks, stage.progress());
+    });
+    report_hologram(options, request.grids, session);
     return 0;
 }
 

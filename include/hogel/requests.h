@@ -19,6 +19,7 @@
 #include "hogel/phase_code.h"
 #include "hogel/photograph.h"
 #include "hogel/pipeline.h"
+#include "hogel/scene_hologram.h"
 
 namespace hogel {
 
@@ -200,6 +201,14 @@ struct HOGEL_API PatternParameters {
     void declare(Parameters& parameters);
 };
 
+/// The parameters of a scene that is lit for good.
+struct HOGEL_API BakeParameters {
+    BakeOptions options{.rays = defaults.bake_rays, .bounces = defaults.bake_bounces};  ///< without `seed`
+    LightFieldParameters place;  ///< of which `size` and `scene` act
+
+    void declare(Parameters& parameters);
+};
+
 struct FieldParameters;
 
 /// The parameters of a hologram of a light field.
@@ -222,6 +231,9 @@ struct HOGEL_API HologramParameters {
     HologramRequest request(std::span<const LightFieldGrid> faces, std::uint64_t seed, std::size_t looks) const;
     /// A line about the pitch of that request, where it is neither given nor the default; otherwise empty.
     std::string note_about_pitch(const HologramRequest& request) const;
+    /// Of a method that computes the hologram of a scene without a light field, as wide as `place` says. Throws
+    /// Error(usage).
+    SceneHologramRequest scene_request(std::uint64_t seed, const LightFieldParameters& place) const;
 
     void declare(Parameters& parameters);
     /// --pitch alone.
@@ -240,6 +252,8 @@ struct HOGEL_API HologramParameters {
     void resolve(const HologramRequest& request, const LightFieldGrid& front);
     /// Sets those of a field that is opened.
     void resolve(const FieldParameters& field);
+    /// Notes which parameters act on a hologram without a light field.
+    void resolve(const SceneHologramMethod& method);
 };
 
 /// What FieldParameters::open() has opened, and lines that say where it took what parameters say rather than the file,

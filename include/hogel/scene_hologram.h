@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "hogel/export.h"
 #include "hogel/field.h"
@@ -36,6 +37,13 @@ struct SceneHologramMethod {
         make;
     bool uses_spacing = false;  ///< whether SceneHologramOptions::spacing acts
     bool uses_planes = false;   ///< whether SceneHologramOptions::planes acts
+};
+
+/// The holograms of one scene that a method is to make.
+struct SceneHologramRequest {
+    std::string method;                         ///< a row of scene_hologram_methods()
+    std::vector<FieldGrid> grids;               ///< one for each wavelength
+    std::vector<SceneHologramOptions> options;  ///< one for each grid
 };
 
 /// The holograms of one scene that a method makes for several wavelengths, each written to its sink, which is finished.

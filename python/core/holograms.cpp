@@ -3,10 +3,14 @@
 #include "hogel/hologram.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
+#include <string_view>
 
 #include "core.h"
 #include "hogel/pipeline.h"
 #include "hogel/scene_hologram.h"
+#include "keywords.h"
 
 namespace hogel::python {
 namespace {
@@ -48,26 +52,6 @@ void add_methods(py::module_& module) {
     module.def("hologram_methods", [] { return hologram_methods().names(); });
     module.def(
         "hologram_method", [](const std::string& name) { return hologram_methods().find(name).method; }, arg("name"));
-    module.def("scene_hologram_methods", [] {
-        std::vector<std::tuple<std::string, std::string, bool, bool>> rows;
-        for (const SceneHologramMethod& row : scene_hologram_methods().rows())
-            rows.emplace_back(row.name, row.text, row.uses_spacing, row.uses_planes);
-        return rows;
-    });
-    module.def(
-        "make_scene_hologram",
-        [](const std::string& method, const std::shared_ptr<ShadedScene>& scene, const FieldGrid& grid,
-           std::size_t channel, std::uint64_t seed, double spacing, std::size_t planes,
-           const py::object& report) -> std::shared_ptr<const FieldSource> {
-            return run_for(report, [&](const Progress& p) {
-                validate(grid, ErrorCode::usage, "hologram");
-                const SceneHologramOptions options{channel, seed, spacing, planes};
-                return std::make_shared<const Field>(
-                    scene_hologram_methods().find(method).make(*scene, grid, options, p));
-            });
-        },
-        arg("method"), arg("scene"), arg("grid"), arg("channel"), arg("seed"), arg("spacing"), arg("planes"),
-        arg("report"));
     const auto pairs_of = [](const std::vector<Channel>& channels) {
         std::vector<std::pair<double, std::size_t>> pairs;
         for (const Channel& c : channels) pairs.emplace_back(c.wavelength, c.index);
@@ -82,10 +66,83 @@ void add_methods(py::module_& module) {
     module.def("needs_depth", &needs_depth, arg("method"));
 }
 
+// The parameters of Scene.hologram(), with the values of keywords.
+struct SceneHologramKeywords {
+    std::uint64_t seed = 1;
+    HologramParameters hologram;
+    LightFieldParameters place;
+    Parameters table;
+
+    explicit SceneHologramKeywords(const py::dict& keywords) {
+        table.whole("--seed", seed, std::numeric_limits<std::uint64_t>::max(), "");
+        hologram.declare_with_scene_methods(table);
+        place.declare(table);
+        place.declare_hemicube(table);
+        read_keywords(table, keywords);
+        place.cache_spacing = 0;  // it is in widths of a ray, and there are no rays
+    }
+
+    SceneHologramRequest request() const { return hologram.scene_request(seed, place); }
+};
+
+// The method is a keyword that must be given.
+bool is_of_scene_holograms(const Parameter& each) {
+    constexpr std::array<std::string_view, 4> own{"wavelength", "pitch", "spacing", "planes"};
+    return each.group == "Hologram" ? std::ranges::count(own, each.name) > 0
+                                    : each.group != "Scene" && each.name != "fit";
+}
+
+Metadata scene_hologram_record(const py::dict& keywords, const Scene& placed, bool is_file) {
+    SceneHologramKeywords asked(keywords);
+    asked.place.scene.resolve(placed, is_file);
+    asked.place.scene.has_background = false;  // what no surface sends out is not seen
+    asked.place.resolve(placed);
+    asked.hologram.resolve(scene_hologram_methods().find(asked.hologram.method));
+    return asked.table.acting();
+}
+
+std::vector<std::shared_ptr<const FieldSource>> make_scene_holograms(const SceneHologramRequest& request,
+                                                                     const ShadedScene& scene,
+                                                                     const Progress& progress) {
+    const SceneHologramMethod& method = scene_hologram_methods().find(request.method);
+    std::vector<std::shared_ptr<const FieldSource>> fields;
+    for (std::size_t i = 0; i < request.grids.size(); ++i)
+        fields.push_back(std::make_shared<const Field>(
+            method.make(scene, request.grids[i], request.options[i], progress.part(i, request.grids.size()))));
+    return fields;
+}
+
+void add_scene_holograms(py::module_& module) {
+    module.def("scene_hologram_methods", [] {
+        std::vector<std::pair<std::string, std::string>> rows;
+        for (const SceneHologramMethod& row : scene_hologram_methods().rows()) rows.emplace_back(row.name, row.text);
+        return rows;
+    });
+    module.def("scene_hologram_keywords",
+               [] { return described(SceneHologramKeywords{py::dict()}.table, is_of_scene_holograms); });
+    module.def(
+        "scene_hologram_place",
+        [](const py::dict& keywords) {
+            const SceneHologramKeywords asked(keywords);
+            static_cast<void>(asked.request());  // throws before a scene is made
+            return asked.place.request();
+        },
+        arg("keywords"));
+    module.def("scene_hologram_record", &scene_hologram_record, arg("keywords"), arg("placed"), arg("is_file"));
+    module.def(
+        "make_scene_holograms",
+        [](const py::dict& keywords, const std::shared_ptr<ShadedScene>& scene, const py::object& report) {
+            const SceneHologramRequest request = SceneHologramKeywords(keywords).request();
+            return run_for(report, [&](const Progress& p) { return make_scene_holograms(request, *scene, p); });
+        },
+        arg("keywords"), arg("scene"), arg("report"));
+}
+
 }  // namespace
 
 void add_holograms(py::module_& module) {
     add_methods(module);
+    add_scene_holograms(module);
     py::class_<HologramRequest>(module, "HologramRequest")
         .def(py::init<>())
         .def_property(

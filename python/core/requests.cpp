@@ -66,19 +66,6 @@ void add_keywords(py::module_& module) {
             return light_field_record(keywords, placed, is_file, *shaded);
         },
         arg("keywords"), arg("placed"), arg("is_file"), arg("shaded"));
-    module.def(
-        "scene_record",
-        [](const py::dict& keywords, const Scene& placed, bool is_file) {
-            LightFieldKeywords asked(keywords);
-            asked.values.scene.resolve(placed, is_file);
-            Metadata record;
-            for (const auto& entry : asked.table.acting())
-                if (asked.table.look_up(entry.first)->group == "Scene" || entry.first == "as-is" ||
-                    entry.first == "front")
-                    record.push_back(entry);
-            return record;
-        },
-        arg("keywords"), arg("placed"), arg("is_file"));
     module.def("hologram_keywords", [] {
         const HologramKeywords none{py::dict()};
         return described(none.table, [](const Parameter&) { return true; });

@@ -2,17 +2,31 @@
 // Scenes: built-in ones and mesh files, and how they are placed.
 #include "hogel/scene.h"
 
-#include <algorithm>
+#include <limits>
 
 #include "core.h"
 #include "hogel/pipeline.h"
 #include "hogel/shading.h"
+#include "keywords.h"
 #include "vectors.h"
 
 namespace hogel::python {
 namespace {
 
 using py::arg;
+
+// The parameters of Scene.bake(), with the values of keywords.
+struct BakeKeywords {
+    BakeParameters values;
+    Parameters table;
+
+    explicit BakeKeywords(const py::dict& keywords) {
+        table.whole("--seed", values.options.seed, std::numeric_limits<std::uint64_t>::max(), "");
+        values.declare(table);
+        read_keywords(table, keywords);
+    }
+};
+
 void add_scene_class(py::module_& module) {
     py::class_<SceneCamera> camera(module, "SceneCamera");
     camera.def_readonly("name", &SceneCamera::name)
@@ -31,16 +45,6 @@ void add_scene_class(py::module_& module) {
         .def_readonly("notes", &Scene::notes)
         .def_readonly("cameras", &Scene::cameras)
         .def_readonly("provenance", &Scene::provenance)
-        .def_property_readonly("is_lit",
-                               [](const Scene& s) {
-                                   return std::ranges::any_of(s.meshes,
-                                                              [](const Mesh& mesh) { return mesh.radiance.empty(); });
-                               })
-        .def_property_readonly("has_points",
-                               [](const Scene& s) {
-                                   return std::ranges::any_of(
-                                       s.meshes, [](const Mesh& mesh) { return mesh.name == points_name; });
-                               })
         .def("copy", [](const Scene& s) { return s; });
     add_vector(scene, "up", &Scene::up);
     add_colour(scene, "ambient", &Scene::ambient);
@@ -121,15 +125,24 @@ void add_scene_functions(py::module_& module) {
             return py::make_tuple(point_of(box.low), point_of(box.high));
         },
         arg("scene"));
+    module.def("bake_keywords", [] {
+        return described(BakeKeywords{py::dict()}.table, [](const Parameter& each) { return each.group != "Scene"; });
+    });
+    module.def(
+        "bake_record",
+        [](const py::dict& keywords, const Scene& placed, bool is_file) {
+            BakeKeywords asked(keywords);
+            asked.values.place.scene.resolve(placed, is_file);
+            return asked.table.acting();
+        },
+        arg("keywords"), arg("placed"), arg("is_file"));
     module.def(
         "bake_scene",
-        [](const Scene& scene, std::size_t rays, std::size_t bounces, std::size_t tessellation, std::uint64_t seed,
-           const py::object& report) {
-            return run_for(report, [&](const Progress& p) {
-                return bake_scene(scene, {rays, bounces, tessellation, seed}, p);
-            });
+        [](const Scene& scene, const py::dict& keywords, const py::object& report) {
+            const BakeOptions options = BakeKeywords(keywords).values.options;
+            return run_for(report, [&](const Progress& p) { return bake_scene(scene, options, p); });
         },
-        arg("scene"), arg("rays"), arg("bounces"), arg("tessellation"), arg("seed"), arg("report"));
+        arg("scene"), arg("keywords"), arg("report"));
     module.def("require_baked_scene_name", &require_baked_scene_name, arg("path"));
     module.def(
         "write_baked_scene",

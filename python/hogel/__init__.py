@@ -176,7 +176,7 @@ def scene_hologram_methods() -> dict[str, str]:
     >>> "points" in hogel.scene_hologram_methods()
     True
     """
-    return {name: text for name, text, _, _ in _core.scene_hologram_methods()}
+    return dict(_core.scene_hologram_methods())
 
 
 def encodings() -> list[str]:

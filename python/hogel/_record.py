@@ -92,11 +92,6 @@ def angle(value: Any, otherwise: Any = 0.0) -> str:
     return (texts[0] if len(set(texts)) == 1 else ",".join(texts)) + "deg"
 
 
-def colour(value: Any) -> str:
-    """A colour as it was written, or its linear parts."""
-    return value if isinstance(value, str) else ",".join(f"{float(part):.6g}" for part in value)
-
-
 def renamed(record: Optional[Record], before: str, after: str) -> Record:
     """The record of a command for another, whose input has another name."""
     return {after if name == before else name: text for name, text in (record or {}).items()}

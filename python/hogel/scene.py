@@ -15,7 +15,6 @@ from .errors import BadInputError, UsageError, usage_error
 from .hologram import Hologram
 from .light_field import LightField
 from .requests import request
-from .scene_hologram import scene_hologram
 
 #: Renderers of one's own, by name: see add_renderer().
 own_renderers: dict[str, Callable[..., Any]] = {}
@@ -208,24 +207,8 @@ class Scene:
             made._identity = _core.describe_input(self.name, placed)
         return made
 
-    def _acted(self, placed: _core.Scene, options: dict[str, Any]) -> _record.Record:
-        """The options of load() that act on the scene at the hologram."""
-        of_scene = {**(self._made or {}), **options}
-        return {"scene": self.name, **dict(_core.scene_record(of_scene, placed, self._scene is not None))}
-
-    @passes_options_to(request)
-    def hologram(
-        self,
-        *,
-        method: str,
-        wavelength: Union[units.Length, Sequence[units.Length], None] = None,
-        pitch: Optional[units.Length] = None,
-        spacing: Optional[units.Length] = None,
-        planes: Optional[int] = None,
-        seed: int = 1,
-        progress: Progress = None,
-        **options: Any,
-    ) -> Hologram:
+    @takes(_core.scene_hologram_keywords())
+    def hologram(self, *, method: str, progress: Progress = None, **options: Any) -> Hologram:
         """The hologram of the scene without a light field, by a method of hogel.scene_hologram_methods(); the size is that
         of the options of render(). It is computed at once, in memory.
 
@@ -233,26 +216,23 @@ class Scene:
         >>> hogel.Scene.load("pumpkin").hologram(method="points", wavelength="633nm", size="0.2mm", hogels=4, spacing="20um")
         Hologram(128x128 samples 1.5625 um apart, 0.2 mm x 0.2 mm, 633 nm, in memory)
         """
-        def place(wanted: _core.LightFieldRequest) -> _core.Scene:
-            return self.placed(wanted, progress)
+        asked = {**options, "method": method}
+        place = _core.scene_hologram_place(asked)
+        placed = self.placed(place, progress)
+        with reporting(progress, "lighting") as report:
+            shaded = _core.light_scene(placed, place, report)
+        with reporting(progress, "hologram") as report:
+            made = Hologram(_core.make_scene_holograms(asked, shaded, report))
+        if self._made is not None:
+            record = _core.scene_hologram_record({**self._made, **asked}, placed, self._scene is not None)
+            made._made = {"input": self.name, **dict(record)}
+            # What no surface sends out is not seen.
+            made._history = [entry for entry in shaded.metadata if entry[0] != "background"]
+        return made
 
-        def record_of(placed: _core.Scene) -> _record.Record:
-            return self._acted(placed, options)
-
-        known = None if self._made is None else record_of
-        return scene_hologram(place, known, method, wavelength, pitch, spacing, planes, seed, options, progress)
-
+    @takes(_core.bake_keywords())
     def bake(
-        self,
-        path: Union[str, "os.PathLike[str]"],
-        *,
-        rays: Optional[int] = None,
-        bounces: Optional[int] = None,
-        tessellate: int = 1,
-        size: Optional[units.Length] = None,
-        seed: int = 1,
-        metadata: Any = None,
-        progress: Progress = None,
+        self, path: Union[str, "os.PathLike[str]"], *, metadata: Any = None, progress: Progress = None, **options: Any
     ) -> int:
         """Lights the scene for good, with what its surfaces reflect onto each other, and writes it as a mesh, .glb, as
         `hogel bake` does. Returns the number of triangles.
@@ -262,25 +242,17 @@ class Scene:
         >>> hogel.Scene.load("sphere").bake(path, rays=4, bounces=1, size="10mm") > 0
         True
         """
-        defaults, name = _core.defaults, os.fspath(path)
+        name = os.fspath(path)
         _core.require_baked_scene_name(name)
         _core.require_writable(name)
-        wanted = request(size=size)
-        placed = self.placed(wanted, progress)
-        number = defaults["bake_rays"] if rays is None else int(rays)
-        reflections = defaults["bake_bounces"] if bounces is None else int(bounces)
+        placed = self.placed(request(size=options.get("size")), progress)
         with reporting(progress, "baking") as report:
-            baked = _core.bake_scene(placed, number, reflections, int(tessellate), int(seed), report)
+            baked = _core.bake_scene(placed, options, report)
         if metadata is None:
-            acted = {
-                **self._acted(placed, {}),
-                "rays": str(number),
-                "bounces": str(reflections),
-                "tessellate": str(tessellate),
-                "size": _record.length(size, defaults["size"]),
-                "seed": str(seed),
-            }
-            metadata = _record.by_function("Scene.bake") if self._made is None else _record.entries("bake", acted)
+            metadata = _record.by_function("Scene.bake")
+            if self._made is not None:
+                record = _core.bake_record({**self._made, **options}, placed, self._scene is not None)
+                metadata = _record.entries("bake", {"scene": self.name, **dict(record)})
         _core.write_baked_scene(name, baked, metadata)
         return int(_core.triangle_count(baked))
 

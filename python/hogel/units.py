@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 import numbers
 from collections.abc import Callable, Iterable, Sequence
-from typing import Optional, Union
+from typing import Union
 
 from . import _core
 from .errors import UsageError, usage_error
@@ -67,24 +67,6 @@ def angle(value: Angle, what: str = "angle") -> float:
     if isinstance(value, str):
         return _parsed(_core.parse_angle, value, what)
     return _number(value, what, "an angle; write radians, such as 16*deg, or a text such as '16deg'")
-
-
-def angles(value: Union[Angle, Sequence[Angle]], what: str) -> tuple[float, float]:
-    """Angles across and down: one for both, or two; as a text "16deg" or "20,16deg".
-
-    >>> from hogel.units import angles
-    >>> [round(part, 3) for part in angles("20,16deg", "fov")]
-    [0.349, 0.279]
-    """
-    if isinstance(value, str):
-        *first, last = value.split(",")
-        unit = last.lstrip("+-.0123456789eE ")
-        value = [part if part.endswith(unit) else part + unit for part in (*first, last)]
-    parts = value if isinstance(value, Sequence) else list(value) if isinstance(value, Iterable) else [value]
-    both = [angle(part, what) for part in parts]
-    if len(both) not in (1, 2):
-        raise usage_error(what, "one angle or two were expected, across and down")
-    return both[0], both[-1]
 
 
 def lengths(value: Union[Length, Sequence[Length]], what: str) -> list[float]:
@@ -163,8 +145,3 @@ def say_bytes(count: float) -> str:
     '1.5 kB'
     """
     return _core.format_bytes(float(count))
-
-
-def optional_length(value: Optional[Length], default: float, what: str) -> float:
-    """The length, or the default for None."""
-    return default if value is None else length(value, what)

@@ -12,8 +12,6 @@ import hogel
 
 os.environ["MPLBACKEND"] = "Agg"
 
-# Used by the package itself.
-INTERNAL = {"units.optional_length"}
 # What modules need beside NumPy.
 NEEDS = {"autograd": ["torch"], "plot": ["matplotlib"]}
 
@@ -58,7 +56,7 @@ class Docstrings(unittest.TestCase):
                 bare.append(name)
             # Errors are shown with their base class; properties with their class.
             shown = inspect.isclass(value) and issubclass(value, hogel.Error) and value is not hogel.Error
-            if ">>>" not in text and not shown and not isinstance(value, property) and name not in INTERNAL:
+            if ">>>" not in text and not shown and not isinstance(value, property):
                 without.append(name)
         self.assertEqual(bare, [], "without a documentation string")
         self.assertEqual(without, [], "without an example")

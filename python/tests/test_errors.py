@@ -38,6 +38,9 @@ class Errors(InFolder):
             (lambda: hogel.Scene.load("sphere").render(algorithm="magic"), "algorithm"),
             (lambda: lf.hologram(pitch="50um"), "fov, pitch"),
             (lambda: hogel.open("nothing.h5"), ""),
+            (lambda: hogel.Scene.load("sphere").hologram(method="fourier"), "method"),
+            (lambda: hogel.Scene.load("sphere").hologram(method="points", size="1um"), "size, pitch"),
+            (lambda: hogel.Scene.load("sphere").hologram(method="points", cull_back_faces=True), "cull_back_faces"),
             (lambda: hogel.import_views(".", spacing="1mm", fov="16deg"), "spacing, fov"),
             (lambda: lf.export("views", layout="magic"), "layout"),
             # Errors of the module's own.
@@ -99,6 +102,7 @@ class Errors(InFolder):
             (lambda: lf.export("views", pictures="gif"), "^pictures: "),
             (lambda: lf.print("prints", order="columns"), "^order: "),
             (lambda: hogel.write_cameras("cameras.json", distance="-1m"), "^distance: "),
+            (lambda: scene.bake("baked.glb", rays=0), "^rays: "),
             (lambda: lf.photograph(pupil=1, f_number=2), "^pupil, f_number: "),
             (lambda: lf.hologram().photograph(camera="best"), "^camera: "),
             (lambda: lf.hologram().photograph(camera="narrow", expected=True), "^expected: "),
@@ -141,6 +145,7 @@ class Errors(InFolder):
             (lambda: lf.print("prints", strip=True), r"^LightField\.print\(\) .*'strips'"),
             (lambda: hogel.import_views("views", mirrors="rows"), r"^import_views\(\) .*'mirror'"),
             (lambda: hogel.write_cameras("cameras.json", distances=1), r"^write_cameras\(\) .*'distance'"),
+            (lambda: scene.bake("baked.glb", ray=1), r"^Scene\.bake\(\) .*'rays'"),
             (lambda: lf.hologram().photograph(pupils=1), r"^Hologram\.photograph\(\) .*'pupil'"),
             (lambda: lf.hologram().propagate("1mm", ofset_x=1), r"^Hologram\.propagate\(\) .*'offset_x'"),
         ]

@@ -214,16 +214,33 @@ class SameBytes(InFolder):
                 self.assert_same(f"c{number}.h5", f"p{number}.h5")
 
     def test_hologram_without_a_light_field(self):
-        command_line("hologram", "pumpkin", "-o", "c.h5", "--method", "points", "--hogels", "4", "--size", "0.3mm",
-                     "--wavelength", "633nm", "--spacing", "15um", "--half")
-        made = hogel.Scene.load("pumpkin").hologram(method="points", hogels=4, size="0.3mm", wavelength="633nm", spacing="15um")
-        made.save("p.h5", half=True)
-        self.assert_same("c.h5", "p.h5")
+        Path("square.obj").write_text(SQUARE)
+        cases = [
+            ("pumpkin", ["--method", "points", "--spacing", "15um", "--half"], {}, dict(method="points", spacing="15um")),
+            ("square.obj", ["--method", "fresnel", "--planes", "3", "--front", "-12", "--seed", "5", "--rotate", "1,2,3deg",
+                            "--background", "red"],
+             dict(rotate="1,2,3deg", background="red"), dict(method="fresnel", planes=3, front=-12, seed=5)),
+        ]
+        for scene, words, pose, options in cases:
+            with self.subTest(scene):
+                command_line("hologram", scene, "-o", "c.h5", "--hogels", "4", "--size", "0.3mm", "--wavelength", "633nm,532nm", *words)
+                loaded = hogel.Scene.load(scene, **pose)
+                made = loaded.hologram(hogels=4, size="0.3mm", wavelength=(633 * nm, 532 * nm), **options)
+                made.save("p.h5", half="--half" in words)
+                self.assert_same("c.h5", "p.h5")
 
     def test_bake(self):
-        command_line("bake", "sphere", "-o", "c.glb", "--rays", "4", "--bounces", "1", "--size", "10mm")
-        hogel.Scene.load("sphere").bake("p.glb", rays=4, bounces=1, size="10mm")
-        self.assert_same("c.glb", "p.glb")
+        Path("square.obj").write_text(SQUARE)
+        cases = [
+            ("sphere", ["--rays", "4", "--bounces", "1", "--size", "10mm"], {}, dict(rays=4, bounces=1, size="10mm")),
+            ("square.obj", ["--rays", "5", "--tessellate", "2", "--seed", "3", "--light", "0,1,1:red", "--move", "1,0,0mm"],
+             dict(light=["0,1,1:red"], move=(1 * mm, 0, 0)), dict(rays=5, tessellate=2, seed=3)),
+        ]
+        for scene, words, pose, options in cases:
+            with self.subTest(scene):
+                command_line("bake", scene, "-o", "c.glb", *words)
+                hogel.Scene.load(scene, **pose).bake("p.glb", **options)
+                self.assert_same("c.glb", "p.glb")
 
     def test_print(self):
         command_line("render", "pumpkin", "-o", "lf.h5", *SMALL)

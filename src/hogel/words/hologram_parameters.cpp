@@ -185,6 +185,36 @@ Parameter& HologramParameters::declare_pitch(Parameters& parameters) {
         .sets(pitch_given);
 }
 
+SceneHologramRequest HologramParameters::scene_request(std::uint64_t seed, const LightFieldParameters& place) const {
+    const SceneHologramMethod& direct = scene_hologram_methods().find(method);
+    if (place.fronts_only)
+        throw Error(ErrorCode::usage, "cull_back_faces", fmt::format("method {} cannot", direct.name));
+    const double width = place.size;
+    const double height = width * static_cast<double>(place.hogels.rows) / static_cast<double>(place.hogels.columns);
+    if (!(width >= pitch && height >= pitch))
+        throw Error(ErrorCode::usage, "size, pitch", "the hologram must hold samples");
+    const Grid plane{static_cast<std::size_t>(std::lround(width / pitch)),
+                     static_cast<std::size_t>(std::lround(height / pitch)),
+                     pitch,
+                     pitch,
+                     0,
+                     0};
+    SceneHologramRequest request{direct.name, {}, {}};
+    for (const double wavelength : wavelengths) {
+        request.grids.push_back({plane, wavelength});
+        request.options.push_back(
+            {.channel = channel_of(wavelength), .seed = seed, .spacing = spacing, .planes = planes});
+        validate(request.grids.back(), ErrorCode::usage, "hologram");
+    }
+    return request;
+}
+
+void HologramParameters::resolve(const SceneHologramMethod& direct) {
+    is_made = is_seeded = true;
+    has_spacing = direct.uses_spacing;
+    has_planes = direct.uses_planes;
+}
+
 void HologramParameters::declare(Parameters& parameters) {
     declare_hologram(parameters, *this, hologram_methods().names(), help_of_methods());
 }

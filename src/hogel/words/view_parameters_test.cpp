@@ -107,6 +107,45 @@ TEST(ExportParameters, of_a_film_are_those_of_its_pictures) {
     EXPECT_EQ(asked.table.acting(), (Metadata{{"exposure", "1"}, {"frame-rate", "5"}}));
 }
 
+TEST(HologramParameters, of_a_scene_make_a_grid_of_its_size_for_each_wavelength) {
+    FromTexts<HologramParameters> asked({{"wavelength", "650,500nm"}, {"pitch", "10um"}});
+    asked.values.method = "points";
+    asked.values.spacing = 3e-6;
+    LightFieldParameters place;
+    place.size = 4e-3;
+    place.hogels = {40, 10};
+    const SceneHologramRequest request = asked.values.scene_request(7, place);
+    ASSERT_EQ(request.grids.size(), 2U);
+    EXPECT_EQ(request.grids[0], (FieldGrid{{400, 100, 10e-6, 10e-6, 0, 0}, 650e-9}));
+    EXPECT_EQ(request.grids[1].wavelength, 500e-9);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(request.options[i].channel, channel_of(request.grids[i].wavelength));
+        EXPECT_EQ(request.options[i].seed, 7U);
+        EXPECT_EQ(request.options[i].spacing, 3e-6);
+    }
+}
+
+TEST(HologramParameters, of_a_scene_refuse_what_its_methods_cannot) {
+    const auto parameter_refused = [](const std::string& method, double size, bool fronts_only) -> std::string {
+        HologramParameters asked;
+        asked.method = method;
+        asked.wavelengths = {633e-9};
+        LightFieldParameters place;
+        place.size = size;
+        place.fronts_only = fronts_only;
+        try {
+            static_cast<void>(asked.scene_request(1, place));
+        } catch (const Error& error) {
+            return error.parameter();
+        }
+        return "none";
+    };
+    EXPECT_EQ(parameter_refused("planes", 1e-3, false), "none");
+    EXPECT_EQ(parameter_refused("fourier", 1e-3, false), "method");
+    EXPECT_EQ(parameter_refused("planes", 1e-6, false), "size, pitch");
+    EXPECT_EQ(parameter_refused("planes", 1e-3, true), "cull_back_faces");
+}
+
 TEST(CamerasParameters, make_a_grid_whose_focal_plane_is_that_of_the_cameras) {
     const FromTexts<CamerasParameters> asked(
         {{"size", "2m"}, {"hogels", "80x60"}, {"directions", "5x1"}, {"distance", "10m"}});
