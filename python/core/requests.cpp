@@ -2,12 +2,21 @@
 // Requests from keywords, by the parameters that the command line has.
 #include "hogel/requests.h"
 
+#include <initializer_list>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "keywords.h"
 
 namespace hogel::python {
 namespace {
+
+void declare_light_field(LightFieldParameters& light_field, Parameters& table) {
+    light_field.declare(table);
+    light_field.declare_hemicube(table);
+    light_field.declare_directions(table);
+}
 
 // The parameters of Scene.render(), with the values of keywords.
 struct LightFieldKeywords {
@@ -15,9 +24,7 @@ struct LightFieldKeywords {
     Parameters table;
 
     explicit LightFieldKeywords(const py::dict& keywords) {
-        values.declare(table);
-        values.declare_hemicube(table);
-        values.declare_directions(table);
+        declare_light_field(values, table);
         read_keywords(table, keywords);
     }
 };
@@ -42,10 +49,70 @@ Metadata light_field_record(const py::dict& keywords, const Scene& placed, bool 
     return asked.table.acting();
 }
 
+// The names of the parameters of a command: of its operands and its output, and then of groups.
+class Order {
+  public:
+    Order(std::initializer_list<const char*> first) : names_{"seed"} {
+        names_.insert(names_.end(), first.begin(), first.end());
+    }
+    /// @param declare  declares parameters of the group in a table
+    template <class Group>
+    Order& of(const std::function<void(Group&, Parameters&)>& declare) {
+        Group group;
+        Parameters table;
+        declare(group, table);
+        for (const Parameter& each : table.all()) names_.push_back(each.name);
+        return *this;
+    }
+    template <class Group>
+    Order& of() {
+        return of<Group>([](Group& group, Parameters& table) { group.declare(table); });
+    }
+    operator std::vector<std::string>() const { return names_; }
+
+  private:
+    std::vector<std::string> names_;
+};
+
+void declare_field(FieldParameters& field, Parameters& table) {
+    field.declare(table);
+    field.declare_reconstruction(table);
+}
+
+// The parameters of each command whose files say what made them, in the order in which the command line declares them.
+std::vector<std::pair<std::string, std::vector<std::string>>> command_parameters() {
+    return {{"render", Order{"scene", "depth", "float", "sqnr"}.of<LightFieldParameters>(declare_light_field)},
+            {"compress", Order{"input"}.of<CompressionParameters>()},
+            {"decompress", Order{"input", "layers", "float", "half"}},
+            {"hologram", Order{"input", "half"}
+                             .of<HologramParameters>(
+                                 [](auto& hologram, auto& table) { hologram.declare_with_scene_methods(table); })
+                             .of<LightFieldParameters>(declare_light_field)},
+            {"photo", Order{"input"}
+                          .of<PhotoParameters>()
+                          .of<HologramParameters>()
+                          .of<LightFieldParameters>(declare_light_field)
+                          .of<FieldParameters>(declare_field)},
+            {"propagate", Order{"input"}.of<PropagateParameters>().of<FieldParameters>(declare_field)},
+            {"slm", Order{"input"}.of<PatternParameters>().of<FieldParameters>([](auto& field, auto& table) {
+                 field.code_option = "--input-phase-code";
+                 declare_field(field, table);
+             })},
+            {"print", Order{"input"}.of<PrintParameters>()},
+            {"bake", Order{"scene"}.of<BakeParameters>()},
+            {"export", Order{"input"}.of<ExportParameters>()},
+            {"import", Order{"source", "depth", "float", "sqnr"}.of<ImportParameters>()}};
+}
+
 }  // namespace
 
 void add_keywords(py::module_& module) {
     using py::arg;
+    module.def("command_parameters", [] {
+        py::dict all;
+        for (const auto& [command, names] : command_parameters()) all[command.c_str()] = names;
+        return all;
+    });
     module.def("parse_light", parse_light, arg("text"));
     module.def("light_text", light_text, arg("light"));
     module.def("scene_keywords", [] { return described(Keywords<SceneParameters>().table); });

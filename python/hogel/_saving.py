@@ -33,7 +33,7 @@ def save_light_field(
     command = "render" if rendered else "import" if imported else "decompress" if stored else ""
     acted = dict(made or {})
     if rendered or (imported and depth):
-        acted["depth"] = _record.words(depth)
+        acted["depth"] = _record.yes_or_no(depth)
     if os.path.splitext(name)[1] == ".hgl":
         if single or resume or part:
             raise usage_error("float" if single else "resume" if resume else "part", f"belongs to HDF5 files; {name} is a compressed one")
@@ -61,7 +61,7 @@ def save_light_field(
     elif half and single:
         raise usage_error("float, half", "only one of them can be asked for")
     else:
-        acted["float"] = _record.words(single)
+        acted["float"] = _record.yes_or_no(single)
     if metadata is None:
         metadata = _record.entries(command, acted) if command else _record.by_function("LightField.save")
     with reporting(progress, "writing") as report:

@@ -150,7 +150,7 @@ class Hologram:
         if "distance" in self._made:
             return _record.entries("propagate", self._made)
         if "method" in self._made:
-            entries = _record.entries("hologram", {**self._made, "half": _record.words(half)})
+            entries = _record.entries("hologram", {**self._made, "half": _record.yes_or_no(half)})
             return _core.with_history(entries, self._history) if self._history else entries
         return _record.by_function("Hologram.save")
 

@@ -99,7 +99,7 @@ class Picture:
             if self._made is not None:
                 command, acted = self._made
                 if not name.endswith(".exr"):
-                    acted = {**acted, "exposure": _record.words(exposure)}
+                    acted = {**acted, "exposure": exposure if isinstance(exposure, str) else _record.number(exposure)}
                 metadata = _record.entries(command, acted)
             metadata.append(("exposure", f"{factor:.9g}"))
         _core.write_image(name, self._image, factor, metadata)
