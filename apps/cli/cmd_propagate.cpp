@@ -221,7 +221,8 @@ int propagate_fields(Options& options, const Session& session) {
     std::vector<PropagateOptions> propagations;
     for (const auto& field : fields) {
         inputs.push_back(field->grid());
-        propagations.push_back({.scratch = scratch, .output = options.plane.output(field->grid().plane)});
+        propagations.push_back(options.plane.options(field->grid().plane));
+        propagations.back().scratch = scratch;
         grids.push_back({*propagations.back().output, field->grid().wavelength});
     }
     std::vector<Result> methods = with_renamed_parameters(

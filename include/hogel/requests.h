@@ -19,6 +19,7 @@
 #include "hogel/phase_code.h"
 #include "hogel/photograph.h"
 #include "hogel/pipeline.h"
+#include "hogel/propagate.h"
 #include "hogel/scene_hologram.h"
 
 namespace hogel {
@@ -314,8 +315,8 @@ struct HOGEL_API PropagateParameters {
     bool is_picture = false;  ///< whether there is one, so that `display` acts
 
     void declare(Parameters& parameters);
-    /// The samples of the output for a field with these.
-    Grid output(const Grid& field) const;
+    /// With the samples of the output for a field with these.
+    PropagateOptions options(const Grid& field) const;
     /// Sets the values of the output.
     void resolve(const Grid& output);
 };

@@ -154,13 +154,19 @@ void add_propagation(py::module_& module) {
                          [](const Parameter& each) { return each.name != "distance" && each.name != "display"; });
     });
     module.def(
-        "propagation_plane",
-        [](const py::dict& keywords, const Grid& plane) {
+        "propagate_by",
+        [](const py::dict& keywords, const Source& field, std::size_t look, const py::object& report) {
             const Keywords<PropagateParameters> asked(keywords);
             if (!asked.table.given("distance")) throw Error(ErrorCode::usage, "distance", "distance: it is required");
-            return py::make_tuple(asked.values.distance, asked.values.output(plane));
+            PropagateOptions options = asked.values.options(field->grid().plane);
+            options.look = look;
+            return run_for(report, [&](const Progress& p) {
+                Field moved = propagate(*field, asked.values.distance, options, p);
+                moved.set_provenance(field->provenance());
+                return shared(std::move(moved));
+            });
         },
-        arg("keywords"), arg("plane"), "The distance, and the samples of the output for a field with these.");
+        arg("keywords"), arg("field"), arg("look"), arg("report"));
     module.def(
         "propagate_record",
         [](const py::dict& keywords, const Grid& output) {

@@ -179,7 +179,7 @@ class Field(Samples):
             return Field(_core.load_field(self._source, self._look, report), "in memory")
 
     @takes(_core.propagate_keywords())
-    def propagate(self, distance: units.Length, *, max_error: float = 1e-3, progress: Progress = None, **options: Any) -> "Field":
+    def propagate(self, distance: units.Length, *, progress: Progress = None, **options: Any) -> "Field":
         """The field on a parallel plane, farther along +z, towards the viewer, or backwards if negative: its plane waves,
         exactly, at the samples of the field or at others.
 
@@ -188,9 +188,8 @@ class Field(Samples):
         >>> wave.propagate("1mm", output_samples=(16, 8), output_pitch="4um")
         Field(16x8 samples 4 um apart, 64 um x 32 um, 633 nm, in memory)
         """
-        far, output = _core.propagation_plane({"distance": distance, **options}, self.grid)
         with reporting(progress, "propagating") as report:
-            moved = _core.propagate(self._source, far, output, self._look, max_error, report)
+            moved = _core.propagate_by({"distance": distance, **options}, self._source, self._look, report)
         return Field(moved, "in memory")
 
     def propagate_adjoint(

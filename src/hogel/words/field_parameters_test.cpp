@@ -97,12 +97,12 @@ TEST(PropagateParameters, resolved_ones_have_the_same_output) {
         first.declare(table);
         again.declare(second);
         for (const auto& [name, text] : texts) table.look_up(name)->read_value(text, name);
-        const Grid output = first.output(field);
+        const Grid output = *first.options(field).output;
         first.resolve(output);
         for (const auto& [name, text] : table.acting()) second.look_up(name)->read_value(text, name);
-        EXPECT_EQ(again.output(field), output);
+        EXPECT_EQ(again.options(field).output, output);
     }
-    EXPECT_EQ(PropagateParameters().output(field), field);
+    EXPECT_EQ(PropagateParameters().options(field).output, field);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 namespace hogel {
 
-Grid PropagateParameters::output(const Grid& field) const {
+PropagateOptions PropagateParameters::options(const Grid& field) const {
     Grid output = field;
     if (output_pitch > 0) output.pitch_x = output.pitch_y = output_pitch;
     if (output_samples.columns > 0) {
@@ -12,7 +12,7 @@ Grid PropagateParameters::output(const Grid& field) const {
     }
     output.center_x += offset_x;
     output.center_y += offset_y;
-    return output;
+    return {.output = output};
 }
 
 void PropagateParameters::resolve(const Grid& output) {
