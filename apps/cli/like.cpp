@@ -117,10 +117,7 @@ std::string command_line_of(const Metadata& entries) {
         if (!key.starts_with(option_prefix)) continue;
         const Parameter* const parameter = command->look_up(key.substr(option_prefix.size()));
         if (parameter == nullptr) continue;
-        if (parameter->is_positional)
-            operands += " " + shell_word((value.starts_with('-') ? "./" : "") + value);
-        else
-            options += parameter->option_text(value);
+        (parameter->is_positional ? operands : options) += parameter->option_text(value);
     }
     // A file of `hogel make` that does not say of which scene it is.
     const bool has_operand =

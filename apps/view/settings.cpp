@@ -93,7 +93,7 @@ bool Settings::same_light_field(const Settings& other) const {
 }
 
 std::string Settings::command(const std::string& command, const std::string& input) const {
-    std::string text = "hogel " + command + " " + shell_word(input);
+    std::string text = "hogel " + command + line_->table.look_up("input")->option_text(input);
     for (const Parameter& each : line_->table.all())
         if (each.is_given() && each.name != of_server && takes_(command, each.name))
             text += each.option_text(each.value());
@@ -103,7 +103,8 @@ std::string Settings::command(const std::string& command, const std::string& inp
 std::string Settings::photo_command() const {
     const std::string input = is_dropped_ ? name_ : input_;
     if (options().layers == 0) return command("photo", input);
-    return fmt::format("hogel decompress {} -o layers.h5 --layers {} && {}", shell_word(input), options().layers,
+    return fmt::format("hogel decompress{} -o layers.h5 --layers {} && {}",
+                       line_->table.look_up("input")->option_text(input), options().layers,
                        command("photo", "layers.h5"));
 }
 

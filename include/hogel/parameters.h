@@ -96,7 +96,8 @@ class HOGEL_API Parameter {
     std::string option() const { return (is_positional ? "" : "--") + name; }
     /// What Error::parameter() and Python call it: "focal_plane".
     std::string keyword() const;
-    /// What stands on a shell's command line for a value(), with a blank before it: " --fov 40deg". Nothing for "no".
+    /// What stands on a shell's command line for a value(), with a blank before it: " --fov 40deg", of positional ones
+    /// " 'a b.h5'". Nothing for "no".
     std::string option_text(const std::string& value) const;
 
     // What a declaration adds.
@@ -237,9 +238,6 @@ HOGEL_API std::optional<double> parse_number(const std::string& text);
 /// to be meant. They throw Error(usage), which begins with `what`.
 HOGEL_API Vec3 parse_point(const std::string& text, const std::string& what);
 HOGEL_API double parse_any_length(const std::string& text, const std::string& what);
-
-/// A word as a shell takes it, in quotes where it needs them.
-HOGEL_API std::string shell_word(const std::string& word);
 
 /// The names in Error::parameter().
 HOGEL_API std::vector<std::string> names_of_parameters(const std::string& parameters);

@@ -310,6 +310,7 @@ struct HOGEL_API PropagateParameters {
     double output_pitch = 0;            ///< metres; 0: that of the field
     Counts output_samples;              ///< none: as many as the field has
     double offset_x = 0, offset_y = 0;  ///< metres from the middle of the field
+    double max_error = PropagateOptions().max_error;
     std::string display = "intensity";  ///< what a picture of the output shows
 
     bool is_picture = false;  ///< whether there is one, so that `display` acts

@@ -42,8 +42,8 @@ def takes(parameters: Sequence[tuple[str, str, str]]) -> Callable[[_Function], _
             return function(*arguments, **options)
 
         setattr(checked, "__signature__", own.replace(parameters=[*first, *more]))
-        rows = [f"    {name:<19}{help.partition(chr(10))[0]}{f' [{shown}]' if shown else ''}" for name, shown, help in parameters]
-        checked.__doc__ = (function.__doc__ or "") + "\n" + "\n".join(rows) + "\n"
+        rows = [f"{name:<19}{help.partition(chr(10))[0]}{f' [{shown}]' if shown else ''}" for name, shown, help in parameters]
+        checked.__doc__ = inspect.cleandoc(function.__doc__ or "") + "\n\n" + "\n".join(rows) + "\n"
         return checked  # type: ignore[return-value]
 
     return decorate

@@ -23,11 +23,12 @@ std::string Parameter::keyword() const {
 }
 
 std::string Parameter::option_text(const std::string& value) const {
+    if (is_positional) return " " + words::shell_word((value.starts_with('-') ? "./" : "") + value);
     if (kind == ParameterKind::flag) return value == "yes" ? " " + option() : "";
-    if (kind != ParameterKind::texts) return fmt::format(" {} {}", option(), shell_word(value));
+    if (kind != ParameterKind::texts) return fmt::format(" {} {}", option(), words::shell_word(value));
     std::string text;
     for (const auto word : std::views::split(value, ' '))
-        if (!word.empty()) text += fmt::format(" {} {}", option(), shell_word({word.begin(), word.end()}));
+        if (!word.empty()) text += fmt::format(" {} {}", option(), words::shell_word({word.begin(), word.end()}));
     return text;
 }
 

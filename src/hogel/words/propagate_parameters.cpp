@@ -12,7 +12,7 @@ PropagateOptions PropagateParameters::options(const Grid& field) const {
     }
     output.center_x += offset_x;
     output.center_y += offset_y;
-    return {.output = output};
+    return {.output = output, .max_error = max_error};
 }
 
 void PropagateParameters::resolve(const Grid& output) {
@@ -36,6 +36,10 @@ void PropagateParameters::declare(Parameters& parameters) {
         .default_text("as many as the input has");
     parameters.length("--offset-x", offset_x, "Of the output's middle from that of the input, to the right");
     parameters.length("--offset-y", offset_y, "Of the output's middle from that of the input, upwards");
+    parameters
+        .number("--max-error", max_error, "E",
+                "Greatest relative error of the samples (root mean square); what would exceed it is refused")
+        .positive();
 }
 
 }  // namespace hogel

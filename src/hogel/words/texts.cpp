@@ -179,10 +179,6 @@ std::string resolution_text(const Counts& counts) {
     return counts.rows == 0 ? fmt::format("{}", counts.columns) : counts_text(counts);
 }
 
-}  // namespace hogel::words
-
-namespace hogel {
-
 std::string shell_word(const std::string& word) {
     const bool plain = !word.empty() && word.find_first_not_of(
                                             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
@@ -192,6 +188,10 @@ std::string shell_word(const std::string& word) {
     for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return text + "'";
 }
+
+}  // namespace hogel::words
+
+namespace hogel {
 
 std::optional<double> parse_number(const std::string& text) {
     double number = 0;

@@ -32,4 +32,7 @@ std::string number_text(double number);
 std::string counts_text(const Counts& counts);
 std::string resolution_text(const Counts& counts);
 
+/// A word as a shell takes it, in quotes where it needs them.
+std::string shell_word(const std::string& word);
+
 }  // namespace hogel::words
