@@ -118,6 +118,7 @@ struct ViewWords {
     }
 
     View complete() {
+        table.require_compatible();
         view.by = method(by);
         view.logarithmic = display == "log";
         view.quality = static_cast<int>(quality);

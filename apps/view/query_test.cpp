@@ -45,6 +45,7 @@ TEST(Query, percent_stands_for_any_character) {
 
 TEST(Query, what_makes_no_sense_is_refused) {
     for (const char* query : {"eye=0,0",
+                              "pupil=1mm&f-number=3",
                               "eye=0,0,300",
                               "eye=0,0,1e300m",
                               "focus=4",

@@ -47,6 +47,9 @@ void Settings::read() {
         if (Parameter* const own = line->table.look_up(name)) own->read_value(text, own->option());
     line->table.require_compatible();
     line->view.input = name_;
+    // What no scene can have is refused where it is changed.
+    line->view.render.request();
+    for (const std::string& light : line->view.render.scene.lights) parse_light(light);
     line_ = std::move(line);
 }
 

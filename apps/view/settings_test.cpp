@@ -73,6 +73,8 @@ TEST(Settings, refuse_what_a_command_line_would) {
                                                                                       {"size", "-1mm"},
                                                                                       {"front", "7"},
                                                                                       {"rotate", "1,2deg"},
+                                                                                      {"light", "x"},
+                                                                                      {"fov", "200deg"},
                                                                                       {"threads", "2"},
                                                                                       {"memory", "1"},
                                                                                       {"host", "0.0.0.0"},

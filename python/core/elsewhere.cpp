@@ -22,11 +22,12 @@ struct FieldKeywords {
     explicit FieldKeywords(py::dict keywords = {}) {
         values.declare(table, true, true);
         values.declare_reconstruction(table);
-        // An object, whose text may not be exact.
         if (keywords.contains("phase_code") && py::isinstance<PhaseCode>(keywords["phase_code"])) {
-            values.own_code = keywords["phase_code"].cast<PhaseCode>();
+            const auto code = keywords["phase_code"].cast<PhaseCode>();
+            const std::string text = phase_code_text(code);
             keywords = keywords.attr("copy")();
-            keywords["phase_code"] = "own";
+            keywords["phase_code"] = text;
+            if (parse_phase_code(text) != code) values.own_code = code;
         }
         read_keywords(table, keywords);
     }

@@ -6,14 +6,40 @@
 
 #include <cmath>
 #include <optional>
+#include <string_view>
 
 #include "hogel/error.h"
 
 namespace hogel::python {
 namespace {
 
+// What Python says of a value; of one that UTF-8 cannot say, what it says in ASCII.
+std::string said(const py::handle& value) {
+    for (const auto say : {PyObject_Str, PyObject_ASCII}) {
+        const auto text = py::reinterpret_steal<py::object>(say(value.ptr()));
+        const char* const bytes = text ? PyUnicode_AsUTF8(text.ptr()) : nullptr;
+        if (bytes != nullptr) return bytes;
+        PyErr_Clear();
+    }
+    return Py_TYPE(value.ptr())->tp_name;
+}
+
+bool is_boolean(const py::handle& value) {
+    const std::string_view type = Py_TYPE(value.ptr())->tp_name;
+    return type == "bool" || type == "numpy.bool_" || type == "numpy.bool";
+}
+
+// Bytes are no list of numbers here, and an array without axes is a number.
+bool is_list(const py::handle& value) {
+    if (PyBytes_Check(value.ptr()) || PyByteArray_Check(value.ptr()) || PyMemoryView_Check(value.ptr())) return false;
+    if (PySequence_Check(value.ptr()) != 0 && PySequence_Size(value.ptr()) >= 0) return true;
+    PyErr_Clear();
+    return false;
+}
+
 // Whatever is no number is a text that the parameter refuses by its name.
 std::optional<double> number_of(const py::handle& value) {
+    if (is_boolean(value)) return {};
     const double number = PyFloat_AsDouble(value.ptr());
     if (PyErr_Occurred() == nullptr) return number;
     PyErr_Clear();
@@ -21,19 +47,19 @@ std::optional<double> number_of(const py::handle& value) {
 }
 
 std::string whole_text(const py::handle& value) {
-    const py::object whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
-    if (whole) return py::str(whole);
+    if (is_boolean(value)) return said(value);
+    const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
     PyErr_Clear();
-    return py::str(value);
+    return said(whole ? whole : value);
 }
 
 // One number of a parameter, a text, or a path.
 std::string element_text(ParameterKind kind, const py::handle& value) {
-    if (py::isinstance<py::str>(value)) return value.cast<std::string>();
-    if (py::hasattr(value, "__fspath__")) return py::str(value.attr("__fspath__")());
+    if (py::isinstance<py::str>(value)) return said(value);
+    if (py::hasattr(value, "__fspath__")) return said(value.attr("__fspath__")());
     if (kind == ParameterKind::counts || kind == ParameterKind::resolution) return whole_text(value);
     const std::optional<double> number = number_of(value);
-    if (!number || !std::isfinite(*number)) return py::str(value);
+    if (!number || !std::isfinite(*number)) return said(value);
     if (kind == ParameterKind::text) return fmt::format("{}", *number);
     const bool is_angle =
         kind == ParameterKind::angle || kind == ParameterKind::angles || kind == ParameterKind::rotation;
@@ -58,31 +84,36 @@ std::string list_text(ParameterKind kind, const py::handle& values) {
     return fmt::format("{}", fmt::join(texts, counts ? "x" : ","));
 }
 
+std::string flag_text(const py::handle& value) {
+    const std::string text = is_boolean(value) ? said(value) : whole_text(value);
+    return text == "True" || text == "1" ? "yes" : text == "False" || text == "0" ? "no" : text;
+}
+
 // A value of Python as the command line writes it.
 std::string text_of(ParameterKind kind, const py::handle& value) {
-    if (py::isinstance<py::str>(value)) return value.cast<std::string>();
+    if (py::isinstance<py::str>(value)) return said(value);
     switch (kind) {
         case ParameterKind::flag:
-            return py::bool_(py::reinterpret_borrow<py::object>(value)) ? "yes" : "no";
+            return flag_text(value);
         case ParameterKind::count:
         case ParameterKind::whole:
             return whole_text(value);
         case ParameterKind::number:
             if (const auto number = number_of(value)) return fmt::format("{}", *number);
-            return py::str(value);
+            return said(value);
         case ParameterKind::texts:
-            return py::str(" ").attr("join")(value).cast<std::string>();
+            return is_list(value) ? said(py::str(" ").attr("join")(value)) : said(value);
         case ParameterKind::choice:
-            return py::str(value);
+            return said(value);
         default:
-            break;
+            return is_list(value) ? list_text(kind, value) : element_text(kind, value);
     }
-    return PySequence_Check(value.ptr()) == 0 ? element_text(kind, value) : list_text(kind, value);
 }
 
-// Sets a parameter; errors name it.
+// Sets a parameter, unless it is a flag that is off; errors name it.
 void read(Parameter& parameter, const std::string& name, const py::handle& value) {
     const std::string text = text_of(parameter.kind, value);
+    if (parameter.kind == ParameterKind::flag && text == "no") return;
     try {
         parameter.read_value(text, name);
     } catch (const Error& error) {
@@ -97,8 +128,7 @@ void read_keywords(Parameters& parameters, const py::dict& keywords) {
         const std::string name = parameter.keyword();
         if (!keywords.contains(name)) continue;
         const py::object value = keywords[name.c_str()];
-        if (value.is_none() || value.is(py::bool_(false))) continue;
-        read(parameter, name, value);
+        if (!value.is_none()) read(parameter, name, value);
     }
     parameters.require_compatible();
 }

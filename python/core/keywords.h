@@ -9,7 +9,7 @@
 
 namespace hogel::python {
 
-/// Sets the parameters that keywords name. None stands for the default, and so does False. Throws Error(usage), which
+/// Sets the parameters that keywords name. None stands for the default. Throws Error(usage), which
 /// names the parameter.
 void read_keywords(Parameters& parameters, const py::dict& keywords);
 

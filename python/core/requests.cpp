@@ -31,11 +31,13 @@ struct LightFieldKeywords {
 
 struct HologramKeywords {
     std::uint64_t seed = 1;
+    std::size_t looks = 1;
     HologramParameters values;
     Parameters table;
 
     explicit HologramKeywords(const py::dict& keywords) {
-        table.whole("--seed", seed, std::numeric_limits<std::uint64_t>::max(), "");
+        table.whole("--seed", seed, std::numeric_limits<std::uint64_t>::max(), "Of random phases");
+        table.count("--looks", looks, "Statistically independent holograms of the same object").never_acts();
         values.declare(table);
         read_keywords(table, keywords);
     }
@@ -139,16 +141,16 @@ void add_keywords(py::module_& module) {
     });
     module.def(
         "hologram_request",
-        [](const py::dict& keywords, std::size_t looks, const LightField* light_field) {
+        [](const py::dict& keywords, const LightField* light_field) {
             const HologramKeywords asked(keywords);
-            return light_field == nullptr ? asked.values.request(asked.seed, looks)
-                                          : asked.values.request(light_field->grids(), asked.seed, looks);
+            return light_field == nullptr ? asked.values.request(asked.seed, asked.looks)
+                                          : asked.values.request(light_field->grids(), asked.seed, asked.looks);
         },
-        arg("keywords"), arg("looks"), arg("light_field") = nullptr);
+        arg("keywords"), arg("light_field") = nullptr);
     module.def(
         "note_about_pitch",
         [](const py::dict& keywords, const HologramRequest& request) {
-            return HologramKeywords(keywords).values.note_about_pitch(request);
+            return Keywords<HologramParameters>(keywords).values.note_about_pitch(request);
         },
         arg("keywords"), arg("request"));
     module.def(

@@ -245,7 +245,7 @@ class LightField(Rays):
         """
         wanted = hologram_request(**options)
         common = self._for_holograms(wanted, options.get("basis") is None)
-        wanted.pitch = _core.hologram_request(options, 1, common).pitch
+        wanted.pitch = _core.hologram_request(options, common).pitch
         note = _core.note_about_pitch(options, wanted)
         if note:
             warnings.warn(note, stacklevel=3)
@@ -255,8 +255,7 @@ class LightField(Rays):
         fields = _core.make_holograms(prepared, wanted)
         record = None
         if self._made is not None:
-            of_files = {name: value for name, value in options.items() if name != "looks"}
-            acted = hologram_record(wanted, self.grid, **of_files)
+            acted = hologram_record(wanted, self.grid, **options)
             record = {**_record.renamed(self._made, "scene", "input"), **acted}
         made = Hologram(fields, "computed when read", known=(prepared, wanted), made=record)
         made._identity = self._identity

@@ -9,7 +9,7 @@ from ._keywords import takes
 
 
 @takes(_core.hologram_keywords())
-def hologram_request(*, looks: int = 1, **options: Any) -> _core.HologramRequest:
+def hologram_request(**options: Any) -> _core.HologramRequest:
     """What `hogel hologram` asks for, by the names of its options: see LightField.hologram().
 
     >>> import hogel
@@ -17,7 +17,7 @@ def hologram_request(*, looks: int = 1, **options: Any) -> _core.HologramRequest
     >>> wanted.method.transform, wanted.channels
     ('cdf97', [(6.33e-07, 0)])
     """
-    return _core.hologram_request(options, looks)
+    return _core.hologram_request(options)
 
 
 def hologram_record(wanted: _core.HologramRequest, grid: _core.LightFieldGrid, **options: Any) -> _record.Record:

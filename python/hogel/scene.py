@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any, Optional, Union
 
 import numpy as np
@@ -63,7 +63,12 @@ class Scene:
         >>> hogel.Scene.load("sphere", colour="#804020", background="grey")
         Scene('sphere', built in)
         """
-        texture, lights = options.pop("texture", None), options.pop("light", None) or ()
+        texture, lights = options.pop("texture", None), options.pop("light", None)
+        lights = [] if lights is None else lights
+        if isinstance(lights, (str, _core.Light)):
+            lights = [lights]
+        if not isinstance(lights, Iterable) or not all(isinstance(light, (str, _core.Light)) for light in lights):
+            raise usage_error("light", "a list of texts and of hogel.light() was expected")
         texts = [light if isinstance(light, str) else _core.light_text(light) for light in lights]
         picture = getattr(texture, "_image", None)
         if picture is None:
@@ -189,7 +194,7 @@ class Scene:
         LightField(8x6 hogels of 16x16 directions, 3 channels, 2 mm x 1.5 mm, 16°, 147 kB, rendered when read)
         """
         own = options.get("algorithm")
-        if own in own_renderers:
+        if isinstance(own, str) and own in own_renderers:
             options.pop("algorithm")
             wanted = request(**options)
             placed = self.placed(wanted, progress)

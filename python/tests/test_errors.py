@@ -43,6 +43,20 @@ class Errors(InFolder):
             (lambda: hogel.Scene.load("sphere").hologram(method="points", cull_back_faces=True), "cull_back_faces"),
             (lambda: hogel.import_views(".", spacing="1mm", fov="16deg"), "spacing, fov"),
             (lambda: lf.export("views", layout="magic"), "layout"),
+            # Values that are something else than their keyword takes.
+            (lambda: hogel.request(size=False), "size"),
+            (lambda: hogel.request(hogels=True), "hogels"),
+            (lambda: hogel.request(fov=1e308), "fov"),
+            (lambda: hogel.request(fov=(0.1, 0.2, 0.3)), "fov"),
+            (lambda: hogel.request(hemicube=float("nan")), "hemicube"),
+            (lambda: hogel.request(algorithm="\ud800"), "algorithm"),
+            (lambda: hogel.hologram_request(looks=-1), "looks"),
+            (lambda: hogel.hologram_request(looks=2.5), "looks"),
+            (lambda: lf.compress("a.hgl", lossless=np.array([1, 2])), "lossless"),
+            (lambda: hogel.Scene.load("sphere", move=b"5mm"), "move"),
+            (lambda: hogel.Scene.load("sphere", colour=(-1, 0, 0)), "colour"),
+            (lambda: hogel.Scene.load("sphere", light=5), "light"),
+            (lambda: hogel.Scene.load("sphere", light=[None]), "light"),
             # Errors of the module's own.
             (lambda: lf.photograph(pupil=1, f_number=2), "pupil, f_number"),
             (lambda: lf.save("a.hgl", half=True, resume=True), "resume"),
@@ -54,6 +68,10 @@ class Errors(InFolder):
             (lambda: hogel.angle("16", "fov"), "fov"),
             (lambda: hogel.film("film.mp3", []), ""),
         ]
+        # What is off excludes nothing, an array without axes is a number, and one light needs no list.
+        self.assertEqual(hogel.request(hemicube=np.False_, toward="5deg"), hogel.request(hemicube=0, toward="5deg"))
+        self.assertEqual(hogel.request(size=np.array(0.01)), hogel.request(size="10mm"))
+        self.assertEqual(len(hogel.Scene.load("sphere", light=hogel.light((1, 2, 3)))._pose.lights), 1)
         for work, parameter in cases:
             with self.subTest(parameter), self.assertRaises(hogel.Error) as caught:
                 work()

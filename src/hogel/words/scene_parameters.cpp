@@ -52,6 +52,7 @@ Rgb parse_color(const std::string& text, const std::string& parameter) {
         "a colour; write #rrggbb, linear R,G,B, or black, white, grey, red, green, blue or yellow";
     if (text.find(',') != std::string::npos) {
         const Vec3 parts = parse_vector(text, text, parameter, expected);
+        if (!(std::min({parts.x, parts.y, parts.z}) >= 0)) refuse(parameter, text, expected);
         return {static_cast<float>(parts.x), static_cast<float>(parts.y), static_cast<float>(parts.z)};
     }
     constexpr std::array<std::pair<std::string_view, std::uint32_t>, 7> names{{{"black", 0x000000},

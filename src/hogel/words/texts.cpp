@@ -139,6 +139,8 @@ Angles parse_angles(const std::string& text, const std::string& what) {
         return {both, both};
     }
     const std::string down = text.substr(comma + 1);
+    if (down.find(',') != std::string::npos)
+        throw Error(ErrorCode::usage, fmt::format("{}: '{}' is neither one angle nor two", what, text));
     return {parse_angle(with_unit(text.substr(0, comma), unit_of(down)), what), parse_angle(down, what)};
 }
 
@@ -235,8 +237,9 @@ std::string lengths_text(const std::vector<double>& metres) {
 }
 
 std::string angle_text(double radians) {
-    for (int digits = 1; digits <= 17; ++digits) {
-        std::string text = fmt::format("{:.{}g}deg", radians * 180 / std::numbers::pi, digits);
+    const double degrees = radians * 180 / std::numbers::pi;
+    for (int digits = 1; digits <= 17 && std::isfinite(degrees); ++digits) {
+        std::string text = fmt::format("{:.{}g}deg", degrees, digits);
         if (text.find('e') == text.find("deg") + 1 && parse_angle(text, "angle") == radians) return text;
     }
     return words::shifted_text(radians, 0) + "rad";
