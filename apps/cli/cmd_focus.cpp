@@ -109,8 +109,8 @@ int focus(Options& options, const Session& session) {
     Fields chosen = fields;
     if (session.command->given("--colour")) {
         if (options.colour > fields.size())
-            throw Error(ErrorCode::usage, fmt::format("--colour: {} was asked for, but {} holds {}", options.colour,
-                                                      options.input, fields.size()));
+            throw Error(ErrorCode::usage, "colour",
+                        fmt::format("{} was asked for, but {} holds {}", options.colour, options.input, fields.size()));
         chosen = {fields[options.colour - 1]};
     }
     state_parts(fields, chosen, request, session);

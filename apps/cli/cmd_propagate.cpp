@@ -44,10 +44,10 @@ OutputKind output_kind(const std::filesystem::path& path, const std::string& dis
     return OutputKind::picture;
 }
 
-void require_one_wavelength(const Fields& fields, const std::string& what) {
+void require_one_wavelength(const Fields& fields) {
     if (fields.size() != 1)
-        throw Error(ErrorCode::usage,
-                    fmt::format("{}: is made of one wavelength, but the hologram has {}", what, fields.size()));
+        throw Error(ErrorCode::usage, "display",
+                    fmt::format("phase is made of one wavelength, but the hologram has {}", fields.size()));
 }
 
 // The mean of |F|² over samples that pass by, from any thread.
@@ -204,13 +204,11 @@ int propagate_fields(Options& options, const Session& session) {
     const OutputKind kind = output_kind(options.output, options.plane.display);
     require_writable(options.output, {&options.input, 1});
     if (options.resume && kind != OutputKind::hologram)
-        throw Error(
-            ErrorCode::usage,
-            fmt::format("--resume: {} is written at once; give -o a name in .h5, or leave it out", options.output));
+        throw Error(ErrorCode::usage, "resume",
+                    fmt::format("{} is written at once; give -o a name in .h5, or leave it out", options.output));
     options.plane.is_picture = kind == OutputKind::picture || options.plane.display == "field";
     const Fields fields = open_and_reconstruct(session, options.input, options.field);
-    if (kind == OutputKind::picture && options.plane.display == "phase")
-        require_one_wavelength(fields, "--display phase");
+    if (kind == OutputKind::picture && options.plane.display == "phase") require_one_wavelength(fields);
     if (kind == OutputKind::picture && fields.size() != 1 && fields.size() != 3)
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: has {} wavelengths; a picture takes one or three", options.input, fields.size()));

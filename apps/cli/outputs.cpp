@@ -107,9 +107,8 @@ void add_part_option(Command& command, PartOption& part) {
                     };
                     if (slash == std::string::npos || !number(text.substr(0, slash), read.number) ||
                         !number(text.substr(slash + 1), read.count) || read.number == 0 || read.number > read.count)
-                        throw Error(
-                            ErrorCode::usage,
-                            fmt::format("--part: '{}' is not a part K/N with K from 1 to N, such as 2/5", text));
+                        throw Error(ErrorCode::usage, "part",
+                                    fmt::format("'{}' is not a part K/N with K from 1 to N, such as 2/5", text));
                     part.part = read;
                 })
         .never_acts();

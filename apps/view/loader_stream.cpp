@@ -16,8 +16,8 @@ constexpr double max_compared_samples = 4e8;  // a few seconds of decoding; of m
 LightField open_original(const std::string& name, const LightFieldGrid& grid) {
     LightField original = open_light_field_or_views(name);
     if (!same_hogels(original.grid(), grid) || original.grid().directions() != grid.directions())
-        throw Error(ErrorCode::usage,
-                    fmt::format("--original {}: has {}x{} hogels of {}x{} directions; expected {}x{} of {}x{}", name,
+        throw Error(ErrorCode::usage, "original",
+                    fmt::format("{} has {}x{} hogels of {}x{} directions; expected {}x{} of {}x{}", name,
                                 original.grid().hogels_s, original.grid().hogels_t, original.grid().directions_u,
                                 original.grid().directions_v, grid.hogels_s, grid.hogels_t, grid.directions_u,
                                 grid.directions_v));

@@ -346,7 +346,7 @@ Server::Server(const std::string& host, unsigned short port, const ServerLimits&
     Code error;
     const asio::ip::address address = asio::ip::make_address(host == "localhost" ? "127.0.0.1" : host, error);
     if (error)
-        throw Error(ErrorCode::usage, fmt::format("--host {}: is no address such as 127.0.0.1 or 192.168.1.5", host));
+        throw Error(ErrorCode::usage, "host", fmt::format("{} is no address such as 127.0.0.1 or 192.168.1.5", host));
     const tcp::endpoint endpoint(address, port);
     tcp::acceptor& acceptor = impl_->acceptor;
     acceptor.open(endpoint.protocol(), error);
