@@ -24,77 +24,79 @@
 
 namespace hogel {
 
-// Parameters that commands share, from which a request is made. Each struct holds their values, with the defaults,
-// declares them in a table, which it must outlive, and makes the request.
+// The options that the command line, Python and the viewer share. Each struct holds the values of one group. declare()
+// adds a row for each to a table, which the struct must outlive. A function of the struct makes the library's request.
+// resolve() stores the values that the work chose, and decides which options act: files store these.
 
-/// A light of --light, "X,Y,Z:COLOUR:STRENGTH": the direction that it comes from, its colour (default: white) and its
+/// A directional light, "X,Y,Z:COLOUR:STRENGTH": the direction towards it, its colour (default: white) and its
 /// irradiance. Throws Error(usage).
 HOGEL_API Light parse_light(const std::string& text);
-/// The text of which parse_light() makes this light, to the last bit of its direction; empty if there is none.
+/// The text of a light for parse_light(). Empty for a point light, a cone, or a light without shadows.
 HOGEL_API std::string light_text(const Light& light);
 
-/// The parameters of a scene: how it is turned, placed, coloured and lit.
+/// Pose, colours and lights of a scene.
 struct HOGEL_API SceneParameters {
-    ScenePose pose;  ///< without `lights` and `texture`
+    ScenePose pose;  ///< except `lights` and `texture`
     std::vector<std::string> lights;
-    std::string texture;  ///< name of a picture
-    double point_size = 1;
+    std::string texture;    ///< file name of a picture
+    double point_size = 1;  ///< 1: discs that just close the surface
 
-    /// With the lights and the picture. Throws Error(usage) for a light that is not one, and what read_image() throws.
+    /// The pose with its lights and its picture. Throws Error(usage) for a malformed light, and what read_image()
+    /// throws.
     ScenePose complete_pose() const;
-    /// Notes what decides which parameters act.
-    /// @param is_from_file  it is no built-in scene
+    /// @param is_from_file  false for a built-in scene
     void resolve(const Scene& loaded, bool is_from_file);
     void declare(Parameters& parameters);
 
-    // What decides which parameters act, known once a scene is loaded.
+    // Set by resolve().
     bool is_loaded = false;
-    bool is_file = false;  ///< no built-in scene
+    bool is_file = false;  ///< false: a built-in scene
     bool is_lit = false, has_points = false;
     bool has_background = true;
 };
 
-/// The parameters with which a set of views becomes a light field.
+/// Import of a set of views as a light field.
 struct HOGEL_API ImportParameters {
-    ViewOptions views;                         ///< without what the texts and counts that follow decide
-    std::string column, projection, transfer;  ///< empty: what the set says
+    ViewOptions views;                         ///< except members that options() makes of the following values
+    std::string column, projection, transfer;  ///< empty: as recognised
     std::string mirror = "none";
-    Counts counts, middle;  ///< of views; none: what the set says, and all
+    Counts counts;  ///< views across and down; 0: as recognised
+    Counts middle;  ///< views to import, in the middle of the set; 0: all
 
     /// Throws Error(usage).
     ViewOptions options() const;
-    /// Sets the values with which these views were imported.
+    /// Stores the recognised layout, transfer curve and width.
     void resolve(const ImportedViews& imported);
     void declare(Parameters& parameters);
 };
 
-/// The parameters with which a light field becomes a set of views, or a film of their middle row.
+/// Export of a light field as a set of views, or as a film of the middle row of views.
 struct HOGEL_API ExportParameters {
-    ViewExportOptions views;  ///< without `bits`, `transfer` and `metadata`
+    ViewExportOptions views;  ///< except `bits`, `transfer` and `metadata`
     bool layout_given = false;
-    std::size_t bits = 0;  ///< 0: as imported
-    std::string transfer;  ///< empty: as imported
-    double frame_rate = 24;
+    std::size_t bits = 0;    ///< 0: as imported
+    std::string transfer;    ///< empty: as imported
+    double frame_rate = 24;  ///< frames per second
     bool is_film = false;
 
     /// Throws Error(usage).
     ViewExportOptions options() const;
-    /// Sets the values that the name of the output decides: the layout unless it is given, the format of a quilt, and
-    /// those of the pictures of a film. Throws Error(usage) for an unknown layout.
+    /// Derives values from the name of the output: the layout unless it is given, the picture format of a quilt, and
+    /// the pictures of a film. Throws Error(usage) for an unknown layout.
     void resolve(const std::filesystem::path& output);
     void declare(Parameters& parameters);
 };
 
-/// The parameters of pictures for a hologram printer.
+/// Pictures for a hologram printer.
 struct HOGEL_API PrintParameters {
-    PrinterImageOptions images;  ///< without `serpentine` and `metadata`
+    PrinterImageOptions images;  ///< except `serpentine` and `metadata`
     std::string order = "serpentine";
 
     PrinterImageOptions options() const;
     void declare(Parameters& parameters);
 };
 
-/// The parameters of cameras whose pictures become a light field, see write_cameras().
+/// The camera array of write_cameras().
 struct HOGEL_API CamerasParameters {
     Counts hogels{defaults.hogels, defaults.hogels};
     Counts directions{9, 9};
@@ -105,7 +107,7 @@ struct HOGEL_API CamerasParameters {
     void declare(Parameters& parameters);
 };
 
-/// The parameters of a light field of a scene.
+/// Rendering of a scene into a light field.
 struct HOGEL_API LightFieldParameters {
     std::string algorithm{defaults.renderer};
     std::string shading{defaults.shading};
@@ -113,15 +115,15 @@ struct HOGEL_API LightFieldParameters {
     double cache_spacing = defaults.cache_spacing;
     Counts hogels{defaults.hogels, defaults.hogels};
     Counts directions{defaults.directions, defaults.directions};
-    Counts samples{1, 1};  ///< per ray: along a hogel's side, along a side of a direction's cell
-    double size = defaults.size;
+    Counts samples{1, 1};         ///< per ray: along a hogel's side, along a side of a direction's cell
+    double size = defaults.size;  ///< width of the hologram, metres
     Angles field_of_view{defaults.field_of_view, defaults.field_of_view};
     bool field_of_view_given = false;  ///< otherwise a hemicube spans 180 degrees
     Angles toward;
     bool hemicube = false;
     double focal_plane = 0;          ///< depth of a fixed focal plane, metres
     bool focal_plane_given = false;  ///< otherwise hogels have the same directions
-    double frequencies = 0;          ///< wavelength whose frequency grid gives the directions, metres; 0: perspective
+    double frequencies = 0;          ///< metres; directions on the frequency grid of this wavelength; 0: perspective
     bool as_is = false;
     std::size_t interpolate = 0;     ///< side of the regions of hogels, with `interpolate_given`
     bool interpolate_given = false;  ///< otherwise every sample is shaded by itself
@@ -129,36 +131,36 @@ struct HOGEL_API LightFieldParameters {
     double front = defaults.front;
     SceneParameters scene;
 
-    // What decides which parameters act, known once a light field is rendered.
+    // Set by resolve().
     bool is_rendered = false, has_shadow_maps = false, is_lit_by_samples = false;
 
-    /// The grid of the front. Throws Error(usage).
+    /// The grid of the front face. Throws Error(usage).
     LightFieldGrid grid() const;
-    /// Without how the scene is turned, placed and lit. Throws Error(usage).
+    /// The request without the pose of the scene. Throws Error(usage).
     LightFieldRequest request() const;
-    /// With that, for load_scene(). Throws Error(usage), and what read_image() throws.
+    /// The request with the pose, for load_scene(). Throws Error(usage), and what read_image() throws.
     LightFieldRequest scene_request() const;
-    /// With the shading model that `auto` stands for.
+    /// The request with the shading model that `auto` selects for a scene.
     LightFieldRequest request(const Scene& loaded) const;
-    /// Sets the values with which a scene at the hologram is lit, and those with which it is rendered.
+    /// Stores the shading of a placed scene, and the facts of its lighting.
     void resolve(const Scene& placed);
     void resolve(const ShadedScene& lit);
 
-    /// Those of the scene and of the light field, without the ones that follow.
+    /// The options of the scene and of the light field, except those of the next two functions.
     void declare(Parameters& parameters);
-    /// --hemicube, for those who use all faces.
+    /// --hemicube, for commands that use all faces.
     void declare_hemicube(Parameters& parameters);
-    /// --focal-plane, --frequencies and --interpolate, for those who make light fields.
+    /// --focal-plane, --frequencies and --interpolate, for commands that write light fields.
     void declare_directions(Parameters& parameters);
 };
 
-/// The parameters of a compressed light field. At most one of the targets is set, or `lossless`; otherwise
-/// Defaults::sqnr is the target.
+/// Compression of a light field. At most one target is set: an SQNR (dB), pixels per bit, a step (radiance), a greatest
+/// error (radiance), or `lossless`. Without one the target is Defaults::sqnr.
 struct HOGEL_API CompressionParameters {
     std::optional<double> sqnr, pixels_per_bit, step, max_error;
     bool lossless = false;
-    std::string rule = "search";     ///< of pixels_per_bit
-    std::optional<double> overhead;  ///< of the other rules
+    std::string rule = "search";     ///< how pixels_per_bit finds the step
+    std::optional<double> overhead;  ///< bits per nonzero coefficient, for rules other than search
     CompressionOptions compression;  ///< the coder, the transform and the steps of chrominance
     std::string table, symbols;      ///< empty: the default of CodingMethod
     std::string hemicube = "faces";
@@ -166,200 +168,196 @@ struct HOGEL_API CompressionParameters {
     std::optional<double> depth_error;  ///< metres
     std::string tone = "none";
     double tone_decades = defaults.tone_decades;
-    Counts tile;  ///< empty: the coder's preferred tile
+    Counts tile;  ///< hogels; 0: the coder's preferred tile
 
-    /// Without metadata. Throws Error(usage).
+    /// Options without metadata. Throws Error(usage).
     CompressionOptions options(const LightField& light_field) const;
-    /// Sets the values that act on this light field where they are not given, and what decides which act. The options()
-    /// must be valid.
+    /// Stores the defaults that the coder selects. options() must not throw.
     void resolve(const LightField& light_field);
     void declare(Parameters& parameters);
 
-    // What decides which parameters act, known once a light field is opened.
+    // Set by resolve().
     bool has_sides = false, has_depth = false;
 };
 
-/// The parameters of the pattern of a modulator.
+/// The pattern of a spatial light modulator.
 struct HOGEL_API PatternParameters {
-    std::string encoding = "auto";     ///< a row of encodings(), or auto: the one that suits the fields
-    PatternOptions pattern;            ///< without encoding, modulator and phase code
-    std::string device;                ///< a row of modulators(), in capitals or not; empty: the following
+    std::string encoding = "auto";     ///< a name of encodings(), or auto: selected for the fields
+    PatternOptions pattern;            ///< except encoding, modulator and phase code
+    std::string device;                ///< a name of modulators() in either case; empty: the next three values
     Counts pixels;                     ///< across and down
     double pixel_pitch = 0;            ///< metres
-    std::size_t levels = 256;          ///< of a pixel
-    std::string phase_code = "hogel";  ///< as parse_phase_code() takes it
+    std::size_t levels = 256;          ///< per pixel
+    std::string phase_code = "hogel";  ///< for parse_phase_code()
 
-    /// The modulator by name, or as described. Throws Error(usage).
+    /// The named or described modulator. Throws Error(usage).
     Modulator modulator() const;
-    /// With the modulator and the phase code, and the encoding unless that is auto. Throws Error(usage).
+    /// Options with modulator and phase code, and with the encoding unless it is auto. Throws Error(usage).
     PatternOptions options() const;
-    /// Encodes the fields of all wavelengths. Throws what options() and encode_pattern() throw.
+    /// Encodes the field of each wavelength. Throws what options() and encode_pattern() throw.
     SuitablePatterns encode(const Fields& fields, const Progress& progress = {}) const;
-    /// Sets the encoding with which patterns are made, and the device's name as the table writes it.
+    /// Stores the selected encoding, and the device's name as modulators() spells it.
     void resolve(Encoding chosen);
-    /// What the file of the patterns says of each wavelength, such as "efficiency at 532 nm", and the field_entries().
+    /// Metadata of a pattern file: results of each wavelength, such as "efficiency at 532 nm", and field_entries().
     Metadata metadata(const SuitablePatterns& encoded, const Fields& fields) const;
     void declare(Parameters& parameters);
 };
 
-/// The parameters of a scene that is lit for good.
+/// Baking of the lighting into the vertices of a scene.
 struct HOGEL_API BakeParameters {
-    BakeOptions options{.rays = defaults.bake_rays, .bounces = defaults.bake_bounces};  ///< without `seed`
-    LightFieldParameters place;  ///< of which `size` and `scene` act
+    BakeOptions options{.rays = defaults.bake_rays, .bounces = defaults.bake_bounces};  ///< except `seed`
+    LightFieldParameters place;                                                         ///< only `size` and `scene` act
 
     void declare(Parameters& parameters);
 };
 
 struct FieldParameters;
 
-/// The parameters of a hologram of a light field.
+/// A hologram of a light field, or of a scene.
 struct HOGEL_API HologramParameters {
-    std::vector<double> wavelengths{defaults.red, defaults.green, defaults.blue};
-    double pitch = defaults.pitch;
-    bool pitch_given = false;        ///< otherwise a request of a light field has one that diffracts its field of view
-    std::string method = "fourier";  ///< a row of hologram_methods()
+    std::vector<double> wavelengths{defaults.red, defaults.green, defaults.blue};  ///< metres
+    double pitch = defaults.pitch;                                                 ///< of the samples, metres
+    bool pitch_given = false;        ///< false: request(faces, …) may select a smaller pitch
+    std::string method = "fourier";  ///< a name of hologram_methods()
     std::string phase;               ///< empty: the default of the method
     std::string average = "radiance";
-    std::string basis;  ///< empty: that of the light field's coefficients, or else cdf97
-    double tolerance = 0;
-    double spacing = defaults.spacing;
-    std::size_t planes = defaults.planes;
-    double lines = 0;  ///< distance of the lines of the method lines, metres; 0: that of samples
+    std::string basis;                     ///< empty: that of the light field's coefficients, or else cdf97
+    double tolerance = 0;                  ///< share of a hogel's amplitude
+    double spacing = defaults.spacing;     ///< of points on surfaces, metres
+    std::size_t planes = defaults.planes;  ///< depth planes
+    double lines = 0;                      ///< pitch of the lines of the method lines, metres; 0: that of the samples
 
     HologramMethod hologram_method() const;
     HologramRequest request(std::uint64_t seed, std::size_t looks) const;
-    /// Of a light field of these faces.
+    /// The request for a light field of these faces. Unless the pitch is given, it is diffracting_pitch().
     HologramRequest request(std::span<const LightFieldGrid> faces, std::uint64_t seed, std::size_t looks) const;
-    /// A line about the pitch of that request, where it is neither given nor the default; otherwise empty.
+    /// A line about a selected pitch; empty if the request has the given or the default pitch.
     std::string note_about_pitch(const HologramRequest& request) const;
-    /// Of a method that computes the hologram of a scene without a light field, as wide as `place` says. Throws
-    /// Error(usage).
+    /// The request of a method without a light field. The hologram has the size of `place`. Throws Error(usage).
     SceneHologramRequest scene_request(std::uint64_t seed, const LightFieldParameters& place) const;
 
     void declare(Parameters& parameters);
-    /// --pitch alone.
+    /// Only --pitch.
     Parameter& declare_pitch(Parameters& parameters);
-    /// Those, and the ones of methods that compute the hologram of a scene without a light field.
+    /// As declare(), and the options of methods without a light field.
     void declare_with_scene_methods(Parameters& parameters);
 
-    // What decides which parameters act, known once a hologram is made, or a field with a pitch and wavelengths is
-    // read.
+    // Set by resolve().
     bool is_made = false, is_sampled = false;
-    std::optional<HologramMethod> made_by;  ///< of a light field
-    bool is_seeded = false;                 ///< whether looks differ, so that their number acts on a photograph
+    std::optional<HologramMethod> made_by;  ///< empty: a method without a light field
+    bool is_seeded = false;                 ///< whether the method draws random phases
     bool has_spacing = false, has_planes = false;
 
-    /// Sets the values with which a hologram of a light field with this front is made.
+    /// Stores the values of a hologram of a light field with this front face.
     void resolve(const HologramRequest& request, const LightFieldGrid& front);
-    /// Sets those of a field that is opened.
+    /// Stores pitch and wavelengths of an opened field.
     void resolve(const FieldParameters& field);
-    /// Notes which parameters act on a hologram without a light field.
     void resolve(const SceneHologramMethod& method);
 };
 
-/// What FieldParameters::open() has opened, and lines that say where it took what parameters say rather than the file,
-/// and which orders it found.
+/// The result of FieldParameters::open(). A note says where an option overrides the file, or which diffraction order
+/// was selected.
 struct OpenedFields {
     Fields fields;
     std::vector<std::string> notes;
 };
 
-/// The parameters of a field that another program wrote, and of the image that is reconstructed of any hologram.
+/// A field of another program, and the reconstruction of an image from any hologram.
 struct HOGEL_API FieldParameters {
-    std::string code_option = "--phase-code";  ///< otherwise where a command has another parameter of this name
+    std::string code_option = "--phase-code";  ///< its option, if the command uses that name for something else
     double pitch = 0;                          ///< metres
     std::vector<double> wavelengths;           ///< metres
     std::string values, phase_code, imaginary, phases, zero = "median", variable;
-    std::optional<PhaseCode> own_code;  ///< in place of the one that `phase_code` names
+    std::optional<PhaseCode> own_code;  ///< replaces `phase_code`
     bool conjugate = false;
     std::string order, reconstruct = "none";
     double aperture = 0;  ///< cycles per sample
     std::optional<Vec3> reference_source;
     std::optional<double> focal;  ///< metres
 
-    bool is_opened = false;  ///< whether a field of another program is open, so that its parameters act
+    bool is_opened = false;  ///< whether a field of another program is open; set by open()
 
-    /// The parameters of what the file holds.
-    /// @param sampling  whether also --pitch and --wavelength, which otherwise the command has, and sets here
-    /// @param brief     without what the help of `photo` explains
+    /// The options that describe the file.
+    /// @param sampling  with --pitch and --wavelength; false if the command declares them, and sets them here
+    /// @param brief     short help, for commands that refer to `photo`
     void declare(Parameters& parameters, bool sampling = true, bool brief = false);
-    /// Those of a lens or a reference wave between the hologram and its image.
+    /// The options of the diffraction order, the reference wave and the lens.
     void declare_reconstruction(Parameters& parameters);
 
-    /// Whether a name is that of another program's field: an array, a pattern, or a picture that parameters describe.
+    /// Whether a file is a field of another program: an array, a pattern, or a picture that options describe.
     bool is_external(const std::string& name) const;
-    /// Whether a file is a picture that describes its field, as patterns do, and no parameter describes it.
+    /// Whether a file is a picture that describes its own field, and no option describes it.
     bool is_pattern(const std::string& name) const;
-    /// Throws Error(usage) for a picture whose numbers neither it nor a parameter describes.
+    /// Throws Error(usage) for a picture that neither its metadata nor an option describes.
     void require_described(const std::string& name) const;
-    /// What the parameters say of a file, without its sampling. Throws Error(usage).
+    /// The description of the file, without its sampling. Throws Error(usage).
     ExternalField external_field() const;
 
-    /// Opens a hologram or another program's field, and sets the values that the file says.
-    /// @param table  of the command, with --pitch and --wavelength
-    /// Throws Error(usage) where neither says the sampling, and for a hologram of which parameters say what only it can
-    /// say; Error(bad_input) for anything else, and what open_hologram() and open_external_field() throw.
+    /// Opens a hologram or a field of another program. Stores the values that the file contains.
+    /// @param table  options of the command, with --pitch and --wavelength
+    /// Throws Error(usage) if neither the file nor an option gives the sampling, and if an option describes a hologram;
+    /// Error(bad_input) for other files; and what open_hologram() and open_external_field() throw.
     OpenedFields open(const std::string& name, const Parameters& table);
-    /// Likewise, then cuts out the order of the object and makes the image behind a lens.
+    /// Opens the fields, selects the diffraction order, and computes the image behind the lens.
     OpenedFields open_and_reconstruct(const std::string& name, const Parameters& table, const Progress& progress = {});
 };
 
-/// The parameters of a plane to which fields are propagated.
+/// Propagation of a field to a parallel plane.
 struct HOGEL_API PropagateParameters {
     double distance = 0;                ///< metres
     double output_pitch = 0;            ///< metres; 0: that of the field
-    Counts output_samples;              ///< none: as many as the field has
-    double offset_x = 0, offset_y = 0;  ///< metres from the middle of the field
+    Counts output_samples;              ///< 0: as many as the field has
+    double offset_x = 0, offset_y = 0;  ///< metres from the centre of the field
     double max_error = PropagateOptions().max_error;
-    std::string display = "intensity";  ///< what a picture of the output shows
+    std::string display = "intensity";  ///< quantity that a picture shows
 
-    bool is_picture = false;  ///< whether there is one, so that `display` acts
+    bool is_picture = false;  ///< whether the output is a picture
 
     void declare(Parameters& parameters);
-    /// With the samples of the output for a field with these.
+    /// Options for a field on this grid.
     PropagateOptions options(const Grid& field) const;
-    /// Sets the values of the output.
+    /// Stores pitch and number of samples of the output.
     void resolve(const Grid& output);
 };
 
-/// The parameters of a camera, and of its way from the first picture of a film to the last.
+/// A camera, and its motion from the first picture of a film to the last. Lengths are metres, angles radians.
 struct HOGEL_API CameraParameters {
     Vec3 eye{0, 0, defaults.eye_distance}, gaze;
-    double focus = 0;
+    double focus = 0;  ///< depth
     Angles focus_tilt;
     double pupil = defaults.pupil;
-    std::optional<double> f_number;  ///< in place of the pupil, with the focal length
+    std::optional<double> f_number;  ///< replaces the pupil: focal_length / f_number
     double focal_length = defaults.focal_length;
     double angle_of_view = 0;                   ///< horizontal; 0: the angle that frames the hologram
-    Counts resolution{defaults.resolution, 0};  ///< rows 0: as many as the hologram's shape takes
+    Counts resolution{defaults.resolution, 0};  ///< rows 0: by the hologram's aspect ratio
     std::optional<Vec3> last_eye;
     std::optional<double> last_focus;
     std::size_t frames = 1;
-    double frame_rate = defaults.frame_rate;
-    bool is_film = false;  ///< whether the frame rate acts
+    double frame_rate = defaults.frame_rate;  ///< frames per second
+    bool is_film = false;                     ///< whether the output is a film
 
-    /// The camera of each picture of a hologram of this size, metres. Throws Error(usage).
+    /// The camera of each picture of a hologram of this size. Throws Error(usage).
     std::vector<Camera> cameras(double width, double height) const;
-    /// Those of one camera.
+    /// The options of one camera.
     void declare(Parameters& parameters);
     /// --to-eye, --to-focus, --frames and --frame-rate.
     void declare_motion(Parameters& parameters);
 };
 
-/// What a photograph is computed from.
+/// The data that a photograph is computed from.
 enum class PhotographSource {
-    rays,     ///< of a light field
-    hogels,   ///< of a hologram that is computed when it is read
-    samples,  ///< of a hologram in a file or in memory
+    rays,     ///< rays of a light field
+    hogels,   ///< hogels of a hologram that is computed on demand
+    samples,  ///< samples of a hologram in a file or in memory
 };
 
-/// The parameters of the camera that photographs waves.
+/// The camera of photographs by wave optics.
 struct HOGEL_API WaveCameraParameters {
-    /// auto, eye, narrow or full; in the words of the library hogel-spectra, samples or plane-waves.
+    /// auto, eye (hogel-spectra), narrow (samples) or full (plane-waves).
     std::string camera = "auto";
-    std::string looks = {};  ///< a number, or expected: the mean of infinitely many; empty: enough_looks()
+    std::string looks = {};  ///< a number, or "expected": speckle-free; empty: enough_looks()
     bool preview = false;
-    double film_distance = 0;  ///< of a thin lens, metres; 0: a perfect lens
+    double film_distance = 0;  ///< from a thin lens, metres; 0: a perfect lens
     std::string diffuser = "none";
 
     bool is_expected() const { return looks == "expected"; }
@@ -367,20 +365,22 @@ struct HOGEL_API WaveCameraParameters {
     std::size_t number_of_looks() const;
     CameraModel model() const;
 
-    // What decides which parameters act.
-    PhotographSource source = PhotographSource::hogels;
-    bool has_looks = true;  ///< whether they differ
+    PhotographSource source = PhotographSource::hogels;  ///< set by resolve()
+    bool has_looks = true;                               ///< whether looks differ
 
-    /// Notes what is photographed. Throws Error(usage) for parameters that exclude each other or that it excludes.
+    /// Throws Error(usage) for options that the source, or each other, exclude.
     void resolve(PhotographSource photographed);
-    /// Sets the camera to the one that is chosen for holograms of a light field with these faces, and returns the
-    /// reason. Throws Error(usage) where the one that is asked for cannot photograph them.
+    /// Stores the camera selected for holograms of a light field with these faces, and returns the reason. Throws
+    /// Error(usage) if the given camera cannot photograph them.
     std::string resolve(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                         std::span<const Camera> cameras);
 
-    /// --camera, with or without the one of plane waves.
+    /// Only --camera.
+    /// @param with_plane_waves  with the value full
     Parameter& declare_camera(Parameters& parameters, bool with_plane_waves);
-    /// --looks, with other names and help before that of `expected`.
+    /// Only --looks.
+    /// @param names  "--looks", with aliases
+    /// @param help   its first line
     Parameter& declare_looks(Parameters& parameters, const std::string& names, const std::string& help);
     /// --camera, --preview, --film-distance and --diffuser.
     void declare(Parameters& parameters);
@@ -389,23 +389,23 @@ struct HOGEL_API WaveCameraParameters {
     std::string name() const;
 };
 
-/// The parameters of a photograph by rays or by waves.
+/// A photograph by geometric optics or by wave optics.
 struct HOGEL_API PhotoParameters {
     CameraParameters view;
     WaveCameraParameters waves{.looks = std::to_string(defaults.looks)};
-    std::size_t pupil_samples = defaults.pupil_samples;  ///< of a photograph by rays
+    std::size_t pupil_samples = defaults.pupil_samples;  ///< points of the pupil, by geometric optics
     std::string exposure = "auto";
     std::string display = "intensity";
-    bool geometric = false, wave = false;  ///< neither: by rays of a light field, by waves of a scene
+    bool geometric = false, wave = false;  ///< neither: geometric for a light field, wave for a scene
 
-    bool is_linear = false;  ///< whether the picture is stored without an exposure
+    bool is_linear = false;  ///< whether the file stores linear values, without an exposure
 
-    /// Notes what is photographed. Throws Error(usage) for parameters that exclude each other or that it excludes.
+    /// Throws Error(usage) for options that the source, or each other, exclude.
     void resolve(PhotographSource photographed);
     void declare(Parameters& parameters);
 };
 
-/// The parameters of make().
+/// The request of make().
 struct HOGEL_API MakeParameters {
     LightFieldParameters render;
     HologramParameters hologram;
@@ -415,34 +415,34 @@ struct HOGEL_API MakeParameters {
     std::size_t resolution = defaults.resolution;
     std::size_t pupil_samples = defaults.pupil_samples;
 
-    /// What is made, which decides which parameters act. The report lists those of all.
+    /// The output whose options act; `report` stands for all of them.
     enum class Output { light_field, hologram, photographs, expected_photographs, ray_photographs, report };
     Output made = Output::report;
     bool is_one_of(const std::vector<Output>& outputs) const;
 
     MakeRequest request(std::uint64_t seed) const;
-    /// @param with_plane_waves  whether --camera may be the one of plane waves
+    /// @param with_plane_waves  with the value full of --camera
     void declare(Parameters& parameters, bool with_plane_waves = false);
 };
 
-/// The parameters of `hogel view`.
+/// The viewer.
 struct HOGEL_API ViewerParameters {
     std::string input;
     std::string host = "127.0.0.1";
     std::uint64_t port = 0;  ///< 0: one that is free
-    std::string token;       ///< empty: none, on this machine alone
+    std::string token;       ///< empty: none, for a loopback address
     bool no_browser = false;
     double memory = 4;  ///< GB for the samples of the light field
     std::size_t looks = defaults.looks;
-    std::size_t layers = 0;  ///< of a .hgl stream; 0: all
-    std::string original;    ///< a light field beside which errors are shown; empty: the whole stream
+    std::size_t layers = 0;  ///< decoded layers of a .hgl stream; 0: all
+    std::string original;    ///< reference light field of the shown errors; empty: the whole stream
     LightFieldParameters render;
     HologramParameters hologram;
     FieldParameters field;
 
     void declare(Parameters& parameters);
-    /// What there is to open: the input, or in a folder that `hogel make` wrote its light field. Throws Error(usage)
-    /// and Error(bad_input) for what cannot be viewed, and Error(usage) for a host or token that is not allowed.
+    /// The file or scene to open: the input, or the light field in a folder of `hogel make`. Throws Error(usage) and
+    /// Error(bad_input) for other inputs, and Error(usage) for a host or token that is not allowed.
     std::string viewable() const;
 };
 
