@@ -330,10 +330,9 @@ void Loader::show_other_waves() {
 
 void Loader::require_memory_for(const LightFieldGrid& grid) const {
     if (step_that_fits(grid, memory()) == 1) return;
-    throw Error(ErrorCode::usage, "memory",
-                fmt::format("the light field has {:.3g} samples of 2 bytes, more than {:g} GB; fewer --hogels or "
-                            "--directions would do",
-                            grid.samples(), now_->settings.options().memory));
+    throw Error(ErrorCode::usage, "hogels, directions, memory",
+                fmt::format("the light field has {:.3g} samples of 2 bytes, more than {:g} GB", grid.samples(),
+                            now_->settings.options().memory));
 }
 
 std::shared_ptr<const ShadedScene> Loader::light(const Scene& scene, const LightFieldRequest& request) {

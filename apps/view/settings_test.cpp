@@ -80,6 +80,14 @@ TEST(Settings, refuse_what_a_command_line_would) {
                                                                                       {"host", "0.0.0.0"},
                                                                                       {"", "x"}})
         EXPECT_THROW(first.with({{name, value}}), Error) << name << value;
+    // The error names the parameter once.
+    try {
+        first.with({{"hogels", "0"}, {"size", "8mm"}});
+        ADD_FAILURE();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.parameter(), "hogels");
+        EXPECT_TRUE(first.table().describe(error).starts_with("--hogels: '0' is not")) << first.table().describe(error);
+    }
     // Nor does a value become another option.
     EXPECT_THROW(first.with({{"size", "8mm --token x"}}), Error);
 }

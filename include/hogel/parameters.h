@@ -204,8 +204,8 @@ class HOGEL_API Parameters {
     bool given(std::string_view name) const;
     /// Throws Error(usage) if a parameter is given together with one that it excludes, or without one that it needs.
     void require_compatible() const;
-    /// The message of an error, after the options that set its parameters: "--eye, --pitch: the eye sees ...". Of the
-    /// options that set one parameter it names the given ones, or the first one if none is given.
+    /// The message of an error, which begins with the options of its parameters: "--eye, --pitch: the eye sees ...". Of
+    /// the options that set one parameter it names the given ones, or the first one if none is given.
     std::string describe(const Error& error) const;
     /// Each name and Parameter::value().
     Metadata values() const;

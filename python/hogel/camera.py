@@ -2,11 +2,13 @@
 """Cameras, from the words of the command line."""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, Optional
 
 from . import _core, units
 from ._core import Camera
 from ._keywords import takes
+from .errors import usage_error
 
 
 @takes(_core.camera_keywords())
@@ -20,3 +22,13 @@ def camera(width: units.Length, height: Optional[units.Length] = None, **options
     """
     wide = units.length(width, "width")
     return _core.camera(options, wide, wide if height is None else units.length(height, "height"))
+
+
+def cameras_of(cameras: Optional[Sequence[Camera]], width: float, height: float, options: dict[str, Any]) -> list[Camera]:
+    """The given cameras, or the one that options describe, for a hologram of this size."""
+    if cameras is None:
+        return [_core.camera(options, width, height)]
+    both = [name for name, _, _ in _core.camera_keywords() if options.get(name) is not None]
+    if both:
+        raise usage_error(", ".join(["cameras", *both]), "cameras are given, or one is described")
+    return list(cameras)

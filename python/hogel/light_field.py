@@ -15,6 +15,7 @@ from ._progress import Progress, reporting
 from ._rays import Rays
 from ._samples import Path, array_of
 from ._saving import save_light_field
+from .camera import cameras_of
 from .compression import compress
 from .errors import UsageError, usage_error
 from .exports import export_views, write_printer_images
@@ -278,7 +279,7 @@ class LightField(Rays):
         Picture(24x24 pixels, 3 channels)
         """
         points = _core.pupil_samples(options)
-        views = [_core.camera(options, self.grid.width, self.grid.height)] if cameras is None else list(cameras)
+        views = cameras_of(cameras, self.grid.width, self.grid.height, options)
         with reporting(progress, "photograph") as report:
             pictures = [Picture(image) for image in _core.photograph_rays(self._light_field, views, points, report)]
         if cameras is not None:

@@ -9,6 +9,7 @@ import numpy as np
 
 from . import _core, _record
 from ._progress import Progress, reporting
+from .camera import cameras_of
 from .errors import BadInputError, UsageError
 from .picture import Picture
 
@@ -26,7 +27,7 @@ def photograph_fields(
     if len(fields) not in (1, 3):
         raise UsageError(f"photograph: a photograph takes one or three wavelengths, not {len(fields)}")
     plane = fields[0].grid.plane
-    views = [_core.camera(options, plane.size_x, plane.size_y)] if cameras is None else list(cameras)
+    views = cameras_of(cameras, plane.size_x, plane.size_y, options)
     model = _core.wave_camera(options, fields)
     for field in fields:
         for view in views:

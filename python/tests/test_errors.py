@@ -43,6 +43,7 @@ class Errors(InFolder):
             (lambda: hogel.Scene.load("sphere").hologram(method="points", cull_back_faces=True), "cull_back_faces"),
             (lambda: hogel.import_views(".", spacing="1mm", fov="16deg"), "spacing, fov"),
             (lambda: lf.export("views", layout="magic"), "layout"),
+            (lambda: lf.photograph(cameras=[hogel.camera(0.01)], eye="0,0,1m"), "cameras, eye"),
             # Values that are something else than their keyword takes.
             (lambda: hogel.request(size=False), "size"),
             (lambda: hogel.request(hogels=True), "hogels"),

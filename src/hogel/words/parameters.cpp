@@ -357,7 +357,8 @@ std::string Parameters::describe(const Error& error) const {
         else if (!setters.empty())
             take(setters.front());
     }
-    return options.empty() ? error.what() : fmt::format("{}: {}", fmt::join(options, ", "), error.what());
+    const std::string message = error.what(), names = fmt::format("{}: ", fmt::join(options, ", "));
+    return options.empty() || message.starts_with(names) ? message : names + message;
 }
 
 Metadata Parameters::values() const {
