@@ -43,9 +43,9 @@ Settings::Settings(const Parameters& given, Takes takes) : takes_(std::move(take
 
 void Settings::read() {
     auto line = std::make_shared<Line>();
-    for (const auto& [name, text] : words_)
-        if (Parameter* const own = line->table.look_up(name))
-            with_parameter(own->keyword(), [&] { own->read_value(text, own->option()); });
+    for (const auto& word : words_)
+        if (Parameter* const own = line->table.look_up(word.first))
+            with_parameter(own->keyword(), [&] { own->read_value(word.second, own->option()); });
     line->table.require_compatible();
     line->view.input = name_;
     // What no scene can have is refused where it is changed.
