@@ -89,7 +89,7 @@ TEST(CompressionParameters, that_a_coder_or_a_light_field_does_not_have_are_refu
     EXPECT_EQ(of({{"symbols", "bits"}}), "symbols");
     EXPECT_EQ(of({{"ppb", "8"}, {"rule", "planes"}}), "rule");
     EXPECT_EQ(of({{"ppb", "8"}, {"overhead", "2"}}), "overhead");
-    EXPECT_EQ(of({{"transform", "hart"}}), "transform");
+    EXPECT_EQ(of({{"transform", "magic"}}), "transform");
     EXPECT_EQ(of({{"depth-error", "1um"}}), "depth_error");
     EXPECT_EQ(of({{"depth-error", "1um"}}, true), "accepted");
     EXPECT_EQ(of({{"depth-error", "-1um"}}, true), "depth_error");
