@@ -2,29 +2,15 @@
 #include "inputs.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <string>
-#include <variant>
 
 #include "hogel/error.h"
 #include "hogel/parameters.h"
-#include "hogel/scene_hologram.h"
 #include "hogel/units.h"
 #include "outputs.h"
 
 namespace hogel::cli {
-namespace {}  // namespace
-
-void check_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request, bool rendered,
-                     std::span<const Camera> cameras) {
-    const auto check = [&] { hogel::require_holograms(faces, request, cameras); };
-    if (rendered) return check();
-    with_renamed_parameters({{"fov", ""}, {"toward", ""}, {"size", ""}, {"hogels", ""}, {"directions", ""}}, check);
-}
 
 Scene load_scene(const Session& session, const std::string& name, LightFieldParameters& options) {
     const LightFieldRequest request = options.scene_request();

@@ -15,10 +15,6 @@
 
 namespace hogel::cli {
 
-/// As hogel::require_holograms(), whose errors name only parameters that act here.
-/// @param rendered  whether a scene becomes the light field by options, too
-void check_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request, bool rendered,
-                     std::span<const Camera> cameras = {});
 // The functions that follow set the values of options that act, and what decides which do.
 
 /// A built-in scene in the size of the hologram, or a mesh file, fitted to it if requested, with lights.

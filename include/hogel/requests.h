@@ -255,6 +255,10 @@ struct HOGEL_API HologramParameters {
     void resolve(const SceneHologramMethod& method);
 };
 
+/// require_holograms(), with errors that name options of the light field only if it is rendered, not read from a file.
+HOGEL_API void check_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request, bool rendered,
+                               std::span<const Camera> cameras = {});
+
 /// The result of FieldParameters::open(). A note says where an option overrides the file, or which diffraction order
 /// was selected.
 struct OpenedFields {

@@ -19,15 +19,12 @@ struct FieldKeywords {
     FieldParameters values;
     Parameters table;
 
-    explicit FieldKeywords(py::dict keywords = {}) {
+    explicit FieldKeywords(const py::dict& keywords = {}) {
         values.declare(table, true, true);
         values.declare_reconstruction(table);
         if (keywords.contains("phase_code") && py::isinstance<PhaseCode>(keywords["phase_code"])) {
             const auto code = keywords["phase_code"].cast<PhaseCode>();
-            const std::string text = phase_code_text(code);
-            keywords = keywords.attr("copy")();
-            keywords["phase_code"] = text;
-            if (parse_phase_code(text) != code) values.own_code = code;
+            if (parse_phase_code(phase_code_text(code)) != code) values.own_code = code;
         }
         read_keywords(table, keywords);
     }

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "hogel/error.h"
+#include "hogel/phase_code.h"
 
 namespace hogel::python {
 namespace {
@@ -53,9 +54,10 @@ std::string whole_text(const py::handle& value) {
     return said(whole ? whole : value);
 }
 
-// One number of a parameter, a text, or a path.
+// One number of a parameter, a text, a path, or a phase code.
 std::string element_text(ParameterKind kind, const py::handle& value) {
     if (py::isinstance<py::str>(value)) return said(value);
+    if (py::isinstance<PhaseCode>(value)) return phase_code_text(value.cast<PhaseCode>());
     if (py::hasattr(value, "__fspath__")) return said(value.attr("__fspath__")());
     if (kind == ParameterKind::counts || kind == ParameterKind::resolution) return whole_text(value);
     const std::optional<double> number = number_of(value);

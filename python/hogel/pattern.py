@@ -95,8 +95,6 @@ def pattern_of(
     fields: list[_core.FieldSource], made: Optional[_record.Record], *, progress: Progress = None, **options: Any
 ) -> Pattern:
     """See Hologram.slm(). `made`: the options of the command line that opened the fields, if they were opened."""
-    if isinstance(options.get("phase_code"), _core.PhaseCode):
-        options["phase_code"] = _core.phase_code_text(options["phase_code"])
     modulator = _core.pattern_options(options).modulator
     if len(fields) not in (1, 3):
         raise UsageError(f"slm: a pattern takes one or three wavelengths, not {len(fields)}")

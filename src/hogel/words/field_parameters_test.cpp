@@ -7,6 +7,7 @@
 #include "hogel/error.h"
 #include "hogel/io/arrays/test_field_files.h"
 #include "hogel/requests.h"
+#include "hogel/words/test_texts.h"
 
 namespace hogel {
 namespace {
@@ -92,15 +93,10 @@ TEST(PropagateParameters, resolved_ones_have_the_same_output) {
     const Grid field{64, 48, 4e-6, 4e-6, 1e-5, -2e-5};
     for (const Texts& texts : {Texts{}, Texts{{"output-samples", "10x20"}, {"offset-x", "1mm"}},
                                Texts{{"output-pitch", "2um"}, {"offset-y", "-1um"}}}) {
-        PropagateParameters first, again;
-        Parameters table, second;
-        first.declare(table);
-        again.declare(second);
-        for (const auto& [name, text] : texts) table.look_up(name)->read_value(text, name);
-        const Grid output = *first.options(field).output;
-        first.resolve(output);
-        for (const auto& [name, text] : table.acting()) second.look_up(name)->read_value(text, name);
-        EXPECT_EQ(again.options(field).output, output);
+        FromTexts<PropagateParameters> first(texts);
+        const Grid output = *first.values.options(field).output;
+        first.values.resolve(output);
+        EXPECT_EQ(FromTexts<PropagateParameters>(first.table.acting()).values.options(field).output, output);
     }
     EXPECT_EQ(PropagateParameters().options(field).output, field);
 }

@@ -215,6 +215,13 @@ void HologramParameters::resolve(const SceneHologramMethod& direct) {
     has_planes = direct.uses_planes;
 }
 
+void check_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request, bool rendered,
+                     std::span<const Camera> cameras) {
+    const auto check = [&] { require_holograms(faces, request, cameras); };
+    if (rendered) return check();
+    with_renamed_parameters({{"fov", ""}, {"toward", ""}, {"size", ""}, {"hogels", ""}, {"directions", ""}}, check);
+}
+
 void HologramParameters::declare(Parameters& parameters) {
     declare_hologram(parameters, *this, hologram_methods().names(), help_of_methods());
 }

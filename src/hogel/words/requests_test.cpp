@@ -12,28 +12,18 @@
 #include <vector>
 
 #include "hogel/error.h"
+#include "hogel/words/test_texts.h"
 
 namespace hogel {
 namespace {
 
 using Texts = std::vector<std::pair<std::string, std::string>>;
 
-template <class Values>
-struct Declared {
-    Values values;
-    Parameters table;
-
-    explicit Declared(const Texts& texts) {
-        values.declare(table);
-        for (const auto& [name, text] : texts) table.look_up(name)->read_value(text, name);
-    }
-};
-
 // The names of parameters that an error of the request is about.
 template <class Values, class Request>
 std::string refused(const Texts& texts, const Request& request) {
     try {
-        request(Declared<Values>(texts).values);
+        request(FromTexts<Values>(texts).values);
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::usage);
         return error.parameter();
@@ -65,10 +55,10 @@ TEST(CompressionParameters, that_act_make_the_same_options_again) {
                             {{"coder", "jpeg4d"}, {"table", "jpeg"}, {"chrominance", "2"}},
                             {{"tone", "histogram"}, {"tone-decades", "2"}, {"depth-error", "0mm"}},
                             {{"lossless", "yes"}}}) {
-        Declared<CompressionParameters> asked(texts);
+        FromTexts<CompressionParameters> asked(texts);
         asked.values.resolve(deep);
         const CompressionOptions made = asked.values.options(deep);
-        const CompressionOptions again = Declared<CompressionParameters>(asked.table.acting()).values.options(deep);
+        const CompressionOptions again = FromTexts<CompressionParameters>(asked.table.acting()).values.options(deep);
         EXPECT_EQ(again.method, made.method);
         EXPECT_EQ(values_of(again.target), values_of(made.target));
         EXPECT_EQ(again.tile.has_value(), made.tile.has_value());
@@ -101,10 +91,10 @@ TEST(PatternParameters, that_act_make_the_same_options_again) {
     const Texts with_reference{{"device", "pluto"}, {"reference", "1.5deg"}};
     for (const Texts& texts : {described, named, with_reference})
         for (const EncodingInfo& encoding : encodings().rows()) {
-            Declared<PatternParameters> asked(texts);
+            FromTexts<PatternParameters> asked(texts);
             asked.values.resolve(encoding.encoding);
             const PatternOptions made = asked.values.options();
-            const PatternOptions again = Declared<PatternParameters>(asked.table.acting()).values.options();
+            const PatternOptions again = FromTexts<PatternParameters>(asked.table.acting()).values.options();
             EXPECT_EQ(made.encoding, encoding.encoding);
             EXPECT_EQ(again.encoding, made.encoding);
             EXPECT_EQ(again.clip, made.clip);

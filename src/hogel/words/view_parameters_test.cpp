@@ -3,21 +3,10 @@
 
 #include "hogel/error.h"
 #include "hogel/requests.h"
+#include "hogel/words/test_texts.h"
 
 namespace hogel {
 namespace {
-
-// Parameters with a table, and texts that set them.
-template <class Values>
-struct FromTexts {
-    Values values;
-    Parameters table;
-
-    explicit FromTexts(const Metadata& texts) {
-        values.declare(table);
-        for (const auto& [name, text] : texts) table.look_up(name)->read_value(text, name);
-    }
-};
 
 ImportedViews imported_views() {
     LightFieldGrid grid;

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "hogel/parameters.h"
+
+namespace hogel {
+
+// For tests: parameters with a table, and texts that set them.
+template <class Values>
+struct FromTexts {
+    Values values;
+    Parameters table;
+
+    explicit FromTexts(const Metadata& texts) {
+        values.declare(table);
+        for (const auto& [name, text] : texts) table.look_up(name)->read_value(text, name);
+    }
+};
+
+}  // namespace hogel
