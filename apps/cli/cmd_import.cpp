@@ -57,7 +57,7 @@ int write_hdf5(const Options& options, const ImportedViews& views, const LightFi
 int import(Options& options, const Session& session) {
     options.output.require(options.source);
     options.views.views.with_depth = options.output.with_depth;
-    ViewOptions view = options.views.options();
+    ViewImportOptions view = options.views.options();
     view.spool = std::filesystem::absolute(options.output.file).parent_path();
     const ImportedViews views = [&] {
         Stage stage(session, "looking at the views");

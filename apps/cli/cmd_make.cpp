@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "commands.h"
+#include "hogel/communicator.h"
 #include "hogel/make.h"
 #include "hogel/parameters.h"
 #include "hogel/progress.h"
-#include "hogel/team.h"
 #include "hogel/units.h"
 #include "inputs.h"
 #include "like.h"
@@ -86,7 +86,7 @@ class PassingFile {
     PassingFile& operator=(const PassingFile&) = delete;
     ~PassingFile() {
         std::error_code none;
-        if (!keep_ && is_first_process()) std::filesystem::remove(path_, none);
+        if (!keep_ && is_root_rank()) std::filesystem::remove(path_, none);
     }
     const std::filesystem::path& path() const { return path_; }
 
@@ -228,7 +228,7 @@ int make(Options& options, const Session& session) {
     files.stage = [&](const std::string& name) { return stages.begin(name); };
     const Made made = hogel::make(rendered, request, files, Progress(session.stop.get_token()));
     stages.end();
-    if (!is_first_process()) return 0;
+    if (!is_root_rank()) return 0;
     if (options.keep_light_field) report.light_field_bytes = std::filesystem::file_size(light_field_file.path());
     write_outputs(folder.path(), made, records, report, session);
     kept.complete();

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "commands.h"
+#include "hogel/communicator.h"
 #include "hogel/parameters.h"
 #include "hogel/pipeline.h"
-#include "hogel/team.h"
 #include "inputs.h"
 #include "movie.h"
 #include "outputs.h"
@@ -160,7 +160,7 @@ double exposure_of(const Options& options, double given, std::span<const Image> 
 // Writes the pictures and reports them.
 void write_photographs(const Options& options, std::span<const Image> pictures, double exposure,
                        const Session& session) {
-    if (!is_first_process()) return;
+    if (!is_root_rank()) return;
     Metadata metadata = run_metadata(session);
     metadata.emplace_back("exposure", fmt::format("{:.9g}", exposure));
     const Image& first = pictures.front();

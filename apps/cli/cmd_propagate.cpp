@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "commands.h"
+#include "hogel/communicator.h"
 #include "hogel/parameters.h"
 #include "hogel/pipeline.h"
 #include "hogel/propagate.h"
-#include "hogel/team.h"
 #include "hogel/units.h"
 #include "inputs.h"
 #include "outputs.h"
@@ -64,10 +64,10 @@ class MeanLight {
     std::size_t count() const { return count_; }
     // Takes in what the other processes of a team have added; complete in the first one.
     void gather() {
-        Team* const all = team();
+        Communicator* const all = communicator();
         if (all == nullptr) return;
         const double own[] = {sum_, static_cast<double>(count_)};
-        if (!all->is_first()) return all->send_to(0, {reinterpret_cast<const char*>(own), sizeof own});
+        if (!all->is_root()) return all->send_to(0, {reinterpret_cast<const char*>(own), sizeof own});
         for (std::size_t process = 1; process < all->size(); ++process) {
             double other[2] = {};
             const std::string bytes = all->receive_from(process);
@@ -245,7 +245,7 @@ int propagate_fields(Options& options, const Session& session) {
     } else if (kind == OutputKind::array) {
         std::vector<Field> propagated;
         for (std::size_t c = 0; c < grids.size(); ++c) colour(c, propagated.emplace_back(grids[c]));
-        if (is_first_process()) write_fields(options.output, propagated, metadata);
+        if (is_root_rank()) write_fields(options.output, propagated, metadata);
     } else {
         Image picture(plane.width, plane.height, grids.size());
         for (std::size_t c = 0; c < grids.size(); ++c) {
@@ -260,9 +260,9 @@ int propagate_fields(Options& options, const Session& session) {
         const double exposure = grey ? 1 : automatic_exposure(picture);
         metadata.emplace_back("exposure", fmt::format("{:.9g}", exposure));
         exposed = {{"width", picture.width()}, {"height", picture.height()}, {"exposure", exposure}};
-        if (is_first_process()) write_image(options.output, picture, exposure, metadata);
+        if (is_root_rank()) write_image(options.output, picture, exposure, metadata);
     }
-    if (!is_first_process()) return 0;
+    if (!is_root_rank()) return 0;
     session.say(fmt::format("{}: {}x{} samples at {}, {} on", options.output, plane.width, plane.height,
                             format_length(plane.pitch_x), format_length(options.plane.distance)));
     state_shares(inputs, shares, session);

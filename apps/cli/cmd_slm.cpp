@@ -7,11 +7,11 @@
 #include <numbers>
 
 #include "commands.h"
+#include "hogel/communicator.h"
 #include "hogel/image.h"
 #include "hogel/pattern.h"
 #include "hogel/pipeline.h"
 #include "hogel/requests.h"
-#include "hogel/team.h"
 #include "hogel/units.h"
 #include "inputs.h"
 #include "outputs.h"
@@ -111,7 +111,7 @@ int slm(Options& options, const Session& session) {
         patterns.push_back(result_of(pattern, wavelength, per_cycle, encoded.encoding));
     }
     if (colours == 3) session.say(powers_of(encoded.patterns));
-    if (!is_first_process()) return 0;
+    if (!is_root_rank()) return 0;
     write_raw_pixels(options.output, levels, with_history(metadata, to_metadata(fields.front()->provenance())));
     kept.complete();
     session.say(fmt::format("{}: {}x{} pixels of {}", options.output, modulator.width, modulator.height,

@@ -26,7 +26,7 @@
 #include "hogel/resources.h"
 #include "mpi/loss_watch.h"
 #include "mpi/mpi_link.h"
-#include "mpi/rank_team.h"
+#include "mpi/rank_communicator.h"
 
 namespace hogel::mpi {
 namespace {
@@ -66,14 +66,14 @@ class Ranks final : public cli::Processes {
   public:
     explicit Ranks(MpiLink& link)
         : link_(link),
-          team_(link),
-          scope_(team_),
+          communicator_(link),
+          scope_(communicator_),
           watch_(others_here(), [this](const RankProcess& rank) { end_without(rank); }) {
-        if (!team_.is_first()) silence_output();
+        if (!communicator_.is_root()) silence_output();
     }
 
     void begin(cli::Session& session) override {
-        team_.stop_with(session.stop);
+        communicator_.stop_with(session.stop);
         {
             const std::lock_guard lock(stopping_);
             stop_ = session.stop;
@@ -82,7 +82,7 @@ class Ranks final : public cli::Processes {
         for (char* const* word = session.arguments; word != nullptr && *word != nullptr; ++word)
             if (std::string_view(*word) == "--resume") resumes_ = true;
         if (session.threads == 0) session.threads = link_.threads();
-        if (!team_.is_first()) session.quiet = true;
+        if (!communicator_.is_root()) session.quiet = true;
         const std::string command = session.command->name();
         if (std::ranges::find(shared_commands, command) == shared_commands.end())
             throw Error(ErrorCode::not_built_in,
@@ -107,12 +107,13 @@ class Ranks final : public cli::Processes {
                                            what_then()));
             said = true;
         };
-        const std::optional<Report> verdict = team_.settle(report, patience, say);
+        const std::optional<Report> verdict = communicator_.settle(report, patience, say);
         if (!verdict) {
             if (!said) cli::print_failure(own.message);
             link_.abort(own.status);
         }
-        return {verdict->failed ? verdict->status : 0, verdict->code, team_.is_first() && !said ? verdict->text : ""};
+        return {verdict->failed ? verdict->status : 0, verdict->code,
+                communicator_.is_root() && !said ? verdict->text : ""};
     }
 
   private:
@@ -157,8 +158,8 @@ class Ranks final : public cli::Processes {
     }
 
     MpiLink& link_;
-    RankTeam team_;
-    TeamScope scope_;
+    RankCommunicator communicator_;
+    CommunicatorScope scope_;
     std::mutex stopping_;
     std::stop_source stop_;  // of the session
     std::atomic<bool> resumes_ = false, lost_ = false;

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "mpi/rank_team.h"
+#include "mpi/rank_communicator.h"
 
 namespace hogel::mpi {
 
@@ -53,11 +53,11 @@ template <class Work>
 void run_ranks(std::size_t size, const Work& work) {
     Post post(size);
     std::vector<std::unique_ptr<Post::Box>> boxes;
-    std::vector<std::unique_ptr<RankTeam>> teams;
+    std::vector<std::unique_ptr<RankCommunicator>> teams;
     for (std::size_t rank = 0; rank < size; ++rank) boxes.push_back(std::make_unique<Post::Box>(post, rank));
-    for (const auto& box : boxes) teams.push_back(std::make_unique<RankTeam>(*box));
+    for (const auto& box : boxes) teams.push_back(std::make_unique<RankCommunicator>(*box));
     std::vector<std::jthread> ranks;
-    for (const auto& team : teams) ranks.emplace_back([&] { work(*team); });
+    for (const auto& communicator : teams) ranks.emplace_back([&] { work(*communicator); });
     ranks.clear();
 }
 

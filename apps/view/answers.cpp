@@ -64,7 +64,7 @@ std::string type_of(const View& view) {
     return view.format == "exr" ? "image/x-exr" : view.format == "png" ? "image/png" : "image/jpeg";
 }
 
-Json told(const Photograph& photograph, const View& view, const Subject& subject, double seconds) {
+Json to_json(const Photograph& photograph, const View& view, const Viewable& viewable, double seconds) {
     Json json{{"type", "picture"},
               {"id", view.id},
               {"format", view.format},
@@ -74,7 +74,7 @@ Json told(const Photograph& photograph, const View& view, const Subject& subject
               {"pupil_samples", view.pupil_samples},
               {"seconds", seconds}};
     if (photograph.looks > 0) {
-        const std::size_t all = view.looks > 0 ? std::min(view.looks, subject.looks()) : subject.looks();
+        const std::size_t all = view.looks > 0 ? std::min(view.looks, viewable.looks()) : viewable.looks();
         json["looks"] = photograph.looks;
         json["of_looks"] = all;
     }
@@ -82,7 +82,7 @@ Json told(const Photograph& photograph, const View& view, const Subject& subject
     return json;
 }
 
-Json told(const Reading& reading, const std::string& id) {
+Json to_json(const Reading& reading, const std::string& id) {
     Json json{{"type", "reading"},
               {"id", id},
               {"x_m", reading.x},
@@ -98,7 +98,7 @@ Json told(const Reading& reading, const std::string& id) {
 }
 
 // The contrasts that are told are that of edges and that of the size of squares that shows the clearest plane.
-Json told(const FocusSearch& search) {
+Json to_json(const FocusSearch& search) {
     Json planes = Json::array(), edges = Json::array(), squares = Json::array();
     std::size_t kind = 0;
     for (std::size_t i = 0; !search.planes.empty() && i < FocusSearch::cells.size(); ++i)
@@ -118,7 +118,7 @@ Json told(const FocusSearch& search) {
         {"planes", planes}};
 }
 
-Json told(const LevelCounts& levels) {
+Json to_json(const LevelCounts& levels) {
     return {{"type", "levels"},        {"encoding", levels.encoding}, {"width", levels.width},
             {"height", levels.height}, {"counts", levels.counts},     {"efficiency", levels.efficiency}};
 }

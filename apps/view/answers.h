@@ -8,7 +8,7 @@
 
 #include "hogel/error.h"
 #include "view/server.h"
-#include "view/subject.h"
+#include "view/viewable.h"
 
 namespace hogel::view {
 
@@ -30,10 +30,10 @@ std::string encode(const Photograph& photograph, const View& view);
 /// The type of that file: "image/png".
 std::string type_of(const View& view);
 /// What the page is told of it. @param seconds  that it took so far
-Json told(const Photograph& photograph, const View& view, const Subject& subject, double seconds);
-Json told(const Reading& reading, const std::string& id);
-Json told(const FocusSearch& search);
-Json told(const LevelCounts& levels);
+Json to_json(const Photograph& photograph, const View& view, const Viewable& viewable, double seconds);
+Json to_json(const Reading& reading, const std::string& id);
+Json to_json(const FocusSearch& search);
+Json to_json(const LevelCounts& levels);
 
 /// Does the work of a job, which throws nothing then; gives `refuse` the answer that says what went wrong.
 template <class Work, class Refuse>

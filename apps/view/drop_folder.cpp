@@ -28,7 +28,7 @@ DropFolder::~DropFolder() {
     remove(coming_);
 }
 
-std::filesystem::path DropFolder::place_for(const std::string& name) {
+std::filesystem::path DropFolder::destination_for(const std::string& name) {
     const bool plain = !name.empty() && name.size() <= max_name && name.front() != '.' && name.front() != '-' &&
                        name.find('/') == std::string::npos && name.find('\0') == std::string::npos;
     if (!plain) throw Error(ErrorCode::usage, fmt::format("name: '{}' is no name of a file", name.substr(0, 40)));

@@ -18,7 +18,7 @@ class DropFolder {
 
     /// Where a file of that name is to be put. Throws Error(usage) for what is no plain name of a file,
     /// Error(cannot_write).
-    std::filesystem::path place_for(const std::string& name);
+    std::filesystem::path destination_for(const std::string& name);
     /// The files that came are opened now; the next ones get a folder of their own.
     void opened();
     /// What was opened before them is no longer shown.

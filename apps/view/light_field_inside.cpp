@@ -9,7 +9,7 @@
 
 #include "hogel/error.h"
 #include "view/heat.h"
-#include "view/light_field_subject.h"
+#include "view/light_field_viewable.h"
 
 namespace hogel::view {
 namespace {
@@ -147,7 +147,7 @@ Image coverage(const LightField& light_field, std::size_t side, const Progress& 
 
 }  // namespace
 
-Image LightFieldSubject::rates() const {
+Image LightFieldViewable::rates() const {
     const std::lock_guard lock(measured_);
     if (bytes_of_hogels_.size() == 0)
         throw Error(ErrorCode::usage, "what=rate: the bytes of hogels are not known; of a .hgl file they are");
@@ -156,7 +156,7 @@ Image LightFieldSubject::rates() const {
 }
 
 // The pictures that eyes far away see, each of one direction: rays of all hogels, interpolated.
-Image LightFieldSubject::views(const Inside& inside, const Progress& progress) {
+Image LightFieldViewable::views(const Inside& inside, const Progress& progress) {
     const LightFieldGrid& grid = this->grid();
     const auto columns = std::min<std::size_t>(7, grid.directions_u),
                rows = std::min<std::size_t>(7, grid.directions_v);
@@ -187,14 +187,14 @@ Image LightFieldSubject::views(const Inside& inside, const Progress& progress) {
     return all;
 }
 
-Photograph LightFieldSubject::inside(const View& view, const Spot& spot, const Inside& inside,
-                                     const Progress& progress) {
+Photograph LightFieldViewable::inside(const View& view, const PickPoint& point, const Inside& inside,
+                                      const Progress& progress) {
     if (view.eyes > 0 || view.by == By::side) {
-        const auto [one, at] = in_one_picture(view, spot);
+        const auto [one, at] = in_one_picture(view, point);
         return this->inside(one, at, inside, progress);
     }
     const Camera camera = this->camera(view);
-    const Reading ray = ray_at(camera, spot);
+    const Reading ray = ray_at(camera, point);
     const auto place = [&] {
         return nearest(grid(), ray, (ray.x - camera.eye.x) / camera.eye.z, (ray.y - camera.eye.y) / camera.eye.z);
     };

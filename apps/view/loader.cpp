@@ -11,7 +11,7 @@
 #include "hogel/error.h"
 #include "hogel/parameters.h"
 #include "view/facts.h"
-#include "view/hologram_subject.h"
+#include "view/hologram_viewable.h"
 
 namespace hogel::view {
 namespace {
@@ -115,9 +115,9 @@ void Loader::change(const std::map<std::string, std::string>& options, bool movi
     changed_.notify_one();
 }
 
-std::filesystem::path Loader::place_for(const std::string& name) {
+std::filesystem::path Loader::destination_for(const std::string& name) {
     const std::lock_guard lock(mutex_);
-    return dropped_.place_for(name);
+    return dropped_.destination_for(name);
 }
 
 void Loader::open(const std::filesystem::path& file) {
@@ -247,13 +247,13 @@ std::unique_ptr<Waves> Loader::waves_of(const LightField& light_field, bool rend
 }
 
 void Loader::show(const LightField& whole, const LightField& shown, const char* what, std::unique_ptr<Waves> waves) {
-    viewer_.show(std::make_shared<LightFieldSubject>(whole, shown, memory(), progress(what), std::move(waves)));
+    viewer_.show(std::make_shared<LightFieldViewable>(whole, shown, memory(), progress(what), std::move(waves)));
 }
 
 void Loader::show_input(bool moving) {
     describe();
     if (!now_->fields.empty())
-        viewer_.show(std::make_shared<HologramSubject>(now_->fields, memory(), progress("reading")));
+        viewer_.show(std::make_shared<HologramViewable>(now_->fields, memory(), progress("reading")));
     else if (!now_->file)
         show_scene(moving);
     else if (is_compressed())
@@ -310,21 +310,22 @@ void Loader::show_scene(bool moving) {
 }
 
 // Its exposure stays what it was at first, so that a light that moves is seen to.
-std::shared_ptr<LightFieldSubject> Loader::show_of_scene(const LightField& whole, const LightField& shown,
-                                                         std::unique_ptr<Waves> waves) {
-    auto subject = std::make_shared<LightFieldSubject>(whole, shown, memory(), progress("rendering"), std::move(waves));
+std::shared_ptr<LightFieldViewable> Loader::show_of_scene(const LightField& whole, const LightField& shown,
+                                                          std::unique_ptr<Waves> waves) {
+    auto viewable =
+        std::make_shared<LightFieldViewable>(whole, shown, memory(), progress("rendering"), std::move(waves));
     if (now_->exposure > 0)
-        subject->set_exposure(now_->exposure);
+        viewable->set_exposure(now_->exposure);
     else if (shown.grid() == whole.grid())
-        now_->exposure = subject->exposure();
-    viewer_.show(subject);
-    return subject;
+        now_->exposure = viewable->exposure();
+    viewer_.show(viewable);
+    return viewable;
 }
 
 void Loader::show_other_waves() {
     now_->made = now_->settings;
     describe();
-    now_->whole = std::make_shared<LightFieldSubject>(*now_->whole, waves_of(now_->whole->light_field(), true));
+    now_->whole = std::make_shared<LightFieldViewable>(*now_->whole, waves_of(now_->whole->light_field(), true));
     viewer_.show(now_->whole);
 }
 

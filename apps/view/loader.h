@@ -16,7 +16,7 @@
 #include "hogel/pipeline.h"
 #include "view/drop_folder.h"
 #include "view/facts.h"
-#include "view/light_field_subject.h"
+#include "view/light_field_viewable.h"
 #include "view/settings.h"
 #include "view/viewer.h"
 #include "view/waves.h"
@@ -25,7 +25,7 @@ namespace hogel::view {
 
 /// Prepares what is looked at on a thread of its own, a coarse light field first, while the server already answers.
 /// Pages change options and open files; the newest of these wins and stops the work on an earlier one.
-class Loader final : public Changes {
+class Loader final : public Controller {
   public:
     /// Opens the input, so that what is wrong with a file is known before there is a page.
     /// @param say  prints a line
@@ -39,7 +39,7 @@ class Loader final : public Changes {
     void finish();
 
     void change(const std::map<std::string, std::string>& options, bool moving) override;
-    std::filesystem::path place_for(const std::string& name) override;
+    std::filesystem::path destination_for(const std::string& name) override;
     void open(const std::filesystem::path& file) override;
 
   private:
@@ -58,11 +58,11 @@ class Loader final : public Changes {
         Fields fields;
         std::optional<StreamFacts> stream;
         std::optional<SceneModel> model;
-        std::optional<Settings> made;              // of the light field of the scene
-        std::optional<Bounds> box;                 // of the scene
-        std::shared_ptr<LightFieldSubject> whole;  // what is shown of a scene, once it has all hogels
-        double exposure = 0;                       // that stays while a scene changes; 0: automatic
-        std::size_t number = 1;                    // of the inputs
+        std::optional<Settings> made;               // of the light field of the scene
+        std::optional<Bounds> box;                  // of the scene
+        std::shared_ptr<LightFieldViewable> whole;  // what is shown of a scene, once it has all hogels
+        double exposure = 0;                        // that stays while a scene changes; 0: automatic
+        std::size_t number = 1;                     // of the inputs
     };
 
     void run(const std::stop_token& end);
@@ -74,11 +74,11 @@ class Loader final : public Changes {
     void show_file(const LightField& light_field);
     bool is_compressed() const;
     void show_stream();
-    void measure_stream(const LightField& layers, const LightField& original, LightFieldSubject& subject);
+    void measure_stream(const LightField& layers, const LightField& original, LightFieldViewable& viewable);
     void show_scene(bool moving);
     void show_other_waves();
-    std::shared_ptr<LightFieldSubject> show_of_scene(const LightField& whole, const LightField& shown,
-                                                     std::unique_ptr<Waves> waves = {});
+    std::shared_ptr<LightFieldViewable> show_of_scene(const LightField& whole, const LightField& shown,
+                                                      std::unique_ptr<Waves> waves = {});
     void show(const LightField& whole, const LightField& shown, const char* what, std::unique_ptr<Waves> waves = {});
     void describe();
     std::vector<Advice> advice() const;

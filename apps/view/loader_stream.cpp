@@ -42,19 +42,19 @@ void Loader::show_stream() {
     const LightFieldGrid& grid = light_field.grid();
     const std::size_t finest = step_that_fits(grid, memory()), first = step_of_first_look(grid);
     if (first > finest && now_->exposure == 0) show(light_field, every_nth_hogel(light_field, first), "decoding");
-    auto subject = std::make_shared<LightFieldSubject>(light_field, every_nth_hogel(light_field, finest), memory(),
-                                                       progress("decoding"), waves_of(light_field, false));
-    subject->set_original(original);
+    auto viewable = std::make_shared<LightFieldViewable>(light_field, every_nth_hogel(light_field, finest), memory(),
+                                                         progress("decoding"), waves_of(light_field, false));
+    viewable->set_original(original);
     // That of all layers, so that they are seen beside each other.
-    if (now_->exposure > 0) subject->set_exposure(now_->exposure);
-    now_->exposure = subject->exposure();
-    viewer_.show(subject);
-    measure_stream(light_field, original, *subject);
+    if (now_->exposure > 0) viewable->set_exposure(now_->exposure);
+    now_->exposure = viewable->exposure();
+    viewer_.show(viewable);
+    measure_stream(light_field, original, *viewable);
 }
 
 // What takes longer than a picture: the bytes of hogels, and errors.
-void Loader::measure_stream(const LightField& layers, const LightField& original, LightFieldSubject& subject) {
-    subject.set_bytes_of_hogels(
+void Loader::measure_stream(const LightField& layers, const LightField& original, LightFieldViewable& viewable) {
+    viewable.set_bytes_of_hogels(
         bytes_of_hogels(now_->settings.input(), now_->stream->layers, progress("rates of hogels")));
     describe();
     const std::size_t step = step_for(layers.grid(), max_compared_samples);

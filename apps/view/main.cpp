@@ -45,9 +45,9 @@ int serve(const ViewerParameters& options, Session& session) {
     session.result({{"address", address}, {"port", server.port()}}, address + "\n");
     std::fflush(stdout);
     if (!options.no_browser) open_browser(address);
-    viewer->set_changes(&loader);
+    viewer->set_controller(&loader);
     server.run(*viewer, session.stop.get_token());
-    viewer->set_changes(nullptr);
+    viewer->set_controller(nullptr);
     loader.finish();
     throw Error(ErrorCode::cancelled, "stopped");
 }

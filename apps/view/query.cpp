@@ -175,7 +175,7 @@ View of_eye(View view, int side) {
     return view;
 }
 
-Spot parse_spot(const Words& words) { return {fraction(words, "x"), fraction(words, "y")}; }
+PickPoint parse_pick_point(const Words& words) { return {fraction(words, "x"), fraction(words, "y")}; }
 
 Inside parse_inside(const Words& words) {
     constexpr std::size_t max_inside = 1024, max_colours = 3;

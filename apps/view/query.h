@@ -49,10 +49,10 @@ View parse_view(const std::map<std::string, std::string>& words);
 View of_eye(View view, int side);
 
 /// A point of a picture, 0 to 1 to the right and down, with the view that it is in.
-struct Spot {
+struct PickPoint {
     double x = 0, y = 0;
 };
-Spot parse_spot(const std::map<std::string, std::string>& words);
+PickPoint parse_pick_point(const std::map<std::string, std::string>& words);
 
 /// What a look inside shows: a word that the subject knows ("hogel", "fringes", "spectrum").
 struct Inside {

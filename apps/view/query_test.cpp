@@ -109,11 +109,11 @@ TEST(Query, messages_stay_short) {
 }
 
 TEST(Query, spots_lie_in_the_picture) {
-    const Spot spot = parse_spot(parse_query("x=0.25&y=1"));
-    EXPECT_EQ(spot.x, 0.25);
-    EXPECT_EQ(spot.y, 1);
+    const PickPoint point = parse_pick_point(parse_query("x=0.25&y=1"));
+    EXPECT_EQ(point.x, 0.25);
+    EXPECT_EQ(point.y, 1);
     for (const char* query : {"x=0.5", "x=-0.1&y=0", "x=nan&y=0", "x=2&y=0", "x=&y="})
-        EXPECT_THROW(parse_spot(parse_query(query)), Error) << query;
+        EXPECT_THROW(parse_pick_point(parse_query(query)), Error) << query;
 }
 
 }  // namespace

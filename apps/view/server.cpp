@@ -213,7 +213,7 @@ class Connection final : public std::enable_shared_from_this<Connection> {
     // The body of a POST becomes a file, if the site has a place for it.
     void read_file() {
         const Request request = request_of(parser_->get());
-        auto place = shared_->site->place_for(request);
+        auto place = shared_->site->destination_for(request);
         if (std::holds_alternative<Response>(place)) return respond(std::get<Response>(place), false);
         keep();
         const auto file = std::get<std::filesystem::path>(place);

@@ -57,7 +57,7 @@ class Site {
     /// Whether a WebSocket may be opened; `status` 101 if so.
     virtual Response admit(const Request& request) = 0;
     /// Where the file is to be written that a POST brings as its body, or why it is refused.
-    virtual std::variant<std::filesystem::path, Response> place_for(const Request& request) = 0;
+    virtual std::variant<std::filesystem::path, Response> destination_for(const Request& request) = 0;
     /// Takes that file, which is complete.
     virtual Response take(const Request& request, const std::filesystem::path& file) = 0;
     virtual std::shared_ptr<Conversation> open(std::weak_ptr<Socket> socket) = 0;

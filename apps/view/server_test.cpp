@@ -65,7 +65,7 @@ class OwnSite final : public Site {
         return {};
     }
     Response admit(const Request&) override { return {403, "text/plain", ""}; }
-    std::variant<std::filesystem::path, Response> place_for(const Request&) override {
+    std::variant<std::filesystem::path, Response> destination_for(const Request&) override {
         return Response{403, "text/plain", ""};
     }
     Response take(const Request&, const std::filesystem::path&) override { return {}; }

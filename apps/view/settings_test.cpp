@@ -102,13 +102,13 @@ TEST(DropFolder, keeps_what_is_shown_and_forgets_what_was) {
     std::filesystem::path first, second;
     {
         DropFolder folder;
-        first = folder.place_for("a.gltf");
-        EXPECT_EQ(folder.place_for("a.bin").parent_path(), first.parent_path());
+        first = folder.destination_for("a.gltf");
+        EXPECT_EQ(folder.destination_for("a.bin").parent_path(), first.parent_path());
         std::ofstream(first) << "x";
         EXPECT_EQ(std::filesystem::status(first.parent_path()).permissions() & std::filesystem::perms::all,
                   std::filesystem::perms::owner_all);
         folder.opened();
-        second = folder.place_for("b.ply");
+        second = folder.destination_for("b.ply");
         EXPECT_NE(second.parent_path(), first.parent_path());
         folder.opened();
         EXPECT_TRUE(std::filesystem::exists(first));  // until the second is shown
@@ -116,7 +116,7 @@ TEST(DropFolder, keeps_what_is_shown_and_forgets_what_was) {
         EXPECT_FALSE(std::filesystem::exists(first.parent_path()));
         EXPECT_TRUE(std::filesystem::exists(second.parent_path()));
         for (const char* name : {"", ".", "..", "../a", "/a", "a/b", ".hidden", "-o"})
-            EXPECT_THROW(folder.place_for(name), Error) << name;
+            EXPECT_THROW(folder.destination_for(name), Error) << name;
     }
     EXPECT_FALSE(std::filesystem::exists(second.parent_path()));
 }

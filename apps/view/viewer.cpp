@@ -7,7 +7,7 @@
 
 #include "view/answers.h"
 #include "view/page.h"
-#include "view/talk.h"
+#include "view/session.h"
 
 namespace hogel::view {
 namespace {
@@ -16,17 +16,19 @@ using Words = std::map<std::string, std::string>;
 using Reply = std::function<void(Response)>;
 
 // What is asked for by an address, made on a worker's thread.
-Response made(const std::string& path, Subject& subject, const Words& words, const Progress& progress) {
+Response made(const std::string& path, Viewable& viewable, const Words& words, const Progress& progress) {
     const View view = parse_view(words);
     if (path == "/levels") {
         const auto encoding = words.find("encoding");
-        return answer_with(told(subject.count_levels(encoding == words.end() ? "phase" : encoding->second, progress)));
+        return answer_with(
+            to_json(viewable.count_levels(encoding == words.end() ? "phase" : encoding->second, progress)));
     }
-    if (path == "/sharpness") return answer_with(told(subject.find_focus(progress)));
-    if (path == "/picture") return {200, type_of(view), encode(subject.photograph(view, progress), view)};
+    if (path == "/sharpness") return answer_with(to_json(viewable.find_focus(progress)));
+    if (path == "/picture") return {200, type_of(view), encode(viewable.photograph(view, progress), view)};
     View png = view;
     png.format = "png";
-    return {200, type_of(png), encode(subject.inside(view, parse_spot(words), parse_inside(words), progress), png)};
+    return {200, type_of(png),
+            encode(viewable.inside(view, parse_pick_point(words), parse_inside(words), progress), png)};
 }
 
 }  // namespace
@@ -35,23 +37,23 @@ Viewer::Viewer(Access access) : access_(std::move(access)) {}
 
 Viewer::~Viewer() = default;
 
-std::shared_ptr<Subject> Viewer::subject() const {
+std::shared_ptr<Viewable> Viewer::viewable() const {
     const std::lock_guard lock(mutex_);
-    return subject_;
+    return viewable_;
 }
 
-void Viewer::show(std::shared_ptr<Subject> subject) {
+void Viewer::show(std::shared_ptr<Viewable> viewable) {
     {
         const std::lock_guard lock(mutex_);
-        subject_.swap(subject);
+        viewable_.swap(viewable);
         ++generation_;
     }
     tell(state());
 }
 
-void Viewer::set_changes(Changes* changes) {
+void Viewer::set_controller(Controller* changes) {
     const std::lock_guard lock(mutex_);
-    changes_ = changes;
+    controller_ = changes;
 }
 
 void Viewer::describe(Json facts) {
@@ -93,17 +95,17 @@ std::string Viewer::state() const {
     Json json{{"type", "state"},
               {"work", what_},
               {"fraction", fraction_},
-              {"ready", subject_ != nullptr},
+              {"ready", viewable_ != nullptr},
               {"generation", generation_}};
     json.update(description_);
-    if (subject_) {
-        json["width_m"] = subject_->width();
-        json["height_m"] = subject_->height();
-        json["exposure"] = subject_->exposure();
-        json["rays"] = subject_->has_rays();
-        json["has_original"] = subject_->has_original();
-        json["looks"] = subject_->looks();
-        json.update(subject_->facts());
+    if (viewable_) {
+        json["width_m"] = viewable_->width();
+        json["height_m"] = viewable_->height();
+        json["exposure"] = viewable_->exposure();
+        json["rays"] = viewable_->has_rays();
+        json["has_original"] = viewable_->has_original();
+        json["looks"] = viewable_->looks();
+        json.update(viewable_->facts());
     }
     return dump(json);
 }
@@ -127,7 +129,7 @@ bool Viewer::is_watched() const {
 bool Viewer::trusts(const Request& request) const { return refusal(request).empty(); }
 
 // The page's own files, and what is refused.
-std::optional<Response> Viewer::answer_without_subject(const Request& request) const {
+std::optional<Response> Viewer::answer_without_viewable(const Request& request) const {
     if (request.method == "HEAD") return Response{405, json_type, ""};  // whose answer has no body
     if (request.method != "GET") return failure(405, "only GET is answered");
     for (const PageFile& file : page_files())
@@ -142,7 +144,7 @@ std::optional<Response> Viewer::answer_without_subject(const Request& request) c
 
 std::function<void()> Viewer::answer(const Request& request, std::function<void(Response)> reply) {
     std::function<void()> give_up;
-    if (std::optional<Response> response = answer_without_subject(request))
+    if (std::optional<Response> response = answer_without_viewable(request))
         reply(std::move(*response));
     else
         attempt([&] { give_up = answer_about(request, reply); }, reply);
@@ -155,24 +157,25 @@ std::function<void()> Viewer::answer_about(const Request& request, const Reply& 
         return std::function<void()>();
     };
     if (request.path == "/state") return at_once({200, json_type, state()});
-    const auto subject = this->subject();
+    const auto viewable = this->viewable();
     bool known = false;
     for (const char* path : {"/picture", "/reading", "/inside", "/sharpness", "/levels"})
         known = known || request.path == path;
     if (!known) return at_once(failure(404, "there is no such page"));
-    if (!subject) return at_once(failure(503, "the light field is not there yet"));
+    if (!viewable) return at_once(failure(503, "the light field is not there yet"));
     const Words words = parse_query(request.query);
     const View view = parse_view(words);
     const bool picture = request.path == "/picture";
     if (picture)
-        subject->require(view);
+        viewable->require(view);
     else
-        subject->camera(view);
-    if (request.path == "/reading") return at_once(answer_with(told(subject->read(view, parse_spot(words)), view.id)));
-    if (request.path == "/inside") parse_spot(words);
+        viewable->camera(view);
+    if (request.path == "/reading")
+        return at_once(answer_with(to_json(viewable->read(view, parse_pick_point(words)), view.id)));
+    if (request.path == "/inside") parse_pick_point(words);
     const bool waves = picture ? needs_waves(view.by) : request.path == "/sharpness" || request.path == "/levels";
-    return put(waves ? waves_ : rays_, [subject, words, path = request.path, reply](std::stop_token stop) {
-        attempt([&] { reply(made(path, *subject, words, Progress(stop))); }, reply);
+    return put(waves ? waves_ : rays_, [viewable, words, path = request.path, reply](std::stop_token stop) {
+        attempt([&] { reply(made(path, *viewable, words, Progress(stop))); }, reply);
     });
 }
 
@@ -200,7 +203,7 @@ void Viewer::forget(std::uint64_t client) {
     asking_.erase(client);
 }
 
-std::variant<std::filesystem::path, Response> Viewer::place_for(const Request& request) {
+std::variant<std::filesystem::path, Response> Viewer::destination_for(const Request& request) {
     if (request.path != "/drop") return failure(405, "only GET is answered");
     if (const std::string why = refusal(request); !why.empty()) return failure(403, why);
     // A page's own script says where it comes from; what says nothing may be a form of another page.
@@ -211,7 +214,7 @@ std::variant<std::filesystem::path, Response> Viewer::place_for(const Request& r
             const std::lock_guard lock(mutex_);
             const Words words = parse_query(request.query);
             const auto name = words.find("name");
-            if (changes_ != nullptr) place = changes_->place_for(name == words.end() ? "" : name->second);
+            if (controller_ != nullptr) place = controller_->destination_for(name == words.end() ? "" : name->second);
         },
         [&](Response refused) { place = std::move(refused); });
     return place;
@@ -219,7 +222,7 @@ std::variant<std::filesystem::path, Response> Viewer::place_for(const Request& r
 
 Response Viewer::take(const Request& request, const std::filesystem::path& file) {
     const std::lock_guard lock(mutex_);
-    if (changes_ != nullptr && !parse_query(request.query).contains("more")) changes_->open(file);
+    if (controller_ != nullptr && !parse_query(request.query).contains("more")) controller_->open(file);
     return {200, json_type, dump({{"type", "taken"}})};
 }
 
@@ -236,7 +239,7 @@ std::shared_ptr<Conversation> Viewer::open(std::weak_ptr<Socket> socket) {
         sockets_[pictures] = socket;
     }
     if (const auto there = socket.lock()) there->send_text(state());
-    return std::make_shared<Talk>(weak_from_this(), std::move(socket), pictures, readings);
+    return std::make_shared<Session>(weak_from_this(), std::move(socket), pictures, readings);
 }
 
 }  // namespace hogel::view

@@ -18,20 +18,20 @@
 
 #include "view/access.h"
 #include "view/server.h"
-#include "view/subject.h"
+#include "view/viewable.h"
 #include "view/worker.h"
 
 namespace hogel::view {
 
 /// What pages may change of what is looked at. Functions are called on the server's thread and return at once.
-class Changes {
+class Controller {
   public:
-    virtual ~Changes() = default;
+    virtual ~Controller() = default;
     /// Other values of options; the newest wins. @param moving  whether others will follow, so that coarse will do
     virtual void change(const std::map<std::string, std::string>& options, bool moving) = 0;
     /// Where a file is to be put that a page sends under this name, if it may send files. Throws Error(usage) for a
     /// name that is none of a file.
-    virtual std::filesystem::path place_for(const std::string& name) = 0;
+    virtual std::filesystem::path destination_for(const std::string& name) = 0;
     /// Opens a file that was put there.
     virtual void open(const std::filesystem::path& file) = 0;
 };
@@ -50,9 +50,9 @@ class Viewer final : public Site, public std::enable_shared_from_this<Viewer> {
     ~Viewer() override;
 
     /// Who changes what is looked at; null: nobody (any more).
-    void set_changes(Changes* changes);
+    void set_controller(Controller* changes);
     /// Shows a subject from now on, in place of another.
-    void show(std::shared_ptr<Subject> subject);
+    void show(std::shared_ptr<Viewable> viewable);
     /// Facts beside those of the subject, as members of one object: what it is called, the commands that repeat it.
     void describe(nlohmann::ordered_json facts);
     /// Tells every page what went wrong. @param parameter  names of Error::parameter()
@@ -66,28 +66,28 @@ class Viewer final : public Site, public std::enable_shared_from_this<Viewer> {
     bool trusts(const Request& request) const override;
     std::function<void()> answer(const Request& request, std::function<void(Response)> reply) override;
     Response admit(const Request& request) override;
-    std::variant<std::filesystem::path, Response> place_for(const Request& request) override;
+    std::variant<std::filesystem::path, Response> destination_for(const Request& request) override;
     Response take(const Request& request, const std::filesystem::path& file) override;
     std::shared_ptr<Conversation> open(std::weak_ptr<Socket> socket) override;
 
   private:
-    class Talk;
+    class Session;
 
-    std::shared_ptr<Subject> subject() const;
+    std::shared_ptr<Viewable> viewable() const;
     std::string state() const;
     void tell(const std::string& text);
     std::string refusal(const Request& request) const;
-    std::optional<Response> answer_without_subject(const Request& request) const;
+    std::optional<Response> answer_without_viewable(const Request& request) const;
     std::function<void()> answer_about(const Request& request, const std::function<void(Response)>& reply);
     std::function<void()> put(Worker& worker, std::function<void(std::stop_token)> work);
     void forget(std::uint64_t client);
 
     Access access_;
     mutable std::mutex mutex_;
-    Changes* changes_ = nullptr;
+    Controller* controller_ = nullptr;
     nlohmann::ordered_json description_;
     std::size_t generation_ = 0;  // of the subjects that were shown
-    std::shared_ptr<Subject> subject_;
+    std::shared_ptr<Viewable> viewable_;
     std::string what_ = "opening";
     double fraction_ = 0;
     std::map<std::uint64_t, std::weak_ptr<Socket>> sockets_;

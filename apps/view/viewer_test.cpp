@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "hogel/error.h"
-#include "view/light_field_subject.h"
+#include "view/light_field_viewable.h"
 
 namespace hogel::view {
 namespace {
@@ -35,8 +35,8 @@ struct Endless {
             throw Error(ErrorCode::cancelled, "stopped");
         };
         viewer->describe(nlohmann::ordered_json::object());
-        viewer->show(std::make_shared<LightFieldSubject>(grey(), grey(), memory, Progress(),
-                                                         std::make_unique<Waves>(make, 1, memory, Progress())));
+        viewer->show(std::make_shared<LightFieldViewable>(grey(), grey(), memory, Progress(),
+                                                          std::make_unique<Waves>(make, 1, memory, Progress())));
     }
     std::function<void()> ask(std::promise<Response>& response) {
         return viewer->answer({"GET", "/picture", "by=waves&resolution=8x8", "127.0.0.1:80", "", ""},
@@ -81,7 +81,7 @@ class Page final : public Socket {
 TEST(Viewer, says_over_the_stream_what_parameters_a_refused_picture_is_about) {
     const auto viewer = std::make_shared<Viewer>(Access("127.0.0.1", 80, ""));
     viewer->describe(nlohmann::ordered_json::object());
-    viewer->show(std::make_shared<LightFieldSubject>(grey(), grey(), memory, Progress()));
+    viewer->show(std::make_shared<LightFieldViewable>(grey(), grey(), memory, Progress()));
     const auto page = std::make_shared<Page>("error");
     const auto conversation = viewer->open(page);
     for (const char* view : {"eye=0,0,-1mm", "focus=1", "by=waves", "by=side&eyes=63mm", "nonsense=1"})

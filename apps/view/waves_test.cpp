@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "hogel/error.h"
-#include "view/hologram_subject.h"
-#include "view/light_field_subject.h"
+#include "view/hologram_viewable.h"
+#include "view/light_field_viewable.h"
 
 namespace hogel::view {
 namespace {
@@ -41,8 +41,8 @@ std::unique_ptr<Waves> waves(int* made = nullptr) {
     return std::make_unique<Waves>(make, all_looks, std::size_t{1} << 28, Progress());
 }
 
-std::unique_ptr<LightFieldSubject> subject() {
-    return std::make_unique<LightFieldSubject>(ramp(), ramp(), std::size_t{1} << 28, Progress(), waves());
+std::unique_ptr<LightFieldViewable> viewable() {
+    return std::make_unique<LightFieldViewable>(ramp(), ramp(), std::size_t{1} << 28, Progress(), waves());
 }
 
 View view_by(By by) {
@@ -62,7 +62,7 @@ bool equal(const Image& a, const Image& b) { return std::ranges::equal(a.pixels.
 
 // Each picture is the mean of so many looks, which a command line would take.
 TEST(Waves, refine_look_by_look) {
-    const auto one = subject();
+    const auto one = viewable();
     std::vector<std::size_t> shown;
     one->photograph(
         view_by(By::waves),
@@ -78,7 +78,7 @@ TEST(Waves, refine_look_by_look) {
 TEST(Waves, stop_after_the_looks_that_are_wanted) {
     int made = 0;
     const auto one = waves(&made);
-    const Camera camera = subject()->camera(view_by(By::waves));
+    const Camera camera = viewable()->camera(view_by(By::waves));
     EXPECT_EQ(made, 0);
     for (const std::size_t wanted : {1, 2, 1, 3}) {
         std::size_t last = 0;
@@ -90,7 +90,7 @@ TEST(Waves, stop_after_the_looks_that_are_wanted) {
 
 // What is dragged is a preview, which is not kept for the picture of the same eye at rest.
 TEST(Waves, are_previews_where_that_is_asked_for) {
-    const auto one = subject();
+    const auto one = viewable();
     View view = view_by(By::waves);
     view.looks = 1;
     view.preview = true;
@@ -105,7 +105,7 @@ TEST(Waves, are_previews_where_that_is_asked_for) {
 
 TEST(Waves, stop_for_a_newer_view) {
     const auto one = waves();
-    const Camera camera = subject()->camera(view_by(By::waves));
+    const Camera camera = viewable()->camera(view_by(By::waves));
     std::stop_source newer;
     std::size_t last = 0;
     const auto until_first = [&](const Image&, std::size_t looks) {
@@ -119,7 +119,7 @@ TEST(Waves, stop_for_a_newer_view) {
 }
 
 TEST(Waves, stand_beside_rays) {
-    const auto one = subject();
+    const auto one = viewable();
     const Image rays = one->photograph(view_by(By::rays), {}).picture;
     const Image by_waves = one->photograph(view_by(By::waves), {}).picture;
     const Photograph both = one->photograph(view_by(By::side), {});
@@ -139,7 +139,7 @@ TEST(Waves, stand_beside_rays) {
 }
 
 TEST(Waves, of_two_eyes_are_two_pictures) {
-    const auto one = subject();
+    const auto one = viewable();
     View both = view_by(By::waves), left = both;
     both.eyes = 4e-3;
     left.camera.eye.x -= 2e-3;
@@ -157,14 +157,14 @@ TEST(Waves, of_two_eyes_are_two_pictures) {
 }
 
 TEST(Waves, are_refused_where_there_are_none) {
-    LightFieldSubject coarse(ramp(), ramp(), std::size_t{1} << 28, Progress());
+    LightFieldViewable coarse(ramp(), ramp(), std::size_t{1} << 28, Progress());
     EXPECT_THROW(coarse.require(view_by(By::waves)), Error);
-    HologramSubject hologram(holograms(1), std::size_t{1} << 30, Progress());
+    HologramViewable hologram(holograms(1), std::size_t{1} << 30, Progress());
     EXPECT_THROW(hologram.require(view_by(By::rays)), Error);
     EXPECT_THROW(hologram.require(view_by(By::side)), Error);
     View stereo = view_by(By::difference);
     stereo.eyes = 6e-3;
-    EXPECT_THROW(subject()->require(stereo), Error);
+    EXPECT_THROW(viewable()->require(stereo), Error);
     EXPECT_NO_THROW(hologram.require(view_by(By::waves)));
 }
 

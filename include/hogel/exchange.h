@@ -32,7 +32,7 @@ HOGEL_API std::optional<Transfer> transfer_named(const std::string& name);
 
 /// What is to be done with a set of views, and what the set does not say of itself. Lengths are those at the hologram,
 /// metres. What neither says is assumed, and ImportedViews::assumed names it.
-struct ViewOptions {
+struct ViewImportOptions {
     std::string layout;                     ///< a name in view_layouts(); empty: the one that recognises the source
     double size = 0;                        ///< width of the hologram
     std::optional<double> distance;         ///< from the cameras to the hologram plane
@@ -76,7 +76,7 @@ struct ImportedViews {
     /// the middle view and its neighbours.
     double parallax = 0;
     bool estimated = false;            ///< whether the disparity that was used was estimated
-    double spool_bytes = 0;            ///< of the temporary file in ViewOptions::spool, once the views are read
+    double spool_bytes = 0;            ///< of the temporary file in ViewImportOptions::spool, once the views are read
     std::string summary;               ///< the geometry, one line
     std::vector<std::string> assumed;  ///< what neither the set nor the options said, and what was taken
     std::vector<std::string> notes;    ///< what was found out about the set
@@ -90,11 +90,11 @@ HOGEL_API bool is_view_set(const std::filesystem::path& source);
 /// (write_views()), and each band decodes every picture unless there is a folder for a temporary file. Throws
 /// Error(bad_input), naming the file, for a set with a hole, for pictures of different sizes, and for damaged ones
 /// (some of them only when they are read); Error(usage) for options that contradict the set.
-HOGEL_API ImportedViews import_views(const std::filesystem::path& source, const ViewOptions& options,
+HOGEL_API ImportedViews import_views(const std::filesystem::path& source, const ViewImportOptions& options,
                                      const Progress& progress = {});
 
 /// Resources to import a set of views and write it to an uncompressed file.
-HOGEL_API Plan plan_import(const ImportedViews& views, const ViewOptions& options,
+HOGEL_API Plan plan_import(const ImportedViews& views, const ViewImportOptions& options,
                            const LightFieldFileOptions& file = {});
 
 /// Copies an imported light field to a sink, band by band, with all threads. Memory: one band, and a row of hogels for
@@ -155,7 +155,7 @@ struct ViewLayout {
     bool has_pictures = true;      ///< whether views are pictures of some format
     bool written_at_once = false;  ///< whether all views are held in memory until the last is there
     bool (*probe)(const std::filesystem::path& source) = nullptr;  ///< whether a source is such a set
-    exchange::ViewSet (*open)(const std::filesystem::path& source, const ViewOptions& options) = nullptr;
+    exchange::ViewSet (*open)(const std::filesystem::path& source, const ViewImportOptions& options) = nullptr;
     /// Null where such sets are only read.
     std::unique_ptr<exchange::ViewWriter> (*create)(const exchange::ViewTarget& target) = nullptr;
 };

@@ -5,6 +5,7 @@
 
 #include "hogel/array.h"
 #include "hogel/camera.h"
+#include "hogel/communicator.h"
 #include "hogel/compress.h"
 #include "hogel/error.h"
 #include "hogel/exchange.h"
@@ -35,6 +36,5 @@
 #include "hogel/scene_hologram.h"
 #include "hogel/shading.h"
 #include "hogel/table.h"
-#include "hogel/team.h"
 #include "hogel/units.h"
 #include "hogel/version.h"

@@ -57,14 +57,14 @@ struct HOGEL_API SceneParameters {
 
 /// Import of a set of views as a light field.
 struct HOGEL_API ImportParameters {
-    ViewOptions views;                         ///< except members that options() makes of the following values
+    ViewImportOptions views;                   ///< except members that options() makes of the following values
     std::string column, projection, transfer;  ///< empty: as recognised
     std::string mirror = "none";
     Counts counts;  ///< views across and down; 0: as recognised
     Counts middle;  ///< views to import, in the middle of the set; 0: all
 
     /// Throws Error(usage).
-    ViewOptions options() const;
+    ViewImportOptions options() const;
     /// Stores the recognised layout, transfer curve and width.
     void resolve(const ImportedViews& imported);
     void declare(Parameters& parameters);

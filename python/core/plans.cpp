@@ -55,7 +55,7 @@ void add_plans(py::module_& module) {
     module.def("plan_compression", &plan_compression, arg("light_field"), arg("options"));
     module.def(
         "plan_import",
-        [](const ImportedViews& views, const ViewOptions& options, bool single, bool with_depth) {
+        [](const ImportedViews& views, const ViewImportOptions& options, bool single, bool with_depth) {
             return plan_import(views, options, light_field_file(single, with_depth));
         },
         arg("views"), arg("options"), arg("single"), arg("with_depth"));

@@ -28,7 +28,7 @@ void add_import_keywords(py::module_& module) {
     module.def(
         "import_options",
         [](const py::dict& keywords, const std::filesystem::path& spool) {
-            ViewOptions options = ImportKeywords(keywords).values.options();
+            ViewImportOptions options = ImportKeywords(keywords).values.options();
             options.spool = spool;
             return options;
         },
@@ -88,7 +88,7 @@ void add_view_options(py::module_& module) {
         .value("linear", Transfer::linear)
         .value("rec709", Transfer::rec709)
         .value("gamma22", Transfer::gamma22);
-    py::class_<ViewOptions>(module, "ViewOptions");
+    py::class_<ViewImportOptions>(module, "ViewImportOptions");
     py::class_<ImportedViews>(module, "ImportedViews")
         .def_readonly("light_field", &ImportedViews::light_field)
         .def_readonly("layout", &ImportedViews::layout)
@@ -129,7 +129,7 @@ void add_view_sets(py::module_& module) {
     module.def("is_view_set", &is_view_set, arg("source"), py::call_guard<py::gil_scoped_release>());
     module.def(
         "import_views",
-        [](const std::filesystem::path& source, const ViewOptions& options, const py::object& report) {
+        [](const std::filesystem::path& source, const ViewImportOptions& options, const py::object& report) {
             return run_for(report, [&](const Progress& p) { return import_views(source, options, p); });
         },
         arg("source"), arg("options"), arg("report"));

@@ -27,7 +27,7 @@ struct FuzzSet {
 };
 
 // Reads everything of a set that is small.
-void read_set(const std::filesystem::path& source, const ViewOptions& options) {
+void read_set(const std::filesystem::path& source, const ViewImportOptions& options) {
     const ImportedViews views = import_views(source, options);
     constexpr double max_samples = 1 << 20;
     if (views.light_field.samples() > max_samples) return;
@@ -44,7 +44,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                  "transforms.json", "a.mat"};
     const std::size_t kind = data[0] % 6;
     write(set.folder / names[kind], data + 1, size - 1);
-    ViewOptions options;
+    ViewImportOptions options;
     options.layout = kind == 0 ? "npy" : kind == 1 ? "quilt" : kind == 4 ? "transforms" : kind == 5 ? "mat" : "hci";
     fuzz::expect_bad_input([&] { read_set(kind < 2 || kind == 5 ? set.folder / names[kind] : set.folder, options); });
     return 0;

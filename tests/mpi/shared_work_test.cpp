@@ -10,8 +10,8 @@
 
 #include "hogel/core/stop_scope.h"
 #include "hogel/optics/distributed/shared_plane.h"
-#include "hogel/work/pieces.h"
-#include "hogel/work/shared_order.h"
+#include "hogel/work/chunks.h"
+#include "hogel/work/ordered_reduce.h"
 #include "mpi/test_ranks.h"
 
 namespace hogel::mpi {
@@ -25,9 +25,9 @@ TEST_P(SharedWorkTest, TheFirstMergesAllInOrder) {
     std::atomic<std::size_t> merged{0};
     std::atomic<bool> too_far{false};
     std::vector<std::atomic<int>> computed(n);
-    run_ranks(GetParam(), [&](RankTeam& team) {
-        work::ordered_in_team(
-            team, n, in_flight,
+    run_ranks(GetParam(), [&](RankCommunicator& communicator) {
+        work::ordered_reduce_in_ranks(
+            communicator, n, in_flight,
             [&](std::size_t i) {
                 ++computed[i];
                 if (i >= merged + work::tiles_in_flight(in_flight) * GetParam()) too_far = true;
@@ -35,13 +35,13 @@ TEST_P(SharedWorkTest, TheFirstMergesAllInOrder) {
                 return std::string(i % 7, 'x') + std::to_string(i);
             },
             [&](std::size_t i, std::string_view bytes) {
-                EXPECT_TRUE(team.is_first());
+                EXPECT_TRUE(communicator.is_root());
                 EXPECT_EQ(i, merged);
                 EXPECT_EQ(bytes, std::string(i % 7, 'x') + std::to_string(i));
                 merged = i + 1;
             });
-        EXPECT_EQ(team.share(team.is_first() ? "done" : ""), "done");
-        EXPECT_FALSE(team.settle({}, patience)->failed);
+        EXPECT_EQ(communicator.share(communicator.is_root() ? "done" : ""), "done");
+        EXPECT_FALSE(communicator.settle({}, patience)->failed);
     });
     EXPECT_EQ(merged, n);
     EXPECT_FALSE(too_far) << "results beyond those that the first process has room for";
@@ -54,10 +54,10 @@ TEST_P(SharedWorkTest, JobsAreDoneOneByOne) {
     const auto result = [](std::size_t i) { return std::string(i, 'x') + std::to_string(i); };
     std::vector<std::string> merged;
     std::vector<std::atomic<int>> computed(n);
-    run_ranks(GetParam(), [&](RankTeam& team) {
+    run_ranks(GetParam(), [&](RankCommunicator& communicator) {
         std::atomic<int> at_work = 0;
-        work::ordered_in_team(
-            team, n, 1,
+        work::ordered_reduce_in_ranks(
+            communicator, n, 1,
             [&](std::size_t i) {
                 EXPECT_EQ(++at_work, 1);
                 ++computed[i];
@@ -70,7 +70,7 @@ TEST_P(SharedWorkTest, JobsAreDoneOneByOne) {
                 merged.emplace_back(bytes);
             },
             5);
-        EXPECT_FALSE(team.settle({}, patience)->failed);
+        EXPECT_FALSE(communicator.settle({}, patience)->failed);
     });
     ASSERT_EQ(merged.size(), n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -82,16 +82,16 @@ TEST_P(SharedWorkTest, JobsAreDoneOneByOne) {
 // Loops of the same team may overlap: those that are not the first begin the next while the first still merges.
 TEST_P(SharedWorkTest, ResultsThatComeEarlyWaitForTheirLoop) {
     std::vector<std::size_t> merged;
-    run_ranks(GetParam(), [&](RankTeam& team) {
+    run_ranks(GetParam(), [&](RankCommunicator& communicator) {
         for (std::size_t loop = 0; loop < 5; ++loop) {
-            work::ordered_in_team(
-                team, 20, 2, [&](std::size_t i) { return std::to_string(100 * loop + i); },
+            work::ordered_reduce_in_ranks(
+                communicator, 20, 2, [&](std::size_t i) { return std::to_string(100 * loop + i); },
                 [&](std::size_t, std::string_view bytes) {
                     merged.push_back(std::stoul(std::string(bytes)));
                     std::this_thread::sleep_for(std::chrono::microseconds(300));
                 });
         }
-        EXPECT_FALSE(team.settle({}, patience)->failed);
+        EXPECT_FALSE(communicator.settle({}, patience)->failed);
     });
     ASSERT_EQ(merged.size(), 100U);
     for (std::size_t i = 0; i < merged.size(); ++i) EXPECT_EQ(merged[i], 100 * (i / 20) + i % 20);
@@ -100,14 +100,14 @@ TEST_P(SharedWorkTest, ResultsThatComeEarlyWaitForTheirLoop) {
 // What fails in one process, in the work or in the merging, ends all of them with its message.
 TEST_P(SharedWorkTest, AFailureEndsAll) {
     for (const bool merging : {false, true})
-        run_ranks(GetParam(), [&](RankTeam& team) {
+        run_ranks(GetParam(), [&](RankCommunicator& communicator) {
             Report own;
             std::stop_source stop;
-            team.stop_with(stop);
+            communicator.stop_with(stop);
             const core::StopScope scope(Progress(stop.get_token()));
             try {
-                work::ordered_in_team(
-                    team, 400, 2,
+                work::ordered_reduce_in_ranks(
+                    communicator, 400, 2,
                     [&](std::size_t i) -> std::string {
                         if (!merging && i == 100) throw Error(ErrorCode::bad_input, "damaged");
                         return "x";
@@ -115,11 +115,11 @@ TEST_P(SharedWorkTest, AFailureEndsAll) {
                     [&](std::size_t i, std::string_view) {
                         if (merging && i == 100) throw Error(ErrorCode::bad_input, "damaged");
                     });
-                team.meet();
+                communicator.meet();
             } catch (const Error& error) {
                 own = {true, static_cast<int>(error.code()), error.code(), 0, error.what()};
             }
-            const std::optional<Report> all = team.settle(own, patience);
+            const std::optional<Report> all = communicator.settle(own, patience);
             ASSERT_TRUE(all && all->failed);
             EXPECT_EQ(all->text, "damaged");
         });
@@ -130,64 +130,67 @@ std::complex<float> value(std::size_t y, std::size_t x) { return {static_cast<fl
 TEST_P(SharedWorkTest, PlanesTurn) {
     for (const auto& [rows, later_rows, columns] :
          {std::array<std::size_t, 3>{100, 60, 75}, {33, 90, 16}, {5, 2, 3}, {900, 1100, 1200}})
-        run_ranks(GetParam(), [&, rows = rows, later_rows = later_rows, columns = columns](RankTeam& team) {
-            optics::distributed::SharedPlane plane(std::max(rows, later_rows), columns, 6, 16, ScratchOptions(), &team);
-            plane.begin_rows(rows);
-            const optics::distributed::LineRange own = plane.own_rows(rows);
-            std::vector<std::complex<float>> row(columns);
-            for (std::size_t y = own.first; y < own.end(); ++y) {
-                for (std::size_t x = 0; x < columns; ++x) row[x] = value(y, x);
-                plane.put_row(y, row.data());
-            }
-            plane.to_columns(rows);
-            const optics::distributed::LineRange across = plane.own_columns();
-            const optics::distributed::OwnColumns later_places = plane.in_columns(later_rows);
-            for (std::size_t x = across.first; x < across.end(); ++x) {
-                for (std::size_t y = 0; y < rows; ++y) ASSERT_EQ(plane.at(y, x), value(y, x));
-                for (std::size_t y = 0; y < later_rows; ++y) later_places(y, x) = 2.0F * value(y, x);
-            }
-            plane.to_rows(later_rows);
-            const optics::distributed::LineRange later = plane.own_rows(later_rows);
-            for (std::size_t y = later.first; y < later.end(); ++y) {
-                plane.get_row(y, row.data());
-                for (std::size_t x = 0; x < columns; ++x) ASSERT_EQ(row[x], 2.0F * value(y, x));
-            }
-            EXPECT_FALSE(team.settle({}, patience)->failed);
-        });
+        run_ranks(GetParam(),
+                  [&, rows = rows, later_rows = later_rows, columns = columns](RankCommunicator& communicator) {
+                      optics::distributed::SharedPlane plane(std::max(rows, later_rows), columns, 6, 16,
+                                                             ScratchOptions(), &communicator);
+                      plane.begin_rows(rows);
+                      const optics::distributed::LineRange own = plane.local_rows(rows);
+                      std::vector<std::complex<float>> row(columns);
+                      for (std::size_t y = own.first; y < own.end(); ++y) {
+                          for (std::size_t x = 0; x < columns; ++x) row[x] = value(y, x);
+                          plane.put_row(y, row.data());
+                      }
+                      plane.to_columns(rows);
+                      const optics::distributed::LineRange across = plane.local_columns();
+                      const optics::distributed::LocalColumns later_places = plane.in_columns(later_rows);
+                      for (std::size_t x = across.first; x < across.end(); ++x) {
+                          for (std::size_t y = 0; y < rows; ++y) ASSERT_EQ(plane.at(y, x), value(y, x));
+                          for (std::size_t y = 0; y < later_rows; ++y) later_places(y, x) = 2.0F * value(y, x);
+                      }
+                      plane.to_rows(later_rows);
+                      const optics::distributed::LineRange later = plane.local_rows(later_rows);
+                      for (std::size_t y = later.first; y < later.end(); ++y) {
+                          plane.get_row(y, row.data());
+                          for (std::size_t x = 0; x < columns; ++x) ASSERT_EQ(row[x], 2.0F * value(y, x));
+                      }
+                      EXPECT_FALSE(communicator.settle({}, patience)->failed);
+                  });
 }
 
 // Each process wants rows that others want, too, and more than a message holds.
 TEST_P(SharedWorkTest, RowsGoToAllThatWantThem) {
     constexpr std::size_t rows = 900, columns = 1500;
-    run_ranks(GetParam(), [&](RankTeam& team) {
+    run_ranks(GetParam(), [&](RankCommunicator& communicator) {
         const auto wanted = [&](std::size_t process) {
-            const optics::distributed::LineRange own = optics::distributed::lines_of(process, team.size(), rows, 4);
+            const optics::distributed::LineRange own =
+                optics::distributed::lines_of(process, communicator.size(), rows, 4);
             return optics::distributed::common_lines(
                 {own.first - std::min<std::size_t>(own.first, 50), own.count + 100}, {0, rows});
         };
-        const optics::distributed::LineRange mine = wanted(team.rank());
+        const optics::distributed::LineRange mine = wanted(communicator.rank());
         std::vector<std::complex<float>> got(mine.count * columns);
         optics::distributed::send_rows(
-            team, {rows, columns}, 16, wanted,
+            communicator, {rows, columns}, 16, wanted,
             [&](std::size_t y, std::complex<float>* row) {
                 for (std::size_t x = 0; x < columns; ++x) row[x] = value(y, x);
             },
             [&](std::size_t y) { return &got[(y - mine.first) * columns]; });
         for (std::size_t y = 0; y < mine.count; ++y)
             for (std::size_t x = 0; x < columns; ++x) ASSERT_EQ(got[y * columns + x], value(mine.first + y, x));
-        EXPECT_FALSE(team.settle({}, patience)->failed);
+        EXPECT_FALSE(communicator.settle({}, patience)->failed);
     });
 }
 
 TEST_P(SharedWorkTest, AllGetTheNumbersOfTheFirst) {
-    run_ranks(GetParam(), [&](RankTeam& team) {
+    run_ranks(GetParam(), [&](RankCommunicator& communicator) {
         for (const std::size_t count : {0, 1, 262'144, 262'145, 700'001}) {
-            std::vector<float> numbers(count, static_cast<float>(team.rank()));
-            if (team.is_first()) std::iota(numbers.begin(), numbers.end(), 3.0f);
-            work::share_in_pieces<float>(team, numbers);
+            std::vector<float> numbers(count, static_cast<float>(communicator.rank()));
+            if (communicator.is_root()) std::iota(numbers.begin(), numbers.end(), 3.0f);
+            work::broadcast_in_chunks<float>(communicator, numbers);
             for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(numbers[i], static_cast<float>(i) + 3) << count;
         }
-        EXPECT_FALSE(team.settle({}, patience)->failed);
+        EXPECT_FALSE(communicator.settle({}, patience)->failed);
     });
 }
 

@@ -85,8 +85,7 @@ class BasisSynthesis final : public HogelSynthesis {
             for (std::size_t hogel = 0; hogel < prepared.extent(0); ++hogel) drop_small(prepared[hogel].elements());
     }
 
-    void synthesise(std::span<const float> coefficients, const HogelPlace& place,
-                    View<Complex, 2> hogel) const override {
+    void synthesise(std::span<const float> coefficients, const HogelKey& place, View<Complex, 2> hogel) const override {
         std::vector<WeightedFringe> sum;
         for (std::size_t i = 0; i < coefficients.size(); ++i)
             if (coefficients[i] != 0) sum.push_back({fringes_[place.look][i], coefficients[i]});
@@ -116,7 +115,7 @@ class BasisSynthesis final : public HogelSynthesis {
             }
             fourier_.prepare_roots(amplitudes, prepared);
         }
-        void waves(std::span<const float> prepared, const HogelPlace& place, const NearRows& rows,
+        void waves(std::span<const float> prepared, const HogelKey& place, const InBandRows& rows,
                    float* waves) const override {
             fourier_.waves(prepared, place, rows, waves);
         }

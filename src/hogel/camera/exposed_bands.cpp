@@ -4,15 +4,15 @@
 #include <algorithm>
 
 #include "hogel/camera/film/film.h"
-#include "hogel/team.h"
+#include "hogel/communicator.h"
 
 namespace hogel::camera {
 namespace {
 
 // Exposes the films of one colour and eye to looks, whose bands are freed.
 // @param intensities  [camera], summed over looks
-void expose_eye(const film::Film& film, const SharedEye& eye, std::vector<PackedBand>& drawn,
-                std::span<const Camera> cameras, std::span<Array<float, 2>> intensities) {
+void expose_viewpoint(const film::Film& film, const SharedViewpoint& eye, std::vector<PackedBand>& drawn,
+                      std::span<const Camera> cameras, std::span<Array<float, 2>> intensities) {
     // Waves of a pupil take less memory than the bands from which they come.
     std::vector<film::PupilWave> waves;
     for (PackedBand& band : drawn) {
@@ -27,9 +27,10 @@ void expose_eye(const film::Film& film, const SharedEye& eye, std::vector<Packed
 
 }  // namespace
 
-std::vector<Eye> eyes_of(std::span<const SharedEye> eyes, std::span<const Camera> cameras, bool preview) {
-    std::vector<Eye> looking;
-    for (const SharedEye& eye : eyes) looking.push_back({cameras[eye.members.front()].eye, eye.pupil, preview});
+std::vector<Viewpoint> viewpoints_of(std::span<const SharedViewpoint> eyes, std::span<const Camera> cameras,
+                                     bool preview) {
+    std::vector<Viewpoint> looking;
+    for (const SharedViewpoint& eye : eyes) looking.push_back({cameras[eye.members.front()].eye, eye.pupil, preview});
     return looking;
 }
 
@@ -44,16 +45,16 @@ void expose(const ColourBands& bands, std::span<const Camera> cameras, std::span
         const Progress part =
             progress.part(static_cast<double>(first) / looks, static_cast<double>(first + some) / looks);
         PackedBands drawn = bands.drawing->draw(first, some, part.part(0.0, 0.9));
-        if (!is_first_process()) continue;  // the first one has the light of all
+        if (!is_root_rank()) continue;  // the first one has the light of all
         // One film at a time, whose memory the next one uses.
         for (std::size_t b = 0; b < count; ++b) {
             const std::size_t colour = b / eyes;
-            const SharedEye& eye = bands.eyes[b % eyes];
+            const SharedViewpoint& eye = bands.eyes[b % eyes];
             const FieldGrid& hologram = bands.colours[colour];
             const film::Film film(bands.drawing->band(b), hologram,
                                   film_area(hologram.plane, eye.pictures, bands.shown), eye.pupil, eye.blur,
                                   film::film_samples(bands.preview));
-            expose_eye(film, eye, drawn[b], cameras, intensities[colour]);
+            expose_viewpoint(film, eye, drawn[b], cameras, intensities[colour]);
             for (const std::size_t camera : eye.members)
                 if (first + some == bands.looks)
                     film.develop(intensities[colour][camera], cameras[camera], bands.shown, 1 / looks,

@@ -5,13 +5,13 @@
 #include <optional>
 #include <utility>
 
-#include "hogel/camera/eye_drawings.h"
+#include "hogel/camera/band_sources.h"
 #include "hogel/camera/film/film.h"
 #include "hogel/camera/photograph_plan.h"
 #include "hogel/core/stop_scope.h"
 #include "hogel/image/film.h"
 #include "hogel/photograph.h"
-#include "hogel/work/shared_order.h"
+#include "hogel/work/ordered_reduce.h"
 
 namespace hogel {
 
@@ -21,14 +21,14 @@ namespace {
 
 // The light of one colour in the pupil of an eye, look by look, as far as it is known.
 struct SeenColour {
-    std::unique_ptr<EyeDrawing> drawing;
+    std::unique_ptr<PupilBandSource> drawing;
     Grid hologram;
-    Rectangle lit, shown;  // where its light arrives, and of that what the film shows
+    Rectangle active, shown;  // where its light arrives, and of that what the film shows
     std::optional<film::Film> film;
     std::vector<film::PupilWave> waves;  // [look]
 
     bool shows(const Camera& camera) const {
-        const Rectangle area = film_area(hologram, Rectangle(camera.picture), lit);
+        const Rectangle area = film_area(hologram, Rectangle(camera.picture), active);
         return area.left >= shown.left && area.right <= shown.right && area.bottom >= shown.bottom &&
                area.top <= shown.top;
     }
@@ -42,7 +42,7 @@ struct SeenColour {
 };
 
 // An eye, the widest pupil and the widest blur for which its light is known.
-struct SeenEye {
+struct ExposedViewpoint {
     Vec3 eye;
     double pupil = 0, blur = 0;
     std::vector<SeenColour> colours;
@@ -65,7 +65,7 @@ struct EyePhotographer::State {
     };
     std::shared_ptr<Shared> shared;
     CameraModel model;
-    SeenEye seen;
+    ExposedViewpoint seen;
 
     State(std::shared_ptr<Shared> of, const CameraModel& by) : shared(std::move(of)), model(by) {
         const bool is_known =
@@ -103,12 +103,13 @@ struct EyePhotographer::State {
         for (std::size_t c = 0; c < holograms().size(); ++c) {
             const auto& hologram = holograms()[c];
             const Grid& plane = hologram->grid().plane;
-            const Eye eye{camera.eye, camera.pupil, band()->preview};
-            const Rectangle lit = lit_area(hologram->grid(), camera.eye, seen.pupil, seen.blur),
-                            shown = film_area(plane, Rectangle(camera.picture), lit);
-            SeenColour colour{{}, plane, lit, shown, {}, {}};
-            colour.drawing = draw_eyes(*hologram, {0, 0, plane.width, plane.height}, *hologram, {&eye, 1},
-                                       band()->source, shared->kept_waves[c] ? &*shared->kept_waves[c] : nullptr);
+            const Viewpoint eye{camera.eye, camera.pupil, band()->preview};
+            const Rectangle active = illuminated_area(hologram->grid(), camera.eye, seen.pupil, seen.blur),
+                            shown = film_area(plane, Rectangle(camera.picture), active);
+            SeenColour colour{{}, plane, active, shown, {}, {}};
+            colour.drawing =
+                make_band_source(*hologram, {0, 0, plane.width, plane.height}, *hologram, {&eye, 1}, band()->source,
+                                 shared->kept_waves[c] ? &*shared->kept_waves[c] : nullptr);
             colour.film.emplace(colour.drawing->band(0), hologram->grid(), shown, seen.pupil, seen.blur,
                                 film::film_samples(band()->preview));
             colours.push_back(std::move(colour));
@@ -151,8 +152,8 @@ struct EyePhotographer::State {
         Image picture = blank(camera);
         for (std::size_t c = 0; c < holograms().size(); ++c) {
             Image one(camera.picture.width, camera.picture.height, 1);
-            seen.colours[c].film->develop(intensities[c], camera, seen.colours[c].lit, 1 / static_cast<double>(looks),
-                                          one);
+            seen.colours[c].film->develop(intensities[c], camera, seen.colours[c].active,
+                                          1 / static_cast<double>(looks), one);
             put(one, c, picture);
         }
         return picture;

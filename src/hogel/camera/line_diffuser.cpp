@@ -152,11 +152,11 @@ void require_lines(const BandCamera& model) {
 // The films of one set of lines.
 double seconds_of_films(const FieldGrid& rows, std::span<const Camera> cameras) {
     double seconds = 0;
-    for (const SharedEye& eye : group_by_eye(cameras)) {
+    for (const SharedViewpoint& eye : group_by_viewpoint(cameras)) {
         const Vec3& position = cameras[eye.members.front()].eye;
         const narrow_band::NarrowBand band(rows, position, eye.pupil);
-        const Rectangle lit = lit_area(rows, position, eye.pupil, eye.blur);
-        const film::FilmSize film(band, rows, film_area(rows.plane, eye.pictures, lit), eye.pupil, eye.blur);
+        const Rectangle active = illuminated_area(rows, position, eye.pupil, eye.blur);
+        const film::FilmSize film(band, rows, film_area(rows.plane, eye.pictures, active), eye.pupil, eye.blur);
         seconds +=
             static_cast<double>(film.sines.size_x * film.sines.size_y) * core::rates::sine_of_lines +
             static_cast<double>(eye.members.size() * film.x.size * film.y.size) * core::rates::film_sample_of_lines;

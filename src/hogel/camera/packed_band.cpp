@@ -9,7 +9,7 @@ namespace hogel::camera {
 namespace {
 
 // Numbers that are cleared together.
-constexpr std::size_t cleared_together = std::size_t{1} << 18;
+constexpr std::size_t clear_chunk = std::size_t{1} << 18;
 
 }  // namespace
 
@@ -17,9 +17,9 @@ std::vector<PackedBand> PackedBand::dark(std::size_t count, std::size_t height, 
     const std::size_t each = size(height, width), all = count * each;
     const std::shared_ptr<math::PackedComplex> memory(
         static_cast<math::PackedComplex*>(allocate_lines(all * sizeof(math::PackedComplex))), free_lines);
-    work::parallel_for((all + cleared_together - 1) / cleared_together, [&](std::size_t i) {
-        const std::size_t first = i * cleared_together;
-        std::fill_n(memory.get() + first, std::min(cleared_together, all - first), math::PackedComplex());
+    work::parallel_for((all + clear_chunk - 1) / clear_chunk, [&](std::size_t i) {
+        const std::size_t first = i * clear_chunk;
+        std::fill_n(memory.get() + first, std::min(clear_chunk, all - first), math::PackedComplex());
     });
     std::vector<PackedBand> bands(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -37,7 +37,7 @@ PackedBand::PackedBand(View<const std::complex<float>, 2> band) : PackedBand(ban
             math::pack(&band(row, column), at(row, column), std::min(side, width_ - column));
 }
 
-bool PackedBand::is_lit(std::size_t row) const {
+bool PackedBand::is_active(std::size_t row) const {
     std::uint32_t bits = 0;
     for (std::size_t i = 0; i < squares_of(width_) && bits == 0; ++i)
         for (const math::PackedComplex* number = at(row, i * side); number < at(row, i * side) + side; ++number)

@@ -52,7 +52,7 @@ class PackedBand {
     const math::PackedComplex* at(std::size_t row, std::size_t column) const { return squares_ + offset(row, column); }
 
     /// Whether a row has a number that is not zero.
-    bool is_lit(std::size_t row) const;
+    bool is_active(std::size_t row) const;
 
     friend bool operator==(const PackedBand& a, const PackedBand& b) {
         return a.height_ == b.height_ && a.width_ == b.width_ && std::ranges::equal(a.numbers(), b.numbers());

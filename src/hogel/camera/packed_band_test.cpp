@@ -49,7 +49,7 @@ TEST(PackedBand, shares_memory_with_others_and_no_numbers) {
 TEST(PackedBand, knows_its_dark_rows) {
     PackedBand band(20, 40);
     *band.at(18, 39) = math::pack({0, 1e-20f});
-    for (std::size_t row = 0; row < 20; ++row) EXPECT_EQ(band.is_lit(row), row == 18);
+    for (std::size_t row = 0; row < 20; ++row) EXPECT_EQ(band.is_active(row), row == 18);
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "hogel/camera/band_sources.h"
 #include "hogel/camera/exposed_bands.h"
-#include "hogel/camera/eye_drawings.h"
 #include "hogel/camera/line_diffuser.h"
 #include "hogel/camera/models.h"
 #include "hogel/camera/photograph_plan.h"
@@ -61,10 +61,10 @@ speckle_free::WavePowers powers_of(const FieldSource& hologram) {
 }
 
 // The memory of the bands that are drawn, of that of narrow bands, which is planned.
-double share_of_bands(const FieldSource& window, const EyeDrawing& drawing, std::span<const Eye> eyes) {
+double share_of_bands(const FieldSource& window, const PupilBandSource& drawing, std::span<const Viewpoint> eyes) {
     double drawn = 0, planned = 0;
     for (std::size_t e = 0; e < eyes.size(); ++e) {
-        drawn += drawing.look_bytes(e);
+        drawn += drawing.bytes_per_look(e);
         planned += narrow_band_bytes(window.grid(), eyes[e].position, eyes[e].pupil);
     }
     return drawn / planned;
@@ -83,12 +83,12 @@ Region whole_hogels(const Region& region, const FieldSource& source) {
 
 // One pass of cameras over one window: adds the window's light to their pictures.
 void photograph_window(const FieldSource& whole, const PhotographPlan::Window& part, std::span<const Camera> cameras,
-                       const std::vector<SharedEye>& eyes, const BandCamera& model, const PhotographPlan& plan,
+                       const std::vector<SharedViewpoint>& eyes, const BandCamera& model, const PhotographPlan& plan,
                        std::span<Image> images, const Progress& progress) {
     const Region region = whole_hogels(part.region, whole);
     const Window window(whole, region);
-    const std::vector<Eye> looking = eyes_of(eyes, cameras, model.preview);
-    ColourBands bands{draw_eyes(whole, region, window, looking, model.source),
+    const std::vector<Viewpoint> looking = viewpoints_of(eyes, cameras, model.preview);
+    ColourBands bands{make_band_source(whole, region, window, looking, model.source),
                       {window.grid()},
                       eyes,
                       part.shown,
@@ -126,7 +126,7 @@ Plan plan_photographs(std::span<const FieldGrid> holograms, std::size_t looks, s
                       const CameraModel& model) {
     const BandCamera planned = camera::planned_as(model);
     const auto memory = static_cast<double>(planned.memory),
-               photographs = static_cast<double>(looks * group_by_eye(cameras).size());
+               photographs = static_cast<double>(looks * group_by_viewpoint(cameras).size());
     Plan sum;
     for (const FieldGrid& hologram : holograms) {
         const double samples = static_cast<double>(hologram.plane.samples()) * photographs;
@@ -200,7 +200,7 @@ void camera::photograph_by(const FieldSource& hologram, std::span<const Camera> 
             const bool seen = std::ranges::any_of(
                 pass, [&](std::size_t i) { return Rectangle(cameras[i].picture).meets(window.shown); });
             if (seen)
-                photograph_window(hologram, window, cameras, group_by_eye(cameras, pass), model, plan, pictures,
+                photograph_window(hologram, window, cameras, group_by_viewpoint(cameras, pass), model, plan, pictures,
                                   [&](double fraction) {
                                       return !progress || progress((static_cast<double>(done) + fraction) / parts);
                                   });

@@ -71,10 +71,10 @@ struct Need {
 
 // The memory of one pass over a window.
 Need need(const FieldGrid& hologram, const Rectangle& shown, std::span<const Camera> cameras,
-          const std::vector<SharedEye>& eyes) {
+          const std::vector<SharedViewpoint>& eyes) {
     Need bytes;
     double largest = 0;
-    for (const SharedEye& eye : eyes) {
+    for (const SharedViewpoint& eye : eyes) {
         const narrow_band::NarrowBand band(hologram, cameras[eye.members.front()].eye, eye.pupil);
         const film::FilmSize film(band, hologram, film_area(hologram.plane, eye.pictures, shown), eye.pupil, eye.blur);
         bytes.a_look += 8.0 * static_cast<double>(band.plane.samples());
@@ -125,7 +125,7 @@ PhotographPlan find_plan(const FieldGrid& hologram, std::span<const Camera> came
             for (const auto& pass : passes)
                 for (std::size_t probe : probes) {
                     const FieldGrid window{part(hologram.plane, list[probe].region), hologram.wavelength};
-                    const Need bytes = need(window, list[probe].shown, cameras, group_by_eye(cameras, pass));
+                    const Need bytes = need(window, list[probe].shown, cameras, group_by_viewpoint(cameras, pass));
                     fixed = std::max(fixed, bytes.fixed);
                     a_look = std::max(a_look, bytes.a_look);
                 }
@@ -140,7 +140,7 @@ PhotographPlan find_plan(const FieldGrid& hologram, std::span<const Camera> came
 
 }  // namespace
 
-Rectangle lit_area(const FieldGrid& hologram, const Vec3& eye, double pupil, double blur, double diffraction) {
+Rectangle illuminated_area(const FieldGrid& hologram, const Vec3& eye, double pupil, double blur, double diffraction) {
     const double around =
         std::min(margin(hologram, eye, pupil, blur), diffraction + 0.5 * blur * metres_a_sine(hologram, eye));
     Rectangle area(hologram.plane);
@@ -156,13 +156,14 @@ double narrow_band_bytes(const FieldGrid& hologram, const Vec3& eye, double pupi
                                narrow_band::NarrowBand(hologram, eye, pupil).plane.samples());
 }
 
-std::vector<SharedEye> group_by_eye(std::span<const Camera> cameras, std::span<const std::size_t> members) {
-    std::vector<SharedEye> eyes;
+std::vector<SharedViewpoint> group_by_viewpoint(std::span<const Camera> cameras, std::span<const std::size_t> members) {
+    std::vector<SharedViewpoint> eyes;
     for (std::size_t i : members) {
-        auto eye = std::find_if(eyes.begin(), eyes.end(),
-                                [&](const SharedEye& e) { return cameras[e.members.front()].eye == cameras[i].eye; });
+        auto eye = std::find_if(eyes.begin(), eyes.end(), [&](const SharedViewpoint& e) {
+            return cameras[e.members.front()].eye == cameras[i].eye;
+        });
         const Rectangle picture(cameras[i].picture);
-        if (eye == eyes.end()) eye = eyes.insert(eyes.end(), SharedEye{.members = {}, .pictures = picture});
+        if (eye == eyes.end()) eye = eyes.insert(eyes.end(), SharedViewpoint{.members = {}, .pictures = picture});
         Rectangle& all = eye->pictures;
         all.left = std::min(all.left, picture.left);
         all.right = std::max(all.right, picture.right);
@@ -175,17 +176,17 @@ std::vector<SharedEye> group_by_eye(std::span<const Camera> cameras, std::span<c
     return eyes;
 }
 
-std::vector<SharedEye> group_by_eye(std::span<const Camera> cameras) {
+std::vector<SharedViewpoint> group_by_viewpoint(std::span<const Camera> cameras) {
     std::vector<std::size_t> all(cameras.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
-    return group_by_eye(cameras, all);
+    return group_by_viewpoint(cameras, all);
 }
 
 std::size_t PhotographPlan::looks_at_once(double memory, std::size_t looks, double share) const {
     // No more than is kept when it is freed (core::FreedBlocks): the system would clear it each time, a second for each
     // gigabyte.
     const double spare = std::clamp(memory - bytes, 0.0, 1024.0 * 1024 * 1024);
-    const double most = 1 + std::floor(spare / (bytes_a_look * share)), all = static_cast<double>(looks);
+    const double most = 1 + std::floor(spare / (bytes_per_look * share)), all = static_cast<double>(looks);
     // Equally many in each pass.
     return static_cast<std::size_t>(std::ceil(all / std::max(1.0, std::ceil(all / most))));
 }
@@ -235,7 +236,7 @@ double photograph_bytes(const FieldGrid& hologram, std::span<const Camera> camer
                         double share) {
     const PhotographPlan plan = plan_photographs(hologram, cameras, memory);
     const auto more = static_cast<double>(plan.looks_at_once(memory, looks, share) - 1);
-    return plan.bytes + std::min(more * share * plan.bytes_a_look, memory);
+    return plan.bytes + std::min(more * share * plan.bytes_per_look, memory);
 }
 
 }  // namespace hogel::camera

@@ -22,11 +22,11 @@ struct PhotographPlan {
     };
     std::vector<Window> windows;
 
-    double bytes = 0;         ///< maximum, with one look at a time
-    double bytes_a_look = 0;  ///< for each further look
+    double bytes = 0;           ///< maximum, with one look at a time
+    double bytes_per_look = 0;  ///< for each further look
 
     /// The number of looks, of `looks`, that fit into memory at a time; at least one.
-    /// @param share  of bytes_a_look that a look needs
+    /// @param share  of bytes_per_look that a look needs
     std::size_t looks_at_once(double memory, std::size_t looks, double share) const;
 
     enum class Windows { one, many };
@@ -34,8 +34,8 @@ struct PhotographPlan {
 
 /// The hologram and the surroundings that its light reaches in pictures of an eye with this pupil and blur.
 /// @param diffraction  metres beyond half the blur where light is followed no farther
-Rectangle lit_area(const FieldGrid& hologram, const Vec3& eye, double pupil, double blur,
-                   double diffraction = std::numeric_limits<double>::infinity());
+Rectangle illuminated_area(const FieldGrid& hologram, const Vec3& eye, double pupil, double blur,
+                           double diffraction = std::numeric_limits<double>::infinity());
 
 /// The memory of an eye's narrow band, of one look.
 double narrow_band_bytes(const FieldGrid& hologram, const Vec3& eye, double pupil);
@@ -59,18 +59,18 @@ double photograph_bytes(const FieldGrid& hologram, std::span<const Camera> camer
 /// the system clears it at one to three nanoseconds a byte, and a ray, of which a hologram has about as many as
 /// samples, is made in one to four.
 /// @param band_bytes  of all eyes and looks of a colour
-inline bool colours_together(double band_bytes, const Grid& hologram) {
+inline bool renders_colours_together(double band_bytes, const Grid& hologram) {
     return band_bytes <= static_cast<double>(hologram.samples());
 }
 
 /// The cameras of one pass with one eye: they share its narrow band.
-struct SharedEye {
+struct SharedViewpoint {
     std::vector<std::size_t> members;  ///< indices of cameras
     double pupil = 0, blur = 0;        ///< the widest
     Rectangle pictures;                ///< around all
 };
-std::vector<SharedEye> group_by_eye(std::span<const Camera> cameras, std::span<const std::size_t> members);
+std::vector<SharedViewpoint> group_by_viewpoint(std::span<const Camera> cameras, std::span<const std::size_t> members);
 /// All cameras.
-std::vector<SharedEye> group_by_eye(std::span<const Camera> cameras);
+std::vector<SharedViewpoint> group_by_viewpoint(std::span<const Camera> cameras);
 
 }  // namespace hogel::camera

@@ -287,8 +287,8 @@ TEST(PhotographPlan, has_surroundings_only_where_pictures_show_them) {
         camera.pupil = 2_mm;
         camera.focus_depth = 1_mm;
         camera.picture = {100, 80, width / 100, width / 100, middle, 0};
-        const Rectangle lit = lit_area(grid, camera.eye, camera.pupil, defocus_blur(camera)), own(grid.plane),
-                        shown = film_area(grid.plane, Rectangle(camera.picture), lit);
+        const Rectangle active = illuminated_area(grid, camera.eye, camera.pupil, defocus_blur(camera)),
+                        own(grid.plane), shown = film_area(grid.plane, Rectangle(camera.picture), active);
         const bool alone =
             shown.left == own.left && shown.right == own.right && shown.bottom == own.bottom && shown.top == own.top;
         EXPECT_EQ(alone, !surroundings) << width << " " << middle;

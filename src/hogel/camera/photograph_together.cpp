@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "hogel/camera/exposed_bands.h"
-#include "hogel/camera/hogel_spectra/stereogram_eyes.h"
+#include "hogel/camera/hogel_spectra/hogel_band_source.h"
 #include "hogel/camera/photograph_plan.h"
 #include "hogel/core/stop_scope.h"
 #include "hogel/image/film.h"
@@ -30,21 +30,21 @@ std::optional<ColourBands> bands_of_colours(std::span<const std::shared_ptr<cons
     }
     ColourBands bands{{},
                       {},
-                      group_by_eye(cameras, plan.passes.front()),
+                      group_by_viewpoint(cameras, plan.passes.front()),
                       plan.windows.front().shown,
                       colours.front()->looks(),
                       1,
                       model.preview};
     for (const auto& colour : colours) bands.colours.push_back(colour->grid());
     const Grid& plane = bands.colours.front().plane;
-    bands.drawing = hogel_spectra::draw_hogels_of_colours(stereograms, {0, 0, plane.width, plane.height},
-                                                          eyes_of(bands.eyes, cameras, model.preview));
+    bands.drawing = hogel_spectra::make_hogel_band_source_of_colours(stereograms, {0, 0, plane.width, plane.height},
+                                                                     viewpoints_of(bands.eyes, cameras, model.preview));
     if (!bands.drawing) return {};
     double a_look = 0;
     for (std::size_t band = 0; band < colours.size() * bands.eyes.size(); ++band)
-        a_look += bands.drawing->look_bytes(band);
+        a_look += bands.drawing->bytes_per_look(band);
     const double a_colour = a_look * static_cast<double>(bands.looks) / static_cast<double>(colours.size());
-    if (!colours_together(a_colour, plane) || plan.bytes + a_look > memory) return {};
+    if (!renders_colours_together(a_colour, plane) || plan.bytes + a_look > memory) return {};
     bands.looks_at_once = std::min(bands.looks, static_cast<std::size_t>((memory - plan.bytes) / a_look));
     return bands;
 }

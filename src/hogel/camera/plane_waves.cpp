@@ -22,7 +22,7 @@
 #include "hogel/optics/tilt.h"
 #include "hogel/photograph.h"
 #include "hogel/units.h"
-#include "hogel/work/shared_order.h"
+#include "hogel/work/ordered_reduce.h"
 
 namespace hogel {
 
@@ -47,7 +47,7 @@ struct Chain {
     const FieldSource& hologram;
     std::size_t look;
     const PlaneWaveCamera& options;
-    Team* team;  // whose processes share the transforms; null: none
+    Communicator* communicator;  // whose processes share the transforms; null: none
 };
 
 bool is_tilted(const Camera& camera) { return camera.focus_slope_x != 0 || camera.focus_slope_y != 0; }
@@ -75,9 +75,9 @@ std::size_t film_samples(std::size_t columns, double size, double pupil, double 
 // square of its width, so diffraction is followed no farther beside the hologram than the hologram is wide.
 Rectangle seen_by(const Camera& camera, const FieldGrid& hologram) {
     const Grid& plane = hologram.plane;
-    return film_area(
-        plane, Rectangle(camera.picture),
-        lit_area(hologram, camera.eye, camera.pupil, defocus_blur(camera), std::max(plane.size_x(), plane.size_y())));
+    return film_area(plane, Rectangle(camera.picture),
+                     illuminated_area(hologram, camera.eye, camera.pupil, defocus_blur(camera),
+                                      std::max(plane.size_x(), plane.size_y())));
 }
 
 // A plane with the middle of the hologram that holds all of this.
@@ -93,7 +93,7 @@ Grid plane_around(const Rectangle& seen, const Grid& hologram) {
 
 // The wave at the lens of one eye, just before its opening, restricted to the directions between the hologram and the
 // pupil.
-Spectrum wave_at_lens(const Chain& chain, std::span<const Camera> cameras, const SharedEye& eye,
+Spectrum wave_at_lens(const Chain& chain, std::span<const Camera> cameras, const SharedViewpoint& eye,
                       const Progress& progress) {
     const Grid& plane = chain.hologram.grid().plane;
     const Vec3 lens = cameras[eye.members.front()].eye;
@@ -112,21 +112,22 @@ Spectrum wave_at_lens(const Chain& chain, std::span<const Camera> cameras, const
     }
     const Grid window = padded(plane, spread * (width + pupil), spread * (height + pupil));
     const Band band = band_between(Rectangle(plane), around(lens, pupil), lens.z, wavelength);
-    Spectrum waves = spectrum_of(chain.hologram, chain.look, window, band, chain.options.scratch, progress, chain.team);
+    Spectrum waves =
+        spectrum_of(chain.hologram, chain.look, window, band, chain.options.scratch, progress, chain.communicator);
     propagate(waves, {lens.z, lens.x - plane.center_x, lens.y - plane.center_y, 0.5 * (plane.size_x() + inner),
                       0.5 * (plane.size_y() + inner), fade, fade});
     return waves;
 }
 
 // The rows of a picture that a process of a team makes. Of a plane that is tilted the first one has all.
-distributed::LineRange rows_of(std::size_t process, const Camera& camera, const Team* team) {
-    if (team == nullptr) return {0, camera.picture.height};
+distributed::LineRange rows_of(std::size_t process, const Camera& camera, const Communicator* communicator) {
+    if (communicator == nullptr) return {0, camera.picture.height};
     if (is_tilted(camera)) return {0, process == 0 ? camera.picture.height : 0};
-    return distributed::lines_of(process, team->size(), camera.picture.height, 1);
+    return distributed::lines_of(process, communicator->size(), camera.picture.height, 1);
 }
 
-distributed::LineRange own_rows(const Camera& camera, const Team* team) {
-    return rows_of(team != nullptr ? team->rank() : 0, camera, team);
+distributed::LineRange local_rows(const Camera& camera, const Communicator* communicator) {
+    return rows_of(communicator != nullptr ? communicator->rank() : 0, camera, communicator);
 }
 
 // The wave that makes the picture, and the mapping of points in focus to it: the window's centre plus `scale` times the
@@ -219,9 +220,9 @@ Band band_of(const Wave& wave) {
 
 // The wave on the film. A perfect lens images the plane in focus: the wave in the opening is propagated back to that
 // plane through empty space. A thin lens bends the light towards a film behind it, with aberrations. In a team
-// each process has the rows that own_rows() of the picture show.
+// each process has the rows that local_rows() of the picture show.
 std::optional<Focused> wave_in_focus(const Spectrum& at_lens, const Camera& camera, const Grid& hologram,
-                                     const PlaneWaveCamera& options, Team* team) {
+                                     const PlaneWaveCamera& options, Communicator* communicator) {
     const Rectangle seen = seen_by(camera, {hologram, at_lens.wavelength});
     const Grid whole = plane_around(seen, hologram);
     const double wavelength = at_lens.wavelength, R = camera.eye.z;
@@ -249,14 +250,14 @@ std::optional<Focused> wave_in_focus(const Spectrum& at_lens, const Camera& came
     const double area = 0.25 * std::numbers::pi * camera.pupil * camera.pupil *
                         (1 - light_left_out(followed, own.x.span(), own.y.span(), cell));
     Spectrum behind = [&] {
-        Wave lens = wave_of(at_lens, width, height, options.scratch, team);
+        Wave lens = wave_of(at_lens, width, height, options.scratch, communicator);
         circular_aperture(lens, camera.eye.x, camera.eye.y, camera.pupil, PupilEdge(followed, wavelength));
         if (b > 0)
             thin_lens(lens, camera.eye.x, camera.eye.y, edge_margin * camera.pupil, focal_length);
         else
             weigh_alike(lens, camera.eye.x, camera.eye.y,
                         in_focus(camera, hologram.center_x, hologram.center_y) - camera.eye);
-        return spectrum_of(lens, lens.grid().plane, band_of(lens), options.scratch, {}, team);
+        return spectrum_of(lens, lens.grid().plane, band_of(lens), options.scratch, {}, communicator);
     }();
     // The distance to propagate, and the magnification of the picture there.
     const double distance = b > 0 ? b : -m * R, larger = std::abs(distance) / R;
@@ -267,17 +268,19 @@ std::optional<Focused> wave_in_focus(const Spectrum& at_lens, const Camera& came
     const Vec3 origin = in_focus(camera, hologram.center_x, hologram.center_y);
     if (is_tilted(camera)) {
         const Orientation axes = stand(camera);
-        if (team != nullptr) behind = gathered(std::move(behind), *team, options.scratch);
-        if (!is_first_process()) return std::nullopt;
+        if (communicator != nullptr) behind = gathered(std::move(behind), *communicator, options.scratch);
+        if (!is_root_rank()) return std::nullopt;
         return Focused{on_tilted_plane(behind, camera, seen, origin, axes, options.scratch), area, origin, axes};
     }
     const double scale = b > 0 ? -b / (m * R) : 1;
-    if (team == nullptr) return Focused{wave_of(behind, width, height, options.scratch), area, origin, {}, scale};
+    if (communicator == nullptr)
+        return Focused{wave_of(behind, width, height, options.scratch), area, origin, {}, scale};
     const Grid plane = grid_of(behind, width, height);
     const auto wanted = [&](std::size_t process) {
-        return film_rows(plane, scale, origin, camera, rows_of(process, camera, team));
+        return film_rows(plane, scale, origin, camera, rows_of(process, camera, communicator));
     };
-    return Focused{wave_of(std::move(behind), width, height, options.scratch, *team, wanted), area, origin, {}, scale};
+    return Focused{
+        wave_of(std::move(behind), width, height, options.scratch, *communicator, wanted), area, origin, {}, scale};
 }
 
 // Adds rows of the picture, as radiance: see docs/notation.md, section 4.
@@ -357,15 +360,15 @@ Array<std::complex<float>, 2> wave_at_pixels(const Focused& focused, const Camer
 
 // Gives all processes of a team the rows of a picture that each has made.
 template <class Value>
-void share_rows(Team& team, const Camera& camera, Value* picture, std::size_t width) {
-    distributed::share_lines(team, picture, width,
-                             [&](std::size_t process) { return rows_of(process, camera, &team); });
+void share_rows(Communicator& communicator, const Camera& camera, Value* picture, std::size_t width) {
+    distributed::share_lines(communicator, picture, width,
+                             [&](std::size_t process) { return rows_of(process, camera, &communicator); });
 }
 
 // Calls visit(i, wave) with the wave that makes each camera's picture.
 template <class Visit>
 void focus_all(const Chain& chain, std::span<const Camera> cameras, const Progress& progress, const Visit& visit) {
-    const std::vector<SharedEye> eyes = group_by_eye(cameras);
+    const std::vector<SharedViewpoint> eyes = group_by_viewpoint(cameras);
     for (std::size_t e = 0; e < eyes.size(); ++e) {
         const auto part = [&](double fraction) {
             return (static_cast<double>(e) + fraction) / static_cast<double>(eyes.size());
@@ -374,7 +377,7 @@ void focus_all(const Chain& chain, std::span<const Camera> cameras, const Progre
         const Spectrum waves = wave_at_lens(chain, cameras, eyes[e], report);
         for (std::size_t i : eyes[e].members)
             if (const std::optional<Focused> focused =
-                    wave_in_focus(waves, cameras[i], chain.hologram.grid().plane, chain.options, chain.team))
+                    wave_in_focus(waves, cameras[i], chain.hologram.grid().plane, chain.options, chain.communicator))
                 visit(i, *focused);
         progress.report(part(1));
     }
@@ -406,18 +409,19 @@ void camera::photograph_by(const FieldSource& hologram, std::span<const Camera> 
     require_by_plane_waves(hologram.grid(), cameras, model);
     image::load_film(cameras, 1, hologram.provenance(), images);
     const auto looks = static_cast<double>(hologram.looks());
-    Team* const team = work::team_of_several();
+    Communicator* const communicator = work::communicator_of_several();
     for (std::size_t look = 0; look < hologram.looks(); ++look) {
         const auto report = [&](double fraction) {
             return !progress || progress((static_cast<double>(look) + fraction) / looks);
         };
-        focus_all({hologram, look, model, team}, cameras, report, [&](std::size_t i, const Focused& focused) {
-            expose(focused, cameras[i], own_rows(cameras[i], team), seen_by(cameras[i], hologram.grid()), 1 / looks,
-                   images[i]);
+        focus_all({hologram, look, model, communicator}, cameras, report, [&](std::size_t i, const Focused& focused) {
+            expose(focused, cameras[i], local_rows(cameras[i], communicator), seen_by(cameras[i], hologram.grid()),
+                   1 / looks, images[i]);
         });
     }
-    for (std::size_t i = 0; team != nullptr && i < images.size(); ++i)
-        share_rows(*team, cameras[i], images[i].pixels.data(), images[i].pixels.size() / cameras[i].picture.height);
+    for (std::size_t i = 0; communicator != nullptr && i < images.size(); ++i)
+        share_rows(*communicator, cameras[i], images[i].pixels.data(),
+                   images[i].pixels.size() / cameras[i].picture.height);
 }
 
 std::vector<Array<std::complex<float>, 2>> waves_in_focus(const FieldSource& hologram, std::size_t look,
@@ -429,15 +433,15 @@ std::vector<Array<std::complex<float>, 2>> waves_in_focus(const FieldSource& hol
                     "waves in focus are those of a perfect lens, which has no film distance");
     require_by_plane_waves(hologram.grid(), cameras, model);
     std::vector<Array<std::complex<float>, 2>> waves(cameras.size());
-    Team* const team = work::team_of_several();
-    focus_all({hologram, look, model, team}, cameras, progress, [&](std::size_t i, const Focused& focused) {
-        waves[i] =
-            wave_at_pixels(focused, cameras[i], own_rows(cameras[i], team), seen_by(cameras[i], hologram.grid()));
+    Communicator* const communicator = work::communicator_of_several();
+    focus_all({hologram, look, model, communicator}, cameras, progress, [&](std::size_t i, const Focused& focused) {
+        waves[i] = wave_at_pixels(focused, cameras[i], local_rows(cameras[i], communicator),
+                                  seen_by(cameras[i], hologram.grid()));
     });
-    for (std::size_t i = 0; team != nullptr && i < waves.size(); ++i) {
+    for (std::size_t i = 0; communicator != nullptr && i < waves.size(); ++i) {
         const Grid& picture = cameras[i].picture;
         if (waves[i].size() == 0) waves[i] = Array<std::complex<float>, 2>({picture.height, picture.width});
-        share_rows(*team, cameras[i], waves[i].data(), picture.width);
+        share_rows(*communicator, cameras[i], waves[i].data(), picture.width);
     }
     return waves;
 }

@@ -52,17 +52,17 @@ SineRanges sines_of(const ViewGeometry& geometry, const Grid& plane) {
     return sines;
 }
 
-Rectangle film_area(const Grid& hologram, const Rectangle& pictures, const Rectangle& lit) {
+Rectangle film_area(const Grid& hologram, const Rectangle& pictures, const Rectangle& active) {
     Rectangle area(hologram);
-    if (!pictures.meets(lit)) return area;
+    if (!pictures.meets(active)) return area;
     // Pictures of the hologram alone have its edges but for rounding.
     const double beside = 1e-9 * std::max(hologram.size_x(), hologram.size_y());
     const auto extend = [&](double& low, double& high, double first, double last) {
         if (first < low - beside) low = first;
         if (last > high + beside) high = last;
     };
-    extend(area.left, area.right, std::max(pictures.left, lit.left), std::min(pictures.right, lit.right));
-    extend(area.bottom, area.top, std::max(pictures.bottom, lit.bottom), std::min(pictures.top, lit.top));
+    extend(area.left, area.right, std::max(pictures.left, active.left), std::min(pictures.right, active.right));
+    extend(area.bottom, area.top, std::max(pictures.bottom, active.bottom), std::min(pictures.top, active.top));
     return area;
 }
 

@@ -38,7 +38,7 @@ struct SineGrid {
 /// the hologram, bit by bit, where they show no surroundings.
 /// @param pictures  a rectangle around all pictures
 /// @param lit       where light of the hologram arrives
-Rectangle film_area(const Grid& hologram, const Rectangle& pictures, const Rectangle& lit);
+Rectangle film_area(const Grid& hologram, const Rectangle& pictures, const Rectangle& active);
 
 /// A grid no coarser than its band, with room beside what the film shows for all light that a camera follows.
 /// @param shown  film_area()

@@ -44,14 +44,14 @@ void ExactSums::add_visible(const ScenePoint& point, const Visibility& visibilit
     std::array<bool, tile_side> hidden;
     for (std::size_t row = 0; row < region_.height; ++row) {
         const SampleRow places = row_of(row);
-        bool lit = false;
+        bool active = false;
         for (std::size_t i = 0; i < tile_side; ++i) {
             const Passage ray =
                 unlimited_passage(point.position, {places.x + static_cast<double>(i) * places.pitch, places.y, 0});
             directions[i] = ray.direction;
-            lit = lit || !too_steep(ray, grid_);
+            active = active || !too_steep(ray, grid_);
         }
-        if (!lit) continue;
+        if (!active) continue;
         visibility.hide(point.surface, directions, hidden);
         add_wave(point, grid_, places, hidden.data(), real_[row].data(), imaginary_[row].data());
     }

@@ -46,18 +46,18 @@ void AddWave(const ScenePoint& point, const FieldGrid& grid, const SampleRow& ro
         const V distance = hn::Sqrt(hn::MulAdd(dx, dx, flat));
         const V inverse = hn::Div(hn::Set(d, 1.0), distance);
         // Samples where the direction is at most |sin| = λ/2Δ in x and in y.
-        const auto lit = hn::And(
+        const auto active = hn::And(
             hn::Le(hn::Mul(hn::Abs(dx), hn::Set(d, 2 * grid.plane.pitch_x)),
                    hn::Mul(distance, hn::Set(d, grid.wavelength))),
             hn::Le(hn::Set(d, std::abs(dy) * 2 * grid.plane.pitch_y), hn::Mul(distance, hn::Set(d, grid.wavelength))));
-        if (hn::AllFalse(d, lit)) continue;
+        if (hn::AllFalse(d, active)) continue;
         V modulus = hn::Mul(hn::Set(d, static_cast<double>(point.amplitude)), inverse);
         if (!everywhere) {
             const V along =
                 hn::MulAdd(dx, hn::Set(d, point.normal.x), hn::Set(d, dy * point.normal.y + dz * point.normal.z));
             modulus = hn::Mul(modulus, hn::Sqrt(hn::Mul(hn::Abs(along), inverse)));
         }
-        modulus = hn::IfThenElseZero(lit, modulus);
+        modulus = hn::IfThenElseZero(active, modulus);
         if (hidden) {
             HWY_ALIGN double seen[tile_side];
             for (std::size_t j = 0; j < hn::Lanes(d); ++j) seen[j] = hidden[i + j] ? 0 : 1;

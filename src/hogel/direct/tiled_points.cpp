@@ -16,7 +16,7 @@ constexpr std::size_t side = tile_side;
 constexpr double max_cycles_wrong = 0.01;  // a mean error of a quarter of a degree
 
 // Whether a point's light reaches none, a part or all of a tile.
-enum class Zone { dark, edge, lit };
+enum class Zone { dark, edge, active };
 
 // e^{2πi (a t + b t²)} at t = −(n−1)/2 … (n−1)/2 pitches, as real and imaginary parts.
 struct Chirp {
@@ -52,7 +52,7 @@ class Tile {
         for (const double x : {-reach_x_, reach_x_})
             for (const double y : {-reach_y_, reach_y_})
                 if (!passage(point, middle_ + Vec3{x, y, 0}, grid_)) return Zone::edge;
-        return Zone::lit;
+        return Zone::active;
     }
 
     void add(const ScenePoint& point, const Passage& ray) {
@@ -117,7 +117,7 @@ Field tiled_points(const ShadedScene& scene, const FieldGrid& grid, const SceneH
             if (zone == Zone::dark) continue;
             const Passage ray = unlimited_passage(point.position, tile.middle());
             if (!visibility.is_visible(point.surface, ray.direction)) continue;
-            zone == Zone::lit ? tile.add(point, ray) : tile.add_exactly(point);
+            zone == Zone::active ? tile.add(point, ray) : tile.add_exactly(point);
         }
         tile.write(values);
     });

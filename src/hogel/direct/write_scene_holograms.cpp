@@ -4,7 +4,7 @@
 #include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/scene_hologram.h"
-#include "hogel/work/shared_order.h"
+#include "hogel/work/ordered_reduce.h"
 
 namespace hogel {
 namespace {
@@ -27,7 +27,7 @@ void write_scene_holograms(const SceneHologramMethod& method, const ShadedScene&
     const core::StopScope scope(progress);
     if (options.size() != grids.size() || sinks.size() != grids.size())
         throw Error(ErrorCode::usage, "holograms of a scene need options and a sink for each wavelength");
-    const work::JobScope kept_by_sinks(work::DoneBy::whole_team);
+    const work::JobScope kept_by_sinks(work::DoneBy::all_ranks);
     work::shared_jobs<std::uint8_t>(
         grids.size(), {},
         [&](std::size_t i) {

@@ -79,7 +79,7 @@ void expect_error(const Change& change, const std::string& expected, const std::
 TEST(CameraFrames, BecomeTheRaysOfTheScene) {
     const TestFolder folder;
     write_set(folder);
-    ViewOptions options;
+    ViewImportOptions options;
     options.size = static_cast<double>(scene.width) * scene.pixel;
     const ImportedViews views = import_views(folder.path(), options);
     EXPECT_EQ(views.layout, "transforms");
@@ -112,7 +112,7 @@ TEST(CameraFrames, PicturesThatAreNotShiftedAgreeAtInfinity) {
     write_set(folder, [](std::vector<Frame>& frames) {
         for (Frame& frame : frames) frame.cx = 32, frame.cy = 24;
     });
-    ViewOptions options;
+    ViewImportOptions options;
     options.disparity = 2;
     const ImportedViews views = import_views(folder.path(), options);
     // Two pixels from a camera to the next, 0.1 apart: f b / 2.

@@ -23,7 +23,7 @@ void write_set(const TestFolder& folder) {
 }
 
 // The error of importing the set and reading it.
-std::string error_of(const std::filesystem::path& source, const ViewOptions& options = {},
+std::string error_of(const std::filesystem::path& source, const ViewImportOptions& options = {},
                      ErrorCode expected = ErrorCode::bad_input) {
     try {
         const ImportedViews views = import_views(source, options);
@@ -114,7 +114,7 @@ TEST(DamagedViews, NamesOfNoSetAreRefused) {
     EXPECT_FALSE(is_view_set(folder.path()));
     EXPECT_NE(error_of(folder.path()).find("is no set of views"), std::string::npos);
     EXPECT_NE(error_of(folder.path() / "nothing").find("is no set of views"), std::string::npos);
-    ViewOptions options;
+    ViewImportOptions options;
     options.layout = "hci";
     EXPECT_NE(error_of(folder.path(), options).find("has no pictures input_Cam000.png"), std::string::npos);
     options.layout = "zoo";
@@ -127,7 +127,7 @@ TEST(DamagedViews, CountsThatDoNotFitAreRefused) {
     const std::string error = error_of(folder.path(), {}, ErrorCode::usage);
     EXPECT_NE(error.find("7 pictures such as input_Cam000.png are not as many rows as columns"), std::string::npos);
     EXPECT_EQ(error.find(folder.path().string() + ": "), 0u) << error;
-    ViewOptions options;
+    ViewImportOptions options;
     options.columns = 4;
     options.rows = 2;
     EXPECT_NE(error_of(folder.path(), options, ErrorCode::usage).find("4x2 views were asked for"), std::string::npos);
@@ -182,7 +182,7 @@ TEST(DamagedViews, QuiltsOfImpossiblePixelsAreRefused) {
 TEST(DamagedViews, OptionsThatContradictAreRefused) {
     const TestFolder folder;
     write_set(folder);
-    ViewOptions options;
+    ViewImportOptions options;
     options.spacing = 0.01;
     options.field_of_view = 0.1;
     error_of(folder.path(), options, ErrorCode::usage);
@@ -203,7 +203,7 @@ TEST(DamagedViews, ArraysAreRefusedAtEveryLength) {
     folder.write("a.npy", npy);
     EXPECT_TRUE(is_view_set(folder.path() / "a.npy"));
     EXPECT_EQ(error_of(folder.path() / "a.npy"), "nothing");
-    ViewOptions options;
+    ViewImportOptions options;
     options.layout = "npy";
     for (std::size_t length = 0; length < npy.size(); ++length) {
         folder.write("a.npy", npy.substr(0, length));

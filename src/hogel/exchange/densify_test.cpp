@@ -37,8 +37,8 @@ void write_views(const TestFolder& folder) {
             folder.write(fmt::format("input_Cam{:03}.png", 3 * r + c), scene.png(2 * r, 2 * c));
 }
 
-ViewOptions options_of() {
-    ViewOptions options;
+ViewImportOptions options_of() {
+    ViewImportOptions options;
     options.size = static_cast<double>(scene.width) * scene.pixel;
     options.distance = scene.distance;
     options.spacing = 2 * scene.spacing;
@@ -79,7 +79,7 @@ TEST(Densify, ViewsBetweenAreThoseOfTheCamerasThere) {
         else
             folder.write("gt_disp_lowres.pfm", image::pfm_file(map_of(2, 2)));
         folder.write("gt_disp_highres.pfm", image::pfm_file(Array<float, 3>({160, 192, 1})));
-        ViewOptions options = options_of();
+        ViewImportOptions options = options_of();
         options.densify = 2;
         const ImportedViews views = import_views(folder.path(), options);
         EXPECT_FALSE(views.estimated);
@@ -95,7 +95,7 @@ TEST(Densify, TheSignOfDisparityMatters) {
     Array<float, 3> map = map_of(2, 2);
     for (float& value : map.elements()) value = -value;
     folder.write("disp.pfm", image::pfm_file(map));
-    ViewOptions options = options_of();
+    ViewImportOptions options = options_of();
     options.densify = 2;
     EXPECT_GT(error_of(import_views(folder.path(), options).light_field), std::pow(10, -2.4));
 }
@@ -103,7 +103,7 @@ TEST(Densify, TheSignOfDisparityMatters) {
 TEST(Densify, AnEstimateIsAskedForAndNamed) {
     const TestFolder folder;
     write_views(folder);
-    ViewOptions options = options_of();
+    ViewImportOptions options = options_of();
     options.densify = 2;
     try {
         import_views(folder.path(), options);
@@ -153,7 +153,7 @@ TEST(Densify, RaysGetTheirDepth) {
     const TestFolder folder;
     write_views(folder);
     folder.write("gt_disp_lowres.pfm", image::pfm_file(map_of(2, 2)));
-    ViewOptions options = options_of();
+    ViewImportOptions options = options_of();
     options.with_depth = true;
     const LightField light_field = import_views(folder.path(), options).light_field;
     ASSERT_TRUE(light_field.front().has_depth());
@@ -237,7 +237,7 @@ TEST(Densify, MapsOfWholeNumbersHaveAScale) {
 TEST(Densify, DamagedMapsAreNamed) {
     const TestFolder folder;
     write_views(folder);
-    ViewOptions options = options_of();
+    ViewImportOptions options = options_of();
     options.densify = 2;
     const auto error = [&] {
         try {

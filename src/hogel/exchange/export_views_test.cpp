@@ -48,8 +48,8 @@ void expect_same(const LightField& before, const LightField& after, float tolera
     EXPECT_LE(worst, tolerance);
 }
 
-ViewOptions geometry_of(const LightFieldGrid& grid) {
-    ViewOptions options;
+ViewImportOptions geometry_of(const LightFieldGrid& grid) {
+    ViewImportOptions options;
     options.size = grid.width();
     options.distance = 0.3;
     options.spacing = grid.step_u() * 0.3;
@@ -61,8 +61,8 @@ struct EightBits {
     explicit EightBits(const LightFieldGrid& made_of) : grid(made_of) {}
     explicit EightBits(std::size_t rows = 3) : EightBits(grid_of_cameras(rows)) {}
 
-    ViewOptions size() const {
-        ViewOptions options;
+    ViewImportOptions size() const {
+        ViewImportOptions options;
         options.size = grid.width();
         return options;
     }
@@ -95,7 +95,7 @@ TEST_P(EveryFormat, ComesBackToTheLastBit) {
         view_layouts().find(layout).is_folder ? folder.path() : folder.path() / ("a." + layout);
     const ExportedViews exported = export_views(before, target, options);
     EXPECT_EQ(exported.columns, 4u);
-    ViewOptions back = geometry_of(grid);
+    ViewImportOptions back = geometry_of(grid);
     back.layout = c.layout;
     back.transfer = c.transfer;
     back.column_first = false;
@@ -179,7 +179,7 @@ TEST(ExportViews, FloatingPointArraysComeBack) {
     for (const char* layout : {"npy", "mat"}) {
         const std::filesystem::path file = made.folder.path() / fmt::format("a.{}", layout);
         export_views(before, file, {.layout = layout});
-        ViewOptions back = geometry_of(made.grid);
+        ViewImportOptions back = geometry_of(made.grid);
         back.column_first = false;
         const ImportedViews after = import_views(file, back);
         EXPECT_EQ(after.bits, 32u);
@@ -205,7 +205,7 @@ TEST(ExportViews, OrthographicViewsComeBackAndAreNoCameras) {
     const EightBits before(grid);
     EXPECT_THROW(export_views(before.light_field, before.folder.path(), {.layout = "hci"}), Error);
     export_views(before.light_field, before.folder.path(), {.layout = "numbered"});
-    ViewOptions back = before.size();
+    ViewImportOptions back = before.size();
     back.columns = 4;
     back.rows = 3;
     back.field_of_view = 2 * std::atan(0.1);

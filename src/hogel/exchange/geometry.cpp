@@ -18,7 +18,7 @@ constexpr double assumed_size = 20e-3, assumed_distance = 300e-3, assumed_field 
 
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
-double field_of_view(const ViewOptions& options) {
+double field_of_view(const ViewImportOptions& options) {
     const double field = options.field_of_view.value_or(assumed_field);
     if (!(field > 0 && field < std::numbers::pi))
         throw Error(ErrorCode::usage, "fov",
@@ -26,7 +26,7 @@ double field_of_view(const ViewOptions& options) {
     return field;
 }
 
-Shear shear_of(const ViewSet& set, const ViewOptions& options) {
+Shear shear_of(const ViewSet& set, const ViewImportOptions& options) {
     Shear shear;
     shear.dx = -options.disparity;
     shear.dy = -options.disparity * set.geometry.spacing_ratio;
@@ -57,7 +57,7 @@ double half_range(std::size_t views, double step, double other) {
     return views > 1 ? 0.5 * static_cast<double>(views) * step : other;
 }
 
-void place_orthographic(const ViewSet& set, const ViewOptions& options, Placement& placement) {
+void place_orthographic(const ViewSet& set, const ViewImportOptions& options, Placement& placement) {
     if (options.distance || options.spacing)
         throw Error(ErrorCode::usage, "distance, spacing",
                     "orthographic views have directions instead of a distance and spacing of cameras");
@@ -77,7 +77,7 @@ void place_orthographic(const ViewSet& set, const ViewOptions& options, Placemen
 }
 
 // The distance of the cameras to the plane that becomes the hologram, in metres of the set; 0 where it does not say.
-double own_distance(const ViewGeometry& g, const ViewOptions& options) {
+double own_distance(const ViewGeometry& g, const ViewImportOptions& options) {
     if (g.distance == 0) return 0;
     if (options.disparity == 0 && std::isinf(g.distance))
         throw Error(ErrorCode::usage, "disparity",
@@ -93,7 +93,7 @@ double own_distance(const ViewGeometry& g, const ViewOptions& options) {
     return 1 / inverse;
 }
 
-void place_cameras(const ViewSet& set, const ViewOptions& options, Placement& placement) {
+void place_cameras(const ViewSet& set, const ViewImportOptions& options, Placement& placement) {
     const ViewGeometry& g = set.geometry;
     if (options.spacing && options.field_of_view)
         throw Error(ErrorCode::usage, "spacing, fov",
@@ -131,7 +131,7 @@ void place_cameras(const ViewSet& set, const ViewOptions& options, Placement& pl
 
 }  // namespace
 
-Placement place(const ViewSet& set, const ViewOptions& options) {
+Placement place(const ViewSet& set, const ViewImportOptions& options) {
     Placement placement;
     placement.shear = shear_of(set, options);
     const double size = options.size > 0 ? options.size : assumed_size;

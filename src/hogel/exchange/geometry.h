@@ -26,7 +26,7 @@ struct Placement {
 /// b, the distance D of the plane on which views agree and the tangent a between pixels, it is at D' with 1/D' = 1/D +
 /// disparity a/b, and its pixels are a D' apart. Throws Error(usage) for options that do not go together or a plane
 /// that is nowhere, and Error(bad_input) for a geometry of the set's own that no light field has.
-Placement place(const ViewSet& set, const ViewOptions& options);
+Placement place(const ViewSet& set, const ViewImportOptions& options);
 
 /// The geometry as understood, one line.
 std::string describe(const ViewSet& set, const Placement& placement, double parallax);

@@ -26,7 +26,7 @@ constexpr std::size_t max_densify = 64;
 
 // The disparity that comes with a set, or an estimate where that is allowed.
 std::shared_ptr<const Disparities> disparities_of(const std::filesystem::path& source, const ViewSet& set,
-                                                  const ViewOptions& options, std::vector<std::string>& notes) {
+                                                  const ViewImportOptions& options, std::vector<std::string>& notes) {
     if (!(options.depth_scale >= 0 && std::isfinite(options.depth_scale)))
         throw Error(ErrorCode::usage, "depth_scale",
                     fmt::format("the scale of depth is {}, but must be positive and finite", options.depth_scale));
@@ -51,7 +51,7 @@ std::shared_ptr<const Disparities> disparities_of(const std::filesystem::path& s
 }
 
 // Puts views between those of a set.
-void densify(const ViewOptions& options, const std::shared_ptr<const Disparities>& disparities, ViewSet& set,
+void densify(const ViewImportOptions& options, const std::shared_ptr<const Disparities>& disparities, ViewSet& set,
              Placement& placement) {
     const std::size_t before = set.rows * set.columns;
     set = densified(std::move(set), disparities, options.densify, options.memory);
@@ -87,7 +87,8 @@ void note_dark_corners(ViewSet& set) {
 }  // namespace
 }  // namespace exchange
 
-ImportedViews import_views(const std::filesystem::path& source, const ViewOptions& options, const Progress& progress) {
+ImportedViews import_views(const std::filesystem::path& source, const ViewImportOptions& options,
+                           const Progress& progress) {
     using namespace exchange;
     const core::StopScope scope(progress);
     ViewSet set = open_views(source, options);
@@ -137,7 +138,7 @@ ImportedViews import_views(const std::filesystem::path& source, const ViewOption
             std::move(notes)};
 }
 
-Plan plan_import(const ImportedViews& views, const ViewOptions& options, const LightFieldFileOptions& file) {
+Plan plan_import(const ImportedViews& views, const ViewImportOptions& options, const LightFieldFileOptions& file) {
     namespace rates = core::rates;
     const LightFieldGrid& grid = views.light_field.grid();
     const double samples = grid.samples(), stored = views.bits <= 8 ? 1 : views.bits <= 16 ? 2 : 4;

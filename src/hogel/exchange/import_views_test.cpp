@@ -23,8 +23,8 @@ LightFieldTile all_of(const LightField& light_field) {
     return tile;
 }
 
-ViewOptions options_of(const TestScene& scene) {
-    ViewOptions options;
+ViewImportOptions options_of(const TestScene& scene) {
+    ViewImportOptions options;
     options.size = static_cast<double>(scene.width) * scene.pixel;
     options.distance = scene.distance;
     options.spacing = scene.spacing;
@@ -80,7 +80,7 @@ TEST(ImportViews, HciNamesAreRowsFromTheTopLeft) {
     const TestScene scene;
     const TestFolder folder;
     write_hci(scene, folder);
-    ViewOptions options = options_of(scene);
+    ViewImportOptions options = options_of(scene);
     options.columns = scene.columns;
     options.rows = scene.rows;
     const ImportedViews views = import_views(folder.path(), options);
@@ -94,7 +94,7 @@ TEST(ImportViews, HciParametersSayEverythingButTheSize) {
     const TestFolder folder;
     write_hci(scene, folder);
     write_parameters(scene, folder);
-    ViewOptions options;
+    ViewImportOptions options;
     options.size = static_cast<double>(scene.width) * scene.pixel;
     const ImportedViews views = import_views(folder.path(), options);
     EXPECT_NEAR(views.scale, 0.1, 1e-12);
@@ -136,7 +136,7 @@ TEST(ImportViews, TheParallaxSaysWhichNumberIsTheColumn) {
             EXPECT_EQ(views.layout, "rows-columns");
             expect_rays_of(scene, views.light_field);
             if (from_the_bottom) continue;
-            ViewOptions said = options_of(scene);
+            ViewImportOptions said = options_of(scene);
             said.column_first = column_first;
             expect_rays_of(scene, import_views(folder.path(), said).light_field);
         }
@@ -153,7 +153,7 @@ TEST(ImportViews, TenBitPixmapsAreSrgbLikeEightBitPictures) {
                 ten.data()[i] = static_cast<std::uint16_t>(std::lround(eight.data()[i] * 1023.0 / 255));
             folder.write(fmt::format("{:03}_{:03}.ppm", r, c), image::pnm_file(ten, 1023));
         }
-    ViewOptions options = options_of(scene);
+    ViewImportOptions options = options_of(scene);
     options.column_first = false;
     const ImportedViews views = import_views(folder.path(), options);
     EXPECT_EQ(views.bits, 10u);
@@ -190,7 +190,7 @@ TEST(ImportViews, TheParallaxHasTheSignOfTheScene) {
     for (std::size_t c = 0; c < scene.columns; ++c) folder.write(fmt::format("view_0_{}.png", c), scene.png(0, c));
     folder.write("view_1_0.png", scene.png(0, 0));  // two numbers that vary; the second row is taken away below
     std::filesystem::remove(folder.path() / "view_1_0.png");
-    ViewOptions options = options_of(scene);
+    ViewImportOptions options = options_of(scene);
     options.layout = "numbered";
     options.columns = scene.columns;
     options.rows = 1;
@@ -222,7 +222,7 @@ TEST(ImportViews, OrthographicNumbersCountDirections) {
         folder.write(fmt::format("v{:02}.png", i + 1),
                      image::png_file(Array<std::uint8_t, 3>({4, 5, 1}, static_cast<std::uint8_t>(10 * i)).view(), {},
                                      image::Curve::srgb));
-    ViewOptions options;
+    ViewImportOptions options;
     options.columns = 3;
     options.rows = 2;
     const ImportedViews views = import_views(folder.path(), options);
@@ -241,7 +241,7 @@ TEST(ImportViews, ADisparityBringsAnotherPlaneToTheHologram) {
     const TestFolder folder;
     write_hci(scene, folder);
     write_parameters(scene, folder);
-    ViewOptions options;
+    ViewImportOptions options;
     options.disparity = 2;
     options.size = (static_cast<double>(scene.width) - 4) * scene.pixel * nearer / scene.distance;
     const ImportedViews views = import_views(folder.path(), options);
@@ -267,7 +267,7 @@ TEST(ImportViews, BandsAreTheWholeSet) {
     const TestFolder folder;
     write_hci(scene, folder);
     write_parameters(scene, folder);
-    ViewOptions options = options_of(scene);
+    ViewImportOptions options = options_of(scene);
     const LightFieldTile whole = all_of(import_views(folder.path(), options).light_field);
     options.memory = 5 * 12 * 64 * 3;  // five rows
     const LightField banded = import_views(folder.path(), options).light_field;
@@ -284,7 +284,7 @@ TEST(ImportViews, ASpoolFileLetsEachPictureBeDecodedOnce) {
         write_hci(scene, folder);
         write_parameters(scene, folder);
         std::filesystem::create_directory(folder.path() / "spool");
-        ViewOptions options = options_of(scene);
+        ViewImportOptions options = options_of(scene);
         options.disparity = disparity;
         const LightFieldTile whole = all_of(import_views(folder.path(), options).light_field);
         options.memory = 7 * 12 * 64 * 3 * (disparity > 0 ? 4 : 1);
@@ -329,7 +329,7 @@ TEST(ImportViews, StopsWhenAsked) {
     const TestFolder folder;
     write_hci(scene, folder);
     write_parameters(scene, folder);
-    ViewOptions options;
+    ViewImportOptions options;
     options.memory = 1;  // a row of hogels at a time
     const LightField light_field = import_views(folder.path(), options).light_field;
     LightFieldBuffer buffer(light_field.grid());

@@ -75,8 +75,8 @@ void expect_codes(const ViewSet& set, std::size_t channels) {
         }
 }
 
-ViewOptions column_second() {
-    ViewOptions options;
+ViewImportOptions column_second() {
+    ViewImportOptions options;
     options.column_first = false;
     return options;
 }
@@ -140,7 +140,7 @@ TEST(MatViews, TheParallaxSaysWhichAxisIsTheColumn) {
 TEST(MatViews, WhatIsNoLightFieldIsRefusedByName) {
     const TestFolder folder;
     const auto path = folder.path() / "a.mat";
-    ViewOptions options;
+    ViewImportOptions options;
     options.layout = "mat";
     const auto error = [&](const std::vector<unsigned char>& bytes) {
         folder.write("a.mat", bytes);

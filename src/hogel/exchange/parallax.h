@@ -39,7 +39,7 @@ struct ParallaxEvidence {
     bool opposed = false;  ///< across and down disagree: what moves left along a row moves down along a column of views
     bool certain = false;  ///< there is enough texture and parallax for the last two
 };
-/// @param disparity  that is taken off: pixels to the left per view to the right (ViewOptions::disparity)
+/// @param disparity  that is taken off: pixels to the left per view to the right (ViewImportOptions::disparity)
 ParallaxEvidence parallax_of(const ViewSet& set, double disparity = 0);
 
 }  // namespace hogel::exchange

@@ -49,8 +49,8 @@ void write_set(const TestFolder& folder, const Turned& turned, double lower_a_co
                                          image::Curve::srgb));
 }
 
-ViewOptions options_of() {
-    ViewOptions options;
+ViewImportOptions options_of() {
+    ViewImportOptions options;
     options.columns = scene.columns;
     options.rows = scene.rows;
     return options;

@@ -18,7 +18,7 @@ namespace {
 
 const TestScene scene{.columns = 3, .rows = 3, .width = 20, .height = 18};
 
-std::string error_of(const std::filesystem::path& source, const ViewOptions& options = {}) {
+std::string error_of(const std::filesystem::path& source, const ViewImportOptions& options = {}) {
     try {
         import_views(source, options);
     } catch (const Error& error) {
@@ -156,8 +156,8 @@ TEST(SetVariations, NamesOfStrangers) {
         }
 }
 
-ViewOptions four_by_three() {
-    ViewOptions options;
+ViewImportOptions four_by_three() {
+    ViewImportOptions options;
     options.columns = 4;
     options.rows = 3;
     return options;
@@ -275,7 +275,7 @@ TEST(SetVariations, TheMiddleIsTakenAlone) {
     };
     for (std::size_t r = 0; r < 5; ++r)
         for (std::size_t c = 0; c < 5; ++c) write(r, c, r == 4 && c == 4);
-    ViewOptions options;
+    ViewImportOptions options;
     options.column_first = false;
     const auto dark_notes = [&] {
         const ImportedViews views = import_views(folder.path(), options);

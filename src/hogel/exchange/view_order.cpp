@@ -38,7 +38,7 @@ bool is_one_row(const ViewSet& set) {
                       match_blocks(end, grey_view(set, row + 1, 0), false, max_parallax));
 }
 
-ViewSet unwound_by_parallax(ViewSet set, const ViewOptions& options) {
+ViewSet unwound_by_parallax(ViewSet set, const ViewImportOptions& options) {
     if (options.mirror_columns || options.mirror_rows || set.rows < 2 || set.columns < 2) return set;
     const std::size_t n = set.columns, m = set.rows;
     if (!parallax_of(set).certain)
@@ -60,7 +60,7 @@ ViewSet unwound_by_parallax(ViewSet set, const ViewOptions& options) {
     });
 }
 
-ViewSet ordered_by_parallax(ViewSet set, const ViewOptions& options, const std::string& first,
+ViewSet ordered_by_parallax(ViewSet set, const ViewImportOptions& options, const std::string& first,
                             const std::string& second) {
     if (options.column_first.value_or(false)) set = transposed(std::move(set));
     ParallaxEvidence evidence = parallax_of(set);

@@ -12,7 +12,7 @@ namespace hogel::exchange {
 /// the bottom, if columns run from the left. What was found out is noted.
 /// @param set            by the second number for the column, with its size filled in
 /// @param first, second  what notes call the numbers: "the first number in the names"
-ViewSet ordered_by_parallax(ViewSet set, const ViewOptions& options, const std::string& first,
+ViewSet ordered_by_parallax(ViewSet set, const ViewImportOptions& options, const std::string& first,
                             const std::string& second);
 
 /// Whether the views of a set, which are taken for several rows, go on moving the same way from the end of a row to the
@@ -23,6 +23,6 @@ bool is_one_row(const ViewSet& set);
 /// whether every second row (or column) runs back, as the path of a single camera does. What differs from rows that all
 /// run the same way is noted. Nothing is changed where options mirror the set.
 /// @param set  row by row, with its size filled in
-ViewSet unwound_by_parallax(ViewSet set, const ViewOptions& options);
+ViewSet unwound_by_parallax(ViewSet set, const ViewImportOptions& options);
 
 }  // namespace hogel::exchange

@@ -77,7 +77,7 @@ std::string names_that_differ(const std::filesystem::path& source) {
                        groups.front().varying.size());
 }
 
-ViewLayout layout_of(const std::filesystem::path& source, const ViewOptions& options) {
+ViewLayout layout_of(const std::filesystem::path& source, const ViewImportOptions& options) {
     if (!options.layout.empty()) return view_layouts().find(options.layout);
     for (const ViewLayout& layout : view_layouts().rows())
         if (layout.probe(source)) return layout;
@@ -179,7 +179,7 @@ void require_plausible(const std::filesystem::path& source, const ViewSet& set) 
                                 height, 1 / longest, longest));
 }
 
-ViewSet open_views(const std::filesystem::path& source, const ViewOptions& options) {
+ViewSet open_views(const std::filesystem::path& source, const ViewImportOptions& options) {
     const ViewLayout layout = layout_of(source, options);
     if (!std::filesystem::exists(source)) fail_source(source, "no such file or folder");
     if (layout.is_folder && !std::filesystem::is_directory(source) && !layout.probe(source))

@@ -64,7 +64,7 @@ void take_size(const image::Picture& picture, ViewSet& set);
 
 /// Opens a set with the layout that options.layout names or that recognises it, looks at its first picture, and mirrors
 /// it as the options say. Throws as import_views() does.
-ViewSet open_views(const std::filesystem::path& source, const ViewOptions& options);
+ViewSet open_views(const std::filesystem::path& source, const ViewImportOptions& options);
 
 /// The bits of a picture's samples: 8 to 16, or 32 for floating-point numbers.
 unsigned bits_of(const image::Picture& picture);

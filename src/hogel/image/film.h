@@ -5,7 +5,7 @@
 
 #include "hogel/camera.h"
 #include "hogel/image.h"
-#include "hogel/work/shared_order.h"
+#include "hogel/work/ordered_reduce.h"
 
 namespace hogel::image {
 

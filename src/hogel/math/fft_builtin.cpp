@@ -16,7 +16,7 @@ namespace hogel::math {
 namespace {
 
 // Up to this length sixteen rows are transformed side by side, since as many positions fit into the second-level cache.
-constexpr std::size_t max_rows_together = 4096;
+constexpr std::size_t max_batch_rows = 4096;
 // Rows of a multiple of this length begin in the same cache sets and are transformed one after the other.
 constexpr std::size_t same_cache_sets = 512;
 // From this length on a single line is transformed as an array.
@@ -89,7 +89,7 @@ void LineEngine::line(bool forward, std::complex<float>* line) const { plans_->l
 
 void LineEngine::rows(bool forward, std::complex<float>* lines, std::size_t stride, std::size_t count) const {
     const Plans& plans = *plans_;
-    const bool side_by_side = plans.convolved <= max_rows_together && plans.size % same_cache_sets != 0;
+    const bool side_by_side = plans.convolved <= max_batch_rows && plans.size % same_cache_sets != 0;
     if (side_by_side && fourier::has_vectors())
         return fourier::transform_lines(plans.together(), plans.chirp_or_none(), !forward, floats(lines), 2 * stride,
                                         count, plans.size);

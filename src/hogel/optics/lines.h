@@ -7,11 +7,9 @@
 namespace hogel::optics {
 
 /// The number of lines of an array that one thread processes together, so that columns are read by whole cache lines.
-constexpr std::size_t lines_together = 16;
+constexpr std::size_t block_lines = 16;
 
-constexpr std::size_t blocks_of(std::size_t lines, std::size_t size = lines_together) {
-    return (lines + size - 1) / size;
-}
+constexpr std::size_t blocks_of(std::size_t lines, std::size_t size = block_lines) { return (lines + size - 1) / size; }
 
 /// The padded distance between lines of `samples` samples, so that they do not all map to the same cache sets.
 constexpr std::size_t stride_of(std::size_t samples) { return (samples + 15) / 8 * 8; }

@@ -118,9 +118,9 @@ void propagate_row(std::span<Complex> samples, std::size_t first, const RowOfDir
 }  // namespace
 
 void propagate(Spectrum& spectrum, const PropagationOptions& options) {
-    const distributed::LineRange own = spectrum.samples.own_columns();
+    const distributed::LineRange own = spectrum.samples.local_columns();
     work::parallel_for(own.count > 0 ? blocks_of(spectrum.height()) : 0, [&](std::size_t block) {
-        for (std::size_t r = block * lines_together; r < std::min((block + 1) * lines_together, spectrum.height()); ++r)
+        for (std::size_t r = block * block_lines; r < std::min((block + 1) * block_lines, spectrum.height()); ++r)
             propagate_row({&spectrum.samples.at(r, own.first), own.count}, own.first,
                           RowOfDirections(spectrum, options, static_cast<double>(r)));
     });

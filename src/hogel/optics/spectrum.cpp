@@ -117,7 +117,7 @@ namespace {
 
 Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& window, const Band& band,
                      double carrier_x, double carrier_y, const ScratchOptions& scratch, const Progress& progress,
-                     Team* team) {
+                     Communicator* communicator) {
     const Grid& plane = source.grid().plane;
     if (window.width < plane.width || window.height < plane.height || (window.width - plane.width) % 2 != 0 ||
         (window.height - plane.height) % 2 != 0 || window.pitch_x != plane.pitch_x || window.pitch_y != plane.pitch_y)
@@ -132,12 +132,12 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
     const std::ptrdiff_t first_column = result.first_column, first_row = result.first_row;
 
     // Transforms the rows and keeps the band's columns.
-    const std::size_t together = source.alignment() * std::max<std::size_t>(lines_together / source.alignment(), 1);
+    const std::size_t together = source.alignment() * std::max<std::size_t>(block_lines / source.alignment(), 1);
     result.samples = distributed::SharedPlane(std::max(plane.height, rows), columns, together,
-                                              columns_of_waves_together, scratch, team);
+                                              columns_of_waves_together, scratch, communicator);
     distributed::SharedPlane& kept = result.samples;
     kept.begin_rows(plane.height);
-    const distributed::LineRange own = kept.own_rows(plane.height), across = kept.own_columns();
+    const distributed::LineRange own = kept.local_rows(plane.height), across = kept.local_columns();
     const math::Fft1 along(window.width), down(window.height);
     const std::vector<Complex> centre_x =
         centring(first_column, columns, window.width, -1, window.pitch_x * window.pitch_y);
@@ -164,10 +164,9 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
     // Transforms the columns and keeps the band's rows.
     kept.to_columns(plane.height);
     const std::vector<Complex> centre_y = centring(first_row, rows, window.height, -1, 1);
-    const distributed::OwnColumns before = kept.in_columns(plane.height), after = kept.in_columns(rows);
+    const distributed::LocalColumns before = kept.in_columns(plane.height), after = kept.in_columns(rows);
     work::parallel_for(blocks_of(across.count), [&](std::size_t block) {
-        const std::size_t x0 = across.first + block * lines_together,
-                          width = std::min(lines_together, across.end() - x0);
+        const std::size_t x0 = across.first + block * block_lines, width = std::min(block_lines, across.end() - x0);
         Array<Complex, 2> lines({width, stride_of(window.height)});
         for (std::size_t y = 0; y < plane.height; ++y)
             for (std::size_t i = 0; i < width; ++i) lines(i, above + y) = before(y, x0 + i);
@@ -185,13 +184,13 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
 }  // namespace
 
 Spectrum spectrum_of(const FieldSource& field, std::size_t look, const Grid& window, const Band& band,
-                     const ScratchOptions& scratch, const Progress& progress, Team* team) {
-    return transformed(field, look, window, band, 0, 0, scratch, progress, team);
+                     const ScratchOptions& scratch, const Progress& progress, Communicator* communicator) {
+    return transformed(field, look, window, band, 0, 0, scratch, progress, communicator);
 }
 
 Spectrum spectrum_of(const Wave& wave, const Grid& window, const Band& band, const ScratchOptions& scratch,
-                     const Progress& progress, Team* team) {
-    return transformed(wave, 0, window, band, wave.carrier_x, wave.carrier_y, scratch, progress, team);
+                     const Progress& progress, Communicator* communicator) {
+    return transformed(wave, 0, window, band, wave.carrier_x, wave.carrier_y, scratch, progress, communicator);
 }
 
 Grid grid_of(const Spectrum& spectrum, std::size_t width, std::size_t height) {
@@ -237,8 +236,7 @@ class ToWave {
     void along_columns(const distributed::LineRange& across, const Place& place) const {
         const math::Fft1 down(height_);
         work::parallel_for(blocks_of(across.count), [&](std::size_t block) {
-            const std::size_t x0 = across.first + block * lines_together,
-                              count = std::min(lines_together, across.end() - x0);
+            const std::size_t x0 = across.first + block * block_lines, count = std::min(block_lines, across.end() - x0);
             Array<Complex, 2> lines({count, stride_of(height_)});
             for (std::size_t r = 0; r < centre_y_.size(); ++r) {
                 const std::size_t at = wrapped(spectrum_.first_row + static_cast<std::ptrdiff_t>(r), height_);
@@ -255,9 +253,10 @@ class ToWave {
     }
 
     // Transforms the columns with those of the other processes of a team, and gives each of them some rows.
-    distributed::SharedPlane to_rows(const ScratchOptions& scratch, Team* team) const {
-        distributed::SharedPlane plane(height_, columns_, lines_together, columns_of_waves_together, scratch, team);
-        along_columns(plane.own_columns(), [&](std::size_t y, std::size_t x) { return &plane.at(y, x); });
+    distributed::SharedPlane to_rows(const ScratchOptions& scratch, Communicator* communicator) const {
+        distributed::SharedPlane plane(height_, columns_, block_lines, columns_of_waves_together, scratch,
+                                       communicator);
+        along_columns(plane.local_columns(), [&](std::size_t y, std::size_t x) { return &plane.at(y, x); });
         plane.to_rows(height_);
         return plane;
     }
@@ -269,7 +268,7 @@ class ToWave {
         const math::Fft1 along(width_);
         work::parallel_for(blocks_of(rows.count), [&](std::size_t block) {
             Array<Complex, 1> line({width_});
-            for (std::size_t i = block * lines_together; i < std::min((block + 1) * lines_together, rows.count); ++i) {
+            for (std::size_t i = block * block_lines; i < std::min((block + 1) * block_lines, rows.count); ++i) {
                 std::ranges::fill(line.elements(), Complex(0));
                 Complex* const samples = row(rows.first + i);
                 put_frequencies(samples, columns_, line.data(), width_, spectrum_.first_column);
@@ -293,12 +292,12 @@ core::PagedArray samples_of(std::size_t rows, std::size_t width, const ScratchOp
 class RowsForOthers {
   public:
     // As few as hold all of some rows that others want.
-    RowsForOthers(const distributed::LineRange& some, const Team& team,
+    RowsForOthers(const distributed::LineRange& some, const Communicator& communicator,
                   const std::function<distributed::LineRange(std::size_t)>& wanted, std::size_t width,
                   const ScratchOptions& scratch)
         : rows_{some.end(), 0} {
         std::size_t end = some.first;
-        for (std::size_t process = 0; process < team.size(); ++process)
+        for (std::size_t process = 0; process < communicator.size(); ++process)
             if (const distributed::LineRange rows = common_lines(some, wanted(process)); rows.count > 0) {
                 rows_.first = std::min(rows_.first, rows.first);
                 end = std::max(end, rows.end());
@@ -319,19 +318,19 @@ class RowsForOthers {
 }  // namespace
 
 Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch,
-             Team* team) {
+             Communicator* communicator) {
     const ToWave to_wave(spectrum, width, height);
     Wave wave = to_wave.frame({0, height});
     const auto row = [&](std::size_t y) { return &wave.samples.view()(y - wave.rows.first, 0); };
-    if (team == nullptr) {
+    if (communicator == nullptr) {
         // The columns, too, are transformed in place, in the left part of the result.
         wave.samples = samples_of(height, width, scratch);
         to_wave.along_columns({0, to_wave.columns()}, [&](std::size_t y, std::size_t x) { return row(y) + x; });
         to_wave.along_rows(wave.rows, row);
         return wave;
     }
-    const distributed::SharedPlane kept = to_wave.to_rows(scratch, team);
-    wave.rows = kept.own_rows(height);
+    const distributed::SharedPlane kept = to_wave.to_rows(scratch, communicator);
+    wave.rows = kept.local_rows(height);
     wave.samples = samples_of(wave.rows.count, width, scratch);
     to_wave.along_rows(wave.rows, [&](std::size_t y) {
         kept.get_row(y, row(y));
@@ -340,16 +339,16 @@ Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, co
     return wave;
 }
 
-Wave wave_of(Spectrum spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch, Team& team,
-             const std::function<distributed::LineRange(std::size_t)>& wanted) {
+Wave wave_of(Spectrum spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch,
+             Communicator& communicator, const std::function<distributed::LineRange(std::size_t)>& wanted) {
     const ToWave to_wave(spectrum, width, height);
-    const distributed::SharedPlane kept = to_wave.to_rows(scratch, &team);
-    Wave wave = to_wave.frame(wanted(team.rank()));
+    const distributed::SharedPlane kept = to_wave.to_rows(scratch, &communicator);
+    Wave wave = to_wave.frame(wanted(communicator.rank()));
     spectrum.samples = distributed::SharedPlane();
     // Own rows before and after those that this process wants itself.
-    const distributed::LineRange own = kept.own_rows(height);
+    const distributed::LineRange own = kept.local_rows(height);
     const auto for_others = [&](const distributed::LineRange& some) {
-        return RowsForOthers(common_lines(own, some), team, wanted, width, scratch);
+        return RowsForOthers(common_lines(own, some), communicator, wanted, width, scratch);
     };
     std::array<RowsForOthers, 2> aside{for_others({0, wave.rows.first}),
                                        for_others({wave.rows.end(), height - wave.rows.end()})};
@@ -365,7 +364,7 @@ Wave wave_of(Spectrum spectrum, std::size_t width, std::size_t height, const Scr
             return row(y);
         });
     distributed::send_rows(
-        team, {height, width}, lines_together, wanted,
+        communicator, {height, width}, block_lines, wanted,
         [&](std::size_t y, Complex* to) {
             if (row(y) != to) std::copy_n(row(y), width, to);
         },
@@ -373,13 +372,13 @@ Wave wave_of(Spectrum spectrum, std::size_t width, std::size_t height, const Scr
     return wave;
 }
 
-Spectrum gathered(Spectrum spectrum, Team& team, const ScratchOptions& scratch) {
+Spectrum gathered(Spectrum spectrum, Communicator& communicator, const ScratchOptions& scratch) {
     distributed::SharedPlane shared = std::move(spectrum.samples);
     const std::size_t rows = shared.rows(), columns = shared.columns();
     shared.to_rows(rows);
-    if (team.is_first()) spectrum.samples = distributed::SharedPlane(rows, columns, 1, 1, scratch, nullptr);
+    if (communicator.is_root()) spectrum.samples = distributed::SharedPlane(rows, columns, 1, 1, scratch, nullptr);
     distributed::send_rows(
-        team, {rows, columns}, lines_together,
+        communicator, {rows, columns}, block_lines,
         [&](std::size_t process) {
             return distributed::LineRange{0, process == 0 ? rows : 0};
         },

@@ -67,10 +67,11 @@ Grid padded(const Grid& plane, double size_x, double size_y);
 /// Throws Error(usage) for a window that is smaller than the field or has another pitch, and for a band without
 /// frequencies.
 Spectrum spectrum_of(const FieldSource& field, std::size_t look, const Grid& window, const Band& band,
-                     const ScratchOptions& scratch = {}, const Progress& progress = {}, Team* team = nullptr);
+                     const ScratchOptions& scratch = {}, const Progress& progress = {},
+                     Communicator* communicator = nullptr);
 
 Spectrum spectrum_of(const Wave& wave, const Grid& window, const Band& band, const ScratchOptions& scratch = {},
-                     const Progress& progress = {}, Team* team = nullptr);
+                     const Progress& progress = {}, Communicator* communicator = nullptr);
 
 /// The samples of the wave of a spectrum: its window, sampled by width × height samples.
 Grid grid_of(const Spectrum& spectrum, std::size_t width, std::size_t height);
@@ -79,15 +80,15 @@ Grid grid_of(const Spectrum& spectrum, std::size_t width, std::size_t height);
 /// middle of the spectrum. Throws Error(usage) for fewer samples than the spectrum has.
 /// @param team  as for spectrum_of(), of which all have parts of the spectrum
 Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch = {},
-             Team* team = nullptr);
+             Communicator* communicator = nullptr);
 /// The same of a spectrum that the processes of a team share, which is freed on the way: each has the rows that it
 /// wants.
 /// @param wanted  the rows that a process wants, for any of them
-Wave wave_of(Spectrum spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch, Team& team,
-             const std::function<distributed::LineRange(std::size_t process)>& wanted);
+Wave wave_of(Spectrum spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch,
+             Communicator& communicator, const std::function<distributed::LineRange(std::size_t process)>& wanted);
 
 /// The whole of what the processes of a team have in parts, in the first one; in others something without samples.
-Spectrum gathered(Spectrum spectrum, Team& team, const ScratchOptions& scratch);
+Spectrum gathered(Spectrum spectrum, Communicator& communicator, const ScratchOptions& scratch);
 
 /// Propagation to a parallel plane; the window follows the off-axis carrier. All in metres.
 struct PropagationOptions {

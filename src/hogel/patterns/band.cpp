@@ -101,7 +101,7 @@ Aperture aperture_around(const CarriedOrder& order, Aperture of_field) {
 }
 
 FieldBand::FieldBand(View<const Complex, 2> field)
-    : fft_(field.extent(0), field.extent(1)), wanted_(field.shape()), lit_(field.size()) {
+    : fft_(field.extent(0), field.extent(1)), wanted_(field.shape()), active_(field.size()) {
     std::copy_n(field.data(), field.size(), wanted_.data());
     fft_.forward(wanted_);
     aperture_ = aperture_for(wanted_);
@@ -111,9 +111,9 @@ FieldBand::FieldBand(View<const Complex, 2> field)
         double all = 0;
         for (std::size_t x = 0; x < columns; ++x) {
             all += std::norm(wanted_(y, x));
-            const bool lit = distance(frequency(x, columns), frequency(y, rows), aperture_) <= radius;
-            lit_[y * columns + x] = lit ? 1 : 0;
-            if (!lit) wanted_(y, x) = 0;
+            const bool active = distance(frequency(x, columns), frequency(y, rows), aperture_) <= radius;
+            active_[y * columns + x] = active ? 1 : 0;
+            if (!active) wanted_(y, x) = 0;
         }
         return all;
     });

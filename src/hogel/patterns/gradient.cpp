@@ -88,14 +88,14 @@ class PatternError {
     }
 
   private:
-    static constexpr std::size_t lines_together = optics::lines_together;
+    static constexpr std::size_t block_lines = optics::block_lines;
 
     // Calls row(y, samples) for each row, to change it.
     template <class Row>
     void for_rows(const Row& row) {
         work::parallel_for(optics::blocks_of(rows_), [&](std::size_t block) {
-            const std::size_t first = block * lines_together;
-            for (std::size_t y = first; y < std::min(first + lines_together, rows_); ++y) row(y, &plane_(y, 0));
+            const std::size_t first = block * block_lines;
+            for (std::size_t y = first; y < std::min(first + block_lines, rows_); ++y) row(y, &plane_(y, 0));
         });
     }
 
@@ -103,7 +103,7 @@ class PatternError {
     template <class Column>
     void for_columns(const Column& column) {
         work::parallel_for(optics::blocks_of(columns_), [&](std::size_t block) {
-            const std::size_t x0 = block * lines_together, count = std::min(lines_together, columns_ - x0);
+            const std::size_t x0 = block * block_lines, count = std::min(block_lines, columns_ - x0);
             Array<Complex, 2> lines({count, optics::stride_of(rows_)});
             for (std::size_t y = 0; y < rows_; ++y)
                 for (std::size_t i = 0; i < count; ++i) lines(i, y) = plane_(y, x0 + i);

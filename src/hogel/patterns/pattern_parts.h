@@ -87,7 +87,7 @@ class FieldBand {
     };
     /// Adds frequency x of row y of the spectrum.
     void add(std::size_t y, std::size_t x, std::complex<float> shown, Sums& sums) const {
-        if (lit_[y * wanted_.extent(1) + x] == 0) return;
+        if (active_[y * wanted_.extent(1) + x] == 0) return;
         sums.product += std::complex<double>(optics::times(shown, std::conj(wanted_(y, x))));
         sums.energy += std::norm(shown);
     }
@@ -105,14 +105,14 @@ class FieldBand {
     Match match(Array<std::complex<float>, 2>& shown) const;
     /// A frequency of the spectrum of the error's derivative by the pattern: 2 s* (s P − F) / Σ|F|² in the band.
     std::complex<float> derivative(const Match& match, std::size_t y, std::size_t x, std::complex<float> shown) const {
-        if (lit_[y * wanted_.extent(1) + x] == 0) return 0;
+        if (active_[y * wanted_.extent(1) + x] == 0) return 0;
         return optics::times(match.slope, optics::times(std::complex<float>(match.scale), shown) - wanted_(y, x));
     }
 
   private:
     math::Fft2 fft_;
     Array<std::complex<float>, 2> wanted_;  // the field's spectrum, 0 beyond the band
-    std::vector<std::uint8_t> lit_;         // whether a frequency belongs to the band
+    std::vector<std::uint8_t> active_;      // whether a frequency belongs to the band
     double energy_ = 0;                     // Σ|F|², also beyond the band
     Aperture aperture_;
 };

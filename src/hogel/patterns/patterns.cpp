@@ -2,7 +2,7 @@
 #include "hogel/core/stop_scope.h"
 #include "hogel/pattern.h"
 #include "hogel/patterns/pattern_parts.h"
-#include "hogel/work/shared_order.h"
+#include "hogel/work/ordered_reduce.h"
 
 namespace hogel {
 namespace {

@@ -56,7 +56,7 @@ struct Blocks {
 Difference sum_blocks(const Blocks& blocks, const Progress& progress,
                       const std::function<Difference(const Region&)>& compare_block) {
     Difference sum;
-    work::parallel_ordered<Difference>(
+    work::local_ordered_reduce<Difference>(
         blocks.count(), work::default_in_flight(), [&](std::size_t i) { return compare_block(blocks[i]); },
         [&](std::size_t i, Difference& block) {
             sum.add(block);

@@ -14,8 +14,8 @@
 #include "hogel/pipeline.h"
 #include "hogel/pipeline/picture_jobs.h"
 #include "hogel/stereogram/parallax.h"
-#include "hogel/work/pieces.h"
-#include "hogel/work/shared_order.h"
+#include "hogel/work/chunks.h"
+#include "hogel/work/ordered_reduce.h"
 
 namespace hogel {
 
@@ -118,7 +118,7 @@ void photograph_one_by_one(const Fields& holograms, std::span<const Camera> came
     };
     if (band == nullptr || band->vertical_diffuser)
         return work::shared_jobs<std::vector<Image>>(order.size(), image::sent_pictures(), photograph, put,
-                                                     work::DoneBy::whole_team);
+                                                     work::DoneBy::all_ranks);
     for (std::size_t k = 0; k < order.size(); ++k) {
         std::vector<Image> made = photograph(k);
         put(k, made);
@@ -146,9 +146,9 @@ std::vector<std::vector<Image>> photograph_colours(const Fields& holograms, std:
         if (!pipeline::is_made_in_jobs(holograms, ways[way]))
             photograph_one_by_one(holograms, cameras, ways[way], pictures[way],
                                   progress.part(jobs.size() + done++, parts));
-    if (Team* const all = work::team_of_several())
+    if (Communicator* const all = work::communicator_of_several())
         for (std::vector<Image>& of_way : pictures)
-            for (Image& picture : of_way) work::share_in_pieces<float>(*all, picture.pixels.elements());
+            for (Image& picture : of_way) work::broadcast_in_chunks<float>(*all, picture.pixels.elements());
     return pictures;
 }
 

@@ -6,11 +6,11 @@
 
 #include <algorithm>
 
+#include "hogel/communicator.h"
 #include "hogel/core/half.h"
 #include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/io/finite.h"
-#include "hogel/team.h"
 #include "hogel/work/parallel.h"
 #include "hogel/work/result_log.h"
 
@@ -73,7 +73,7 @@ std::vector<std::vector<Series>> stages_of_waves(const MakeRequest& request, boo
         stages.push_back({{"photographs by waves", request.camera, &MadePhotographs::waves}});
     if (!speckle_free) return stages;
     const Series expected{"expected photographs", SpeckleFreeCamera(), &MadePhotographs::speckle_free};
-    const Team* const all = team();
+    const Communicator* const all = communicator();
     if (all != nullptr && all->size() > 1 && !stages.empty())
         stages.front().push_back(expected);
     else

@@ -8,7 +8,7 @@
 
 #include "hogel/camera/photograph_plan.h"
 #include "hogel/camera/photograph_together.h"
-#include "hogel/work/shared_order.h"
+#include "hogel/work/ordered_reduce.h"
 
 namespace hogel::pipeline {
 namespace {
@@ -27,7 +27,7 @@ constexpr std::size_t eyes_per_job = 4;
 std::vector<std::vector<std::size_t>> cameras_of_jobs(std::span<const Camera> cameras, const CameraModel& model) {
     if (!std::holds_alternative<SpeckleFreeCamera>(model)) return {numbers_below(cameras.size())};
     std::vector<std::vector<std::size_t>> jobs;
-    const std::vector<camera::SharedEye> eyes = camera::group_by_eye(cameras);
+    const std::vector<camera::SharedViewpoint> eyes = camera::group_by_viewpoint(cameras);
     for (std::size_t e = 0; e < eyes.size(); ++e) {
         if (e % eyes_per_job == 0) jobs.emplace_back();
         jobs.back().insert(jobs.back().end(), eyes[e].members.begin(), eyes[e].members.end());

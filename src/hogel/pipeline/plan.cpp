@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hogel/camera/hogel_spectra/eye_cost.h"
+#include "hogel/camera/hogel_spectra/band_cost.h"
 #include "hogel/camera/models.h"
 #include "hogel/camera/photograph_plan.h"
 #include "hogel/camera/speckle_free/speckle_free.h"
@@ -122,7 +122,7 @@ BandSourceChoice choose_band_source(std::span<const LightFieldGrid> faces, const
         return {BandSource::samples, "this method has no hogels that are sums of as many waves as they have samples"};
     std::size_t per_hogel = 0;
     for (const stereogram::HogelLayout& layout : colours)
-        for (const camera::SharedEye& eye : camera::group_by_eye(cameras))
+        for (const camera::SharedViewpoint& eye : camera::group_by_viewpoint(cameras))
             per_hogel = std::max(per_hogel, camera::hogel_spectra::band_samples_per_hogel(
                                                 layout, {cameras[eye.members.front()].eye, eye.pupil}));
     const bool cheaper = camera::hogel_spectra::band_is_cheaper(per_hogel, colours.back());

@@ -22,7 +22,7 @@ Light spot(double inner, double outer) {
     return light;
 }
 
-TEST(Spots, shine_into_their_cone) {
+TEST(PsfTable, shine_into_their_cone) {
     const double inner = 0.3, outer = 0.6;
     const Light light = spot(inner, outer);
     const auto share = [&](double angle) { return illuminate(light, {2 * std::tan(angle), 0, 0}).in_cone; };
@@ -40,7 +40,7 @@ TEST(Spots, shine_into_their_cone) {
 }
 
 // A point in the cone's edge is lit as by a point light of that share, by every model, with and without gloss.
-TEST(Spots, light_surfaces_as_point_lights_of_that_share) {
+TEST(PsfTable, light_surfaces_as_point_lights_of_that_share) {
     for (const std::string model : {"vertex", "shadowed", "direct"})
         for (const float reflectance : {0.0f, 0.04f}) {
             Scene spotted;

@@ -29,7 +29,7 @@ DirectionPhases direction_phases(const FrequencyGrid& frequencies, const math::F
     return all;
 }
 
-void write_lines(const HologramOptions& options, const HogelPlace& hogel, std::size_t lines,
+void write_lines(const HologramOptions& options, const HogelKey& hogel, std::size_t lines,
                  std::span<const std::complex<float>> line, std::complex<float>* to, std::size_t to_row) {
     for (std::size_t i = lines; i-- > 0;) {
         const float one = 1;

@@ -24,7 +24,7 @@ DirectionPhases direction_phases(const FrequencyGrid& frequencies, const math::F
 /// Writes the lines of a hologram with horizontal parallax only whose hogels share phases: line number i of the hogel
 /// is `line` times e^{iφ} with a phase of that line's own, because equal lines would send light only straight ahead.
 /// @param to  the first line; line number i begins at to + i·to_row; `line` may be the first
-void write_lines(const HologramOptions& options, const HogelPlace& hogel, std::size_t lines,
+void write_lines(const HologramOptions& options, const HogelKey& hogel, std::size_t lines,
                  std::span<const std::complex<float>> line, std::complex<float>* to, std::size_t to_row);
 
 }  // namespace hogel::stereogram

@@ -32,18 +32,18 @@ void FastTiles::prepare(const FrequencyGrid& frequencies, View<const float, 2> v
         // Neighbouring rows arrive one after the other. A block of sixteen rows is transposed when the next block
         // begins.
         std::size_t current = blocks;
-        std::vector<bool> lit(side_), done(blocks);
+        std::vector<bool> active(side_), done(blocks);
         const auto store_block = [&] {
             if (current == blocks) return;
             for (std::size_t row = 0; row < rows_at_once; ++row)
-                if (!lit[current * rows_at_once + row]) std::fill_n(sixteen->data() + row * line, line, 0.0f);
+                if (!active[current * rows_at_once + row]) std::fill_n(sixteen->data() + row * line, line, 0.0f);
             transpose_hogels(sixteen->data(), side_, hogels, &moduli(first, current * line), side_ * side_);
             done[current] = true;
         };
         const auto place = [&](std::size_t row) {
             if (row / rows_at_once != current) store_block();
             current = row / rows_at_once;
-            lit[row] = true;
+            active[row] = true;
             return sixteen->data() + row % rows_at_once * line;
         };
         frequencies.amplitudes_by_rows({&values(first, 0), {hogels, values.extent(1)}}, of_roots, place);
@@ -63,8 +63,8 @@ void FastTiles::sixteen_rows(std::span<const float> moduli, const PhaseSeries& s
         shared_waves({phases_[look].data() + 2 * row * side_, side_ * square_column}, some, waves);
 }
 
-void FastTiles::waves(std::span<const float> moduli, const PhaseSeries& series, std::size_t look, const NearRows& rows,
-                      float* waves) const {
+void FastTiles::waves(std::span<const float> moduli, const PhaseSeries& series, std::size_t look,
+                      const InBandRows& rows, float* waves) const {
     for (std::size_t row = 0; row < side_; row += rows_at_once)
         if (rows.has_any(row, rows_at_once, side_)) sixteen_rows(moduli, series, look, row, waves + 2 * row * side_);
 }

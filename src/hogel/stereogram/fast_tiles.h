@@ -11,7 +11,7 @@
 #include "hogel/stereogram/direction_phases.h"
 #include "hogel/stereogram/frequency_grid.h"
 #include "hogel/stereogram/hogel_tiles.h"
-#include "hogel/stereogram/near_rows.h"
+#include "hogel/stereogram/in_band_rows.h"
 
 namespace hogel::stereogram {
 
@@ -36,7 +36,7 @@ class FastTiles {
                     std::size_t to_row) const;
 
     /// The waves that synthesise() transforms, as HogelWaves::waves().
-    void waves(std::span<const float> moduli, const PhaseSeries& series, std::size_t look, const NearRows& rows,
+    void waves(std::span<const float> moduli, const PhaseSeries& series, std::size_t look, const InBandRows& rows,
                float* waves) const;
 
     /// Whether row_of_lanes() is supported: random phases of sides up to 128.

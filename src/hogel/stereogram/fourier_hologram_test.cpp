@@ -80,11 +80,11 @@ TEST(FourierHologram, carries_the_energy_of_its_light_field) {
         for (int i = -19; i <= 19; ++i) {
             const double sine2 = (i * i + j * j) * step * step, cosine = std::sqrt(1 - sine2);
             // Lobes on the border of the field of view are partly inside.
-            const auto lit = [&](double sine) {
+            const auto active = [&](double sine) {
                 const double tangent = std::abs(sine) / cosine, half = 0.5 * step * (1 + tangent * tangent) / cosine;
                 return std::clamp((0.15 - tangent + half) / (2 * half), 0.0, 1.0);
             };
-            expected += 0.7 * lit(i * step) * lit(j * step) * step * step / cosine;
+            expected += 0.7 * active(i * step) * active(j * step) * step * step / cosine;
         }
     Array<Complex, 2> hogel({40, 40});
     hologram->read({80, 40, 40, 40}, 0, hogel);

@@ -23,7 +23,7 @@ FourierSynthesis::FourierSynthesis(FrequencyGrid frequencies, std::size_t lines,
     : options_(options),
       average_(average),
       frequencies_(std::move(frequencies)),
-      lit_rows_(frequencies_.lit_rows()),
+      active_rows_(frequencies_.active_rows()),
       lines_(lines),
       fft_(frequencies_.rows(), frequencies_.columns()),
       directions_(std::move(directions)) {
@@ -50,12 +50,11 @@ void FourierSynthesis::prepare(View<const float, 2> values, bool of_roots, View<
         frequencies_.amplitudes(values, moduli);
 }
 
-void FourierSynthesis::synthesise(std::span<const float> moduli, const HogelPlace& place,
-                                  View<Complex, 2> hogel) const {
+void FourierSynthesis::synthesise(std::span<const float> moduli, const HogelKey& place, View<Complex, 2> hogel) const {
     synthesise_to(moduli, place, hogel, hogel.data(), hogel.extent(1));
 }
 
-void FourierSynthesis::synthesise_to(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> scratch,
+void FourierSynthesis::synthesise_to(std::span<const float> moduli, const HogelKey& place, View<Complex, 2> scratch,
                                      Complex* to, std::size_t to_row) const {
     if (fast_)
         return fast_->synthesise(moduli, phase_series(options_, place.s, place.t, place.look), place.look, to, to_row);
@@ -70,7 +69,7 @@ void FourierSynthesis::synthesise_to(std::span<const float> moduli, const HogelP
                   {&scratch(line, 0), {1, frequencies_.columns()}}, to + line * to_row, to_row);
 }
 
-void FourierSynthesis::waves(std::span<const float> moduli, const HogelPlace& place, const NearRows& rows,
+void FourierSynthesis::waves(std::span<const float> moduli, const HogelKey& place, const InBandRows& rows,
                              float* waves) const {
     const PhaseSeries series = phase_series(options_, place.s, place.t, place.look);
     if (fast_) return fast_->waves(moduli, series, place.look, rows, waves);
@@ -91,15 +90,15 @@ void FourierSynthesis::powers(std::span<const float> moduli, float* powers) cons
         for (std::size_t i = 0; i < moduli.size(); ++i) powers[i] = moduli[i] * moduli[i];
         return;
     }
-    if (n % rows_together != 0) std::fill_n(powers, powers_size(n), 0.0f);
+    if (n % block_rows != 0) std::fill_n(powers, powers_size(n), 0.0f);
     for (std::size_t row = 0; row < n; ++row)
         for (std::size_t column = 0; column < n; ++column) {
             const float modulus = moduli[row * n + column];
-            powers[(row / rows_together * n + column) * rows_together + row % rows_together] = modulus * modulus;
+            powers[(row / block_rows * n + column) * block_rows + row % block_rows] = modulus * modulus;
         }
 }
 
-SeriesOfLanes FourierSynthesis::series_of_lanes(std::span<const HogelPlace> places) const {
+SeriesOfLanes FourierSynthesis::series_of_lanes(std::span<const HogelKey> places) const {
     SeriesOfLanes series{};
     for (std::size_t lane = 0; lane < places.size(); ++lane) {
         const PhaseSeries own = phase_series(options_, places[lane].s, places[lane].t, places[lane].look);
@@ -112,8 +111,8 @@ SeriesOfLanes FourierSynthesis::series_of_lanes(std::span<const HogelPlace> plac
 void FourierSynthesis::gather_lanes(std::span<const float* const> moduli, std::size_t row, float* gathered) const {
     if (fast_) return fast_->gather_lanes(moduli, row, gathered);
     const std::size_t n = frequencies_.columns();
-    for (std::size_t end = std::min(row + rows_together, n); row < end; ++row)
-        for (std::size_t x = 0; x < n && lit_rows_[row]; x += rows_at_once) {
+    for (std::size_t end = std::min(row + block_rows, n); row < end; ++row)
+        for (std::size_t x = 0; x < n && active_rows_[row]; x += rows_at_once) {
             const std::size_t at = row * n + std::min(x, n - rows_at_once);
             gather_rows(moduli, at, gathered + at * rows_at_once, rows_at_once);
         }
@@ -132,13 +131,13 @@ void FourierSynthesis::row_of_lanes(const SeriesOfLanes& series, std::size_t row
     random_row_of_any_side(series, row, shared, moduli, shared && !fast_ ? 1 : rows_at_once, middle_, n, waves);
 }
 
-void FourierSynthesis::transform(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> values,
+void FourierSynthesis::transform(std::span<const float> moduli, const HogelKey& place, View<Complex, 2> values,
                                  Complex* to, std::size_t to_row) const {
     spread_phases(moduli, place, values);
     fft_.backward(values, to, to_row);
 }
 
-void FourierSynthesis::spread_phases(std::span<const float> moduli, const HogelPlace& place,
+void FourierSynthesis::spread_phases(std::span<const float> moduli, const HogelKey& place,
                                      View<Complex, 2> values) const {
     if (directions_.empty()) {
         spread_random_phases(phase_series(options_, place.s, place.t, place.look), moduli, values.elements());
@@ -149,7 +148,7 @@ void FourierSynthesis::spread_phases(std::span<const float> moduli, const HogelP
 }
 
 // The waves of a square of lines: those of each line, transformed down the lines.
-void FourierSynthesis::spread_lines(std::span<const float> moduli, const HogelPlace& place,
+void FourierSynthesis::spread_lines(std::span<const float> moduli, const HogelKey& place,
                                     View<Complex, 2> values) const {
     const std::size_t n = frequencies_.columns();
     if (directions_.empty()) {

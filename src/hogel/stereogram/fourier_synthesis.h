@@ -34,34 +34,34 @@ class FourierSynthesis final : public HogelSynthesis, public HogelWaves {
     void prepare_roots(View<const float, 2> roots, View<float, 2> prepared) const { prepare(roots, true, prepared); }
 
     /// Phases are counted from the hogel's first sample; the factor i of [K] (4.2) is part of them.
-    void synthesise(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> hogel) const override;
-    void synthesise_to(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> scratch, Complex* to,
+    void synthesise(std::span<const float> moduli, const HogelKey& place, View<Complex, 2> hogel) const override;
+    void synthesise_to(std::span<const float> moduli, const HogelKey& place, View<Complex, 2> scratch, Complex* to,
                        std::size_t to_row) const override;
 
     const HogelWaves* hogel_waves() const override { return this; }
-    void waves(std::span<const float> moduli, const HogelPlace& place, const NearRows& rows,
+    void waves(std::span<const float> moduli, const HogelKey& place, const InBandRows& rows,
                float* waves) const override;
     void powers(std::span<const float> moduli, float* powers) const override;
     bool independent() const override { return directions_.empty() && lines_ == 0; }
-    bool has_light(std::size_t row) const override { return lines_ > 0 || lit_rows_[row]; }
+    bool has_light(std::size_t row) const override { return lines_ > 0 || active_rows_[row]; }
     bool has_lanes() const override { return !middle_.empty() || (fast_ && fast_->has_lanes()); }
-    SeriesOfLanes series_of_lanes(std::span<const HogelPlace> places) const override;
+    SeriesOfLanes series_of_lanes(std::span<const HogelKey> places) const override;
     void gather_lanes(std::span<const float* const> moduli, std::size_t row, float* gathered) const override;
     void row_of_lanes(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,
                       float* waves) const override;
 
   private:
     void prepare(View<const float, 2> values, bool of_roots, View<float, 2> moduli) const;
-    void transform(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> values, Complex* to,
+    void transform(std::span<const float> moduli, const HogelKey& place, View<Complex, 2> values, Complex* to,
                    std::size_t to_row) const;
-    void spread_phases(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> values) const;
-    void spread_lines(std::span<const float> moduli, const HogelPlace& place, View<Complex, 2> values) const;
+    void spread_phases(std::span<const float> moduli, const HogelKey& place, View<Complex, 2> values) const;
+    void spread_lines(std::span<const float> moduli, const HogelKey& place, View<Complex, 2> values) const;
     void transform_down(View<Complex, 2> values) const;
 
     HologramOptions options_;
     LobeAverage average_;
     FrequencyGrid frequencies_;
-    std::vector<bool> lit_rows_;
+    std::vector<bool> active_rows_;
     std::size_t lines_;
     math::Fft2 fft_;
     std::optional<math::Fft1> down_;              // of the lines of a hogel

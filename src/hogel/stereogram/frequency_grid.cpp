@@ -205,10 +205,10 @@ void FrequencyGrid::list_runs() {
     }
 }
 
-std::vector<bool> FrequencyGrid::lit_rows() const {
-    std::vector<bool> lit(rows_);
-    for (const Run& run : runs_) lit[run.row] = true;
-    return lit;
+std::vector<bool> FrequencyGrid::active_rows() const {
+    std::vector<bool> active(rows_);
+    for (const Run& run : runs_) active[run.row] = true;
+    return active;
 }
 
 bool is_frequency_grid(const LightFieldGrid& light_field, double wavelength) {
@@ -272,10 +272,10 @@ void FrequencyGrid::amplitudes_by_rows(View<const float, 2> values, bool of_root
         transpose(&values(0, band.ray0), rays_, values.extent(0), band.rays, beside.data(), hogels_at_once);
         const std::span runs = std::span(runs_).subspan(band.run0, band.runs);
         for (std::size_t first = 0, end = 0; first < runs.size(); first = end) {
-            std::size_t lit = 0;
-            for (end = first; end < runs.size() && runs[end].row == runs[first].row; ++end) lit += runs[end].count;
+            std::size_t active = 0;
+            for (end = first; end < runs.size() && runs[end].row == runs[first].row; ++end) active += runs[end].count;
             float* line = place(runs[first].row);
-            if (lit < columns_) std::fill_n(line, columns_ * hogels_at_once, 0.0f);
+            if (active < columns_) std::fill_n(line, columns_ * hogels_at_once, 0.0f);
             for (const Run& run : runs.subspan(first, end - first))
                 average_run(run.lobe, run.count, beside, of_roots, line + run.column * hogels_at_once);
         }

@@ -63,7 +63,7 @@ class FrequencyGrid {
     std::size_t coefficients() const { return rows_ * columns_; }
     std::size_t rays() const { return rays_; }  ///< of a hogel, over all faces
     /// Whether each row has any frequency that carries light.
-    std::vector<bool> lit_rows() const;
+    std::vector<bool> active_rows() const;
 
     // A DFT coefficient that carries light: the directions that it averages and their weights, as an outer product.
     struct Lobe {

@@ -8,12 +8,12 @@
 
 #include "hogel/hologram.h"
 #include "hogel/stereogram/hogel_tiles.h"
-#include "hogel/stereogram/near_rows.h"
+#include "hogel/stereogram/in_band_rows.h"
 
 namespace hogel::stereogram {
 
 /// A hogel and a look.
-struct HogelPlace {
+struct HogelKey {
     std::size_t s = 0, t = 0;  ///< column and row of the hogel
     std::size_t look = 0;
 };
@@ -44,7 +44,7 @@ class HogelWaves : public virtual HogelPreparation {
     /// @param prepared  by prepare()
     /// @param rows      that are needed; blocks without any of them may be left as they are
     /// @param waves     size() values, aligned to a cache line
-    virtual void waves(std::span<const float> prepared, const HogelPlace& place, const NearRows& rows,
+    virtual void waves(std::span<const float> prepared, const HogelKey& place, const InBandRows& rows,
                        float* waves) const = 0;
     /// |waves|² in blocks of sixteen rows [row / 16][column][row mod 16], zero in rows beyond n: powers_size() values.
     /// Only if the waves are independent.
@@ -61,7 +61,7 @@ class HogelWaves : public virtual HogelPreparation {
     /// Whether the functions below compute waves.
     virtual bool has_lanes() const { return false; }
     /// The phases of some hogels or looks, at most `lanes`.
-    virtual SeriesOfLanes series_of_lanes(std::span<const HogelPlace>) const { return {}; }
+    virtual SeriesOfLanes series_of_lanes(std::span<const HogelKey>) const { return {}; }
     /// Stores what hogels have prepared for sixteen rows, at most one hogel for each lane, as row_of_lanes() takes it:
     /// its part of powers_size() · lanes values. Rows without light may be left as they are.
     /// @param row       the first one, a multiple of sixteen
@@ -73,17 +73,17 @@ class HogelWaves : public virtual HogelPreparation {
     /// @param prepared  of that hogel, or from gather_lanes(); aligned to a cache line
     virtual void row_of_lanes(const SeriesOfLanes&, std::size_t /*row*/, bool /*shared*/, const float* /*prepared*/,
                               float* /*waves*/) const {}
-    static constexpr std::size_t rows_together = 16;
+    static constexpr std::size_t block_rows = 16;
     static std::size_t powers_size(std::size_t samples) { return size(samples, samples) / 2; }
     static std::size_t size(std::size_t rows, std::size_t columns) {
-        return (rows + rows_together - 1) / rows_together * rows_together * columns * 2;
+        return (rows + block_rows - 1) / block_rows * block_rows * columns * 2;
     }
 };
 
 /// Stores all waves of a hogel, [row][column], in the layout of HogelWaves::waves(), but for blocks without any of
 /// `needed`.
-inline void store_waves(View<const std::complex<float>, 2> plain, const NearRows& needed, float* waves) {
-    constexpr std::size_t together = HogelWaves::rows_together;
+inline void store_waves(View<const std::complex<float>, 2> plain, const InBandRows& needed, float* waves) {
+    constexpr std::size_t together = HogelWaves::block_rows;
     const std::size_t rows = plain.extent(0), columns = plain.extent(1);
     for (std::size_t first = 0; first < rows; first += together) {
         if (!needed.has_any(first, together, rows)) continue;
@@ -104,10 +104,10 @@ inline void store_waves(View<const std::complex<float>, 2> plain, const NearRows
 /// synthesis defines whether phases are counted from the hogel's centre or from its first sample.
 class HogelSynthesis : public virtual HogelPreparation {
   public:
-    virtual void synthesise(std::span<const float> prepared, const HogelPlace& place,
+    virtual void synthesise(std::span<const float> prepared, const HogelKey& place,
                             View<std::complex<float>, 2> hogel) const = 0;
     /// As synthesise(), but writes row y to to + y·to_row; `scratch` is a buffer of the hogel's shape.
-    virtual void synthesise_to(std::span<const float> prepared, const HogelPlace& place,
+    virtual void synthesise_to(std::span<const float> prepared, const HogelKey& place,
                                View<std::complex<float>, 2> scratch, std::complex<float>* to,
                                std::size_t to_row) const {
         synthesise(prepared, place, scratch);

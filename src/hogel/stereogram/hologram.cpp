@@ -74,13 +74,13 @@ class HogelsSideBySide final : public Stereogram {
         const View<const float, 5> whole = rays_in_memory(hogels);
         // A few hogels at a time, so that their values stay in the processor's cache.
         const std::size_t values = synthesis_->prepared_size();
-        const std::size_t together = std::min(hogels_together, hogels.hogels());
+        const std::size_t together = std::min(hogels_per_batch, hogels.hogels());
         if (scratch->prepared.size() < together * values) scratch->prepared = Array<float, 2>({together, values});
         for_each_band(hogels, [&](const HogelRange& band) {
             if (whole.size() == 0) read_rays(band, scratch->rays);
-            for (std::size_t first = 0; first < band.hogels(); first += hogels_together) {
+            for (std::size_t first = 0; first < band.hogels(); first += hogels_per_batch) {
                 const View<float, 2> some(scratch->prepared.data(),
-                                          {std::min(hogels_together, band.hogels() - first), values});
+                                          {std::min(hogels_per_batch, band.hogels() - first), values});
                 if (whole.size() > 0)
                     synthesis_->prepare(
                         {&whole(channel_, band.t0, band.s0, 0, 0) + first * rays_, {some.extent(0), rays_}}, {}, some);
@@ -130,7 +130,7 @@ class HogelsSideBySide final : public Stereogram {
     }
 
   private:
-    static constexpr std::size_t hogels_together = 16;
+    static constexpr std::size_t hogels_per_batch = 16;
     // The maximum bytes of rays that are read at a time (but at least one row of hogels), because the rays of a region
     // may take gigabytes.
     static constexpr std::size_t max_ray_bytes = std::size_t{1} << 27;
@@ -142,7 +142,7 @@ class HogelsSideBySide final : public Stereogram {
     // Buffers for one region.
     struct Scratch {
         std::vector<LightFieldTile> rays;  // one per face
-        Array<float, 2> prepared;          // [hogels_together][...]
+        Array<float, 2> prepared;          // [hogels_per_batch][...]
         Array<Complex, 2> square;          // a hogel
     };
 
@@ -220,7 +220,7 @@ class HogelsSideBySide final : public Stereogram {
     void write(View<const float, 2> prepared, const HogelRange& hogels, std::size_t first, std::size_t look,
                const Region& region, View<Complex, 2> square, View<Complex, 2> out) const {
         for (std::size_t i = 0; i < prepared.extent(0); ++i) {
-            const HogelPlace place{hogels.s0 + (first + i) % hogels.ns, hogels.t0 + (first + i) / hogels.ns, look};
+            const HogelKey place{hogels.s0 + (first + i) % hogels.ns, hogels.t0 + (first + i) / hogels.ns, look};
             const std::size_t y0 = std::max(place.t * rows_, region.y0),
                               y1 = std::min((place.t + 1) * rows_, region.y0 + region.height),
                               x0 = std::max(place.s * columns_, region.x0),

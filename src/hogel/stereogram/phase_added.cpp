@@ -53,7 +53,7 @@ class PhaseAddedSynthesis final : public HogelSynthesis, public HogelWaves {
         }
     }
 
-    void synthesise(std::span<const float> prepared, const HogelPlace& place, View<Complex, 2> hogel) const override {
+    void synthesise(std::span<const float> prepared, const HogelKey& place, View<Complex, 2> hogel) const override {
         if (waves_) {
             Array<Complex, 2> spectrum = waves_->make_spectrum();
             for_each_wave(prepared, place,
@@ -68,7 +68,7 @@ class PhaseAddedSynthesis final : public HogelSynthesis, public HogelWaves {
     // With the exact frequencies of rays a hogel is no sum of as many waves as it has samples.
     const HogelWaves* hogel_waves() const override { return waves_ ? nullptr : this; }
 
-    void waves(std::span<const float> prepared, const HogelPlace& place, const NearRows& rows,
+    void waves(std::span<const float> prepared, const HogelKey& place, const InBandRows& rows,
                float* waves) const override {
         const core::ThreadBuffer<Complex> buffer(samples_ * samples_);
         const View<Complex, 2> spectrum(buffer.data(), {samples_, samples_});
@@ -84,13 +84,13 @@ class PhaseAddedSynthesis final : public HogelSynthesis, public HogelWaves {
     };
 
     // The waves on the frequencies of the hogel's transform.
-    void spread(std::span<const float> prepared, const HogelPlace& place, View<Complex, 2> spectrum) const {
+    void spread(std::span<const float> prepared, const HogelKey& place, View<Complex, 2> spectrum) const {
         std::ranges::fill(spectrum.elements(), Complex(0));
         for_each_wave(prepared, place, [&](float amplitude, const Wave& wave) { add(amplitude, wave, spectrum); });
     }
 
     template <class Use>
-    void for_each_wave(std::span<const float> prepared, const HogelPlace& place, const Use& use) const {
+    void for_each_wave(std::span<const float> prepared, const HogelKey& place, const Use& use) const {
         const float* amplitudes = prepared.data();
         const float* depths = amplitudes + light_field_.directions();
         const double s = light_field_.s(static_cast<double>(place.s)), t = light_field_.t(static_cast<double>(place.t));

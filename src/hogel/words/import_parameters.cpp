@@ -40,7 +40,7 @@ void declare_views(Parameters& parameters, ImportParameters& options) {
         .no_default();
 }
 
-void declare_geometry(Parameters& parameters, ViewOptions& views) {
+void declare_geometry(Parameters& parameters, ViewImportOptions& views) {
     parameters.group("Geometry");
     parameters
         .positive_length("--size", views.size, "Width of the hologram, to which the set is scaled (default: 20mm)")
@@ -61,7 +61,7 @@ void declare_geometry(Parameters& parameters, ViewOptions& views) {
         .no_default();
 }
 
-void declare_disparity(Parameters& parameters, ViewOptions& views) {
+void declare_disparity(Parameters& parameters, ViewImportOptions& views) {
     parameters.group("Depth, and views between views");
     parameters
         .count("--densify", views.densify,
@@ -82,8 +82,8 @@ void declare_disparity(Parameters& parameters, ViewOptions& views) {
 
 }  // namespace
 
-ViewOptions ImportParameters::options() const {
-    ViewOptions asked = views;
+ViewImportOptions ImportParameters::options() const {
+    ViewImportOptions asked = views;
     if (!projection.empty()) asked.orthographic = projection == "orthographic";
     if (!column.empty()) asked.column_first = column == "first";
     asked.transfer = transfer_named(transfer);

@@ -32,7 +32,7 @@ TEST(ImportParameters, that_acted_ask_for_the_same_again) {
         FromTexts<ImportParameters> first(texts);
         first.values.resolve(imported_views());
         const FromTexts<ImportParameters> again(first.table.acting());
-        const ViewOptions a = first.values.options(), b = again.values.options();
+        const ViewImportOptions a = first.values.options(), b = again.values.options();
         EXPECT_EQ(a.layout, "rows-columns");
         EXPECT_EQ(a.size, imported_views().light_field.grid().width());
         EXPECT_EQ(a.transfer, Transfer::linear);

@@ -18,19 +18,19 @@ void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body);
 /// Computes body(i) for every i in [0, n) on all threads and calls merge(i, result) in increasing order of i on the
 /// calling thread, with at most `in_flight` results alive. Thus a sum over tiles is the same for any number of threads.
 template <class Result>
-void parallel_ordered(std::size_t n, std::size_t in_flight, const std::function<Result(std::size_t)>& body,
-                      const std::function<void(std::size_t, Result&)>& merge);
+void local_ordered_reduce(std::size_t n, std::size_t in_flight, const std::function<Result(std::size_t)>& body,
+                          const std::function<void(std::size_t, Result&)>& merge);
 
 /// Runs body on this thread; while the thread waits for parallel loops inside body, it executes only their tasks. For
 /// code that holds something, such as a lock or a promise, for which bodies of other loops wait.
 void isolate(const std::function<void()>& body);
 
-/// The number of results that parallel_ordered() keeps alive so that threads seldom wait for the merge.
+/// The number of results that local_ordered_reduce() keeps alive so that threads seldom wait for the merge.
 inline std::size_t default_in_flight() { return 4 * thread_count(); }
 
 template <class Result>
-void parallel_ordered(std::size_t n, std::size_t in_flight, const std::function<Result(std::size_t)>& body,
-                      const std::function<void(std::size_t, Result&)>& merge) {
+void local_ordered_reduce(std::size_t n, std::size_t in_flight, const std::function<Result(std::size_t)>& body,
+                          const std::function<void(std::size_t, Result&)>& merge) {
     std::vector<std::optional<Result>> results(in_flight);
     for (std::size_t first = 0; first < n; first += in_flight) {
         const std::size_t batch = n - first < in_flight ? n - first : in_flight;

@@ -49,10 +49,10 @@ TEST(ParallelFor, inside_a_loop_that_has_failed_never_returns_with_bodies_left_o
                  Error);
 }
 
-TEST(ParallelOrdered, merges_in_order_with_few_results_alive) {
+TEST(LocalOrderedReduce, merges_in_order_with_few_results_alive) {
     std::atomic<int> alive{0}, max_alive{0};
     std::vector<std::size_t> merged;
-    parallel_ordered<std::size_t>(
+    local_ordered_reduce<std::size_t>(
         100, 7,
         [&](std::size_t i) {
             max_alive = std::max<int>(max_alive, ++alive);

@@ -3,10 +3,10 @@
 
 #include <atomic>
 
+#include "hogel/communicator.h"
 #include "hogel/error.h"
 #include "hogel/resume.h"
-#include "hogel/team.h"
-#include "hogel/work/shared_order.h"
+#include "hogel/work/ordered_reduce.h"
 
 namespace hogel::work {
 namespace {
@@ -51,7 +51,7 @@ void once(const std::function<void()>& work) {
             work();
             return std::uint8_t{1};
         },
-        [](std::size_t, std::uint8_t&) {}, DoneBy::whole_team);
+        [](std::size_t, std::uint8_t&) {}, DoneBy::all_ranks);
 }
 
 }  // namespace hogel::work
@@ -59,7 +59,7 @@ void once(const std::function<void()>& work) {
 namespace hogel {
 
 ResumeScope::ResumeScope(const std::filesystem::path& file, const std::vector<std::string>& work)
-    : log_(std::make_unique<work::ResultLog>(is_first_process() ? file : std::filesystem::path(), work)) {
+    : log_(std::make_unique<work::ResultLog>(is_root_rank() ? file : std::filesystem::path(), work)) {
     if (work::result_log() != nullptr) throw Error(ErrorCode::usage, "only one work at a time can be resumed");
     work::set_result_log(log_.get());
 }

@@ -13,7 +13,7 @@
 
 namespace hogel::work {
 
-/// The results of loops that merge in order (shared_ordered()), in the order in which they were merged, in a file. The
+/// The results of loops that merge in order (ordered_reduce()), in the order in which they were merged, in a file. The
 /// key of a result is the number of its loop, the loop's number of results, and its own number.
 class ResultLog {
   public:

@@ -11,7 +11,7 @@
 
 #include "hogel/error.h"
 #include "hogel/resume.h"
-#include "hogel/work/shared_order.h"
+#include "hogel/work/ordered_reduce.h"
 
 namespace hogel::work {
 namespace {
@@ -46,7 +46,7 @@ class ResultLogs : public testing::Test {
         std::atomic<std::size_t> computed = 0;
         ResumeScope scope(file_, work);
         const auto loop = [&](std::size_t count, std::size_t stop) {
-            shared_ordered<std::uint64_t>(
+            ordered_reduce<std::uint64_t>(
                 count, 4, {},
                 [&](std::size_t i) {
                     ++computed;

@@ -7,7 +7,7 @@ namespace hogel::work {
 
 std::optional<std::size_t> TileQueue::next() {
     const std::lock_guard lock(mutex_);
-    const std::optional<std::uint64_t> tile = team_.next_tile(queue_, tiles_);
+    const std::optional<std::uint64_t> tile = communicator_.next_tile(queue_, tiles_);
     last_ = tile ? *tile + 1 : tiles_;
     return tile;
 }

@@ -9,22 +9,23 @@
 #include <mutex>
 #include <optional>
 
+#include "hogel/communicator.h"
 #include "hogel/progress.h"
-#include "hogel/team.h"
 
 namespace hogel::work {
 
 /// The tiles that a team's queue hands out to this process. Thread-safe.
 class TileQueue {
   public:
-    TileQueue(Team& team, std::uint64_t queue, std::size_t tiles) : team_(team), queue_(queue), tiles_(tiles) {}
+    TileQueue(Communicator& communicator, std::uint64_t queue, std::size_t tiles)
+        : communicator_(communicator), queue_(queue), tiles_(tiles) {}
     /// The next tile, or nothing if all are handed out. Throws Error(cancelled) if another process has failed.
     std::optional<std::size_t> next();
     /// The fraction of all tiles that some process has been given, as far as this one knows.
     double handed_out() const { return static_cast<double>(last_.load()) / static_cast<double>(tiles_); }
 
   private:
-    Team& team_;
+    Communicator& communicator_;
     std::uint64_t queue_;
     std::size_t tiles_;
     std::mutex mutex_;

@@ -11,7 +11,7 @@ namespace hogel::work {
 namespace {
 
 // Gives this process two tiles of each six, as if two others had the rest.
-class ThirdOfATeam final : public Team, public SharedSink {
+class ThirdOfThreeRanks final : public Communicator, public SharedSink {
   public:
     std::size_t rank() const override { return 0; }
     std::size_t size() const override { return 3; }
@@ -46,10 +46,10 @@ TEST(SharedTiles, alone_a_process_has_all_of_them) {
 }
 
 TEST(SharedTiles, one_of_a_team_has_those_that_it_is_handed) {
-    ThirdOfATeam team;
+    ThirdOfThreeRanks communicator;
     std::vector<std::atomic<int>> done(100);
     std::vector<double> fractions;
-    for_each_tile(done.size(), &team, Progress([&](double fraction) { fractions.push_back(fraction); }),
+    for_each_tile(done.size(), &communicator, Progress([&](double fraction) { fractions.push_back(fraction); }),
                   [&](std::size_t tile) { ++done[tile]; });
     for (std::size_t tile = 0; tile < done.size(); ++tile) EXPECT_EQ(done[tile], tile % 6 < 2 ? 1 : 0) << tile;
     EXPECT_TRUE(std::ranges::is_sorted(fractions));
@@ -57,15 +57,15 @@ TEST(SharedTiles, one_of_a_team_has_those_that_it_is_handed) {
 }
 
 TEST(SharedTiles, a_process_is_in_one_team_at_a_time) {
-    EXPECT_EQ(team(), nullptr);
-    ThirdOfATeam one, two;
+    EXPECT_EQ(communicator(), nullptr);
+    ThirdOfThreeRanks one, two;
     {
-        const TeamScope scope(one);
-        EXPECT_EQ(team(), &one);
-        EXPECT_THROW(TeamScope{two}, Error);
-        EXPECT_EQ(team(), &one);
+        const CommunicatorScope scope(one);
+        EXPECT_EQ(communicator(), &one);
+        EXPECT_THROW(CommunicatorScope{two}, Error);
+        EXPECT_EQ(communicator(), &one);
     }
-    EXPECT_EQ(team(), nullptr);
+    EXPECT_EQ(communicator(), nullptr);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ class Development {
                     sines_.back().push_back(up / std::hypot(up, eye_.z) / y_.step);
             }
         }
-        for (std::size_t i = 0; i < optics::blocks_of(x_.count) * optics::lines_together; ++i) {
+        for (std::size_t i = 0; i < optics::blocks_of(x_.count) * optics::block_lines; ++i) {
             const double sine = x_.low + static_cast<double>(i) * x_.step;
             slopes_.push_back(std::sqrt(std::max(0.0, 1 - sine * sine)));
         }
@@ -64,16 +64,16 @@ class Development {
 
     // Sixteen rows of the picture, from `first` on, or fewer.
     void develop(View<const float, 2> blocks, std::size_t first, float scale, Scratch& scratch, Image& image) const {
-        const std::size_t rows = std::min(optics::lines_together, picture_.height - first), width = slopes_.size();
+        const std::size_t rows = std::min(optics::block_lines, picture_.height - first), width = slopes_.size();
         if (scratch.rows.size() == 0) {
-            scratch.rows = Array<float, 2>({optics::lines_together, width});
-            scratch.turned = Array<float, 1>({width * optics::lines_together});
-            scratch.pixels = Array<float, 2>({picture_.width, optics::lines_together});
+            scratch.rows = Array<float, 2>({optics::block_lines, width});
+            scratch.turned = Array<float, 1>({width * optics::block_lines});
+            scratch.pixels = Array<float, 2>({picture_.width, optics::block_lines});
         }
         for (std::size_t row = 0; row < rows; ++row) sum_down(blocks, first + row, scratch, scratch.rows[row]);
-        for (std::size_t block = 0; block < width; block += optics::lines_together)
-            turn_sixteen(&scratch.rows(0, block), width, optics::lines_together,
-                         &scratch.turned(block * optics::lines_together));
+        for (std::size_t block = 0; block < width; block += optics::block_lines)
+            transpose_block(&scratch.rows(0, block), width, optics::block_lines,
+                            &scratch.turned(block * optics::block_lines));
         sum_along(first, rows, scale, scratch);
         for (std::size_t row = 0; row < rows; ++row)
             for (std::size_t column = 0; column < picture_.width; ++column)
@@ -98,8 +98,8 @@ class Development {
         double farthest = 0;
         for (const auto& row : sines_)
             for (const double sine : row) farthest = std::max(farthest, std::abs(sine));
-        for (std::size_t block = 0; block < slopes_.size() / optics::lines_together; ++block) {
-            const auto own = std::span(slopes_).subspan(block * optics::lines_together, optics::lines_together);
+        for (std::size_t block = 0; block < slopes_.size() / optics::block_lines; ++block) {
+            const auto own = std::span(slopes_).subspan(block * optics::block_lines, optics::block_lines);
             const auto [low, high] = std::ranges::minmax(own);
             if (!groups_.empty()) {
                 Group& last = groups_.back();
@@ -122,12 +122,12 @@ class Development {
                 scratch.points.push_back({offset + sine * low, offset + sine * high, 1, 1});
         };
         for (const Group& group : groups_) {
-            const Lines all{0, optics::lines_together, group.low, group.high};
+            const Lines all{0, optics::block_lines, group.low, group.high};
             place_points(all.low, all.high);
             const bool merged = scratch.weights.set(scratch.points, y_.count);
             for (std::size_t block = group.begin; block < group.end; ++block) {
-                const std::size_t first = block * optics::lines_together;
-                const auto slopes = std::span(slopes_).subspan(first).first<optics::lines_together>();
+                const std::size_t first = block * optics::block_lines;
+                const auto slopes = std::span(slopes_).subspan(first).first<optics::block_lines>();
                 if (merged)
                     sum(&blocks(block, 0), slopes, all, scratch.weights, &out(first));
                 else
@@ -138,8 +138,8 @@ class Development {
 
     // The sums over the points of each pixel of some rows along the lines, times r³.
     void sum_along(std::size_t first, std::size_t rows, float scale, Scratch& scratch) const {
-        double squares[optics::lines_together];
-        for (std::size_t row = 0; row < optics::lines_together; ++row) {
+        double squares[optics::block_lines];
+        for (std::size_t row = 0; row < optics::block_lines; ++row) {
             const double up = picture_.y(static_cast<double>(first + std::min(row, rows - 1))) - eye_.y;
             squares[row] = up * up + eye_.z * eye_.z;
         }
@@ -156,7 +156,7 @@ class Development {
                                               scale * static_cast<float>(high_square * high_r)});
                 }
             };
-            sum_some(scratch.turned.data(), x_.count, squares, {0, optics::lines_together}, place_points, scratch,
+            sum_some(scratch.turned.data(), x_.count, squares, {0, optics::block_lines}, place_points, scratch,
                      &scratch.pixels(column, 0));
         }
     }
@@ -168,9 +168,9 @@ class Development {
     };
 
     // The weighted sums of lines.
-    static void sum(const float* samples, std::span<const double, optics::lines_together> values, const Lines& lines,
+    static void sum(const float* samples, std::span<const double, optics::block_lines> values, const Lines& lines,
                     const MergedWeights& weights, float* out) {
-        alignas(64) float t[optics::lines_together] = {}, all[optics::lines_together];
+        alignas(64) float t[optics::block_lines] = {}, all[optics::block_lines];
         for (std::size_t line = lines.begin; line < lines.end; ++line)
             t[line] = line_place(values[line], lines.low, lines.high);
         sum_merged(samples, weights, t, all);
@@ -179,7 +179,7 @@ class Development {
 
     // The same, in halves if places differ too much.
     template <class PlacePoints>
-    static void sum_some(const float* samples, std::size_t size, std::span<const double, optics::lines_together> values,
+    static void sum_some(const float* samples, std::size_t size, std::span<const double, optics::block_lines> values,
                          const Lines& lines, const PlacePoints& place_points, Scratch& scratch, float* out) {
         const auto [low, high] = std::ranges::minmax(values.subspan(lines.begin, lines.end - lines.begin));
         place_points(low, high);
@@ -213,7 +213,7 @@ void Film::develop(View<const float, 2> blocks, const Camera& camera, const Rect
     core::ObjectPool<Development::Scratch> pool;
     work::parallel_for(optics::blocks_of(camera.picture.height), [&](std::size_t block) {
         auto scratch = pool.take();
-        development.develop(blocks, block * optics::lines_together, scale, *scratch, image);
+        development.develop(blocks, block * optics::block_lines, scale, *scratch, image);
     });
 }
 

@@ -27,11 +27,11 @@ const InterpolationTable& interpolation() {
 
 std::size_t across(std::ptrdiff_t reach) { return static_cast<std::size_t>(2 * reach + 1); }
 
-constexpr std::size_t padded(std::size_t lines) { return optics::blocks_of(lines) * optics::lines_together; }
+constexpr std::size_t padded(std::size_t lines) { return optics::blocks_of(lines) * optics::block_lines; }
 
 // Floats of sixteen complex numbers side by side, and of a block of sixteen rows of so many.
 constexpr std::size_t both = math::SplitFft::row;
-static_assert(both == 2 * optics::lines_together && optics::lines_together == PackedBand::side);
+static_assert(both == 2 * optics::block_lines && optics::block_lines == PackedBand::side);
 
 FilmAxis film_axis(double first, double period, const SineGrid::Range& seen, std::size_t frequencies, double samples) {
     FilmAxis axis;
@@ -48,13 +48,13 @@ FilmAxis film_axis(double first, double period, const SineGrid::Range& seen, std
 }
 
 // The rows of a band that are not dark, [begin, end), widened by what the kernel of the resampling reaches.
-struct LitRows {
+struct ActiveRows {
     double begin, end;
 };
-std::vector<LitRows> lit_rows_of(const std::vector<char>& is_lit) {
-    std::vector<LitRows> all;
-    for (std::size_t row = 0; row < is_lit.size(); ++row) {
-        if (!is_lit[row]) continue;
+std::vector<ActiveRows> active_rows_of(const std::vector<char>& is_active) {
+    std::vector<ActiveRows> all;
+    for (std::size_t row = 0; row < is_active.size(); ++row) {
+        if (!is_active[row]) continue;
         constexpr double reach = InterpolationTable::taps;
         const double begin = static_cast<double>(row) - reach, end = static_cast<double>(row) + reach;
         if (!all.empty() && begin <= all.back().end)
@@ -85,14 +85,14 @@ FilmSize::FilmSize(const narrow_band::BandGrid& band, const FieldGrid& hologram,
     Grid around = band.plane;
     around.width += 2 * InterpolationTable::taps;
     around.height += 2 * InterpolationTable::taps;
-    const SineRanges lit = sines_of(band.geometry, around);
+    const SineRanges active = sines_of(band.geometry, around);
     const auto index = [&](double sine, double first, std::size_t size) {
         return static_cast<std::size_t>(std::clamp(std::ceil((sine - first) / sines.step), 0.0, double(size)));
     };
-    lit_left = index(lit.x.low, sines.first_x, sines.size_x);
-    lit_right = index(lit.x.high, sines.first_x, sines.size_x);
-    lit_low = index(lit.y.low, sines.first_y, sines.size_y);
-    lit_high = index(lit.y.high, sines.first_y, sines.size_y);
+    active_left = index(active.x.low, sines.first_x, sines.size_x);
+    active_right = index(active.x.high, sines.first_x, sines.size_x);
+    active_low = index(active.y.low, sines.first_y, sines.size_y);
+    active_high = index(active.y.high, sines.first_y, sines.size_y);
 }
 
 double FilmSize::pupil_bytes() const {
@@ -102,7 +102,7 @@ double FilmSize::pupil_bytes() const {
 double FilmSize::work_bytes() const {
     // Both are kept for the next look, and the lens.
     const double lens_bytes = 2 * pupil_bytes();
-    const std::size_t to_pupil = (lit_right - lit_left) * (band_rows + padded(across(reach_y))),
+    const std::size_t to_pupil = (active_right - active_left) * (band_rows + padded(across(reach_y))),
                       to_film = padded(x.count) * padded(across(reach_y));
     return static_cast<double>(sizeof(Complex) * (to_pupil + to_film)) + lens_bytes;
 }
@@ -131,37 +131,38 @@ PupilWave Film::pupil_wave(const PackedBand& band) const {
     // Two passes, each along one axis: first to uniform n_x on the band's rows, then down the columns, on which n_x is
     // constant, to uniform n_y. The intermediate result is transposed, so that both passes run along memory.
     auto scratch = scratch_->take();
-    std::vector<char> is_lit(band.height());
-    resample_rows(band, is_lit, *scratch);
-    transform_columns(is_lit, *scratch);
-    const std::size_t lit = size_.lit_right - size_.lit_left, width = across(size_.reach_x);
-    PupilWave wave({optics::blocks_of(across(size_.reach_y)), width * optics::lines_together});
+    std::vector<char> is_active(band.height());
+    resample_rows(band, is_active, *scratch);
+    transform_columns(is_active, *scratch);
+    const std::size_t active = size_.active_right - size_.active_left, width = across(size_.reach_x);
+    PupilWave wave({optics::blocks_of(across(size_.reach_y)), width * optics::block_lines});
     work::parallel_for(wave.extent(0), [&](std::size_t block) {
         const core::ThreadBuffer<float> lines(along_.size() * both);
-        std::fill_n(lines.data(), size_.lit_left * both, 0.0f);
-        std::copy_n(&scratch->half(block, 0), lit * both, &lines[size_.lit_left * both]);
-        std::fill_n(lines.data() + size_.lit_right * both, (along_.size() - size_.lit_right) * both, 0.0f);
+        std::fill_n(lines.data(), size_.active_left * both, 0.0f);
+        std::copy_n(&scratch->half(block, 0), active * both, &lines[size_.active_left * both]);
+        std::fill_n(lines.data() + size_.active_right * both, (along_.size() - size_.active_right) * both, 0.0f);
         along_.transform(lines.data());
         pack_rows(lines.data(), frequencies_x_, &wave(block, 0));
     });
     return wave;
 }
 
-void Film::resample_rows(const PackedBand& band, std::vector<char>& is_lit, Scratch& scratch) const {
+void Film::resample_rows(const PackedBand& band, std::vector<char>& is_active, Scratch& scratch) const {
     const Grid& plane = band_.plane;
     const SineGrid& sines = size_.sines;
-    const std::size_t lit_columns = size_.lit_right - size_.lit_left, row_blocks = optics::blocks_of(plane.height);
+    const std::size_t active_columns = size_.active_right - size_.active_left,
+                      row_blocks = optics::blocks_of(plane.height);
     if (scratch.columns.size() == 0)
-        scratch.columns = Array<float, 3>({optics::blocks_of(lit_columns), row_blocks, optics::lines_together * both});
+        scratch.columns = Array<float, 3>({optics::blocks_of(active_columns), row_blocks, optics::block_lines * both});
     const Vec3 eye = band_.geometry.eye();
     work::parallel_for(row_blocks, [&](std::size_t block) {
-        const std::size_t first = block * optics::lines_together,
-                          count = std::min(optics::lines_together, plane.height - first);
+        const std::size_t first = block * optics::block_lines,
+                          count = std::min(optics::block_lines, plane.height - first);
         // Most rows are dark where the lines of a hologram are photographed apart.
         bool all_dark = true;
         for (std::size_t r = first; r < first + count; ++r) {
-            is_lit[r] = band.is_lit(r);
-            all_dark = all_dark && !is_lit[r];
+            is_active[r] = band.is_active(r);
+            all_dark = all_dark && !is_active[r];
         }
         if (all_dark) {
             for (std::size_t i = 0; i < scratch.columns.extent(0); ++i)
@@ -171,46 +172,47 @@ void Film::resample_rows(const PackedBand& band, std::vector<char>& is_lit, Scra
         const core::ThreadBuffer<float> lines(padded(plane.width) * both);
         side_by_side(band.at(first, 0), optics::blocks_of(plane.width), lines.data());
         // On a row the point of sine n_x lies at x = c_x + n_x/√(1 − n_x²) · √((y − c_y)² + c_z²).
-        TangentPlaces places{0, sines.step, plane.column(eye.x), {}, {}};
+        TangentPositions places{0, sines.step, plane.column(eye.x), {}, {}};
         places.squares.fill(1);
-        for (std::size_t r = 0; r < optics::lines_together; ++r) {
+        for (std::size_t r = 0; r < optics::block_lines; ++r) {
             const auto row = static_cast<double>(first + std::min(r, count - 1));
             places.scales[r] = std::hypot(plane.y(row) - eye.y, eye.z) / plane.pitch_x;
         }
-        for (std::size_t i = 0; i < lit_columns; i += optics::lines_together) {
-            places.first = sines.first_x + static_cast<double>(size_.lit_left + i) * sines.step;
+        for (std::size_t i = 0; i < active_columns; i += optics::block_lines) {
+            places.first = sines.first_x + static_cast<double>(size_.active_left + i) * sines.step;
             resample_lines(lines.data(), plane.width, places, interpolation(),
-                           std::min(optics::lines_together, lit_columns - i),
-                           &scratch.columns(i / optics::lines_together, block, 0));
+                           std::min(optics::block_lines, active_columns - i),
+                           &scratch.columns(i / optics::block_lines, block, 0));
         }
     });
 }
 
-void Film::transform_columns(const std::vector<char>& is_lit, Scratch& scratch) const {
+void Film::transform_columns(const std::vector<char>& is_active, Scratch& scratch) const {
     const Grid& plane = band_.plane;
     const SineGrid& sines = size_.sines;
-    const std::size_t lit_columns = size_.lit_right - size_.lit_left, lit_rows = size_.lit_high - size_.lit_low;
+    const std::size_t active_columns = size_.active_right - size_.active_left,
+                      active_rows = size_.active_high - size_.active_low;
     const Vec3 eye = band_.geometry.eye();
-    const double low = sines.first_y + static_cast<double>(size_.lit_low) * sines.step;
-    const std::vector<LitRows> lit = lit_rows_of(is_lit);
+    const double low = sines.first_y + static_cast<double>(size_.active_low) * sines.step;
+    const std::vector<ActiveRows> active = active_rows_of(is_active);
     Array<float, 2>& half = scratch.half;
-    if (half.size() == 0) half = Array<float, 2>({optics::blocks_of(across(size_.reach_y)), lit_columns * both});
+    if (half.size() == 0) half = Array<float, 2>({optics::blocks_of(across(size_.reach_y)), active_columns * both});
     // Transforms each column and keeps only the frequencies within the pupil.
-    work::parallel_for(optics::blocks_of(lit_columns), [&](std::size_t block) {
-        const std::size_t first = block * optics::lines_together,
-                          count = std::min(optics::lines_together, lit_columns - first);
+    work::parallel_for(optics::blocks_of(active_columns), [&](std::size_t block) {
+        const std::size_t first = block * optics::block_lines,
+                          count = std::min(optics::block_lines, active_columns - first);
         const std::size_t padded_rows = padded(plane.height);
         const core::ThreadBuffer<float> lines(padded_rows * both), together(sines.size_y * both);
-        for (std::size_t rows = 0; rows < padded_rows; rows += optics::lines_together)
-            for (const std::size_t part : {std::size_t{0}, optics::lines_together})
-                turn_sixteen(&scratch.columns(block, rows / optics::lines_together, part), both, both,
-                             &lines[rows * both + part]);
+        for (std::size_t rows = 0; rows < padded_rows; rows += optics::block_lines)
+            for (const std::size_t part : {std::size_t{0}, optics::block_lines})
+                transpose_block(&scratch.columns(block, rows / optics::block_lines, part), both, both,
+                                &lines[rows * both + part]);
         // The point of sine n_y on the column of sine n_x is at the tangent n_y/√(1 − n_x² − n_y²).
         const double row_of_eye = plane.row(eye.y), rows_per_tangent = -eye.z / plane.pitch_y;
-        TangentPlaces places{0, sines.step, row_of_eye, {}, {}};
+        TangentPositions places{0, sines.step, row_of_eye, {}, {}};
         places.scales.fill(rows_per_tangent);
-        for (std::size_t c = 0; c < optics::lines_together; ++c) {
-            const auto column = static_cast<double>(size_.lit_left + first + std::min(c, count - 1));
+        for (std::size_t c = 0; c < optics::block_lines; ++c) {
+            const auto column = static_cast<double>(size_.active_left + first + std::min(c, count - 1));
             const double sine = sines.first_x + column * sines.step;
             places.squares[c] = 1 - sine * sine;
         }
@@ -219,21 +221,21 @@ void Film::transform_columns(const std::vector<char>& is_lit, Scratch& scratch) 
         const auto sine_of = [&](double row, double square) {
             const double tangent = (row - row_of_eye) / rows_per_tangent;
             const double sine = tangent * std::sqrt(square) / std::hypot(1.0, tangent);
-            return std::clamp((sine - low) / sines.step, 0.0, static_cast<double>(lit_rows));
+            return std::clamp((sine - low) / sines.step, 0.0, static_cast<double>(active_rows));
         };
         std::fill_n(together.data(), sines.size_y * both, 0.0f);
-        for (const LitRows& rows : lit) {
+        for (const ActiveRows& rows : active) {
             const bool all = rows.begin < 0 && rows.end > static_cast<double>(plane.height);
             const double lowest = std::min(sine_of(rows.end, least), sine_of(rows.end, most)),
                          highest = std::max(sine_of(rows.begin, least), sine_of(rows.begin, most));
             const std::size_t from = all ? 0 : static_cast<std::size_t>(lowest),
-                              to = all ? lit_rows : static_cast<std::size_t>(std::ceil(highest));
+                              to = all ? active_rows : static_cast<std::size_t>(std::ceil(highest));
             places.first = low + static_cast<double>(from) * sines.step;
             resample_lines(lines.data(), plane.height, places, interpolation(), to - from,
-                           &together[(size_.lit_low + from) * both]);
+                           &together[(size_.active_low + from) * both]);
         }
         down_.transform(together.data());
-        turn_rows(together.data(), frequencies_y_, count, &half(0, first * both), half.extent(1));
+        transpose_selected(together.data(), frequencies_y_, count, &half(0, first * both), half.extent(1));
     });
 }
 
@@ -251,14 +253,14 @@ void Film::expose(std::span<const PupilWave> pupil_waves, const Camera& camera, 
     Node node;
     node.reach_x = std::min(lens.reach_x(), size_.reach_x);
     const auto first_row = static_cast<std::size_t>(size_.reach_y - reach_y), end_row = first_row + across(reach_y);
-    node.first_block = first_row / optics::lines_together;
+    node.first_block = first_row / optics::block_lines;
     node.lens = Array<float, 2>({optics::blocks_of(end_row) - node.first_block, across(node.reach_x) * both});
     node.share_x = Array<float, 1>({padded(size_.x.count)});
     node.share_y.resize(size_.y.count);
     for (std::size_t b = 0; b < lens.nodes_y; ++b)
         for (std::size_t a = 0; a < lens.nodes_x; ++a) {
             work::parallel_for(node.lens.extent(0), [&](std::size_t block) {
-                const auto first = static_cast<std::ptrdiff_t>((node.first_block + block) * optics::lines_together);
+                const auto first = static_cast<std::ptrdiff_t>((node.first_block + block) * optics::block_lines);
                 lens.rows(lens.node_x(a), lens.node_y(b), first - size_.reach_y, node.reach_x, &node.lens(block, 0));
             });
             for (std::size_t i = 0; i < size_.x.count; ++i)
@@ -274,25 +276,25 @@ void Film::expose_node(const PupilWave& pupil_wave, const Node& node, View<float
     const std::size_t left = static_cast<std::size_t>(size_.reach_x) - middle;
     auto scratch = scratch_->take();
     Array<float, 2>& columns = scratch->film_columns;
-    if (const Shape<2> shape{optics::blocks_of(size_.x.count), blocks * optics::lines_together * both};
+    if (const Shape<2> shape{optics::blocks_of(size_.x.count), blocks * optics::block_lines * both};
         columns.shape() != shape)
         columns = Array<float, 2>(shape);
     // First the few rows of the opening, then each column, whose intensity is added at once.
     work::parallel_for(blocks, [&](std::size_t block) {
         const std::size_t size = film_along_.size();
         const core::ThreadBuffer<float> lines(size * both);
-        const math::PackedComplex* wave = &pupil_wave(node.first_block + block, left * optics::lines_together);
+        const math::PackedComplex* wave = &pupil_wave(node.first_block + block, left * optics::block_lines);
         const float* lens = &node.lens(block, 0);
-        times_lens(wave + middle * optics::lines_together, lens + middle * both, middle + 1, lines.data());
+        times_lens(wave + middle * optics::block_lines, lens + middle * both, middle + 1, lines.data());
         std::fill_n(&lines[(middle + 1) * both], (size - width) * both, 0.0f);
         times_lens(wave, lens, middle, lines.data() + (size - middle) * both);
         film_along_.transform(lines.data());
-        turn_rows(lines.data(), film_x_, optics::lines_together, &columns(0, block * optics::lines_together * both),
-                  columns.extent(1));
+        transpose_selected(lines.data(), film_x_, optics::block_lines, &columns(0, block * optics::block_lines * both),
+                           columns.extent(1));
     });
     // Row zero of the columns is the frequency −reach_y + 16 first_block.
-    const std::size_t rows = blocks * optics::lines_together,
-                      below = static_cast<std::size_t>(size_.reach_y) - node.first_block * optics::lines_together;
+    const std::size_t rows = blocks * optics::block_lines,
+                      below = static_cast<std::size_t>(size_.reach_y) - node.first_block * optics::block_lines;
     work::parallel_for(columns.extent(0), [&](std::size_t block) {
         const std::size_t size = film_down_.size(), kept = std::min(rows - below, size - below);
         const core::ThreadBuffer<float> lines(size * both);
@@ -300,7 +302,7 @@ void Film::expose_node(const PupilWave& pupil_wave, const Node& node, View<float
         std::fill_n(lines.data() + kept * both, (size - below - kept) * both, 0.0f);
         std::copy_n(&columns(block, 0), below * both, lines.data() + (size - below) * both);
         film_down_.transform(lines.data());
-        add_intensities(lines.data(), film_y_, &node.share_x(block * optics::lines_together), node.share_y,
+        add_intensities(lines.data(), film_y_, &node.share_x(block * optics::block_lines), node.share_y,
                         &intensity(block, 0));
     });
 }

@@ -41,7 +41,7 @@ struct FilmSize {
     std::ptrdiff_t reach_x = 0, reach_y = 0;  ///< of the pupil, in steps of the transform's frequencies
     FilmAxis x, y;
     /// The columns and the rows of the sines that the band lights, [begin, end).
-    std::size_t lit_left = 0, lit_right = 0, lit_low = 0, lit_high = 0;
+    std::size_t active_left = 0, active_right = 0, active_low = 0, active_high = 0;
     std::size_t band_rows = 0;
 
     /// @param shown  film_area()
@@ -74,7 +74,7 @@ class Film {
 
     /// A film that is not exposed yet: blocks of sixteen columns, [column / 16][row · 16 + column mod 16].
     Array<float, 2> unexposed() const {
-        return Array<float, 2>({optics::blocks_of(size_.x.count), size_.y.count * optics::lines_together});
+        return Array<float, 2>({optics::blocks_of(size_.x.count), size_.y.count * optics::block_lines});
     }
 
     /// The wave over the pupil, at frequencies −reach … reach of a transform of the sines: blocks of sixteen rows,
@@ -108,8 +108,8 @@ class Film {
         std::vector<float> share_y;
     };
 
-    void resample_rows(const PackedBand& band, std::vector<char>& is_lit, Scratch& scratch) const;
-    void transform_columns(const std::vector<char>& is_lit, Scratch& scratch) const;
+    void resample_rows(const PackedBand& band, std::vector<char>& is_active, Scratch& scratch) const;
+    void transform_columns(const std::vector<char>& is_active, Scratch& scratch) const;
     void expose_node(const PupilWave& pupil_wave, const Node& node, View<float, 2> intensity) const;
 
     narrow_band::BandGrid band_;

@@ -28,8 +28,8 @@ void pack_rows_plain(const float* rows, std::span<const std::uint32_t> places, m
         }
 }
 
-void turn_rows_plain(const float* rows, std::span<const std::uint32_t> places, std::size_t lanes, float* to,
-                     std::size_t block) {
+void transpose_selected_plain(const float* rows, std::span<const std::uint32_t> places, std::size_t lanes, float* to,
+                              std::size_t block) {
     for (std::size_t lane = 0; lane < lanes; ++lane)
         for (std::size_t part : {std::size_t{0}, together})
             for (std::size_t i = 0; i < (places.size() + together - 1) / together * together; ++i)
@@ -56,7 +56,7 @@ void side_by_side_plain(const math::PackedComplex* squares, std::size_t count, f
             }
 }
 
-void turn_sixteen_plain(const float* rows, std::size_t from_row, std::size_t to_row, float* to) {
+void transpose_block_plain(const float* rows, std::size_t from_row, std::size_t to_row, float* to) {
     for (std::size_t line = 0; line < together; ++line)
         for (std::size_t i = 0; i < together; ++i) to[i * to_row + line] = rows[line * from_row + i];
 }

@@ -25,9 +25,9 @@ extern decltype(pack_rows_plain)& pack_rows;
 /// below `lanes`; values of the last block beyond the places are zero.
 /// @param to     the first row of the first block
 /// @param block  floats from one block to the next
-void turn_rows_plain(const float* rows, std::span<const std::uint32_t> places, std::size_t lanes, float* to,
-                     std::size_t block);
-extern decltype(turn_rows_plain)& turn_rows;
+void transpose_selected_plain(const float* rows, std::span<const std::uint32_t> places, std::size_t lanes, float* to,
+                              std::size_t block);
+extern decltype(transpose_selected_plain)& transpose_selected;
 
 /// out[i][lane] += down[i] across[lane] |row places[i]|²
 void add_intensities_plain(const float* rows, std::span<const std::uint32_t> places, const float* across,
@@ -39,7 +39,7 @@ void side_by_side_plain(const math::PackedComplex* squares, std::size_t count, f
 extern decltype(side_by_side_plain)& side_by_side;
 
 /// The transpose of sixteen rows: to[i][row] = rows[row][i], with so many floats from row to row.
-void turn_sixteen_plain(const float* rows, std::size_t from_row, std::size_t to_row, float* to);
-extern decltype(turn_sixteen_plain)& turn_sixteen;
+void transpose_block_plain(const float* rows, std::size_t from_row, std::size_t to_row, float* to);
+extern decltype(transpose_block_plain)& transpose_block;
 
 }  // namespace hogel::camera::film

@@ -21,8 +21,8 @@ using D = hn::CappedTag<float, together>;
 
 alignas(64) constexpr float dark[row] = {};
 
-void TurnRows(const float* rows, std::span<const std::uint32_t> places, std::size_t lanes, float* to,
-              std::size_t block) {
+void TransposeSelected(const float* rows, std::span<const std::uint32_t> places, std::size_t lanes, float* to,
+                       std::size_t block) {
     for (std::size_t first = 0; first < places.size(); first += together, to += block)
         for (std::size_t part : {std::size_t{0}, together})
             transpose_sixteen(
@@ -100,7 +100,7 @@ void SideBySide(const math::PackedComplex* squares, std::size_t count, float* to
 }
 #endif
 
-void TurnSixteen(const float* rows, std::size_t from_row, std::size_t to_row, float* to) {
+void TransposeBlock(const float* rows, std::size_t from_row, std::size_t to_row, float* to) {
     transpose_sixteen([&](std::size_t line) { return rows + line * from_row; }, together,
                       [&](std::size_t i) { return to + i * to_row; });
 }
@@ -111,8 +111,8 @@ HWY_AFTER_NAMESPACE();
 namespace hogel::camera::film {
 HOGEL_DISPATCH(times_lens, TimesLens);
 HOGEL_DISPATCH(pack_rows, PackRows);
-HOGEL_DISPATCH(turn_rows, TurnRows);
+HOGEL_DISPATCH(transpose_selected, TransposeSelected);
 HOGEL_DISPATCH(add_intensities, AddIntensities);
 HOGEL_DISPATCH(side_by_side, SideBySide);
-HOGEL_DISPATCH(turn_sixteen, TurnSixteen);
+HOGEL_DISPATCH(transpose_block, TransposeBlock);
 }  // namespace hogel::camera::film

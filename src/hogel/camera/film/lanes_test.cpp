@@ -66,8 +66,8 @@ TEST_P(FilmLanes, vector_and_plain_turns_agree) {
             const std::size_t block = 20 * row;
             Array<float, 1> fast({3 * block}), plain({3 * block});
             for (Array<float, 1>* some : {&fast, &plain}) some->elements()[lanes * row] = 5;  // beyond the lanes
-            turn_rows(rows.data(), places, lanes, fast.data(), block);
-            turn_rows_plain(rows.data(), places, lanes, plain.data(), block);
+            transpose_selected(rows.data(), places, lanes, fast.data(), block);
+            transpose_selected_plain(rows.data(), places, lanes, plain.data(), block);
             expect_near(fast, plain);
             EXPECT_EQ(plain(lanes * row), 5);
             EXPECT_EQ(plain(block + (lanes - 1) * row + 2), count > 18 ? rows(places[18] * row + lanes - 1) : 0);
@@ -102,8 +102,8 @@ TEST_P(FilmLanes, vector_and_plain_rows_side_by_side_agree) {
 TEST_P(FilmLanes, vector_and_plain_transposes_agree) {
     const Array<float, 1> rows = noise(16 * 40, 7);
     Array<float, 1> fast({16 * 24}), plain({16 * 24});
-    turn_sixteen(rows.data(), 40, 24, fast.data());
-    turn_sixteen_plain(rows.data(), 40, 24, plain.data());
+    transpose_block(rows.data(), 40, 24, fast.data());
+    transpose_block_plain(rows.data(), 40, 24, plain.data());
     expect_near(fast, plain);
     EXPECT_EQ(plain(3 * 24 + 5), rows(5 * 40 + 3));
 }

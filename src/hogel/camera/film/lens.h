@@ -104,7 +104,7 @@ class FilmLens {
         for (std::size_t begin = 0; begin < columns; begin += longest) {
             stretch.columns = std::min(longest, columns - begin);
             bool any = false;
-            for (std::size_t row = 0; row < optics::lines_together; ++row) {
+            for (std::size_t row = 0; row < optics::block_lines; ++row) {
                 const double dy = step_y_ * static_cast<double>(first + static_cast<std::ptrdiff_t>(row));
                 double squares[3], weights[3], cycles[3];
                 for (std::size_t i = 0; i < 3; ++i) {
@@ -120,11 +120,11 @@ class FilmLens {
                 }
                 stretch.set(row, squares, weights, cycles, static_cast<double>(longest));
             }
-            float* const to = out + 2 * optics::lines_together * begin;
+            float* const to = out + 2 * optics::block_lines * begin;
             if (any)
                 lens_stretch(stretch, edge_, radius_, to);
             else
-                std::fill_n(to, 2 * optics::lines_together * stretch.columns, 0.0f);
+                std::fill_n(to, 2 * optics::block_lines * stretch.columns, 0.0f);
         }
     }
 

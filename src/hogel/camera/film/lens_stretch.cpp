@@ -49,15 +49,15 @@ void LensStretch::set(std::size_t row, const double (&squares)[3], const double 
 }
 
 void lens_stretch_plain(const LensStretch& stretch, const optics::PupilEdge& edge, double radius, float* out) {
-    for (std::size_t row = 0; row < optics::lines_together; ++row) {
+    for (std::size_t row = 0; row < optics::block_lines; ++row) {
         std::complex<double> value = phasor(stretch.value, row), step = phasor(stretch.step, row);
         for (std::size_t column = 0; column < stretch.columns; ++column) {
             const auto t = static_cast<float>(column);
             const double distance = std::sqrt(std::max(0.0f, at(stretch.square, row, t)));
             const double passes = distance < stretch.inner ? 1 : edge.transmission(radius - distance);
             const std::complex<double> factor = at(stretch.weight, row, t) * passes * value;
-            out[2 * column * optics::lines_together + row] = static_cast<float>(factor.real());
-            out[(2 * column + 1) * optics::lines_together + row] = static_cast<float>(factor.imag());
+            out[2 * column * optics::block_lines + row] = static_cast<float>(factor.real());
+            out[(2 * column + 1) * optics::block_lines + row] = static_cast<float>(factor.imag());
             value = optics::times(value, step);
             step = optics::times(step, phasor(stretch.bend, row));
         }

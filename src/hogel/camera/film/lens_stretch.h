@@ -16,13 +16,13 @@ struct LensStretch {
 
     /// a + b t + c t² of each row, for column t.
     struct Parabolas {
-        alignas(64) float a[optics::lines_together], b[optics::lines_together], c[optics::lines_together];
+        alignas(64) float a[optics::block_lines], b[optics::block_lines], c[optics::block_lines];
     };
     Parabolas square, weight;
     /// Phasors of each row: of the first column, from it to the next one, and by how much that turns from column to
     /// column.
     struct Phasors {
-        alignas(64) float re[optics::lines_together], im[optics::lines_together];
+        alignas(64) float re[optics::block_lines], im[optics::block_lines];
     };
     Phasors value, step, bend;
 

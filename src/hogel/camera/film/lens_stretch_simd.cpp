@@ -9,7 +9,7 @@ HWY_BEFORE_NAMESPACE();
 namespace hogel::camera::film::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D = hn::CappedTag<float, optics::lines_together>;
+using D = hn::CappedTag<float, optics::block_lines>;
 using V = hn::Vec<D>;
 
 // Some of sixteen parabolas.
@@ -38,7 +38,7 @@ void LensStretchRows(const LensStretch& stretch, const optics::PupilEdge& edge, 
     const D d;
     const V inner = hn::Set(d, static_cast<float>(stretch.inner * stretch.inner)),
             outer = hn::Set(d, static_cast<float>((radius + edge.reach()) * (radius + edge.reach())));
-    for (std::size_t row = 0; row < optics::lines_together; row += hn::Lanes(d)) {
+    for (std::size_t row = 0; row < optics::block_lines; row += hn::Lanes(d)) {
         const Parabola square(stretch.square, row), weight(stretch.weight, row);
         Phasor value(stretch.value, row), step(stretch.step, row);
         const Phasor bend(stretch.bend, row);
@@ -48,7 +48,7 @@ void LensStretchRows(const LensStretch& stretch, const optics::PupilEdge& edge, 
             if (hn::AllTrue(d, hn::Ge(squared, outer))) {
                 passes = hn::Zero(d);
             } else if (!hn::AllTrue(d, hn::Lt(squared, inner))) {
-                HWY_ALIGN float distances[optics::lines_together], shares[optics::lines_together];
+                HWY_ALIGN float distances[optics::block_lines], shares[optics::block_lines];
                 hn::Store(hn::Sqrt(hn::Max(squared, hn::Zero(d))), d, distances);
                 for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
                     const double distance = distances[lane];
@@ -57,9 +57,9 @@ void LensStretchRows(const LensStretch& stretch, const optics::PupilEdge& edge, 
                 }
                 passes = hn::Mul(passes, hn::Load(d, shares));
             }
-            float* to = out + 2 * column * optics::lines_together + row;
+            float* to = out + 2 * column * optics::block_lines + row;
             hn::Store(hn::Mul(passes, value.re), d, to);
-            hn::Store(hn::Mul(passes, value.im), d, to + optics::lines_together);
+            hn::Store(hn::Mul(passes, value.im), d, to + optics::block_lines);
             value.turn(step);
             step.turn(bend);
         }

@@ -18,7 +18,7 @@ using namespace optics;
 
 HOGEL_TEST_ON_EVERY_TARGET(FilmLensStretch);
 
-constexpr std::size_t both_stretches = 2 * lines_together;
+constexpr std::size_t both_stretches = 2 * block_lines;
 constexpr double radius = 3e-3, length = 32;
 
 const PupilEdge& edge() {
@@ -31,7 +31,7 @@ struct Rows {
     explicit Rows(double first) : left(first) {
         stretch.columns = 29;
         stretch.inner = radius - edge().reach();
-        for (std::size_t row = 0; row < lines_together; ++row) {
+        for (std::size_t row = 0; row < block_lines; ++row) {
             double squares[3], weights[3], phases[3];
             for (std::size_t i = 0; i < 3; ++i) {
                 const double t = 0.5 * length * double(i);
@@ -61,16 +61,16 @@ TEST_P(FilmLensStretch, is_the_transmission_at_each_place) {
         lens_stretch(rows.stretch, edge(), radius, fast.data());
         lens_stretch_plain(rows.stretch, edge(), radius, plain.data());
         for (std::size_t column = 0; column < rows.stretch.columns; ++column)
-            for (std::size_t row = 0; row < lines_together; ++row) {
+            for (std::size_t row = 0; row < block_lines; ++row) {
                 const double t = double(column), distance = std::sqrt(rows.square(row, t));
                 const std::complex<double> expected =
                     std::polar(rows.weight(row, t) * edge().transmission(radius - distance),
                                2 * std::numbers::pi * rows.cycles(row, t));
                 const std::size_t at = column * both_stretches + row;
                 ASSERT_NEAR(fast(at), expected.real(), 3e-4) << left << " " << column << " " << row;
-                ASSERT_NEAR(fast(at + lines_together), expected.imag(), 3e-4) << left << " " << column << " " << row;
+                ASSERT_NEAR(fast(at + block_lines), expected.imag(), 3e-4) << left << " " << column << " " << row;
                 ASSERT_NEAR(fast(at), plain(at), 1e-4) << left << " " << column << " " << row;
-                ASSERT_NEAR(fast(at + lines_together), plain(at + lines_together), 1e-4) << left;
+                ASSERT_NEAR(fast(at + block_lines), plain(at + block_lines), 1e-4) << left;
             }
         EXPECT_EQ(fast(rows.stretch.columns * both_stretches), 0) << left;  // nothing beyond the last column
     }

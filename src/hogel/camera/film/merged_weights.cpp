@@ -45,7 +45,7 @@ void add_weights_plain(std::span<const MergedWeights::Point> points, std::size_t
 }
 
 void sum_merged_plain(const float* values, const MergedWeights& weights, const float* t, float* out) {
-    for (std::size_t line = 0; line < optics::lines_together; ++line) {
+    for (std::size_t line = 0; line < optics::block_lines; ++line) {
         float shares[max_line_nodes];
         line_shares_plain(t[line], weights.nodes(), shares);
         out[line] = 0;
@@ -53,7 +53,7 @@ void sum_merged_plain(const float* values, const MergedWeights& weights, const f
             float weight = 0;
             for (std::size_t node = 0; node < weights.nodes(); ++node)
                 weight += shares[node] * weights.weights(node)[tap];
-            out[line] += weight * values[(weights.first() + tap) * optics::lines_together + line];
+            out[line] += weight * values[(weights.first() + tap) * optics::block_lines + line];
         }
     }
 }

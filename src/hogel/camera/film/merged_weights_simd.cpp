@@ -15,11 +15,11 @@ HWY_BEFORE_NAMESPACE();
 namespace hogel::camera::film::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D = hn::CappedTag<float, optics::lines_together>;
+using D = hn::CappedTag<float, optics::block_lines>;
 
 // The coefficients of TwelvePoint, each power's filled up with zeros.
 struct Coefficients {
-    HWY_ALIGN float values[TwelvePoint::terms][optics::lines_together] = {};
+    HWY_ALIGN float values[TwelvePoint::terms][optics::block_lines] = {};
 
     Coefficients() {
         for (std::size_t p = 0; p < TwelvePoint::terms; ++p)
@@ -39,7 +39,7 @@ void AddWeights(std::span<const MergedWeights::Point> points, std::size_t node, 
         const auto factor =
             hn::Set(d, point.low_factor + static_cast<float>(share) * (point.high_factor - point.low_factor));
         float* own = to + (whole - TwelvePoint::before - first);
-        for (std::size_t k = 0; k < optics::lines_together; k += hn::Lanes(d)) {
+        for (std::size_t k = 0; k < optics::block_lines; k += hn::Lanes(d)) {
             auto weight = hn::Load(d, coefficients.values[TwelvePoint::terms - 1] + k);
             for (std::size_t p = TwelvePoint::terms - 1; p-- > 0;)
                 weight = hn::MulAdd(weight, z, hn::Load(d, coefficients.values[p] + k));
@@ -54,7 +54,7 @@ HWY_INLINE void sum_taps(const float* values, const MergedWeights& weights, cons
     const std::size_t taps = weights.taps();
     const float* own[nodes];
     for (std::size_t node = 0; node < nodes; ++node) own[node] = weights.weights(node);
-    for (std::size_t i = 0; i < optics::lines_together; i += hn::Lanes(d)) {
+    for (std::size_t i = 0; i < optics::block_lines; i += hn::Lanes(d)) {
         hn::Vec<D> shares[nodes];
         line_shares(d, hn::LoadU(d, t + i), shares);
         auto sum = hn::Zero(d);
@@ -62,14 +62,14 @@ HWY_INLINE void sum_taps(const float* values, const MergedWeights& weights, cons
             auto weight = hn::Mul(shares[0], hn::Set(d, own[0][tap]));
             for (std::size_t node = 1; node < nodes; ++node)
                 weight = hn::MulAdd(shares[node], hn::Set(d, own[node][tap]), weight);
-            sum = hn::MulAdd(weight, hn::LoadU(d, values + tap * optics::lines_together + i), sum);
+            sum = hn::MulAdd(weight, hn::LoadU(d, values + tap * optics::block_lines + i), sum);
         }
         hn::StoreU(sum, d, out + i);
     }
 }
 
 void SumMerged(const float* values, const MergedWeights& weights, const float* t, float* out) {
-    const float* first = values + weights.first() * optics::lines_together;
+    const float* first = values + weights.first() * optics::block_lines;
     with_nodes(weights.nodes(), [&](auto nodes) HWY_ATTR { sum_taps<nodes()>(first, weights, t, out); });
 }
 

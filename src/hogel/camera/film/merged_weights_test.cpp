@@ -40,14 +40,14 @@ std::vector<float> line_numbers() {
 double value_at(const Array<float, 1>& lines, std::size_t size, std::size_t line, double t, const Point& point) {
     return std::lerp(double(point.low_factor), double(point.high_factor), 0.5 * (t + 1)) *
            smooth_at<TwelvePoint>(size, std::lerp(point.low, point.high, 0.5 * (t + 1)),
-                                  [&](std::size_t i) { return lines(i * lines_together + line); });
+                                  [&](std::size_t i) { return lines(i * block_lines + line); });
 }
 
 // Points that lines see at the same place, at places that differ little, and as much as is allowed; across a sample,
 // in both directions, and some that are outside.
 TEST_P(MergedWeightsOnTargets, are_those_of_each_line) {
     constexpr std::size_t size = 60;
-    const Array<float, 1> lines = noise(size * lines_together);
+    const Array<float, 1> lines = noise(size * block_lines);
     const std::vector<float> t = line_numbers();
     for (const double spread : {0.0, 0.02, 0.14, 0.5}) {
         std::vector<Point> points{
@@ -59,10 +59,10 @@ TEST_P(MergedWeightsOnTargets, are_those_of_each_line) {
         EXPECT_GE(weights.first(), 2u);
         EXPECT_LE(weights.first() + weights.taps(), size);
         points.resize(4);  // those that are inside
-        alignas(64) float fast[lines_together], plain[lines_together];
+        alignas(64) float fast[block_lines], plain[block_lines];
         sum_merged(lines.data(), weights, t.data(), fast);
         sum_merged_plain(lines.data(), weights, t.data(), plain);
-        for (std::size_t line = 0; line < lines_together; ++line) {
+        for (std::size_t line = 0; line < block_lines; ++line) {
             double expected = 0;
             for (const Point& point : points) expected += value_at(lines, size, line, t[line], point);
             ASSERT_NEAR(fast[line], expected, 5e-4 * static_cast<double>(points.size())) << spread << " " << line;
@@ -96,19 +96,19 @@ TEST(MergedWeights, are_not_shared_by_lines_that_differ_too_much) {
 // where a neighbour is missing, values are zero.
 TEST(MergedWeights, keep_waves) {
     constexpr std::size_t size = 40;
-    Array<float, 1> lines({size * lines_together});
-    const std::vector<float> t(lines_together, 0.0f);
+    Array<float, 1> lines({size * block_lines});
+    const std::vector<float> t(block_lines, 0.0f);
     const auto value = [&](double at) {
         MergedWeights weights;
         EXPECT_TRUE(weights.set(std::vector<Point>{{at, at, 1, 1}}, size));
-        alignas(64) float values[lines_together];
+        alignas(64) float values[block_lines];
         sum_merged(lines.data(), weights, t.data(), values);
         return values[5];
     };
     for (const auto& [frequency, tolerance] : {std::pair{0.0, 4e-6}, {0.1, 3e-3}, {0.3, 3e-3}, {0.35, 2e-2}}) {
         const auto wave = [&](double at) { return 3 + std::cos(6.283185307179586 * frequency * at); };
         for (std::size_t i = 0; i < lines.size(); ++i)
-            lines(i) = static_cast<float>(wave(static_cast<double>(i / lines_together)));
+            lines(i) = static_cast<float>(wave(static_cast<double>(i / block_lines)));
         for (const double at : {5.0, 8.25, 20.5, 33.99}) EXPECT_NEAR(value(at), wave(at), tolerance) << at;
     }
     for (const double at : {-3.0, 4.9, 34.1, 1e9}) EXPECT_EQ(value(at), 0) << at;

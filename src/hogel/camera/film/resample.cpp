@@ -13,14 +13,14 @@ namespace {
 
 static_assert(TangentNodes::max == max_line_nodes);
 
-double place(const TangentPlaces& places, double square, double scale, double i) {
+double place(const TangentPositions& places, double square, double scale, double i) {
     const double s = places.first + i * places.step;
     return places.offset + scale * (s / std::sqrt(square - s * s));
 }
 
 // Lines [begin, end), in halves if their places differ too much.
-void resample_some(const float* lines, std::size_t size, const TangentPlaces& places, const InterpolationTable& table,
-                   std::size_t count, std::size_t begin, std::size_t end, float* out) {
+void resample_some(const float* lines, std::size_t size, const TangentPositions& places,
+                   const InterpolationTable& table, std::size_t count, std::size_t begin, std::size_t end, float* out) {
     const auto some = [&](const auto& values) {
         return std::ranges::minmax(std::span(values).subspan(begin, end - begin));
     };
@@ -53,26 +53,26 @@ void resample_some(const float* lines, std::size_t size, const TangentPlaces& pl
 
 }  // namespace
 
-void resample_lines_plain(const float* lines, std::size_t size, const TangentPlaces& places,
+void resample_lines_plain(const float* lines, std::size_t size, const TangentPositions& places,
                           const InterpolationTable& table, std::size_t count, float* out) {
     std::vector<std::complex<float>> own(size);
-    for (std::size_t line = 0; line < optics::lines_together; ++line) {
+    for (std::size_t line = 0; line < optics::block_lines; ++line) {
         for (std::size_t i = 0; i < size; ++i) {
-            const float* re = lines + 2 * i * optics::lines_together + line;
-            own[i] = {re[0], re[optics::lines_together]};
+            const float* re = lines + 2 * i * optics::block_lines + line;
+            own[i] = {re[0], re[optics::block_lines]};
         }
         for (std::size_t i = 0; i < count; ++i) {
             const std::complex<float> value = table.at(
                 own.data(), size, place(places, places.squares[line], places.scales[line], static_cast<double>(i)));
-            out[2 * i * optics::lines_together + line] = value.real();
-            out[(2 * i + 1) * optics::lines_together + line] = value.imag();
+            out[2 * i * optics::block_lines + line] = value.real();
+            out[(2 * i + 1) * optics::block_lines + line] = value.imag();
         }
     }
 }
 
-void resample_lines(const float* lines, std::size_t size, const TangentPlaces& places, const InterpolationTable& table,
-                    std::size_t count, float* out) {
-    if (count > 0) resample_some(lines, size, places, table, count, 0, optics::lines_together, out);
+void resample_lines(const float* lines, std::size_t size, const TangentPositions& places,
+                    const InterpolationTable& table, std::size_t count, float* out) {
+    if (count > 0) resample_some(lines, size, places, table, count, 0, optics::block_lines, out);
 }
 
 }  // namespace hogel::camera::film

@@ -13,10 +13,10 @@ HWY_BEFORE_NAMESPACE();
 namespace hogel::camera::film::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D = hn::CappedTag<float, optics::lines_together>;
+using D = hn::CappedTag<float, optics::block_lines>;
 using V = hn::Vec<D>;
 
-constexpr std::size_t both = 2 * optics::lines_together;
+constexpr std::size_t both = 2 * optics::block_lines;
 constexpr std::size_t taps = InterpolationTable::taps;
 constexpr std::size_t together = 64;  // values whose places are computed at once
 constexpr double far_away = 1e9;      // a place beyond any line
@@ -25,7 +25,7 @@ constexpr double far_away = 1e9;      // a place beyond any line
 struct Node {
     HWY_ALIGN std::int32_t first[together], phase[together];
 
-    void set(const TangentPlaces& places, double square, double scale, std::size_t begin, std::size_t count) {
+    void set(const TangentPositions& places, double square, double scale, std::size_t begin, std::size_t count) {
         const hn::ScalableTag<double> d;
         const hn::Rebind<std::int32_t, decltype(d)> di;
         const auto steps = hn::Iota(d, 0);
@@ -48,7 +48,7 @@ template <std::size_t nodes>
 HWY_INLINE void sum_taps(const float* samples, const float* const (&weights)[nodes], std::size_t count,
                          const TangentNodes& lines, bool all, float* out) {
     const D d;
-    for (std::size_t i = 0; i < optics::lines_together; i += hn::Lanes(d)) {
+    for (std::size_t i = 0; i < optics::block_lines; i += hn::Lanes(d)) {
         V shares[nodes];
         line_shares(d, hn::Load(d, lines.t + i), shares);
         V re = hn::Zero(d), im = hn::Zero(d);
@@ -57,24 +57,24 @@ HWY_INLINE void sum_taps(const float* samples, const float* const (&weights)[nod
             for (std::size_t node = 1; node < nodes; ++node)
                 weight = hn::MulAdd(shares[node], hn::Set(d, weights[node][k]), weight);
             re = hn::MulAdd(weight, hn::Load(d, samples + k * both + i), re);
-            im = hn::MulAdd(weight, hn::Load(d, samples + k * both + optics::lines_together + i), im);
+            im = hn::MulAdd(weight, hn::Load(d, samples + k * both + optics::block_lines + i), im);
         }
         if (!all) {
             const auto chosen = hn::Ne(hn::Load(d, lines.chosen + i), hn::Zero(d));
             re = hn::IfThenElse(chosen, re, hn::Load(d, out + i));
-            im = hn::IfThenElse(chosen, im, hn::Load(d, out + optics::lines_together + i));
+            im = hn::IfThenElse(chosen, im, hn::Load(d, out + optics::block_lines + i));
         }
         hn::Store(re, d, out + i);
-        hn::Store(im, d, out + optics::lines_together + i);
+        hn::Store(im, d, out + optics::block_lines + i);
     }
 }
 
 template <std::size_t nodes>
-HWY_INLINE void resample(const float* lines, std::size_t size, const TangentPlaces& places, const TangentNodes& between,
-                         const InterpolationTable& table, std::size_t count, float* out) {
+HWY_INLINE void resample(const float* lines, std::size_t size, const TangentPositions& places,
+                         const TangentNodes& between, const InterpolationTable& table, std::size_t count, float* out) {
     Node own[nodes];
     const bool all =
-        std::all_of(between.chosen, between.chosen + optics::lines_together, [](float one) { return one != 0; });
+        std::all_of(between.chosen, between.chosen + optics::block_lines, [](float one) { return one != 0; });
     for (std::size_t begin = 0; begin < count; begin += together) {
         const std::size_t some = std::min(together, count - begin);
         for (std::size_t node = 0; node < nodes; ++node)
@@ -112,7 +112,7 @@ HWY_INLINE void resample(const float* lines, std::size_t size, const TangentPlac
     }
 }
 
-void ResampleNodes(const float* lines, std::size_t size, const TangentPlaces& places, const TangentNodes& nodes,
+void ResampleNodes(const float* lines, std::size_t size, const TangentPositions& places, const TangentNodes& nodes,
                    const InterpolationTable& table, std::size_t count, float* out) {
     with_nodes(nodes.nodes,
                [&](auto number) HWY_ATTR { resample<number()>(lines, size, places, nodes, table, count, out); });

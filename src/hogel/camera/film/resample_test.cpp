@@ -18,7 +18,7 @@ using namespace optics;
 
 HOGEL_TEST_ON_EVERY_TARGET(FilmResample);
 
-constexpr std::size_t both = 2 * lines_together;
+constexpr std::size_t both = 2 * block_lines;
 
 // Waves are kept up to the highest frequency that is passed: their images are stopped.
 TEST_P(FilmResample, keeps_what_it_passes) {
@@ -30,19 +30,19 @@ TEST_P(FilmResample, keeps_what_it_passes) {
         };
         Array<float, 1> lines({size * both}), values({count * both});
         for (std::size_t i = 0; i < size; ++i)
-            for (std::size_t line = 0; line < lines_together; ++line) {
+            for (std::size_t line = 0; line < block_lines; ++line) {
                 lines(i * both + line) = wave(double(i)).real();
-                lines(i * both + lines_together + line) = wave(double(i)).imag();
+                lines(i * both + block_lines + line) = wave(double(i)).imag();
             }
         // Places 20 … 40, nearly uniform.
-        TangentPlaces places{-0.01, 0.02 / static_cast<double>(count), 30, {}, {}};
+        TangentPositions places{-0.01, 0.02 / static_cast<double>(count), 30, {}, {}};
         places.squares.fill(1);
-        for (std::size_t line = 0; line < lines_together; ++line) places.scales[line] = 1000 + double(line);
+        for (std::size_t line = 0; line < block_lines; ++line) places.scales[line] = 1000 + double(line);
         resample_lines(lines.data(), size, places, table, count, values.data());
         for (std::size_t i = 0; i < count; ++i)
-            for (std::size_t line = 0; line < lines_together; ++line) {
+            for (std::size_t line = 0; line < block_lines; ++line) {
                 const double s = places.first + static_cast<double>(i) * places.step;
-                const std::complex<float> value(values(i * both + line), values(i * both + lines_together + line)),
+                const std::complex<float> value(values(i * both + line), values(i * both + block_lines + line)),
                     expected = wave(30 + places.scales[line] * s / std::sqrt(1 - s * s));
                 EXPECT_LT(std::abs(value - expected), 2e-3f) << frequency;
             }
@@ -62,10 +62,10 @@ TEST_P(FilmResample, vector_and_plain_agree) {
         for (const double change : {0.0, 3e-5, 2e-4, 8e-4, 5e-2})
             for (const bool by_square : {false, true})
                 for (const std::size_t count : {0, 1, 2, 63, 64, 65, 150}) {
-                    TangentPlaces places{-0.8, 1.6 / static_cast<double>(count + 1), 44.3, {}, {}};
+                    TangentPositions places{-0.8, 1.6 / static_cast<double>(count + 1), 44.3, {}, {}};
                     places.squares.fill(1.2);
                     places.scales.fill(scale);
-                    for (std::size_t line = 0; line < lines_together; ++line)
+                    for (std::size_t line = 0; line < block_lines; ++line)
                         (by_square ? places.squares : places.scales)[line] *= 1 + change * double(line * 5 % 16 + line);
                     Array<float, 1> fast({(count + 1) * both}), plain({(count + 1) * both});
                     resample_lines(lines.data(), size, places, table, count, fast.data());

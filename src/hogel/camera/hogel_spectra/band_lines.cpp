@@ -5,7 +5,7 @@
 
 namespace hogel::camera::hogel_spectra {
 
-void BandLines::begin(const EyeBand& eye, const LookBlocks& looks, std::size_t hogels) {
+void BandLines::begin(const PupilBand& eye, const LookBlocks& looks, std::size_t hogels) {
     looks_ = looks;
     hogels_ = hogels;
     per_hogel_ = eye.per_hogel();
@@ -15,7 +15,7 @@ void BandLines::begin(const EyeBand& eye, const LookBlocks& looks, std::size_t h
     used_ = 0;
 }
 
-void BandLines::add(std::size_t row, std::size_t column, const HogelBasis::Weights& weights) {
+void BandLines::add(std::size_t row, std::size_t column, const SlepianBasis::Weights& weights) {
     const std::size_t begin = column * per_hogel_ * looks_.together, end = begin + nodes_ * looks_.together;
     const auto used = lines_.begin() + static_cast<std::ptrdiff_t>(used_);
     auto line = std::find_if(lines_.begin(), used, [&](const Line& other) {
@@ -44,13 +44,13 @@ void BandLines::clear() {
     }
 }
 
-LinePlace BandLines::place(std::size_t row, std::size_t column, std::size_t look) {
+LineTarget BandLines::place(std::size_t row, std::size_t column, std::size_t look) {
     Line& line = lines_[of_hogel_[row * hogels_ + column]];
     const std::size_t block = look / looks_.together;
     return {&line.numbers(block * rows_ * row_ + column * per_hogel_ * looks_.together), row_};
 }
 
-void BandLines::spread(const HogelBasis& down, std::size_t first, std::span<Array<float, 3>> light) const {
+void BandLines::spread(const SlepianBasis& down, std::size_t first, std::span<Array<float, 3>> light) const {
     for (std::size_t i = 0; i < used_; ++i) {
         const Line& line = lines_[i];
         for (std::size_t block = 0; block < light.size(); ++block)

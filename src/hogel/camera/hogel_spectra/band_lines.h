@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "hogel/array.h"
-#include "hogel/camera/hogel_spectra/eye_band.h"
-#include "hogel/camera/hogel_spectra/hogel_basis.h"
+#include "hogel/camera/hogel_spectra/pupil_band.h"
+#include "hogel/camera/hogel_spectra/slepian_basis.h"
 #include "hogel/camera/hogel_spectra/spread_line.h"
 
 namespace hogel::camera::hogel_spectra {
@@ -19,7 +19,7 @@ struct LookBlocks {
     std::size_t blocks() const { return (looks + together - 1) / together; }
     /// Floats of a row of so many hogels, in lines and in light. Looks by themselves need columns up to which nodes
     /// fill whole vectors.
-    std::size_t row(const EyeBand& eye, std::size_t hogels) const {
+    std::size_t row(const PupilBand& eye, std::size_t hogels) const {
         const std::size_t samples = eye.samples(hogels);
         return together == 1 ? padded(samples + lanes - 1) : samples * together;
     }
@@ -30,19 +30,19 @@ struct LookBlocks {
 class BandLines {
   public:
     /// Lines of rows of `hogels` hogels each, of which there are none yet.
-    void begin(const EyeBand& eye, const LookBlocks& looks, std::size_t hogels);
+    void begin(const PupilBand& eye, const LookBlocks& looks, std::size_t hogels);
     /// Gives a hogel its line. Hogels of a row come in their order.
     /// @param weights  down
-    void add(std::size_t row, std::size_t column, const HogelBasis::Weights& weights);
+    void add(std::size_t row, std::size_t column, const SlepianBasis::Weights& weights);
     /// Clears the lines, once each hogel has one.
     void clear();
 
     /// The place of a hogel's first node, for a look of a block, or the first of those that lie side by side.
-    LinePlace place(std::size_t row, std::size_t column, std::size_t look);
+    LineTarget place(std::size_t row, std::size_t column, std::size_t look);
 
     /// Adds what the lines hold to light, of a part in which row 0 of the hogels is the one `first`.
     /// @param light  [block of looks]: [row][part][column, look]
-    void spread(const HogelBasis& down, std::size_t first, std::span<Array<float, 3>> light) const;
+    void spread(const SlepianBasis& down, std::size_t first, std::span<Array<float, 3>> light) const;
 
   private:
     struct Line {

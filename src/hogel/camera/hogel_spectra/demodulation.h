@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "hogel/camera/hogel_spectra/hogel_basis.h"
+#include "hogel/camera/hogel_spectra/slepian_basis.h"
 
 namespace hogel::camera::hogel_spectra {
 

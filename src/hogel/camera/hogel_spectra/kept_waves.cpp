@@ -27,7 +27,7 @@ KeptWaves::KeptWaves(const HogelLayout& hogels, const stereogram::HogelWaves& wa
     : across_(tiles(hogels.grid.plane.width, hogels.across())),
       down_(tiles(hogels.grid.plane.height, hogels.down())),
       rows_({across_ * down_, hogels.rows * hogels.columns * 2 * stereogram::HogelWaves::lanes}),
-      lit_({across_ * down_, hogels.rows}),
+      active_({across_ * down_, hogels.rows}),
       scales_(across_ * down_) {
     const std::size_t ns = hogels.grid.plane.width / hogels.across(), nt = hogels.grid.plane.height / hogels.down();
     const std::size_t n = hogels.columns, row_size = n * 2 * stereogram::HogelWaves::lanes;
@@ -37,7 +37,7 @@ KeptWaves::KeptWaves(const HogelLayout& hogels, const stereogram::HogelWaves& wa
             row_of_waves({row_size});
         for (std::size_t s0 = 0; s0 < ns; s0 += tile_side) {
             std::vector<const float*> sources;
-            std::vector<stereogram::HogelPlace> places;
+            std::vector<stereogram::HogelKey> places;
             float largest = 0;
             for (std::size_t t = t0; t < std::min(t0 + tile_side, nt); ++t)
                 for (std::size_t s = s0; s < std::min(s0 + tile_side, ns); ++s) {
@@ -50,11 +50,12 @@ KeptWaves::KeptWaves(const HogelLayout& hogels, const stereogram::HogelWaves& wa
             scales_[tile] = largest > 0 ? std::exp2(std::ceil(std::log2(largest / max_stored))) : 1.0f;
             const stereogram::SeriesOfLanes series = waves.series_of_lanes(places);
             for (std::size_t row = 0; row < hogels.rows; ++row) {
-                if (row % stereogram::HogelWaves::rows_together == 0) waves.gather_lanes(sources, row, gathered.data());
+                if (row % stereogram::HogelWaves::block_rows == 0) waves.gather_lanes(sources, row, gathered.data());
                 if (!waves.has_light(row)) continue;
                 waves.row_of_lanes(series, row, false, gathered.data(), row_of_waves.data());
                 for (float& value : row_of_waves.elements()) value /= scales_[tile];
-                lit_(tile, row) = std::ranges::any_of(row_of_waves.elements(), [](float value) { return value != 0; });
+                active_(tile, row) =
+                    std::ranges::any_of(row_of_waves.elements(), [](float value) { return value != 0; });
                 core::to_half(row_of_waves.data(), &rows_(tile, row * row_size), row_size);
             }
         }

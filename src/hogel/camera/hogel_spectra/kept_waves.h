@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hogel/array.h"
-#include "hogel/camera/hogel_spectra/eye_band.h"
+#include "hogel/camera/hogel_spectra/pupil_band.h"
 #include "hogel/stereogram/hogel_synthesis.h"
 
 namespace hogel::camera::hogel_spectra {
@@ -26,21 +26,21 @@ class KeptWaves {
     static std::size_t bytes(const HogelLayout& hogels);
 
     struct Tile {
-        const std::uint16_t* rows = nullptr;  ///< [row][column][part][lane]; null if they are not kept
-        const std::uint8_t* lit = nullptr;    ///< [row]: whether it has any light
-        float scale = 1;                      ///< of all values
+        const std::uint16_t* rows = nullptr;   ///< [row][column][part][lane]; null if they are not kept
+        const std::uint8_t* active = nullptr;  ///< [row]: whether it has any light
+        float scale = 1;                       ///< of all values
     };
     /// The tile whose first hogel is (s, t), multiples of tile_side.
     Tile tile(std::size_t s, std::size_t t) const {
         const std::size_t number = t / tile_side * across_ + s / tile_side;
-        return {&rows_(number, 0), &lit_(number, 0), scales_[number]};
+        return {&rows_(number, 0), &active_(number, 0), scales_[number]};
     }
 
   private:
-    std::size_t across_, down_;     // tiles
-    Array<std::uint16_t, 2> rows_;  // [tile][row, column, part, lane]
-    Array<std::uint8_t, 2> lit_;    // [tile][row]
-    std::vector<float> scales_;     // [tile]
+    std::size_t across_, down_;      // tiles
+    Array<std::uint16_t, 2> rows_;   // [tile][row, column, part, lane]
+    Array<std::uint8_t, 2> active_;  // [tile][row]
+    std::vector<float> scales_;      // [tile]
 };
 
 }  // namespace hogel::camera::hogel_spectra

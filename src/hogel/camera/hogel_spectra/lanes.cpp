@@ -13,17 +13,17 @@ using Complex = std::complex<float>;
 
 // The sum of value(wave) over the waves of some pairs.
 template <class Value>
-float sum_of(const HogelBasis::Weights& weights, const Value& value) {
+float sum_of(const SlepianBasis::Weights& weights, const Value& value) {
     float sum = 0;
-    for (const HogelBasis::WavePair& pair : weights.pairs) {
-        sum += value(pair.one);
-        if (pair.other != pair.one) sum += value(pair.other);
+    for (const SlepianBasis::SymmetricPair& pair : weights.pairs) {
+        sum += value(pair.first);
+        if (pair.second != pair.first) sum += value(pair.second);
     }
     return sum;
 }
 
 template <class Value>
-void sum_columns(const HogelBasis& basis, const HogelBasis::Weights& columns, const Value& value, float* line) {
+void sum_columns(const SlepianBasis& basis, const SlepianBasis::Weights& columns, const Value& value, float* line) {
     for (std::size_t k = 0; k < basis.functions(); ++k)
         for (std::size_t i = 0; i < 2 * lanes; ++i) {
             const float* weights = columns.first + k * columns.stride;
@@ -34,7 +34,7 @@ void sum_columns(const HogelBasis& basis, const HogelBasis::Weights& columns, co
 }
 
 // The number of a lane at node x of function l down.
-Complex node_of_lane(const HogelBasis& basis, const float* numbers, const float* carrier, std::size_t lane,
+Complex node_of_lane(const SlepianBasis& basis, const float* numbers, const float* carrier, std::size_t lane,
                      std::size_t l, std::size_t x) {
     const auto turn = [](std::size_t function) { return function % 2 == 0 ? Complex(1) : Complex(0, 1); };
     Complex sum = 0;
@@ -47,18 +47,18 @@ Complex node_of_lane(const HogelBasis& basis, const float* numbers, const float*
 
 }  // namespace
 
-void sum_row_plain(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line) {
+void sum_row_plain(const SlepianBasis& basis, const SlepianBasis::Weights& columns, const float* waves, float* line) {
     sum_columns(
         basis, columns, [&](std::size_t i) { return waves[i]; }, line);
 }
 
-void sum_row_of_halves_plain(const HogelBasis& basis, const HogelBasis::Weights& columns, const std::uint16_t* waves,
-                             float* line) {
+void sum_row_of_halves_plain(const SlepianBasis& basis, const SlepianBasis::Weights& columns,
+                             const std::uint16_t* waves, float* line) {
     sum_columns(
         basis, columns, [&](std::size_t i) { return core::float_of(waves[i]); }, line);
 }
 
-void sum_rows_plain(const HogelBasis& basis, const HogelBasis::Weights& rows, float sign, const float* lines,
+void sum_rows_plain(const SlepianBasis& basis, const SlepianBasis::Weights& rows, float sign, const float* lines,
                     const float* chosen, float* numbers) {
     const std::size_t functions = basis.functions(), line = functions * 2 * lanes;
     for (std::size_t l = 0; l < functions; ++l)
@@ -69,7 +69,7 @@ void sum_rows_plain(const HogelBasis& basis, const HogelBasis::Weights& rows, fl
         }
 }
 
-void add_lanes_plain(const HogelBasis& basis, const float* numbers, std::span<const LaneTarget> targets) {
+void add_lanes_plain(const SlepianBasis& basis, const float* numbers, std::span<const LaneTarget> targets) {
     for (std::size_t lane = 0; lane < targets.size(); ++lane)
         for (std::size_t l = 0; l < basis.functions(); ++l)
             for (std::size_t x = 0; x < basis.nodes(); ++x) {
@@ -80,7 +80,7 @@ void add_lanes_plain(const HogelBasis& basis, const float* numbers, std::span<co
             }
 }
 
-void add_looks_plain(const HogelBasis& basis, const float* numbers, const float* carrier, const LinePlace& line) {
+void add_looks_plain(const SlepianBasis& basis, const float* numbers, const float* carrier, const LineTarget& line) {
     for (std::size_t look = 0; look < lanes; ++look)
         for (std::size_t l = 0; l < basis.functions(); ++l)
             for (std::size_t x = 0; x < basis.nodes(); ++x) {

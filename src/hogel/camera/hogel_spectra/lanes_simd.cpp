@@ -23,27 +23,27 @@ using core::HWY_NAMESPACE::with_count;
 using math::HWY_NAMESPACE::transpose_sixteen;
 
 #if HWY_TARGET == HWY_SCALAR
-void SumRow(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line) {
+void SumRow(const SlepianBasis& basis, const SlepianBasis::Weights& columns, const float* waves, float* line) {
     sum_row_plain(basis, columns, waves, line);
 }
-void SumRowOfHalves(const HogelBasis& basis, const HogelBasis::Weights& columns, const std::uint16_t* waves,
+void SumRowOfHalves(const SlepianBasis& basis, const SlepianBasis::Weights& columns, const std::uint16_t* waves,
                     const NextRow&, float* line) {
     sum_row_of_halves_plain(basis, columns, waves, line);
 }
-void SumRows(const HogelBasis& basis, const HogelBasis::Weights& rows, float sign, const float* lines,
+void SumRows(const SlepianBasis& basis, const SlepianBasis::Weights& rows, float sign, const float* lines,
              const float* chosen, float* numbers) {
     sum_rows_plain(basis, rows, sign, lines, chosen, numbers);
 }
-void AddLanes(const HogelBasis& basis, const float* numbers, std::span<const LaneTarget> targets) {
+void AddLanes(const SlepianBasis& basis, const float* numbers, std::span<const LaneTarget> targets) {
     add_lanes_plain(basis, numbers, targets);
 }
-void AddLooks(const HogelBasis& basis, const float* numbers, const float* carrier, const LinePlace& line) {
+void AddLooks(const SlepianBasis& basis, const float* numbers, const float* carrier, const LineTarget& line) {
     add_looks_plain(basis, numbers, carrier, line);
 }
 #else
 using D = hn::CappedTag<float, lanes>;
 using V = hn::Vec<D>;
-using WavePair = HogelBasis::WavePair;
+using SymmetricPair = SlepianBasis::SymmetricPair;
 
 // Functions whose sums are held in registers, of both parts of a number; where there are but 16 registers and more
 // functions than five, one part after the other.
@@ -71,49 +71,50 @@ HWY_INLINE V load(const std::uint16_t* numbers) {
 // Sums over pairs of items, `stride` numbers apart, of weights of some functions from `first` on; store(k, at,
 // sum). fetch() is called once for each pair.
 template <std::size_t functions, class Number, class Fetch, class Store>
-HWY_INLINE void sum_pairs(const Number* items, std::size_t stride, const HogelBasis::Weights& weights,
+HWY_INLINE void sum_pairs(const Number* items, std::size_t stride, const SlepianBasis::Weights& weights,
                           std::size_t first, const Fetch& fetch, const Store& store) {
     const D d;
-    constexpr std::size_t parts_together = parts_of(functions);
-    const std::size_t two = weights.pairs.size() - weights.alone;
-    for (std::size_t at = 0; at < both; at += parts_together * lanes)
+    constexpr std::size_t parts_per_pass = parts_of(functions);
+    const std::size_t two = weights.pairs.size() - weights.unpaired;
+    for (std::size_t at = 0; at < both; at += parts_per_pass * lanes)
         for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
-            V sums[parts_together][functions];
+            V sums[parts_per_pass][functions];
             for (auto& part : sums)
                 for (V& sum : part) sum = hn::Zero(d);
-            for (const WavePair& pair : weights.pairs.first(two)) {
+            for (const SymmetricPair& pair : weights.pairs.first(two)) {
                 if (at + i == 0) fetch();
-                const Number *one = items + stride * pair.one + at + i, *other = items + stride * pair.other + at + i;
-                const V sign = hn::Set(d, pair.sign_one), sign_other = hn::Set(d, pair.sign_other);
-                V even[parts_together], odd[parts_together];
-                for (std::size_t p = 0; p < parts_together; ++p) {
-                    const V a = hn::Xor(load(one + p * lanes), sign), b = hn::Xor(load(other + p * lanes), sign_other);
+                const Number *one = items + stride * pair.first + at + i,
+                             *other = items + stride * pair.second + at + i;
+                const V sign = hn::Set(d, pair.sign_first), sign_second = hn::Set(d, pair.sign_second);
+                V even[parts_per_pass], odd[parts_per_pass];
+                for (std::size_t p = 0; p < parts_per_pass; ++p) {
+                    const V a = hn::Xor(load(one + p * lanes), sign), b = hn::Xor(load(other + p * lanes), sign_second);
                     even[p] = hn::Add(a, b);
                     odd[p] = hn::Sub(a, b);
                 }
                 const float* weight = pair.weights + first;
                 for (std::size_t k = 0; k < functions; ++k) {
                     const V w = hn::Set(d, weight[k]);
-                    for (std::size_t p = 0; p < parts_together; ++p)
+                    for (std::size_t p = 0; p < parts_per_pass; ++p)
                         sums[p][k] = hn::MulAdd(w, k % 2 == 0 ? even[p] : odd[p], sums[p][k]);
                 }
             }
-            for (const WavePair& pair : weights.pairs.subspan(two)) {
-                const Number* one = items + stride * pair.one + at + i;
-                const V sign = hn::Set(d, pair.sign_one);
-                for (std::size_t p = 0; p < parts_together; ++p) {
+            for (const SymmetricPair& pair : weights.pairs.subspan(two)) {
+                const Number* one = items + stride * pair.first + at + i;
+                const V sign = hn::Set(d, pair.sign_first);
+                for (std::size_t p = 0; p < parts_per_pass; ++p) {
                     const V a = hn::Xor(load(one + p * lanes), sign);
                     for (std::size_t k = 0; k < functions; ++k)
                         sums[p][k] = hn::MulAdd(hn::Set(d, pair.weights[first + k]), a, sums[p][k]);
                 }
             }
-            for (std::size_t p = 0; p < parts_together; ++p)
+            for (std::size_t p = 0; p < parts_per_pass; ++p)
                 for (std::size_t k = 0; k < functions; ++k) store(k, at + p * lanes + i, sums[p][k]);
         }
 }
 
 template <class Number, class Fetch>
-HWY_INLINE void sum_numbers(const HogelBasis& basis, const HogelBasis::Weights& columns, const Number* waves,
+HWY_INLINE void sum_numbers(const SlepianBasis& basis, const SlepianBasis::Weights& columns, const Number* waves,
                             const Fetch& fetch, float* line) {
     const std::size_t functions = basis.functions();
     for (std::size_t first = 0; first < functions; first += together)
@@ -124,12 +125,12 @@ HWY_INLINE void sum_numbers(const HogelBasis& basis, const HogelBasis::Weights& 
         });
 }
 
-void SumRow(const HogelBasis& basis, const HogelBasis::Weights& columns, const float* waves, float* line) {
+void SumRow(const SlepianBasis& basis, const SlepianBasis::Weights& columns, const float* waves, float* line) {
     sum_numbers(
         basis, columns, waves, [] {}, line);
 }
 
-void SumRowOfHalves(const HogelBasis& basis, const HogelBasis::Weights& columns, const std::uint16_t* waves,
+void SumRowOfHalves(const SlepianBasis& basis, const SlepianBasis::Weights& columns, const std::uint16_t* waves,
                     const NextRow& next, float* line) {
     // Pairs are not in the order of memory, in which the waves of the next row are fetched, two for each pair.
     const std::size_t n = basis.samples();
@@ -143,7 +144,7 @@ void SumRowOfHalves(const HogelBasis& basis, const HogelBasis::Weights& columns,
     sum_numbers(basis, columns, waves, fetch, line);
 }
 
-void SumRows(const HogelBasis& basis, const HogelBasis::Weights& rows, float sign, const float* lines,
+void SumRows(const SlepianBasis& basis, const SlepianBasis::Weights& rows, float sign, const float* lines,
              const float* chosen, float* numbers) {
     const D d;
     const std::size_t functions = basis.functions(), line = functions * both, size = functions * line;
@@ -169,14 +170,14 @@ void SumRows(const HogelBasis& basis, const HogelBasis::Weights& rows, float sig
 }
 
 // Turns numbers of nodes, [node][lane], into rows of each lane, `apart` floats from one lane to the next.
-HWY_INLINE void turn_nodes(const float* nodes, std::size_t across, std::size_t count, float* turned,
-                           std::size_t apart) {
+HWY_INLINE void transpose_nodes(const float* nodes, std::size_t across, std::size_t count, float* turned,
+                                std::size_t apart) {
     for (std::size_t x = 0; x < across; x += lanes)
         transpose_sixteen([&](std::size_t i) { return nodes + (x + i) * lanes; }, lanes,
                           [&](std::size_t lane) { return turned + std::min(lane, count) * apart + x; });
 }
 
-void AddLanes(const HogelBasis& basis, const float* numbers, std::span<const LaneTarget> targets) {
+void AddLanes(const SlepianBasis& basis, const float* numbers, std::span<const LaneTarget> targets) {
     const D d;
     const std::size_t functions = basis.functions(), nodes = basis.nodes(), across = padded(nodes);
     const std::size_t part = across * lanes, apart = 2 * functions * across;  // of a row of all lanes, of one lane
@@ -197,7 +198,7 @@ void AddLanes(const HogelBasis& basis, const float* numbers, std::span<const Lan
                              put(nodes - 1 - x, hn::Add(even_re, odd_im), hn::Sub(even_im, odd_re));
                          });
         for (std::size_t p = 0; p < 2; ++p)
-            turn_nodes(rows + p * part, across, targets.size(), turned + (2 * l + p) * across, apart);
+            transpose_nodes(rows + p * part, across, targets.size(), turned + (2 * l + p) * across, apart);
     }
     // Lane by lane, so that neighbours that share a line wait for no store.
     for (std::size_t lane = 0; lane < targets.size(); ++lane) {
@@ -214,7 +215,7 @@ void AddLanes(const HogelBasis& basis, const float* numbers, std::span<const Lan
     }
 }
 
-void AddLooks(const HogelBasis& basis, const float* numbers, const float* carrier, const LinePlace& line) {
+void AddLooks(const SlepianBasis& basis, const float* numbers, const float* carrier, const LineTarget& line) {
     const D d;
     const std::size_t functions = basis.functions(), nodes = basis.nodes();
     for (std::size_t l = 0; l < functions; ++l)

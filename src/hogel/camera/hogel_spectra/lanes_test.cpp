@@ -76,8 +76,8 @@ struct Batch {
         return 5e-6f * std::sqrt(static_cast<float>(basis.samples())) * (1 + largest);
     }
 
-    HogelBasis basis;
-    HogelBasis::Weights columns, rows;
+    SlepianBasis basis;
+    SlepianBasis::Weights columns, rows;
     Array<float, 1> waves;  // [row][column][part][lane]
     Array<float, 1> numbers;
 };
@@ -133,7 +133,7 @@ TEST_P(EyeLanes, are_projections_of_looks_side_by_side) {
 
 TEST_P(EyeLanes, of_binary16_are_those_of_its_values) {
     for (const std::size_t n : {32, 27}) {
-        const HogelBasis basis(n, 4, 1.2);
+        const SlepianBasis basis(n, 4, 1.2);
         const Array<float, 1> values = noise(n * both, 4);
         std::vector<std::uint16_t, CacheLineAllocator<std::uint16_t>> halves(n * both);
         Array<float, 1> rounded({n * both});
@@ -143,7 +143,7 @@ TEST_P(EyeLanes, of_binary16_are_those_of_its_values) {
         }
         const std::size_t line = basis.functions() * both;
         Array<float, 1> expected({line}), fast({line}), plain({line});
-        const HogelBasis::Weights columns = basis.weights(3.4);
+        const SlepianBasis::Weights columns = basis.weights(3.4);
         sum_row(basis, columns, rounded.data(), expected.data());
         sum_row_of_halves(basis, columns, halves.data(), {halves.data(), 3}, fast.data());
         sum_row_of_halves_plain(basis, columns, halves.data(), plain.data());
@@ -156,19 +156,19 @@ TEST_P(EyeLanes, of_binary16_are_those_of_its_values) {
 
 // Rows whose pairs are left out count as zero.
 TEST_P(EyeLanes, need_no_dark_rows) {
-    const HogelBasis basis(32, 4, 1.2);
+    const SlepianBasis basis(32, 4, 1.2);
     const std::size_t line = basis.functions() * both;
     const Array<float, 1> lines = noise(32 * line, 3);
     Array<float, 1> dark = lines;
-    HogelBasis::Weights rows = basis.weights(0.5);
-    std::vector<HogelBasis::WavePair> pairs(rows.pairs.begin(), rows.pairs.end());
+    SlepianBasis::Weights rows = basis.weights(0.5);
+    std::vector<SlepianBasis::SymmetricPair> pairs(rows.pairs.begin(), rows.pairs.end());
     for (const std::size_t left_out : {std::size_t{3}, std::size_t{5}}) {
-        std::fill_n(&dark(pairs[left_out].one * line), line, 0.0f);
-        std::fill_n(&dark(pairs[left_out].other * line), line, 0.0f);
+        std::fill_n(&dark(pairs[left_out].first * line), line, 0.0f);
+        std::fill_n(&dark(pairs[left_out].second * line), line, 0.0f);
     }
     pairs.erase(pairs.begin() + 5);
     pairs.erase(pairs.begin() + 3);
-    const HogelBasis::Weights all = rows;
+    const SlepianBasis::Weights all = rows;
     rows.pairs = pairs;
     alignas(64) float chosen[lanes];
     std::ranges::fill(chosen, 1.0f);
@@ -184,7 +184,7 @@ TEST_P(EyeLanes, need_no_dark_rows) {
 
 // Only the lanes that are chosen are stored.
 TEST_P(EyeLanes, that_are_not_chosen_stay) {
-    const HogelBasis basis(32, 4, 1.2);
+    const SlepianBasis basis(32, 4, 1.2);
     const std::size_t line = basis.functions() * both;
     const Array<float, 1> lines = noise(32 * line, 3);
     Array<float, 1> numbers({basis.functions() * line});

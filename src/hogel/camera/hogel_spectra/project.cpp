@@ -37,8 +37,8 @@ void MiddlePhases::apply_plain(float* waves) const {
         }
 }
 
-void project_plain(const HogelBases& bases, const HogelView& view, const float* waves, const LinePlace& line) {
-    const HogelBasis &across = bases.across, &down = bases.down;
+void project_plain(const SlepianBases& bases, const HogelView& view, const float* waves, const LineTarget& line) {
+    const SlepianBasis &across = bases.across, &down = bases.down;
     const std::size_t rows = down.samples(), columns = across.samples(), nodes = across.nodes();
     Array<Complex, 2> sums({rows, across.functions()});  // D_x applied: [row][function across]
     for (std::size_t row = 0; row < rows; ++row)

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "hogel/array.h"
-#include "hogel/camera/hogel_spectra/hogel_basis.h"
+#include "hogel/camera/hogel_spectra/slepian_basis.h"
 #include "hogel/camera/hogel_spectra/spread_line.h"
-#include "hogel/stereogram/near_rows.h"
+#include "hogel/stereogram/in_band_rows.h"
 
 namespace hogel::camera::hogel_spectra {
 
@@ -20,7 +20,7 @@ class MiddlePhases {
     /// Multiplies waves, the fast one only blocks of sixteen rows that have some of `rows`. Plain and fast twins agree
     /// to rounding.
     void apply_plain(float* waves) const;
-    void apply(float* waves, const stereogram::NearRows& rows = {}) const;
+    void apply(float* waves, const stereogram::InBandRows& rows = {}) const;
 
   private:
     std::size_t rows_, columns_;
@@ -29,16 +29,16 @@ class MiddlePhases {
 
 /// What is the same for all looks of a hogel seen by an eye.
 struct HogelView {
-    HogelBasis::Weights columns{}, rows{};  ///< of the direction of the eye, along a row and down a column
+    SlepianBasis::Weights columns{}, rows{};  ///< of the direction of the eye, along a row and down a column
     /// Rows and columns of waves near the eye's direction. Blocks of sixteen rows without any of these are dark to the
     /// eye; other waves may be.
-    stereogram::NearRows near = {}, near_columns = {};
+    stereogram::InBandRows near = {}, in_band_columns = {};
 };
 
 /// The bases of a hogel along its rows and down its columns, with the same nodes.
-struct HogelBases {
-    const HogelBasis& across;
-    const HogelBasis& down;
+struct SlepianBases {
+    const SlepianBasis& across;
+    const SlepianBasis& down;
 };
 
 /// Adds to a line what a hogel's waves send to an eye: D_y C D_xᵀ E_xᵀ, times the carrier across, with C the waves, D
@@ -46,7 +46,7 @@ struct HogelBases {
 /// Plain and fast twins agree to rounding.
 /// @param waves  in the layout of HogelWaves::waves(), with phases counted from the middle
 /// @param line   of as many functions as the basis down has; padded(nodes) numbers of each row are read and written
-void project_plain(const HogelBases& bases, const HogelView& view, const float* waves, const LinePlace& line);
+void project_plain(const SlepianBases& bases, const HogelView& view, const float* waves, const LineTarget& line);
 extern decltype(project_plain)& project;
 
 }  // namespace hogel::camera::hogel_spectra

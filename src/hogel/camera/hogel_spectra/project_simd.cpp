@@ -18,7 +18,7 @@ using core::HWY_NAMESPACE::with_count;
 using math::HWY_NAMESPACE::transpose_sixteen;
 
 #if HWY_TARGET == HWY_SCALAR
-void Project(const HogelBases& bases, const HogelView& view, const float* waves, const LinePlace& line) {
+void Project(const SlepianBases& bases, const HogelView& view, const float* waves, const LineTarget& line) {
     project_plain(bases, view, waves, line);
 }
 
@@ -48,21 +48,21 @@ void Multiply(const float* factors, std::size_t count, float* waves) {
         }
 }
 
-using WavePair = HogelBasis::WavePair;
+using SymmetricPair = SlepianBasis::SymmetricPair;
 
 // lines[part][function][row] of sixteen rows: the sums over all columns of weights times waves, by pairs of columns.
 template <std::size_t functions>
-HWY_INLINE void sum_columns(const float* waves, const HogelBasis::Weights& weights, std::size_t first, float* lines) {
+HWY_INLINE void sum_columns(const float* waves, const SlepianBasis::Weights& weights, std::size_t first, float* lines) {
     const D d;
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
         V re[functions], im[functions];
         for (std::size_t k = 0; k < functions; ++k) re[k] = im[k] = hn::Zero(d);
-        const std::size_t two = weights.pairs.size() - weights.alone;
-        for (const WavePair& pair : weights.pairs.first(two)) {
-            const float *one = waves + 2 * lanes * pair.one + i, *other = waves + 2 * lanes * pair.other + i;
-            const V sign = hn::Set(d, pair.sign_one), sign_other = hn::Set(d, pair.sign_other);
+        const std::size_t two = weights.pairs.size() - weights.unpaired;
+        for (const SymmetricPair& pair : weights.pairs.first(two)) {
+            const float *one = waves + 2 * lanes * pair.first + i, *other = waves + 2 * lanes * pair.second + i;
+            const V sign = hn::Set(d, pair.sign_first), sign_second = hn::Set(d, pair.sign_second);
             const V a = hn::Xor(hn::Load(d, one), sign), b = hn::Xor(hn::Load(d, one + lanes), sign);
-            const V c = hn::Xor(hn::Load(d, other), sign_other), e = hn::Xor(hn::Load(d, other + lanes), sign_other);
+            const V c = hn::Xor(hn::Load(d, other), sign_second), e = hn::Xor(hn::Load(d, other + lanes), sign_second);
             const V sum_re = hn::Add(a, c), sum_im = hn::Add(b, e);
             const V difference_re = hn::Sub(a, c), difference_im = hn::Sub(b, e);
             const float* weight = pair.weights + first;
@@ -72,9 +72,9 @@ HWY_INLINE void sum_columns(const float* waves, const HogelBasis::Weights& weigh
                 im[k] = hn::MulAdd(w, k % 2 == 0 ? sum_im : difference_im, im[k]);
             }
         }
-        for (const WavePair& pair : weights.pairs.subspan(two)) {
-            const float* one = waves + 2 * lanes * pair.one + i;
-            const V sign = hn::Set(d, pair.sign_one);
+        for (const SymmetricPair& pair : weights.pairs.subspan(two)) {
+            const float* one = waves + 2 * lanes * pair.first + i;
+            const V sign = hn::Set(d, pair.sign_first);
             const V a = hn::Xor(hn::Load(d, one), sign), b = hn::Xor(hn::Load(d, one + lanes), sign);
             for (std::size_t k = 0; k < functions; ++k) {
                 const V w = hn::Set(d, pair.weights[first + k]);
@@ -91,21 +91,22 @@ HWY_INLINE void sum_columns(const float* waves, const HogelBasis::Weights& weigh
 
 // out[l][…] = Σ_row D_l(row) in[row][…] for some functions l, sixteen numbers in a row, by pairs of rows.
 template <std::size_t functions>
-HWY_INLINE void sum_pairs_of_rows(const float* in, const HogelBasis::Weights& weights, std::size_t first, float* out) {
+HWY_INLINE void sum_pairs_of_rows(const float* in, const SlepianBasis::Weights& weights, std::size_t first,
+                                  float* out) {
     const D d;
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
         V sums[functions];
         for (V& one : sums) one = hn::Zero(d);
-        const std::size_t two = weights.pairs.size() - weights.alone;
-        for (const WavePair& pair : weights.pairs.first(two)) {
-            const V a = hn::Xor(hn::Load(d, in + pair.one * lanes + i), hn::Set(d, pair.sign_one));
-            const V b = hn::Xor(hn::Load(d, in + pair.other * lanes + i), hn::Set(d, pair.sign_other));
+        const std::size_t two = weights.pairs.size() - weights.unpaired;
+        for (const SymmetricPair& pair : weights.pairs.first(two)) {
+            const V a = hn::Xor(hn::Load(d, in + pair.first * lanes + i), hn::Set(d, pair.sign_first));
+            const V b = hn::Xor(hn::Load(d, in + pair.second * lanes + i), hn::Set(d, pair.sign_second));
             const V sum = hn::Add(a, b), difference = hn::Sub(a, b);
             for (std::size_t l = 0; l < functions; ++l)
                 sums[l] = hn::MulAdd(hn::Set(d, pair.weights[first + l]), l % 2 == 0 ? sum : difference, sums[l]);
         }
-        for (const WavePair& pair : weights.pairs.subspan(two)) {
-            const V a = hn::Xor(hn::Load(d, in + pair.one * lanes + i), hn::Set(d, pair.sign_one));
+        for (const SymmetricPair& pair : weights.pairs.subspan(two)) {
+            const V a = hn::Xor(hn::Load(d, in + pair.first * lanes + i), hn::Set(d, pair.sign_first));
             for (std::size_t l = 0; l < functions; ++l)
                 sums[l] = hn::MulAdd(hn::Set(d, pair.weights[first + l]), a, sums[l]);
         }
@@ -138,7 +139,7 @@ void sum_all_rows(const float* in, std::size_t rows, std::size_t in_row, const f
         });
 }
 
-void Project(const HogelBases& bases, const HogelView& view, const float* waves, const LinePlace& line) {
+void Project(const SlepianBases& bases, const HogelView& view, const float* waves, const LineTarget& line) {
     const std::size_t rows = bases.down.samples(), columns = bases.across.samples(), nodes = bases.across.nodes();
     const std::size_t functions = bases.across.functions(), functions_down = bases.down.functions();
     const auto groups_of = [](std::size_t count) { return (count + together - 1) / together; };
@@ -219,7 +220,7 @@ namespace hogel::camera::hogel_spectra {
 
 HWY_EXPORT(Multiply);
 
-void MiddlePhases::apply(float* waves, const stereogram::NearRows& rows) const {
+void MiddlePhases::apply(float* waves, const stereogram::InBandRows& rows) const {
     const std::size_t block = 2 * lanes * columns_;
     for (std::size_t row = 0; row < rows_; row += lanes)
         if (rows.has_any(row, lanes, rows_))

@@ -25,10 +25,10 @@ TEST_P(EyeProjection, vector_and_plain_projection_agree) {
     };
     for (const Size& size :
          {Size{16, 1, 0.2}, Size{32, 5, 1.1}, Size{27, 4, 0.9}, Size{64, 24, 5.2}, Size{40, 14, 3.1}}) {
-        const HogelBasis basis(size.samples, size.per_hogel, size.half_band);
+        const SlepianBasis basis(size.samples, size.per_hogel, size.half_band);
         // As many rows as columns, and fewer.
         for (const std::size_t rows : {size.samples, size.samples / 5}) {
-            const HogelBasis down(rows, size.per_hogel, size.half_band, HogelBasis::Window::none, basis.before());
+            const SlepianBasis down(rows, size.per_hogel, size.half_band, SlepianBasis::Window::none, basis.before());
             if (down.before() != basis.before()) continue;
             const std::size_t n = size.samples, row = padded(basis.nodes()) + lanes;
             Array<float, 1> waves({stereogram::HogelWaves::size(rows, n)});

@@ -15,7 +15,7 @@ void add_to(math::PackedComplex* band, std::size_t x, Complex light, const Light
 
 }  // namespace
 
-void spread_line_plain(const HogelBasis& down, const float* carrier, const float* line, std::size_t row,
+void spread_line_plain(const SlepianBasis& down, const float* carrier, const float* line, std::size_t row,
                        std::size_t columns, float* light) {
     const std::size_t nodes = down.nodes();
     for (std::size_t y = 0; y < nodes; ++y)

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "hogel/camera/hogel_spectra/hogel_basis.h"
+#include "hogel/camera/hogel_spectra/slepian_basis.h"
 #include "hogel/camera/packed_band.h"
 
 namespace hogel::camera::hogel_spectra {
@@ -14,7 +14,7 @@ namespace hogel::camera::hogel_spectra {
 // samples, instead of all its nodes.
 
 /// A place in a line, [function down][part][node across], whose rows are `row` floats apart.
-struct LinePlace {
+struct LineTarget {
     float* first;
     std::size_t row;
 };
@@ -22,10 +22,10 @@ struct LinePlace {
 /// Adds a line's light at the nodes down to rows of light: light[node down][part][column] += E_y line, times the
 /// carrier of these rows, with E = spread() of the basis. A factor i for odd functions is part of the line.
 /// Plain and fast twins agree to rounding.
-/// @param carrier  as in HogelBasis::Weights
+/// @param carrier  as in SlepianBasis::Weights
 /// @param line     aligned to a cache line, as `light`; rows of both are `row` floats apart
 /// @param columns  a multiple of `lanes`
-void spread_line_plain(const HogelBasis& down, const float* carrier, const float* line, std::size_t row,
+void spread_line_plain(const SlepianBasis& down, const float* carrier, const float* line, std::size_t row,
                        std::size_t columns, float* light);
 extern decltype(spread_line_plain)& spread_line;
 

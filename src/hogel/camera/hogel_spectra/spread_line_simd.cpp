@@ -21,7 +21,7 @@ using math::HWY_NAMESPACE::add_to_packed;
 #endif
 
 #if HWY_TARGET == HWY_SCALAR
-void SpreadLine(const HogelBasis& down, const float* carrier, const float* line, std::size_t row, std::size_t columns,
+void SpreadLine(const SlepianBasis& down, const float* carrier, const float* line, std::size_t row, std::size_t columns,
                 float* light) {
     spread_line_plain(down, carrier, line, row, columns, light);
 }
@@ -35,7 +35,7 @@ void AddDemodulatedLooks(const LightRow& row, std::size_t columns, std::span<mat
 using D = hn::CappedTag<float, lanes>;
 using V = hn::Vec<D>;
 
-void SpreadLine(const HogelBasis& down, const float* carrier, const float* line, std::size_t row, std::size_t columns,
+void SpreadLine(const SlepianBasis& down, const float* carrier, const float* line, std::size_t row, std::size_t columns,
                 float* light) {
     const D d;
     const std::size_t nodes = down.nodes();

@@ -26,7 +26,7 @@ void fill_with_noise(std::span<float> values, unsigned seed) {
 TEST_P(SpreadLine, are_spread_down_as_plainly) {
     for (const auto& [samples, per_hogel, half_band] : std::vector<std::tuple<std::size_t, std::size_t, double>>{
              {16, 1, 0.2}, {32, 5, 1.1}, {27, 4, 0.9}, {64, 24, 5.2}}) {
-        const HogelBasis basis(samples, per_hogel, half_band);
+        const SlepianBasis basis(samples, per_hogel, half_band);
         const std::size_t columns = 48, row = columns + lanes;
         Array<float, 3> line({basis.functions(), 2, row}), fast({basis.nodes(), 2, row}, 1.0f);
         fill_with_noise(line.elements(), 3);

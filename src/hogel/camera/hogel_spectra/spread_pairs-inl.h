@@ -12,7 +12,7 @@
 
 #include <algorithm>
 
-#include "hogel/camera/hogel_spectra/hogel_basis.h"
+#include "hogel/camera/hogel_spectra/slepian_basis.h"
 #include "hogel/core/with_count.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -29,13 +29,13 @@ HWY_INLINE void add_product(V re, V im, V c, V s, float* real, float* imaginary)
 }
 
 // Pairs of nodes whose sums are held in registers: more with 32 registers.
-constexpr std::size_t pairs_together = HWY_ARCH_X86 && HWY_TARGET > HWY_AVX3 ? 2 : 4;
+constexpr std::size_t pairs_per_batch = HWY_ARCH_X86 && HWY_TARGET > HWY_AVX3 ? 2 : 4;
 
 // Sums over functions, whose two parts lie side by side and `apart` floats from those of the next one, for pairs of
 // nodes from `first` on, at the same distance from the middle, which have the same even functions and opposite odd
 // ones: store(pair, even re, even im, odd re, odd im), a vector each.
 template <std::size_t pairs, class Store>
-HWY_INLINE void spread_some_pairs(const HogelBasis& basis, std::size_t first, const float* in, std::size_t apart,
+HWY_INLINE void spread_some_pairs(const SlepianBasis& basis, std::size_t first, const float* in, std::size_t apart,
                                   const Store& store) {
     const hn::CappedTag<float, lanes> d;
     using V = hn::Vec<decltype(d)>;
@@ -63,11 +63,11 @@ HWY_INLINE void spread_some_pairs(const HogelBasis& basis, std::size_t first, co
 
 // The same for all pairs of nodes; the one in the middle may be its own partner.
 template <class Store>
-HWY_INLINE void spread_pairs(const HogelBasis& basis, const float* in, std::size_t apart, const Store& store) {
+HWY_INLINE void spread_pairs(const SlepianBasis& basis, const float* in, std::size_t apart, const Store& store) {
     const std::size_t pairs = (basis.nodes() + 1) / 2;
-    for (std::size_t first = 0; first < pairs; first += pairs_together)
-        core::HWY_NAMESPACE::with_count<pairs_together>(
-            std::min(pairs_together, pairs - first),
+    for (std::size_t first = 0; first < pairs; first += pairs_per_batch)
+        core::HWY_NAMESPACE::with_count<pairs_per_batch>(
+            std::min(pairs_per_batch, pairs - first),
             [&](auto some) HWY_ATTR { spread_some_pairs<some()>(basis, first, in, apart, store); });
 }
 #endif

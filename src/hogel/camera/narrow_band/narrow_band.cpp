@@ -7,14 +7,14 @@
 #include <cmath>
 
 #include "hogel/camera/narrow_band/kernels.h"
+#include "hogel/communicator.h"
 #include "hogel/core/object_pool.h"
 #include "hogel/core/stop_scope.h"
 #include "hogel/optics/low_pass.h"
 #include "hogel/optics/multiply.h"
 #include "hogel/optics/phase_walk.h"
-#include "hogel/team.h"
 #include "hogel/units.h"
-#include "hogel/work/shared_order.h"
+#include "hogel/work/ordered_reduce.h"
 
 namespace hogel::camera::narrow_band {
 namespace {
@@ -346,7 +346,7 @@ std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const 
     const Grid& plane = hologram.grid().plane;
     const std::vector<std::vector<std::size_t>> groups = groups_of(eyes, plane);
     std::vector<std::vector<Array<Complex, 2>>> bands(eyes.size());
-    for (std::size_t eye = 0; is_first_process() && eye < eyes.size(); ++eye)
+    for (std::size_t eye = 0; is_root_rank() && eye < eyes.size(); ++eye)
         for (std::size_t look = 0; look < looks; ++look) {
             core::throw_if_stopped();  // many looks are gigabytes, which the system clears
             bands[eye].emplace_back(Shape<2>{eyes[eye].plane.height, eyes[eye].plane.width});
@@ -355,7 +355,7 @@ std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const 
     const std::vector<Region> blocks = blocks_of(hologram);
     // Kept from block to block, because the system clears new memory.
     core::ObjectPool<Array<Complex, 1>> block_memory;
-    work::shared_ordered<Contributions>(
+    work::ordered_reduce<Contributions>(
         blocks.size(), work::default_in_flight(), sent_contributions(),
         [&](std::size_t i) {
             const Region& block = blocks[i];

@@ -19,10 +19,10 @@ namespace {
 // Number of values, for each thread, that points of the lens see of one block at a time: they stay in the second cache
 // until pixels are exposed to them. But so many points look at once, as long as they see no more than 64 MiB, because
 // every hogel is on a page of its own, to be found again for the next points.
-constexpr std::size_t seen_together = std::size_t{1} << 16, points_at_once = 64, max_seen = std::size_t{1} << 24;
+constexpr std::size_t samples_per_batch = std::size_t{1} << 16, points_at_once = 64, max_seen = std::size_t{1} << 24;
 
 // Hogels of a row that all points of the lens look at before the next: what is read of them stays in the first cache.
-constexpr std::size_t hogels_together = 32;
+constexpr std::size_t hogels_per_batch = 32;
 
 constexpr std::pair<std::size_t, std::size_t> nothing{0, 0};
 
@@ -159,7 +159,8 @@ template <class Look>
 void Exposure::add_points(const HogelRange& range, const HogelRange& cells, const Look& look) {
     const std::size_t seen_by_one = range.nt * grid_.channels * range.ns;
     const std::size_t few = std::min(points_at_once, std::max<std::size_t>(max_seen / seen_by_one, 1)),
-                      together = std::min(std::max(thread_count() * seen_together / seen_by_one, few), points_.size());
+                      together =
+                          std::min(std::max(thread_count() * samples_per_batch / seen_by_one, few), points_.size());
     for (std::size_t first = 0; first < points_.size(); first += together) {
         const std::size_t count = std::min(together, points_.size() - first);
         prepare(first, count);
@@ -238,8 +239,8 @@ void Exposure::look(std::size_t face, const HogelBlock& block, const LensPoint& 
 void Exposure::look_along_row(const HogelBlock& block, std::size_t t, View<float, 4> seen) const {
     const HogelRange& range = block.range;
     const std::size_t row = range.t0 + t;
-    for (std::size_t from = 0; from < range.ns; from += hogels_together) {
-        const std::size_t to = std::min(from + hogels_together, range.ns);
+    for (std::size_t from = 0; from < range.ns; from += hogels_per_batch) {
+        const std::size_t to = std::min(from + hogels_per_batch, range.ns);
         for (std::size_t i = 0; i < rays_.size(); ++i) {
             const Run& columns = rays_[i].columns_of_directions;
             const Run& rows = rays_[i].rows_of_directions;

@@ -10,8 +10,8 @@
 #include "hogel/camera/rays/ray_blocks.h"
 #include "hogel/core/rates.h"
 #include "hogel/core/stop_scope.h"
-#include "hogel/work/pieces.h"
-#include "hogel/work/shared_order.h"
+#include "hogel/work/chunks.h"
+#include "hogel/work/ordered_reduce.h"
 
 namespace hogel {
 namespace {
@@ -31,7 +31,7 @@ void expose(std::span<const LightField::Source> faces, std::span<const FaceBlock
             std::span<camera::rays::Exposure> exposures, const Progress& progress) {
     for (camera::rays::Exposure& exposure : exposures)
         exposure.keep_rays(camera::rays::max_kept_rays / exposures.size());
-    work::parallel_ordered<camera::rays::HeldHogels>(
+    work::local_ordered_reduce<camera::rays::HeldHogels>(
         list.size(), blocks_at_once,
         [&](std::size_t i) { return camera::rays::hold(*faces[list[i].face], list[i].block.hogels); },
         [&](std::size_t i, camera::rays::HeldHogels& held) {
@@ -48,7 +48,7 @@ struct CameraRange {
 // Groups of the cameras, each of which one process photographs: one for each process of a team, because all cameras of
 // a group share the reading of hogels; but one where pictures are kept, for any number of processes.
 std::vector<CameraRange> groups_of(std::size_t cameras) {
-    const Team* const all = work::team_of_several();
+    const Communicator* const all = work::communicator_of_several();
     const std::size_t groups = all == nullptr || work::result_log() != nullptr ? 1 : std::min(all->size(), cameras);
     std::vector<CameraRange> list;
     for (std::size_t i = 0; i < groups; ++i)
@@ -102,12 +102,12 @@ void photograph_into(const LightField& light_field, std::span<const Camera> came
             for (std::size_t k = 0; k < made.size(); ++k)
                 pictures[groups[i].first + k].pixels = std::move(made[k].pixels);
         });
-    Team* const all = work::team_of_several();
+    Communicator* const all = work::communicator_of_several();
     for (std::size_t i = 0; i < pictures.size() && all != nullptr; ++i) {
         Array<float, 3>& pixels = pictures[i].pixels;
         const Grid& picture = cameras[i].picture;
-        if (!all->is_first()) pixels = Array<float, 3>({picture.height, picture.width, light_field.grid().channels});
-        work::share_in_pieces<float>(*all, pixels.elements());
+        if (!all->is_root()) pixels = Array<float, 3>({picture.height, picture.width, light_field.grid().channels});
+        work::broadcast_in_chunks<float>(*all, pixels.elements());
     }
 }
 

@@ -58,7 +58,7 @@ std::vector<Sample, CacheLineAllocator<Sample>> views_of(const LightFieldSource&
     };
     const HogelRange tile = source.preferred_tile();
     const std::size_t across = (grid.hogels_s + tile.ns - 1) / tile.ns, down = (grid.hogels_t + tile.nt - 1) / tile.nt;
-    work::parallel_ordered<HeldHogels>(
+    work::local_ordered_reduce<HeldHogels>(
         across * down, thread_count(),
         [&](std::size_t i) {
             const std::size_t s = i % across * tile.ns, t = i / across * tile.nt;

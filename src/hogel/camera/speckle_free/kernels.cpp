@@ -3,13 +3,13 @@
 
 namespace hogel::camera::speckle_free {
 
-void sum_powers_plain(const SpotBasis& basis, const SpotBasis::Weights& columns, const SpotBasis::Weights& rows,
+void sum_powers_plain(const PsfBasis& basis, const PsfBasis::Weights& columns, const PsfBasis::Weights& rows,
                       const float* powers, float* out) {
     const std::size_t n = basis.samples(), count = basis.count(), padded = basis.padded_count();
     for (std::size_t i = 0; i < count * padded; ++i) out[i] = 0;
     for (std::size_t row = 0; row < n; ++row)
         for (std::size_t column = 0; column < n; ++column) {
-            constexpr std::size_t lanes = SpotBasis::lanes;
+            constexpr std::size_t lanes = PsfBasis::lanes;
             const float power = powers[(row / lanes * n + column) * lanes + row % lanes];
             for (std::size_t x = 0; x < count; ++x)
                 for (std::size_t y = 0; y < padded; ++y)

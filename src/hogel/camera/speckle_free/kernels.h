@@ -5,7 +5,7 @@
 #include <span>
 
 #include "hogel/array.h"
-#include "hogel/camera/speckle_free/spot_basis.h"
+#include "hogel/camera/speckle_free/psf_basis.h"
 
 namespace hogel::camera::speckle_free {
 
@@ -15,7 +15,7 @@ namespace hogel::camera::speckle_free {
 /// basis.padded_count(): by how much the spots of few waves stand for those of all waves of a hogel.
 /// @param powers  as WavePowers::read() gives them
 /// @param out     aligned to a cache line
-void sum_powers_plain(const SpotBasis& basis, const SpotBasis::Weights& columns, const SpotBasis::Weights& rows,
+void sum_powers_plain(const PsfBasis& basis, const PsfBasis::Weights& columns, const PsfBasis::Weights& rows,
                       const float* powers, float* out);
 extern decltype(sum_powers_plain)& sum_powers;
 
@@ -26,10 +26,10 @@ struct Lines {
     std::size_t rows, length;
 };
 /// How many arrays b are multiplied at once, and sums computed, so that each number is read once for several of them.
-inline constexpr std::size_t max_b_together = 3, max_sums_together = 12;
+inline constexpr std::size_t max_b_per_pass = 3, max_sums_per_pass = 12;
 /// How many arrays a are multiplied at once with so many arrays b.
-constexpr std::size_t max_a_together(std::size_t b) { return b == 1 ? 8 : max_sums_together / b; }
-/// sums[i · b.size() + j] = Σ a[i] b[j], for at most max_b_together arrays b and max_a_together(b.size()) arrays a.
+constexpr std::size_t max_a_per_pass(std::size_t b) { return b == 1 ? 8 : max_sums_per_pass / b; }
+/// sums[i · b.size() + j] = Σ a[i] b[j], for at most max_b_per_pass arrays b and max_a_per_pass(b.size()) arrays a.
 void sum_products_plain(const Lines& lines, float* sums);
 void sum_products(const Lines& lines, float* sums);
 /// Σ a b of two arrays.
@@ -40,7 +40,7 @@ inline float sum_products(const float* a, const float* b, std::size_t length) {
 }
 
 /// out(i, x) = Σ_j weights(i, j) in(j, x), for all rows j of `in`. The rows of in and out have the same length, a
-/// multiple of SpotBasis::lanes.
+/// multiple of PsfBasis::lanes.
 void multiply_plain(View<const float, 2> weights, View<const float, 2> in, View<float, 2> out);
 extern decltype(multiply_plain)& multiply;
 

@@ -13,9 +13,9 @@ namespace hogel::camera::speckle_free::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using core::HWY_NAMESPACE::with_count;
 
-using D = hn::CappedTag<float, SpotBasis::lanes>;
+using D = hn::CappedTag<float, PsfBasis::lanes>;
 using V = hn::Vec<D>;
-constexpr std::size_t lanes = SpotBasis::lanes;
+constexpr std::size_t lanes = PsfBasis::lanes;
 
 // Sums that are held in registers, of which some targets have 32.
 constexpr std::size_t together = HWY_ARCH_X86 && HWY_TARGET > HWY_AVX3 ? 8 : 12;
@@ -37,7 +37,7 @@ HWY_INLINE void weighted(const float* in, std::size_t in_row, std::size_t length
     }
 }
 
-void SumPowers(const SpotBasis& basis, const SpotBasis::Weights& columns, const SpotBasis::Weights& rows,
+void SumPowers(const PsfBasis& basis, const PsfBasis::Weights& columns, const PsfBasis::Weights& rows,
                const float* powers, float* out) {
     const std::size_t n = basis.samples(), count = basis.count(), padded = basis.padded_count();
     const std::size_t blocks = (n + lanes - 1) / lanes;
@@ -102,8 +102,8 @@ HWY_INLINE void products(const Lines& lines, float* sums) {
 }
 
 void SumProducts(const Lines& lines, float* sums) {
-    with_count<max_b_together>(lines.b.size(), [&](auto b) HWY_ATTR {
-        with_count<max_a_together(b())>(lines.a.size(), [&](auto a) HWY_ATTR { products<a(), b()>(lines, sums); });
+    with_count<max_b_per_pass>(lines.b.size(), [&](auto b) HWY_ATTR {
+        with_count<max_a_per_pass(b())>(lines.a.size(), [&](auto a) HWY_ATTR { products<a(), b()>(lines, sums); });
     });
 }
 

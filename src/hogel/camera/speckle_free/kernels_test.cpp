@@ -28,7 +28,7 @@ std::vector<float> noise(std::size_t count) {
 TEST_P(ExpectedKernels, vector_and_plain_sums_of_powers_agree) {
     for (const std::size_t n : {8, 16, 27, 32, 64})
         for (const double half_band : {0.3, 1.1, 4.2}) {
-            const SpotBasis basis(n, half_band);
+            const PsfBasis basis(n, half_band);
             const std::vector<float> powers = noise((n + 15) / 16 * 16 * n);
             std::vector<float> fast(basis.count() * basis.padded_count()), plain = fast;
             sum_powers(basis, basis.weights(3.3), basis.weights(-77.2), powers.data(), fast.data());
@@ -48,8 +48,8 @@ TEST_P(ExpectedKernels, vector_and_plain_sums_of_products_agree) {
         return all;
     };
     for (const std::size_t length : {1, 15, 64, 81, 333})
-        for (std::size_t b_count = 1; b_count <= max_b_together; ++b_count)
-            for (std::size_t a_count = 1; a_count <= max_a_together(b_count); ++a_count) {
+        for (std::size_t b_count = 1; b_count <= max_b_per_pass; ++b_count)
+            for (std::size_t a_count = 1; a_count <= max_a_per_pass(b_count); ++a_count) {
                 const auto a = arrays(a_count, 5), b = arrays(b_count, 17);
                 const Lines lines{a, b, 340, 350, 7, length};
                 std::vector<float> fast(a_count * b_count), plain(a_count * b_count);
@@ -76,14 +76,14 @@ TEST_P(ExpectedKernels, vector_and_plain_products_of_matrices_agree) {
 }
 
 // Over pairs of points of the pupil, the product of the lights of any wave is that of the basis's.
-TEST(SpotBasis, gives_the_products_of_all_waves) {
+TEST(PsfBasis, gives_the_products_of_all_waves) {
     for (const std::size_t n : {16, 32, 45})
         for (const double half_band : {0.2, 0.8, 1.1, 2.5}) {
-            const SpotBasis basis(n, half_band);
+            const PsfBasis basis(n, half_band);
             EXPECT_LT(basis.error(), 8e-3) << n << " " << half_band;
             double wrong = 0, all = 0;
             for (const double nu : {0.0, 0.25, -7.5}) {
-                const SpotBasis::Weights weights = basis.weights(nu);
+                const PsfBasis::Weights weights = basis.weights(nu);
                 for (std::size_t m = 0; m < n; ++m)
                     for (const double a : {-0.9, -0.2, 0.5})
                         for (const double b : {-0.6, 0.1, 1.0}) {

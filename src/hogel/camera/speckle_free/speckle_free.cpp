@@ -11,7 +11,7 @@
 #include "hogel/camera/narrow_band/narrow_band.h"
 #include "hogel/camera/photograph_plan.h"
 #include "hogel/camera/speckle_free/kernels.h"
-#include "hogel/camera/speckle_free/spots.h"
+#include "hogel/camera/speckle_free/psf_table.h"
 #include "hogel/camera/speckle_free/tails.h"
 #include "hogel/core/object_pool.h"
 #include "hogel/core/rates.h"
@@ -48,18 +48,18 @@ constexpr double products_of_a_power = 35, products_of_a_power_and_eye = 10;
 struct Exposure {
     std::size_t camera = 0;
     std::size_t parts_x = 1, parts_y = 1;
-    PixelPlaces columns, rows;
-    std::vector<Spots> spots;  // [part down · parts_x + part across]
-    Array<float, 2> tails;     // [hogel], those of the surroundings included: light that falls far away
+    PixelOffsets columns, rows;
+    std::vector<PsfTable> spots;  // [part down · parts_x + part across]
+    Array<float, 2> tails;        // [hogel], those of the surroundings included: light that falls far away
 
     // Of a row of hogels.
     float* tails_of_row(std::size_t row) { return &tails(rows.beside + row, columns.beside); }
 };
 
 // An eye: the numbers of its hogels, [row][column · pair], and its cameras.
-struct ExpectedEye {
+struct SpeckleFreeViewpoint {
     double band = 0;
-    std::unique_ptr<SpotBasis> basis;
+    std::unique_ptr<PsfBasis> basis;
     std::unique_ptr<Pairs> pairs;
     std::vector<Exposure> exposures;
     Array<float, 2> numbers;
@@ -87,23 +87,24 @@ float share(double position, std::size_t index, std::size_t count) {
 }
 
 // The places of a picture's columns and rows among the hogels.
-std::pair<PixelPlaces, PixelPlaces> places_of(const HogelGrid& hogels, const Camera& camera, const Pairs& pairs,
-                                              double band) {
+std::pair<PixelOffsets, PixelOffsets> places_of(const HogelGrid& hogels, const Camera& camera, const Pairs& pairs,
+                                                double band) {
     const Grid &plane = hogels.plane, &picture = camera.picture;
-    const std::size_t places = max_places(pairs, Spots::reach(hogels, camera, band));
+    const std::size_t places = max_places(pairs, PsfTable::reach(hogels, camera, band));
     const Rectangle own(plane),
         seen = film_area(plane, Rectangle(picture),
-                         lit_area({plane, hogels.wavelength}, camera.eye, camera.pupil, defocus_blur(camera)));
+                         illuminated_area({plane, hogels.wavelength}, camera.eye, camera.pupil, defocus_blur(camera)));
     const auto hogels_in = [](double one_side, double other_side, double pitch) {
         return static_cast<std::size_t>(std::ceil(std::max(one_side, other_side) / pitch));
     };
-    return {pixel_places(picture.width, plane.column(picture.x(0)), picture.pitch_x / plane.pitch_x, plane.width,
-                         hogels_in(own.left - seen.left, seen.right - own.right, plane.pitch_x), places),
-            pixel_places(picture.height, plane.row(picture.y(0)), picture.pitch_y / plane.pitch_y, plane.height,
-                         hogels_in(own.bottom - seen.bottom, seen.top - own.top, plane.pitch_y), places)};
+    return {pixel_offsets(picture.width, plane.column(picture.x(0)), picture.pitch_x / plane.pitch_x, plane.width,
+                          hogels_in(own.left - seen.left, seen.right - own.right, plane.pitch_x), places),
+            pixel_offsets(picture.height, plane.row(picture.y(0)), picture.pitch_y / plane.pitch_y, plane.height,
+                          hogels_in(own.bottom - seen.bottom, seen.top - own.top, plane.pitch_y), places)};
 }
 
-Exposure make_exposure(const HogelGrid& hogels, const ExpectedEye& eye, const Camera& camera, std::size_t index) {
+Exposure make_exposure(const HogelGrid& hogels, const SpeckleFreeViewpoint& eye, const Camera& camera,
+                       std::size_t index) {
     const Grid& plane = hogels.plane;
     Exposure exposure;
     exposure.camera = index;
@@ -141,12 +142,12 @@ double products_of_pixels(const Pairs& pairs, std::size_t reach, const Camera& c
 class Photographer {
   public:
     Photographer(const HogelGrid& hogels, const WavePowers& waves, std::span<const Camera> cameras,
-                 std::span<const SharedEye> eyes)
+                 std::span<const SharedViewpoint> eyes)
         : hogels_(hogels), waves_(waves), cameras_(cameras) {
-        for (const SharedEye& shared : eyes) {
-            ExpectedEye eye;
+        for (const SharedViewpoint& shared : eyes) {
+            SpeckleFreeViewpoint eye;
             eye.band = half_band(hogels, cameras[shared.members.front()].eye, shared.pupil);
-            eye.basis = std::make_unique<SpotBasis>(hogels.samples, eye.band * (1 + guard));
+            eye.basis = std::make_unique<PsfBasis>(hogels.samples, eye.band * (1 + guard));
             eye.pairs = std::make_unique<Pairs>(*eye.basis, eye.band);
             for (const std::size_t member : shared.members)
                 eye.exposures.push_back(make_exposure(hogels, eye, cameras[member], member));
@@ -157,12 +158,12 @@ class Photographer {
     // Bytes of the numbers of a row of hogels.
     double row_bytes() const {
         double pairs = 0;
-        for (const ExpectedEye& eye : eyes_) pairs += static_cast<double>(eye.pairs->padded_count());
+        for (const SpeckleFreeViewpoint& eye : eyes_) pairs += static_cast<double>(eye.pairs->padded_count());
         return pairs * static_cast<double>(hogels_.plane.width) * sizeof(float);
     }
     std::size_t reach() const {
         std::size_t reach = 0;
-        for (const ExpectedEye& eye : eyes_)
+        for (const SpeckleFreeViewpoint& eye : eyes_)
             for (const Exposure& exposure : eye.exposures) reach = std::max(reach, exposure.spots.front().reach());
         return reach;
     }
@@ -176,10 +177,10 @@ class Photographer {
         read(last_row - first_row_, first, end, progress.part(0.0, reading));
         const Progress exposing = progress.part(reading, 1.0);
         std::size_t blocks = 0;
-        for (const ExpectedEye& eye : eyes_)
+        for (const SpeckleFreeViewpoint& eye : eyes_)
             for (const Exposure& exposure : eye.exposures) blocks += blocks_of(exposure);
         work::Steps steps(exposing, blocks);
-        for (ExpectedEye& eye : eyes_)
+        for (SpeckleFreeViewpoint& eye : eyes_)
             for (const Exposure& exposure : eye.exposures)
                 expose_blocks(exposure, steps, [&](std::size_t row, std::size_t left, std::size_t right) {
                     if (const std::size_t hogel = nearest_row(exposure, row); hogel >= first && hogel < end)
@@ -189,7 +190,7 @@ class Photographer {
 
     // Adds the light that falls far from its hogels.
     void add_tails(std::span<Image> pictures) const {
-        for (const ExpectedEye& eye : eyes_)
+        for (const SpeckleFreeViewpoint& eye : eyes_)
             for (const Exposure& exposure : eye.exposures) {
                 const Camera& camera = cameras_[exposure.camera];
                 const Array<float, 2> spread =
@@ -220,7 +221,7 @@ class Photographer {
     double reading_share() const {
         const double reading = products_of_reading(hogels_, eyes_.size());
         double exposing = 0;
-        for (const ExpectedEye& eye : eyes_)
+        for (const SpeckleFreeViewpoint& eye : eyes_)
             for (const Exposure& exposure : eye.exposures)
                 exposing += products_of_pixels(*eye.pairs, exposure.spots.front().reach(), cameras_[exposure.camera]);
         return reading / (reading + exposing);
@@ -229,7 +230,7 @@ class Photographer {
     // Computes the numbers of `count` rows of hogels from first_row_ on, and the tails of rows [first, end).
     void read(std::size_t count, std::size_t first, std::size_t end, const Progress& progress) {
         const Grid& plane = hogels_.plane;
-        for (ExpectedEye& eye : eyes_)
+        for (SpeckleFreeViewpoint& eye : eyes_)
             if (eye.numbers.shape() != Shape<2>{count, plane.width * eye.pairs->padded_count()})
                 eye.numbers = Array<float, 2>({count, plane.width * eye.pairs->padded_count()});
         const std::size_t across = (plane.width + block_across - 1) / block_across,
@@ -240,20 +241,20 @@ class Photographer {
             part.width = std::min(block_across, plane.width - part.x0);
             part.height = std::min(block_down, first_row_ + count - part.y0);
             auto powers = powers_.take();
-            const std::size_t samples = hogels_.samples, size = SpotBasis::in_lanes(samples) * samples;
+            const std::size_t samples = hogels_.samples, size = PsfBasis::in_lanes(samples) * samples;
             if (powers->size() == 0) *powers = Array<float, 2>({block_across * block_down, size});
             waves_.read({part.x0, part.y0, part.width, part.height}, {powers->data(), {part.samples(), size}});
-            for (ExpectedEye& eye : eyes_)
+            for (SpeckleFreeViewpoint& eye : eyes_)
                 for (std::size_t h = 0; h < part.samples(); ++h)
                     add_hogel(eye, part.x0 + h % part.width, part.y0 + h / part.width, &(*powers)(h, 0), first, end);
             steps.report_one();
         });
     }
 
-    void add_hogel(ExpectedEye& eye, std::size_t s, std::size_t t, const float* powers, std::size_t first,
+    void add_hogel(SpeckleFreeViewpoint& eye, std::size_t s, std::size_t t, const float* powers, std::size_t first,
                    std::size_t end) const {
         const Grid& plane = hogels_.plane;
-        const SpotBasis& basis = *eye.basis;
+        const PsfBasis& basis = *eye.basis;
         const Camera& camera = cameras_[eye.exposures.front().camera];
         const ViewGeometry geometry(camera.eye, hogels_.wavelength);
         const double x = plane.x(static_cast<double>(s)), y = plane.y(static_cast<double>(t));
@@ -297,26 +298,27 @@ class Photographer {
 
     // Pixels around the same hogel read the same numbers, and those at the same place of several hogels the same
     // weights.
-    struct LitHogel {
+    struct ActiveHogel {
         std::ptrdiff_t base, left, right;
         std::size_t column, count;  // of its pixels
     };
-    void find_lit(const Exposure& exposure, std::size_t first, std::size_t end, std::vector<LitHogel>& lit) const {
+    void find_lit(const Exposure& exposure, std::size_t first, std::size_t end,
+                  std::vector<ActiveHogel>& active) const {
         const auto width = static_cast<std::ptrdiff_t>(hogels_.plane.width),
                    reach = static_cast<std::ptrdiff_t>(exposure.spots.front().reach());
-        lit.clear();
+        active.clear();
         for (std::size_t column = first; column < end; ++column) {
             const std::ptrdiff_t base = exposure.columns.base[column];
             if (exposure.columns.seen[column] == 0 || base + reach < 0 || base - reach >= width) continue;
-            if (lit.empty() || lit.back().base != base || lit.back().count == max_b_together)
-                lit.push_back(
+            if (active.empty() || active.back().base != base || active.back().count == max_b_per_pass)
+                active.push_back(
                     {base, std::max<std::ptrdiff_t>(0, base - reach), std::min(width, base + reach + 1), column, 0});
-            ++lit.back().count;
+            ++active.back().count;
         }
     }
 
     // Whether the pixels around two hogels have the same weights.
-    static bool are_alike(const Exposure& exposure, const LitHogel& one, const LitHogel& other) {
+    static bool are_alike(const Exposure& exposure, const ActiveHogel& one, const ActiveHogel& other) {
         const auto places = exposure.columns.place.begin();
         return other.count == one.count && other.left - other.base == one.left - one.base &&
                other.right - other.base == one.right - one.base &&
@@ -325,7 +327,7 @@ class Photographer {
                           places + static_cast<std::ptrdiff_t>(other.column));
     }
 
-    void expose_row(const ExpectedEye& eye, const Exposure& exposure, std::size_t row, std::size_t first,
+    void expose_row(const SpeckleFreeViewpoint& eye, const Exposure& exposure, std::size_t row, std::size_t first,
                     std::size_t end, Image& picture) const {
         const auto rows = static_cast<std::ptrdiff_t>(eye.numbers.extent(0));
         const std::size_t pairs = eye.pairs->padded_count();
@@ -338,21 +340,21 @@ class Photographer {
             return (static_cast<double>(base) + 0.5) / extent;
         };
         const double down = position(exposure.rows.base[row], static_cast<double>(hogels_.plane.height));
-        thread_local std::vector<LitHogel> lit;
-        find_lit(exposure, first, end, lit);
-        for (auto begin = lit.begin(); begin != lit.end();) {
-            const LitHogel one = *begin;
-            const auto same = std::partition(begin, lit.end(),
-                                             [&](const LitHogel& other) { return are_alike(exposure, one, other); });
+        thread_local std::vector<ActiveHogel> active;
+        find_lit(exposure, first, end, active);
+        for (auto begin = active.begin(); begin != active.end();) {
+            const ActiveHogel one = *begin;
+            const auto same = std::partition(begin, active.end(),
+                                             [&](const ActiveHogel& other) { return are_alike(exposure, one, other); });
             while (begin != same) {
                 const std::span some(begin,
-                                     std::min(static_cast<std::size_t>(same - begin), max_a_together(one.count)));
-                const float *numbers[max_sums_together], *weights[max_b_together];
+                                     std::min(static_cast<std::size_t>(same - begin), max_a_per_pass(one.count)));
+                const float *numbers[max_sums_per_pass], *weights[max_b_per_pass];
                 for (std::size_t k = 0; k < some.size(); ++k)
                     numbers[k] = &eye.numbers(top, static_cast<std::size_t>(some[k].left) * pairs);
                 for (std::size_t i = 0; i < exposure.spots.size(); ++i) {
                     const float share_down = share(down, i / exposure.parts_x, exposure.parts_y);
-                    float shares[max_sums_together], light[max_sums_together], any = 0;
+                    float shares[max_sums_per_pass], light[max_sums_per_pass], any = 0;
                     for (std::size_t k = 0; k < some.size(); ++k) {
                         const double across = position(some[k].base, static_cast<double>(hogels_.plane.width));
                         shares[k] = share(across, i % exposure.parts_x, exposure.parts_x) * share_down;
@@ -372,7 +374,7 @@ class Photographer {
                                   static_cast<std::size_t>(one.right - one.left) * pairs},
                                  light);
                     for (std::size_t k = 0; k < some.size() * one.count; ++k) {
-                        const LitHogel& hogel = some[k / one.count];
+                        const ActiveHogel& hogel = some[k / one.count];
                         const std::size_t column = hogel.column + k % one.count;
                         picture.pixels(row, column, 0) +=
                             exposure.rows.seen[row] * exposure.columns.seen[column] * shares[k / one.count] * light[k];
@@ -386,7 +388,7 @@ class Photographer {
     HogelGrid hogels_;
     const WavePowers& waves_;
     std::span<const Camera> cameras_;
-    std::vector<ExpectedEye> eyes_;
+    std::vector<SpeckleFreeViewpoint> eyes_;
     std::size_t first_row_ = 0;  // of the numbers
     core::ObjectPool<Array<float, 2>> powers_;
 };
@@ -409,21 +411,21 @@ HogelGrid hogel_grid(const FieldGrid& hologram, const WavePowers::Counts& counts
 Plan plan(const FieldGrid& hologram, const WavePowers::Counts& counts, std::span<const Camera> cameras,
           const SpeckleFreeCamera& model) {
     const HogelGrid hogels = hogel_grid(hologram, counts);
-    const std::vector<SharedEye> eyes = group_by_eye(cameras);
+    const std::vector<SharedViewpoint> eyes = group_by_viewpoint(cameras);
     double products = products_of_reading(hogels, eyes.size()), bytes = 0;
-    for (const SharedEye& eye : eyes) {
+    for (const SharedViewpoint& eye : eyes) {
         const double band = half_band(hogels, cameras[eye.members.front()].eye, eye.pupil);
-        const SpotNodes nodes(counts.samples, band * (1 + guard));
+        const PsfNodes nodes(counts.samples, band * (1 + guard));
         const Pairs list(nodes, band);
         products += nodes.products();
         const auto pairs = static_cast<double>(list.padded_count());
         bytes += pairs * static_cast<double>(hogels.plane.samples()) * sizeof(float);
         for (const std::size_t member : eye.members) {
             const Camera& camera = cameras[member];
-            products += products_of_pixels(list, Spots::reach(hogels, camera, band), camera);
+            products += products_of_pixels(list, PsfTable::reach(hogels, camera, band), camera);
             const auto [columns, rows] = places_of(hogels, camera, list, band);
             products += static_cast<double>(parts(hogels, camera, true) * parts(hogels, camera, false)) *
-                        Spots::products(hogels, camera, list, band, columns, rows);
+                        PsfTable::products(hogels, camera, list, band, columns, rows);
         }
     }
     return {std::min(bytes, static_cast<double>(model.memory)), 0,
@@ -440,11 +442,12 @@ void photograph(const FieldSource& hologram, const WavePowers& waves, std::span<
     }
     const WavePowers::Counts counts = waves.counts();
     const HogelGrid hogels = hogel_grid(field, counts);
-    const std::vector<SharedEye> eyes = group_by_eye(cameras);
+    const std::vector<SharedViewpoint> eyes = group_by_viewpoint(cameras);
     // As many eyes at a time as fit into memory with enough rows of hogels.
     std::size_t at_once = eyes.size();
     for (std::size_t done = 0; done < eyes.size();) {
-        const std::span<const SharedEye> some = std::span(eyes).subspan(done, std::min(at_once, eyes.size() - done));
+        const std::span<const SharedViewpoint> some =
+            std::span(eyes).subspan(done, std::min(at_once, eyes.size() - done));
         Photographer photographer(hogels, waves, cameras, some);
         const auto fit = static_cast<std::size_t>(static_cast<double>(model.memory) / photographer.row_bytes());
         const std::size_t around = 2 * photographer.reach();

@@ -10,7 +10,7 @@ namespace hogel::camera::speckle_free {
 
 /// Photographs the mean of infinitely many looks of a stereogram whose waves have independent random phases: the sum of
 /// the intensities of all waves, without speckle. The spots of a hogel's waves on the film are sums of those of a few
-/// waves (SpotBasis), so each hogel is worth some eighty numbers to an eye, which all focuses share, and a pixel is the
+/// waves (PsfBasis), so each hogel is worth some eighty numbers to an eye, which all focuses share, and a pixel is the
 /// product of those of the hogels around it and a table of spots. Light that falls beyond five resolution cells beside
 /// a hogel's picture is spread as the diffraction of the pupil's rim, by the third power of the distance.
 ///

@@ -16,10 +16,10 @@
 #include "hogel/codec/format/stacked.h"
 #include "hogel/codec/format/stream_file.h"
 #include "hogel/codec/format/unfolded.h"
+#include "hogel/communicator.h"
 #include "hogel/core/rates.h"
 #include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
-#include "hogel/team.h"
 
 namespace hogel {
 
@@ -269,8 +269,7 @@ CompressionResult compress_into(core::RawFile* into, const LightField& light_fie
     header.tile = tile_for(options, *parts.front().coder, grids.front(), grid);
     header.layer_ends.resize(parts.front().coder->layers(header.tile));
     std::optional<core::RawFile> depth;
-    if (options.with_depth && is_first_process())
-        depth.emplace(core::folder_of(path), core::RawFile::Mode::unnamed, path);
+    if (options.with_depth && is_root_rank()) depth.emplace(core::folder_of(path), core::RawFile::Mode::unnamed, path);
     if (options.with_depth) header.depth = code_depth(depth ? &*depth : nullptr, light_field, path, options);
     StreamWriter writer(path, header, into, depth ? &*depth : nullptr);
     TileCompression compression(parts, header, writer, progress);

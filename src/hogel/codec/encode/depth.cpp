@@ -9,7 +9,7 @@
 #include "hogel/codec/format/stream_file.h"
 #include "hogel/compress.h"
 #include "hogel/error.h"
-#include "hogel/work/shared_order.h"
+#include "hogel/work/ordered_reduce.h"
 
 namespace hogel::codec::encode {
 
@@ -88,7 +88,7 @@ DepthCoding depth_coding(const LightField& light_field, std::optional<double> bo
     Range all;
     for (const LightField::Source& face : light_field.faces()) {
         const Tiling tiling(face->grid(), face->preferred_tile());
-        work::shared_ordered<Range>(
+        work::ordered_reduce<Range>(
             tiling.count(), work::default_in_flight(), {}, [&](std::size_t i) { return depths_of(*face, tiling[i]); },
             [&](std::size_t, Range& depths) { all.include(depths); });
     }

@@ -10,7 +10,7 @@
 #include "hogel/codec/format/block_kernels.h"
 #include "hogel/codec/tile_coder.h"
 #include "hogel/error.h"
-#include "hogel/work/shared_order.h"
+#include "hogel/work/ordered_reduce.h"
 
 namespace hogel::codec::encode {
 
@@ -79,7 +79,7 @@ CodingOutcome TileCompression::code(std::span<const std::size_t> tiles, double s
                                      coded.outcome = from.get<CodingOutcome>();
                                      return coded;
                                  }};
-    work::shared_ordered<Coded>(
+    work::ordered_reduce<Coded>(
         tiles.size(), in_flight(), sent,
         [&](std::size_t i) {
             return code_tile(tiles[i], step, max_bytes.empty() ? TileCoder::no_limit : max_bytes[i]);
@@ -102,7 +102,7 @@ CodingOutcome TileCompression::code(std::span<const std::size_t> tiles, double s
 
 CodingOutcome TileCompression::look(std::span<const std::size_t> tiles) {
     CodingOutcome sum;
-    work::shared_ordered<CodingOutcome>(
+    work::ordered_reduce<CodingOutcome>(
         tiles.size(), in_flight(), {},
         [&](std::size_t i) {
             auto [tile, outcome] = read(tiles[i]);
@@ -133,7 +133,7 @@ coding::MagnitudeHistogram TileCompression::magnitudes() {
             const auto max = from.get<float>();
             return coding::MagnitudeHistogram(max, from.get_vector<std::uint64_t>());
         }};
-    work::shared_ordered<coding::MagnitudeHistogram>(
+    work::ordered_reduce<coding::MagnitudeHistogram>(
         tiles(), in_flight(), sent,
         [&](std::size_t i) {
             auto [tile, outcome] = read(i);

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "hogel/codec/format/stream_file.h"
-#include "hogel/work/shared_order.h"
+#include "hogel/work/ordered_reduce.h"
 
 namespace hogel::codec::format {
 namespace {
@@ -104,7 +104,7 @@ LuminanceHistogram luminance_histogram(const LightField& light_field, const Prog
     for (std::size_t face = 0; face < faces.size(); ++face) {
         const LightFieldGrid& grid = faces[face]->grid();
         const Tiling tiling(grid, faces[face]->preferred_tile());
-        work::shared_ordered<LuminanceHistogram>(
+        work::ordered_reduce<LuminanceHistogram>(
             tiling.count(), work::default_in_flight(), sent,
             [&](std::size_t i) {
                 LightFieldTile tile(grid, tiling[i], false);

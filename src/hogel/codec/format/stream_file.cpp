@@ -10,7 +10,7 @@
 #include "hogel/codec/format/stream_header.h"
 #include "hogel/codec/format/unfolded.h"
 #include "hogel/codec/tile_coder.h"
-#include "hogel/work/shared_order.h"
+#include "hogel/work/ordered_reduce.h"
 
 namespace hogel::codec::format {
 namespace {
@@ -81,7 +81,7 @@ StreamWriter::StreamWriter(const std::filesystem::path& path, const StreamHeader
                         fmt::format("{}: tiles of {}x{} hogels; expected at least 1x1, no more than the light field "
                                     "has, and at most {} samples in each",
                                     path.string(), info.tile.ns, info.tile.nt, max_tile_samples));
-    if (is_first_process()) files_.emplace(path, into == nullptr);
+    if (is_root_rank()) files_.emplace(path, into == nullptr);
 }
 
 void StreamWriter::restart() {
@@ -118,7 +118,7 @@ void StreamWriter::finish(std::uint64_t filler) {
         file.close();
         output.commit();
     }
-    if (Team* const all = team()) all->meet();  // the file has its name
+    if (Communicator* const all = communicator()) all->meet();  // the file has its name
 }
 
 void StreamWriter::write(core::RawFile& file, std::uint64_t filler) {

@@ -149,7 +149,7 @@ class FilmPictures final : public ViewPictures {
     std::size_t frame_bytes_ = 0, frames_ = 0;
 };
 
-ViewSet open(const fs::path& source, const ViewOptions& options) {
+ViewSet open(const fs::path& source, const ViewImportOptions& options) {
     const auto pictures =
         std::make_shared<FilmPictures>(source, options.spool.empty() ? fs::temp_directory_path() : options.spool);
     ViewSet set;

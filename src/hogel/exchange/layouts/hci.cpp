@@ -94,7 +94,7 @@ ViewGeometry geometry_of(const std::map<std::string, double>& parameters) {
     return geometry;
 }
 
-ViewSet open(const fs::path& source, const ViewOptions& options) {
+ViewSet open(const fs::path& source, const ViewImportOptions& options) {
     const std::vector<NumberedFiles> groups = numbered_pictures(source);
     const NumberedFiles* group = pictures_in(groups);
     if (group == nullptr) fail_source(source, "has no pictures input_Cam000.png and so on");

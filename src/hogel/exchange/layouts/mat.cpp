@@ -206,7 +206,7 @@ class MatPictures final : public ViewPictures {
     std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>> numbers_;
 };
 
-ViewSet open(const fs::path& source, const ViewOptions& options) {
+ViewSet open(const fs::path& source, const ViewImportOptions& options) {
     const std::vector<NumberArray> found = light_fields_in(source);
     if (found.empty()) fail_source(source, "has no array of four or five axes, such as LF(t,s,v,u,c)");
     const auto named = std::ranges::find(found, "LF", &NumberArray::name);

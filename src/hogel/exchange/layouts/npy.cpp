@@ -91,7 +91,7 @@ class NpyPictures final : public ViewPictures {
     NpyHeader header_;
 };
 
-ViewSet open(const fs::path& source, const ViewOptions& options) {
+ViewSet open(const fs::path& source, const ViewImportOptions& options) {
     const auto pictures = std::make_shared<NpyPictures>(source);
     ViewSet set;
     set.rows = pictures->shape()[0];

@@ -30,7 +30,7 @@ bool names_cameras(const std::string& shape) {
     return false;
 }
 
-ViewSet open(const fs::path& source, const ViewOptions& options) {
+ViewSet open(const fs::path& source, const ViewImportOptions& options) {
     const std::vector<NumberedFiles> groups = numbered_pictures(source);
     if (groups.empty() || groups.front().varying.size() != 1)
         fail_source(source, "has no pictures whose names differ in one number, such as view_001.png");

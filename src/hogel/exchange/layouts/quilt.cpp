@@ -110,7 +110,7 @@ class QuiltPictures final : public ViewPictures {
     bool divides_ = true;
 };
 
-ViewSet open(const fs::path& source, const ViewOptions& options) {
+ViewSet open(const fs::path& source, const ViewImportOptions& options) {
     std::optional<Tiling> tiling = tiling_of(source);
     if (options.columns > 0) tiling = Tiling{options.columns, options.rows, tiling ? tiling->aspect : 0};
     if (!tiling)

@@ -18,7 +18,7 @@ bool probe(const fs::path& source) {
     return !groups.empty() && groups.front().varying.size() == 2 && groups.front().files.size() > 2;
 }
 
-ViewSet open(const fs::path& source, const ViewOptions& options) {
+ViewSet open(const fs::path& source, const ViewImportOptions& options) {
     const std::vector<NumberedFiles> groups = numbered_pictures(source);
     if (groups.empty() || groups.front().varying.size() != 2)
         fail_source(source, "has no pictures whose names differ in two numbers, such as 003_004.png");

@@ -94,7 +94,7 @@ double unevenness(const std::vector<double>& places) {
     return worst;
 }
 
-ViewSet open(const fs::path& source, const ViewOptions&) {
+ViewSet open(const fs::path& source, const ViewImportOptions&) {
     const NumberedFiles group = pictures_in(source);
     if (group.files.empty()) fail_source(source, "has no pictures of names such as out_00_01_-780.1_-3355.3_.png");
     PictureGrid grid = in_rows_and_columns(group, 0, 1);

@@ -31,7 +31,7 @@ bool probe(const fs::path& source) {
     return file.extension() == ".json" && fs::is_regular_file(file, none);
 }
 
-ViewSet open(const fs::path& source, const ViewOptions&) {
+ViewSet open(const fs::path& source, const ViewImportOptions&) {
     const fs::path file = file_of(source);
     std::error_code none;
     if (!fs::is_regular_file(file, none)) fail_source(file, "no such file");

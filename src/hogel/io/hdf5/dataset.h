@@ -102,7 +102,7 @@ class DatasetFile {
     void put(std::size_t dataset, std::size_t sample, const void* from, std::size_t samples);
 
     std::filesystem::path path_;
-    Team* team_;
+    Communicator* communicator_;
     std::uint64_t number_ = 0;             // of the file, among those of the team
     std::atomic<std::size_t> closed_ = 0;  // other processes that have sent all they had
     bool finished_ = false;

@@ -97,11 +97,14 @@ SharedLayout from_text(const std::string& text) {
 }  // namespace
 
 DatasetFile::DatasetFile(const std::filesystem::path& path, Contents contents, const std::optional<std::string>& resume)
-    : path_(path), team_(hogel::team()), datasets_(contents.datasets), is_part_(contents.part.has_value()) {
+    : path_(path),
+      communicator_(hogel::communicator()),
+      datasets_(contents.datasets),
+      is_part_(contents.part.has_value()) {
     if (contents.part)
         for (std::size_t i = 0; i < datasets_.size(); ++i)
             datasets_[i].shape.at(contents.part->bands[i].axis) = contents.part->bands[i].count;
-    if (team_ == nullptr)
+    if (communicator_ == nullptr)
         lay_out(contents, resume);
     else
         lay_out_together(contents, resume);
@@ -110,21 +113,21 @@ DatasetFile::DatasetFile(const std::filesystem::path& path, Contents contents, c
 void DatasetFile::lay_out_together(const Contents& contents, const std::optional<std::string>& resume) {
     static std::atomic<std::uint64_t> files{0};
     number_ = files++;
-    team_->meet();  // each process has what it needs before disk space is taken
-    if (team_->is_first()) {
+    communicator_->meet();  // each process has what it needs before disk space is taken
+    if (communicator_->is_root()) {
         lay_out(contents, resume);
         SharedLayout layout{output_->temporary(), offsets_, journal_.has_value(), {}};
         if (journal_) layout.before = journal_->before();
-        team_->share(to_text(layout));
-        if (journal_) team_->listen(number_, [this](const std::string& lines) { take(lines); });
+        communicator_->share(to_text(layout));
+        if (journal_) communicator_->listen(number_, [this](const std::string& lines) { take(lines); });
     } else {
-        const SharedLayout layout = from_text(team_->share(""));
+        const SharedLayout layout = from_text(communicator_->share(""));
         offsets_ = layout.offsets;
         raw_.emplace(layout.temporary, core::RawFile::Mode::write, path_);
         if (layout.resumes)
             journal_.emplace(
                 layout.before, [this] { raw_->flush(); },
-                [this](const std::string& lines) { team_->send(number_, lines); });
+                [this](const std::string& lines) { communicator_->send(number_, lines); });
     }
 }
 
@@ -155,23 +158,23 @@ void DatasetFile::lay_out(const Contents& contents, const std::optional<std::str
 
 // A team's processes send what they have done to the first one, which has the journal.
 DatasetFile::~DatasetFile() {
-    if (team_ == nullptr || !journal_ || finished_) {
-        if (team_ != nullptr && team_->is_first() && journal_) team_->listen(number_, {});
+    if (communicator_ == nullptr || !journal_ || finished_) {
+        if (communicator_ != nullptr && communicator_->is_root() && journal_) communicator_->listen(number_, {});
         return;
     }
     try {
         journal_->write();
-        if (!team_->is_first()) {
-            team_->send(number_, "");
+        if (!communicator_->is_root()) {
+            communicator_->send(number_, "");
             return;
         }
         const auto end = std::chrono::steady_clock::now() + patience;
-        while (closed_ + 1 < team_->size() && std::chrono::steady_clock::now() < end)
+        while (closed_ + 1 < communicator_->size() && std::chrono::steady_clock::now() < end)
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
     } catch (const Error&) {
         // Ignored: parts that are not recorded will only be done again.
     }
-    team_->listen(number_, {});
+    communicator_->listen(number_, {});
 }
 
 void DatasetFile::take(const std::string& lines) {
@@ -187,11 +190,13 @@ void DatasetFile::take(const std::string& lines) {
 
 std::unique_ptr<work::TileQueue> DatasetFile::share_tiles(std::size_t dataset, std::size_t tiles) {
     constexpr std::uint64_t max_datasets = std::uint64_t{1} << 16;
-    if (team_ == nullptr) return nullptr;
-    return std::make_unique<work::TileQueue>(*team_, number_ * max_datasets + dataset, tiles);
+    if (communicator_ == nullptr) return nullptr;
+    return std::make_unique<work::TileQueue>(*communicator_, number_ * max_datasets + dataset, tiles);
 }
 
-std::uint64_t DatasetFile::total(std::uint64_t here) { return team_ != nullptr ? team_->sum(here) : here; }
+std::uint64_t DatasetFile::total(std::uint64_t here) {
+    return communicator_ != nullptr ? communicator_->sum(here) : here;
+}
 
 void DatasetFile::put(std::size_t dataset, std::size_t sample, const void* from, std::size_t samples) {
     const std::uint64_t element = bytes_of(datasets_[dataset].element), at = element * sample;
@@ -244,12 +249,12 @@ void DatasetFile::write(std::size_t dataset, const Box& box, const std::complex<
 
 void DatasetFile::finish() {
     raw_->close();
-    if (team_ != nullptr) team_->meet();  // all have written
+    if (communicator_ != nullptr) communicator_->meet();  // all have written
     if (output_ && is_part_) complete_part(output_->temporary(), path_);
     if (output_) output_->commit();
     if (journal_) journal_->remove();
     finished_ = true;
-    if (team_ != nullptr) team_->meet();  // the file has its name
+    if (communicator_ != nullptr) communicator_->meet();  // the file has its name
 }
 
 }  // namespace hogel::io::hdf5

@@ -172,7 +172,7 @@ HWY_INLINE void StoreParts(Some d, hn::Vec<Some> x, float* const* lines, std::si
     }
 }
 // Two complex numbers of as many lines as a vector has lanes become two vectors of complex numbers, and back.
-HWY_INLINE void Turn(D d, const float* const* lines, std::size_t at, Numbers& first, Numbers& second) {
+HWY_INLINE void TransposePair(D d, const float* const* lines, std::size_t at, Numbers& first, Numbers& second) {
     const V a = LoadParts(d, lines, at), b = LoadParts(d, lines + 1, at), c = LoadParts(d, lines + 2, at),
             e = LoadParts(d, lines + 3, at);
     const V ac0 = hn::InterleaveLower(d, a, c), be0 = hn::InterleaveLower(d, b, e), ac1 = hn::InterleaveUpper(d, a, c),
@@ -189,7 +189,8 @@ HWY_INLINE V UpperPairs(D d, V a, V b) {
     const hn::Repartition<double, D> pairs;
     return hn::BitCast(d, hn::InterleaveUpper(pairs, hn::BitCast(pairs, a), hn::BitCast(pairs, b)));
 }
-HWY_INLINE void TurnBack(D d, const Numbers& first, const Numbers& second, float* const* lines, std::size_t at) {
+HWY_INLINE void TransposePairBack(D d, const Numbers& first, const Numbers& second, float* const* lines,
+                                  std::size_t at) {
     const V ab0 = hn::InterleaveLower(d, first.re, first.im), ab1 = hn::InterleaveLower(d, second.re, second.im),
             ce0 = hn::InterleaveUpper(d, first.re, first.im), ce1 = hn::InterleaveUpper(d, second.re, second.im);
     StoreParts(d, LowerPairs(d, ab0, ab1), lines, at);

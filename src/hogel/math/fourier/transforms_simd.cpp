@@ -100,12 +100,12 @@ void LinesToRows(const float* const* lines, std::size_t length, float* rows, std
         Numbers first, second;
         std::size_t j = 0;
         for (; j + 1 < length; j += 2) {
-            Turn(d, lines + i, 2 * j, first, second);
+            TransposePair(d, lines + i, 2 * j, first, second);
             InSplit::Store(d, ExchangedIf(exchange, first), rows + j * split_row, i);
             InSplit::Store(d, ExchangedIf(exchange, second), rows + (j + 1) * split_row, i);
         }
         if (j == length) continue;
-        Turn(d, last + i, 0, first, second);
+        TransposePair(d, last + i, 0, first, second);
         InSplit::Store(d, ExchangedIf(exchange, first), rows + j * split_row, i);
     }
 }
@@ -120,8 +120,9 @@ void LinesFromRows(const float* rows, const std::uint32_t* place, std::size_t le
     float* last[together];
     for (std::size_t l = 0; l < together; ++l) last[l] = ends[l];
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
-        for (std::size_t j = 0; j + 1 < length; j += 2) TurnBack(d, row(j, i), row(j + 1, i), lines + i, 2 * j);
-        if (length % 2 == 1) TurnBack(d, row(length - 1, i), row(length - 1, i), last + i, 0);
+        for (std::size_t j = 0; j + 1 < length; j += 2)
+            TransposePairBack(d, row(j, i), row(j + 1, i), lines + i, 2 * j);
+        if (length % 2 == 1) TransposePairBack(d, row(length - 1, i), row(length - 1, i), last + i, 0);
     }
     if (length % 2 == 1)
         for (std::size_t l = 0; l < count; ++l) std::copy_n(ends[l], 2, lines[l] + 2 * (length - 1));
@@ -189,7 +190,7 @@ void Lines(const Plan& plan, const Chirp* chirp, bool backward, float* lines, st
 
 // Multiplies transformed columns by their twiddle factors and turns them into rows: from frequency f of column b, at
 // row place[f], to [f/16][b][part][f mod 16].
-void TwiddleAndTurn(const Split& split, const float* columns, std::size_t block, std::size_t count, float* rows) {
+void TwiddleAndTranspose(const Split& split, const float* columns, std::size_t block, std::size_t count, float* rows) {
     const D d;
     const std::size_t across = split.across.length, down = split.down.length;
     alignas(64) float products[4][split_row] = {};
@@ -232,7 +233,7 @@ void LongLineAs(const Split& split, const float* from, float* to) {
             source = {padded, split_row};
         }
         TransformRows<Layout, InSplit>(split.down, source, columns, {columns, split_row, nullptr}, count);
-        TwiddleAndTurn(split, columns, block, count, rows);
+        TwiddleAndTranspose(split, columns, block, count, rows);
     }
     for (std::size_t block = 0; block < split.blocks_down(); ++block) {
         const std::size_t count = std::min(together, down - block * together);

@@ -24,10 +24,11 @@ std::size_t messages_of(std::size_t items, std::size_t items_in_one) {
 // Sends another process as many messages as it sends to this one; few are under way. Message i is taken after all
 // before it, and itself, have been packed.
 template <class Pack, class Take>
-void swap_messages(Team& team, std::size_t other, std::size_t count, const Pack& pack, const Take& take) {
+void swap_messages(Communicator& communicator, std::size_t other, std::size_t count, const Pack& pack,
+                   const Take& take) {
     for (std::size_t sent = 0, taken = 0; taken < count; ++taken) {
-        for (; sent < std::min(count, taken + messages_ahead); ++sent) team.send_to(other, pack(sent));
-        take(taken, team.receive_from(other));
+        for (; sent < std::min(count, taken + messages_ahead); ++sent) communicator.send_to(other, pack(sent));
+        take(taken, communicator.receive_from(other));
     }
 }
 
@@ -37,7 +38,9 @@ void require_size(const std::string& bytes, std::size_t samples) {
 }
 
 // The process that a process swaps with in a step, of as many as there are: itself in one of them.
-std::size_t partner(const Team& team, std::size_t step) { return (step + team.size() - team.rank()) % team.size(); }
+std::size_t partner(const Communicator& communicator, std::size_t step) {
+    return (step + communicator.size() - communicator.rank()) % communicator.size();
+}
 
 }  // namespace
 
@@ -52,21 +55,21 @@ LineRange lines_of(std::size_t process, std::size_t processes, std::size_t lines
     return {begin(process), begin(process + 1) - begin(process)};
 }
 
-SharedPlane::SharedPlane(std::size_t rows, std::size_t columns, std::size_t rows_together, std::size_t columns_together,
-                         const ScratchOptions& scratch, Team* team)
-    : rows_(rows), columns_(columns), rows_together_(rows_together), columns_together_(columns_together) {
-    if (team != nullptr && team->size() > 1) {
-        team_ = team;
-        rank_ = team->rank();
-        size_ = team->size();
+SharedPlane::SharedPlane(std::size_t rows, std::size_t columns, std::size_t block_rows, std::size_t block_columns,
+                         const ScratchOptions& scratch, Communicator* communicator)
+    : rows_(rows), columns_(columns), block_rows_(block_rows), block_columns_(block_columns) {
+    if (communicator != nullptr && communicator->size() > 1) {
+        communicator_ = communicator;
+        rank_ = communicator->rank();
+        size_ = communicator->size();
     }
     // For any number of rows up to this one.
-    const std::size_t groups = (rows + rows_together - 1) / rows_together;
-    const std::size_t max_rows = std::min(rows, (groups + size_ - 1) / size_ * rows_together);
+    const std::size_t groups = (rows + block_rows - 1) / block_rows;
+    const std::size_t max_rows = std::min(rows, (groups + size_ - 1) / size_ * block_rows);
     std::size_t samples = 0;
     for (std::size_t process = 0; process < size_; ++process) {
         block_starts_.push_back(samples);
-        samples += max_rows * std::max(lines_of(process, size_, columns, columns_together).count, own_columns().count);
+        samples += max_rows * std::max(lines_of(process, size_, columns, block_columns).count, local_columns().count);
     }
     samples_ = size_ == 1 ? core::PagedArray({rows, columns}, scratch, core::Contents::unset)
                           : core::PagedArray({1, std::max<std::size_t>(samples, 1)}, scratch, core::Contents::unset);
@@ -78,12 +81,12 @@ void SharedPlane::begin_columns(std::size_t rows) {
     places_ = in_columns(rows);
 }
 
-OwnColumns SharedPlane::in_columns(std::size_t rows) {
-    const LineRange across = own_columns();
+LocalColumns SharedPlane::in_columns(std::size_t rows) {
+    const LineRange across = local_columns();
     std::vector<Complex*> starts;
     starts.reserve(rows);
     for (std::size_t process = 0; process < size_; ++process) {
-        const std::size_t count = lines_of(process, size_, rows, rows_together_).count;
+        const std::size_t count = lines_of(process, size_, rows, block_rows_).count;
         for (std::size_t y = 0; y < count; ++y)
             starts.push_back(samples_.view().data() + block_starts_[process] + y * across.count);
     }
@@ -91,18 +94,18 @@ OwnColumns SharedPlane::in_columns(std::size_t rows) {
 }
 
 void SharedPlane::put_row(std::size_t y, const Complex* from) {
-    const std::size_t own = y - own_rows(rows_).first;
+    const std::size_t own = y - local_rows(rows_).first;
     for (std::size_t process = 0; process < size_; ++process) {
-        const LineRange columns = lines_of(process, size_, columns_, columns_together_);
+        const LineRange columns = lines_of(process, size_, columns_, block_columns_);
         std::copy_n(from + columns.first, columns.count,
                     samples_.view().data() + block_starts_[process] + own * columns.count);
     }
 }
 
 void SharedPlane::get_row(std::size_t y, Complex* to) const {
-    const std::size_t own = y - own_rows(rows_).first;
+    const std::size_t own = y - local_rows(rows_).first;
     for (std::size_t process = 0; process < size_; ++process) {
-        const LineRange columns = lines_of(process, size_, columns_, columns_together_);
+        const LineRange columns = lines_of(process, size_, columns_, block_columns_);
         std::copy_n(samples_.view().data() + block_starts_[process] + own * columns.count, columns.count,
                     to + columns.first);
     }
@@ -110,25 +113,25 @@ void SharedPlane::get_row(std::size_t y, Complex* to) const {
 
 void SharedPlane::to_columns(std::size_t rows) {
     rows_ = rows;
-    turn(false);
+    transpose(false);
     begin_columns(rows);
 }
 
 void SharedPlane::to_rows(std::size_t rows) {
     rows_ = rows;
-    turn(true);
+    transpose(true);
 }
 
 // Samples of the block for another process.
 std::size_t SharedPlane::block_size(std::size_t process, bool columns) const {
-    return columns ? lines_of(process, size_, rows_, rows_together_).count * own_columns().count
-                   : own_rows(rows_).count * lines_of(process, size_, columns_, columns_together_).count;
+    return columns ? lines_of(process, size_, rows_, block_rows_).count * local_columns().count
+                   : local_rows(rows_).count * lines_of(process, size_, columns_, block_columns_).count;
 }
 
 // Each two processes swap the blocks that they have for each other. What comes takes the place of what was sent before.
-void SharedPlane::turn(bool columns) {
+void SharedPlane::transpose(bool columns) {
     for (std::size_t step = 0; step < size_; ++step) {
-        const std::size_t other = team_ != nullptr ? partner(*team_, step) : 0;
+        const std::size_t other = communicator_ != nullptr ? partner(*communicator_, step) : 0;
         if (other == rank_) continue;
         Complex* const block = samples_.view().data() + block_starts_[other];
         const std::size_t to_send = block_size(other, columns), to_get = block_size(other, !columns);
@@ -137,7 +140,7 @@ void SharedPlane::turn(bool columns) {
             return LineRange{first, std::min(max_message, samples - first)};
         };
         swap_messages(
-            *team_, other, messages_of(std::max(to_send, to_get), max_message),
+            *communicator_, other, messages_of(std::max(to_send, to_get), max_message),
             [&](std::size_t i) {
                 const LineRange sent = part(i, to_send);
                 return std::string(reinterpret_cast<const char*>(block + sent.first), sent.count * sizeof(Complex));
@@ -150,18 +153,18 @@ void SharedPlane::turn(bool columns) {
     }
 }
 
-void send_rows(Team& team, const Shape<2>& shape, std::size_t rows_together,
+void send_rows(Communicator& communicator, const Shape<2>& shape, std::size_t block_rows,
                const std::function<LineRange(std::size_t)>& wanted,
                const std::function<void(std::size_t, Complex*)>& get_row,
                const std::function<Complex*(std::size_t)>& place) {
     const std::size_t columns = shape[1], at_once = std::max<std::size_t>(1, max_message / columns);
     const auto rows_from_to = [&](std::size_t from, std::size_t to) {
-        return common_lines(lines_of(from, team.size(), shape[0], rows_together), wanted(to));
+        return common_lines(lines_of(from, communicator.size(), shape[0], block_rows), wanted(to));
     };
-    for (std::size_t step = 0; step < team.size(); ++step) {
-        const std::size_t other = partner(team, step);
-        const LineRange sent = rows_from_to(team.rank(), other), got = rows_from_to(other, team.rank());
-        if (other == team.rank()) {
+    for (std::size_t step = 0; step < communicator.size(); ++step) {
+        const std::size_t other = partner(communicator, step);
+        const LineRange sent = rows_from_to(communicator.rank(), other), got = rows_from_to(other, communicator.rank());
+        if (other == communicator.rank()) {
             for (std::size_t y = sent.first; y < sent.end(); ++y) get_row(y, place(y));
             continue;
         }
@@ -169,7 +172,7 @@ void send_rows(Team& team, const Shape<2>& shape, std::size_t rows_together,
             return common_lines({rows.first + message * at_once, at_once}, rows);
         };
         swap_messages(
-            team, other, messages_of(std::max(sent.count, got.count), at_once),
+            communicator, other, messages_of(std::max(sent.count, got.count), at_once),
             [&](std::size_t i) {
                 const LineRange rows = part(i, sent);
                 std::string bytes(rows.count * columns * sizeof(Complex), '\0');
@@ -187,12 +190,12 @@ void send_rows(Team& team, const Shape<2>& shape, std::size_t rows_together,
     }
 }
 
-std::vector<std::string> all_of(Team& team, const std::string& own) {
-    for (std::size_t other = 0; other < team.size(); ++other)
-        if (other != team.rank()) team.send_to(other, own);
+std::vector<std::string> all_of(Communicator& communicator, const std::string& own) {
+    for (std::size_t other = 0; other < communicator.size(); ++other)
+        if (other != communicator.rank()) communicator.send_to(other, own);
     std::vector<std::string> all;
-    for (std::size_t other = 0; other < team.size(); ++other)
-        all.push_back(other == team.rank() ? own : team.receive_from(other));
+    for (std::size_t other = 0; other < communicator.size(); ++other)
+        all.push_back(other == communicator.rank() ? own : communicator.receive_from(other));
     return all;
 }
 

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "hogel/communicator.h"
 #include "hogel/core/paged_array.h"
-#include "hogel/team.h"
-#include "hogel/work/pieces.h"
-#include "hogel/work/shared_order.h"
+#include "hogel/work/chunks.h"
+#include "hogel/work/ordered_reduce.h"
 
 namespace hogel::optics::distributed {
 
@@ -32,22 +32,23 @@ LineRange lines_of(std::size_t process, std::size_t processes, std::size_t lines
 /// @param length  of a line
 /// @param made    the lines that a process has made
 template <class Value, class Made>
-void share_lines(Team& team, Value* lines, std::size_t length, const Made& made) {
+void share_lines(Communicator& communicator, Value* lines, std::size_t length, const Made& made) {
     const auto lines_of_process = [&](std::size_t process) {
         const LineRange some = made(process);
         return std::span<Value>(lines + some.first * length, some.count * length);
     };
-    for (std::size_t process = 0; process < team.size(); ++process)
-        if (process != team.rank()) work::send_in_pieces<Value>(team, process, lines_of_process(team.rank()));
-    for (std::size_t process = 0; process < team.size(); ++process)
-        if (process != team.rank()) work::receive_in_pieces(team, process, lines_of_process(process));
+    for (std::size_t process = 0; process < communicator.size(); ++process)
+        if (process != communicator.rank())
+            work::send_in_chunks<Value>(communicator, process, lines_of_process(communicator.rank()));
+    for (std::size_t process = 0; process < communicator.size(); ++process)
+        if (process != communicator.rank()) work::receive_in_chunks(communicator, process, lines_of_process(process));
 }
 
 /// Places in the own columns of a plane, [row][column].
-class OwnColumns {
+class LocalColumns {
   public:
-    OwnColumns() = default;
-    OwnColumns(std::vector<std::complex<float>*> rows, std::size_t first) : rows_(std::move(rows)), first_(first) {}
+    LocalColumns() = default;
+    LocalColumns(std::vector<std::complex<float>*> rows, std::size_t first) : rows_(std::move(rows)), first_(first) {}
     /// The row's places in other own columns follow it.
     std::complex<float>& operator()(std::size_t y, std::size_t x) const { return rows_[y][x - first_]; }
 
@@ -64,14 +65,14 @@ class SharedPlane {
     SharedPlane() = default;
     /// In columns, with any samples. The number of rows may change while the plane is in columns.
     /// @param rows           the largest number
-    /// @param rows_together  rows that a process has together, as far as the last ones allow
-    SharedPlane(std::size_t rows, std::size_t columns, std::size_t rows_together, std::size_t columns_together,
-                const ScratchOptions& scratch, Team* team = hogel::team());
+    /// @param block_rows  rows that a process has together, as far as the last ones allow
+    SharedPlane(std::size_t rows, std::size_t columns, std::size_t block_rows, std::size_t block_columns,
+                const ScratchOptions& scratch, Communicator* communicator = hogel::communicator());
 
     std::size_t rows() const { return rows_; }
     std::size_t columns() const { return columns_; }
-    LineRange own_rows(std::size_t rows) const { return lines_of(rank_, size_, rows, rows_together_); }
-    LineRange own_columns() const { return lines_of(rank_, size_, columns_, columns_together_); }
+    LineRange local_rows(std::size_t rows) const { return lines_of(rank_, size_, rows, block_rows_); }
+    LineRange local_columns() const { return lines_of(rank_, size_, columns_, block_columns_); }
 
     /// To be called before the first rows, or columns, are written.
     void begin_rows(std::size_t rows) { rows_ = rows; }
@@ -83,7 +84,7 @@ class SharedPlane {
 
     /// While it is in columns: the places of so many rows. Writing those of other numbers of rows overwrites only what
     /// is in the same column.
-    OwnColumns in_columns(std::size_t rows);
+    LocalColumns in_columns(std::size_t rows);
     std::complex<float>& at(std::size_t y, std::size_t x) { return places_(y, x); }
     const std::complex<float>& at(std::size_t y, std::size_t x) const { return places_(y, x); }
 
@@ -98,15 +99,15 @@ class SharedPlane {
 
   private:
     std::size_t block_size(std::size_t process, bool columns) const;
-    void turn(bool columns);
+    void transpose(bool columns);
 
-    Team* team_ = nullptr;
+    Communicator* communicator_ = nullptr;
     std::size_t rank_ = 0, size_ = 1;
-    std::size_t rows_ = 0, columns_ = 0, rows_together_ = 1, columns_together_ = 1;
+    std::size_t rows_ = 0, columns_ = 0, block_rows_ = 1, block_columns_ = 1;
     // A block for each process: in rows the own rows' places in its columns, in columns its rows' in the own columns.
     core::PagedArray samples_;
     std::vector<std::size_t> block_starts_;
-    OwnColumns places_;
+    LocalColumns places_;
 };
 
 /// Gives processes of a team rows of a plane that all have by rows, as lines_of() of these says. Few messages are under
@@ -114,12 +115,12 @@ class SharedPlane {
 /// @param wanted   the rows that a process gets, of any other and of itself
 /// @param get_row  writes an own row
 /// @param place    where a row goes that this process gets
-void send_rows(Team& team, const Shape<2>& shape, std::size_t rows_together,
+void send_rows(Communicator& communicator, const Shape<2>& shape, std::size_t block_rows,
                const std::function<LineRange(std::size_t process)>& wanted,
                const std::function<void(std::size_t y, std::complex<float>* to)>& get_row,
                const std::function<std::complex<float>*(std::size_t y)>& place);
 
 /// What all processes have given, in the order of their numbers, in each of them.
-std::vector<std::string> all_of(Team& team, const std::string& own);
+std::vector<std::string> all_of(Communicator& communicator, const std::string& own);
 
 }  // namespace hogel::optics::distributed

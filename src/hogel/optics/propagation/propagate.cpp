@@ -21,7 +21,7 @@
 #include "hogel/optics/lines.h"
 #include "hogel/optics/propagation/tile_plan.h"
 #include "hogel/optics/propagation/transfer.h"
-#include "hogel/work/shared_order.h"
+#include "hogel/work/ordered_reduce.h"
 
 namespace hogel {
 namespace optics::propagation {
@@ -45,17 +45,17 @@ class TileWork {
           options_(options),
           progress_(progress),
           transfer_(plan),
-          together_(source.alignment() * std::max<std::size_t>(lines_together / source.alignment(), 1)),
-          kept_(std::max(plan.y.field.count, plan.y.output.count), plan.x.frequencies.count, together_, lines_together,
+          together_(source.alignment() * std::max<std::size_t>(block_lines / source.alignment(), 1)),
+          kept_(std::max(plan.y.field.count, plan.y.output.count), plan.x.frequencies.count, together_, block_lines,
                 options.scratch),
-          field_rows_(kept_.own_rows(plan.y.field.count)),
-          columns_(kept_.own_columns()),
-          output_rows_(kept_.own_rows(plan.y.output.count)) {}
+          field_rows_(kept_.local_rows(plan.y.field.count)),
+          columns_(kept_.local_columns()),
+          output_rows_(kept_.local_rows(plan.y.output.count)) {}
 
     // Writes what the sink does not have already of the tile at `region`.
     void run(FieldSink& sink, const Region& region) {
         const std::vector<distributed::LineRange> missing = missing_rows(sink, region);
-        Team* const all = work::team_of_several();
+        Communicator* const all = work::communicator_of_several();
         if ((all != nullptr ? all->sum(missing.size()) : missing.size()) == 0) return;
         blocks_ = blocks_of(field_rows_.count, together_) + blocks_of(columns_.count) + missing.size();
         rows_to_frequencies();
@@ -73,8 +73,8 @@ class TileWork {
         std::vector<distributed::LineRange> missing;
         for (std::size_t group = output_rows_.first; group < output_rows_.end(); group += together_) {
             const std::size_t end = std::min(group + together_, output_rows_.end());
-            for (std::size_t y = group; y < end; y += lines_together) {
-                const distributed::LineRange rows{y, std::min(lines_together, end - y)};
+            for (std::size_t y = group; y < end; y += block_lines) {
+                const distributed::LineRange rows{y, std::min(block_lines, end - y)};
                 if (!sink.has_already(part(region, rows))) missing.push_back(rows);
             }
         }
@@ -113,13 +113,13 @@ class TileWork {
         const AxisPlan& y = plan_.y;
         const LineTransform inward(y.field, y.frequencies, -1, y.field.step, y.inward);
         const LineTransform outward(y.frequencies, y.output, 1, 1 / (plan_.x.period * y.period), y.outward);
-        const distributed::OwnColumns before = kept_.in_columns(y.field.count),
-                                      after = kept_.in_columns(y.output.count);
+        const distributed::LocalColumns before = kept_.in_columns(y.field.count),
+                                        after = kept_.in_columns(y.output.count);
         const std::size_t blocks = blocks_of(columns_.count);
         std::vector<Transfer::Energy> energies(blocks);
         work::parallel_for(blocks, [&](std::size_t block) {
-            const std::size_t x0 = columns_.first + block * lines_together,
-                              count = std::min(lines_together, columns_.end() - x0);
+            const std::size_t x0 = columns_.first + block * block_lines,
+                              count = std::min(block_lines, columns_.end() - x0);
             Lines lines(count, std::max(inward.buffer(), outward.buffer()));
             for (std::size_t row = 0; row < y.field.count; ++row)
                 for (std::size_t i = 0; i < count; ++i) lines[i][row] = before(row, x0 + i);
@@ -144,7 +144,7 @@ class TileWork {
     // Those of all processes are added in the order of the columns.
     void require_little_grazing_light(std::vector<Transfer::Energy> energies) const {
         double all = 0, grazing = 0;
-        if (Team* const others = work::team_of_several()) {
+        if (Communicator* const others = work::communicator_of_several()) {
             work::MessageWriter own;
             own.put(energies);
             energies.clear();
@@ -182,7 +182,7 @@ class TileWork {
     }
 
     // Gives all processes the rows of all, where each has the output in its memory.
-    void share_rows(Team& all, FieldSink& sink, const Region& region) {
+    void share_rows(Communicator& all, FieldSink& sink, const Region& region) {
         const View<Complex, 2> output = sink.in_memory();
         if (output.size() == 0) return;
         for (std::size_t process = 0; process < all.size(); ++process) {
@@ -211,13 +211,13 @@ class TileWork {
 };
 
 // Writes zeros to all of the output but its lit part. Processes take blocks in turn, except into their own memories.
-void write_dark(FieldSink& sink, const Grid& output, const Region& lit) {
-    const std::size_t right = lit.x0 + lit.width, below = lit.y0 + lit.height;
-    const Region parts[] = {{0, 0, output.width, lit.y0},
-                            {0, lit.y0, lit.x0, lit.height},
-                            {right, lit.y0, output.width - right, lit.height},
+void write_dark(FieldSink& sink, const Grid& output, const Region& active) {
+    const std::size_t right = active.x0 + active.width, below = active.y0 + active.height;
+    const Region parts[] = {{0, 0, output.width, active.y0},
+                            {0, active.y0, active.x0, active.height},
+                            {right, active.y0, output.width - right, active.height},
                             {0, below, output.width, output.height - below}};
-    Team* const all = work::team_of_several();
+    Communicator* const all = work::communicator_of_several();
     const bool alone = all == nullptr || sink.in_memory().size() > 0;
     constexpr std::size_t samples_at_once = 1 << 18;
     std::size_t block = 0;
@@ -343,7 +343,7 @@ Plan plan_propagation(std::span<const FieldGrid> fields, double distance, const 
             static_cast<double>(options.output.value_or(field.plane).samples()) * sizeof(std::complex<float>);
         // Besides the work array every thread transforms lines, padded to about three times their frequencies. Pages of
         // a file stay in memory where there is room, but the system may take that back.
-        const double lines = 3 * static_cast<double>(lines_together * thread_count()) *
+        const double lines = 3 * static_cast<double>(block_lines * thread_count()) *
                              static_cast<double>(std::max(method.frequencies_x, method.frequencies_y)) *
                              sizeof(std::complex<float>);
         plan.memory = std::max(plan.memory, std::min(method.bytes, in_memory) + lines);
@@ -359,16 +359,16 @@ void propagate(const FieldSource& source, double distance, FieldSink& sink, cons
     const FieldGrid& field = source.grid();
     const Grid output = output_of(field, distance, options);
     if (is_identity(field, distance, output)) return copy(source, sink, options.look, progress);
-    const Region lit = lit_part(field, distance, output);
-    write_dark(sink, output, lit);
-    const Tiling tiling = tiling_of(field, distance, part(output, lit));
+    const Region active = lit_part(field, distance, output);
+    write_dark(sink, output, active);
+    const Tiling tiling = tiling_of(field, distance, part(output, active));
     const std::size_t tiles = tiling.across * tiling.down;
     for (std::size_t i = 0; i < tiles; ++i) {
         Region region = tiling.tile(i % tiling.across, i / tiling.across);
         const TilePlan plan = plan_tile(field, distance, part(tiling.output, region));
         require_accuracy(Transfer(plan).error(), options.max_error);
-        region.x0 += lit.x0;
-        region.y0 += lit.y0;
+        region.x0 += active.x0;
+        region.y0 += active.y0;
         TileWork(source, plan, options, progress.part(i, tiles)).run(sink, region);
     }
     sink.finish();

@@ -94,7 +94,7 @@ void set_period(const TilePlan& plan, AxisPlan& axis, double other_frequency) {
     axis.lower = backwards ? edge_between(axis, near, far) : edge_between(axis, -far, -near);
     double wanted = std::max(2 * axis.reach + axis.guard, 64 * axis.field.step);
     for (const AxisPlan::Edge& edge : {axis.lower, axis.upper})
-        if (edge.lit)
+        if (edge.active)
             wanted = std::max({wanted, std::abs(edge.low) / max_edge_path, std::abs(edge.high) / max_edge_path,
                                (edge.high - edge.low) / max_edge_path});
     const double samples = wanted / axis.field.step;
@@ -117,12 +117,13 @@ void set_period(const TilePlan& plan, AxisPlan& axis, double other_frequency) {
 void set_frequencies(AxisPlan& axis, double low, double high) {
     const double half = 0.5 * axis.period / axis.field.step;
     constexpr auto beyond = static_cast<double>(BandEdge::max_beyond);
-    const double lowest = axis.lower.lit ? -half - beyond : -half, highest = axis.upper.lit ? half + beyond : half;
+    const double lowest = axis.lower.active ? -half - beyond : -half,
+                 highest = axis.upper.active ? half + beyond : half;
     // One frequency more at each end, so that there is one in any band.
     const double first = std::clamp(std::floor(low * axis.period) - 1, lowest, half);
     const double last = std::clamp(std::ceil(high * axis.period) + 1, -half, highest);
-    const double begin = axis.lower.lit && first <= -half + beyond ? lowest : first;
-    const double end = axis.upper.lit && last >= half - beyond ? highest : last;
+    const double begin = axis.lower.active && first <= -half + beyond ? lowest : first;
+    const double end = axis.upper.active && last >= half - beyond ? highest : last;
     axis.frequencies = {begin / axis.period, 1 / axis.period, static_cast<std::size_t>(end - begin) + 1};
     const std::size_t n = axis.frequencies.count;
     const auto cheaper = [](std::size_t inputs, std::size_t outputs, std::size_t transform) {

@@ -23,7 +23,7 @@ struct AxisPlan {
     /// One of the band's edges, half a cycle per sample: whether light there reaches the output, and then the range of
     /// the path that remains from any sample to any output, in periods.
     struct Edge {
-        bool lit = false;
+        bool active = false;
         double low = 0, high = 0;
     } lower, upper;
 

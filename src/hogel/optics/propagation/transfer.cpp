@@ -24,7 +24,7 @@ std::vector<std::complex<double>> weights_of(const AxisPlan& axis, double& squar
         weights[i] = beyond < 0 ? 1 : beyond == 0 ? 0.5 : 0;
     }
     const auto correct = [&](const AxisPlan::Edge& edge, int side) {
-        if (!edge.lit) return;
+        if (!edge.active) return;
         const BandEdge rule = side > 0 ? BandEdge(edge.low, edge.high) : BandEdge(-edge.high, -edge.low);
         for (std::size_t c = 0; c < rule.corrections.size(); ++c) {
             const double k = static_cast<double>(c) - static_cast<double>(BandEdge::max_beyond);

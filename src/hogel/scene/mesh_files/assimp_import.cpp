@@ -17,7 +17,7 @@
 #include "hogel/scene/mesh_files/assimp_notes.h"
 #include "hogel/scene/mesh_files/checks.h"
 #include "hogel/scene/mesh_files/files.h"
-#include "hogel/scene/mesh_files/gltf_looks.h"
+#include "hogel/scene/mesh_files/gltf_materials.h"
 #include "hogel/scene/mesh_files/limits.h"
 #include "hogel/scene/mesh_files/materials.h"
 #include "hogel/scene/mesh_files/mtl.h"
@@ -165,7 +165,7 @@ std::vector<float> import_alphas(const aiMesh& source) {
 /// Sends meshes, and before the first mesh that needs it each texture.
 class Conversion {
   public:
-    /// @param numbered  whether materials are only the numbers of those of GltfLooks
+    /// @param numbered  whether materials are only the numbers of those of GltfMaterials
     /// @param mtl       the materials of an OBJ file; lives longer than this
     Conversion(const aiScene& source, const std::string& file, bool linear_colors, bool numbered,
                const std::vector<MtlMaterial>& mtl, int pipe)

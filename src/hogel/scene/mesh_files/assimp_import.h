@@ -12,7 +12,7 @@ namespace hogel::scene::mesh_files {
 /// @param path  canonical
 /// @param file  name of the mesh for messages, as the caller gave it
 /// @param contents  read instead of what the file holds, unless it is empty
-/// @param numbered  whether materials are only the numbers of those of GltfLooks: of CheckedGltf::contents
+/// @param numbered  whether materials are only the numbers of those of GltfMaterials: of CheckedGltf::contents
 [[noreturn]] void import_with_assimp(const std::filesystem::path& path, const std::string& file,
                                      std::string_view contents, bool numbered, int pipe) noexcept;
 

@@ -10,7 +10,7 @@
 #include "hogel/core/json.h"
 #include "hogel/scene/mesh_files/checks.h"
 #include "hogel/scene/mesh_files/draco.h"
-#include "hogel/scene/mesh_files/gltf_looks.h"
+#include "hogel/scene/mesh_files/gltf_materials.h"
 #include "hogel/scene/mesh_files/meshopt.h"
 
 namespace hogel::scene::mesh_files {
@@ -93,8 +93,9 @@ void check_extensions(const Gltf& gltf) {
                         "a file that needs no such extension; convert it, for instance without compression");
 }
 
-/// What moves a model, cameras, lights and looks, which assimp is not to read (read_looks() does). It crashes on skins
-/// that lack what glTF does not ask for, and numbers materials in an order of its own; so each gets its number as name.
+/// What moves a model, cameras, lights and looks, which assimp is not to read (read_materials() does). It crashes on
+/// skins that lack what glTF does not ask for, and numbers materials in an order of its own; so each gets its number as
+/// name.
 void drop_unused(Json& json) {
     for (const char* name : {"animations", "cameras", "skins", "textures", "images", "samplers", "extensions",
                              "extensionsUsed", "extensionsRequired"})
@@ -231,7 +232,7 @@ CheckedGltf check_gltf(const std::string& file, const std::filesystem::path& fol
         const std::vector<GltfAccessor> accessors = check_accessors(gltf, buffers);
         check_primitives(gltf, accessors);
         check_nodes(gltf);
-        checked.looks = read_looks(gltf, buffers);
+        checked.looks = read_materials(gltf, buffers);
         place_instances(gltf, accessors);
         make_floats(gltf, accessors);
     }

@@ -6,7 +6,7 @@
 #include "hogel/core/part.h"
 #include "hogel/scene/mesh_files/checks.h"
 #include "hogel/scene/mesh_files/draco.h"
-#include "hogel/scene/mesh_files/gltf_looks.h"
+#include "hogel/scene/mesh_files/gltf_materials.h"
 #include "hogel/scene/mesh_files/limits.h"
 
 namespace hogel::scene::mesh_files {

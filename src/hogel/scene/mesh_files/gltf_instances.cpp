@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "hogel/scene/mesh_files/gltf.h"
-#include "hogel/scene/mesh_files/gltf_looks.h"
+#include "hogel/scene/mesh_files/gltf_materials.h"
 
 namespace hogel::scene::mesh_files {
 namespace {

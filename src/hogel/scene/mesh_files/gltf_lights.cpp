@@ -11,7 +11,7 @@
 #include <set>
 
 #include "hogel/scene/mesh_files/checks.h"
-#include "hogel/scene/mesh_files/gltf_looks.h"
+#include "hogel/scene/mesh_files/gltf_materials.h"
 
 namespace hogel::scene::mesh_files {
 namespace {
@@ -94,7 +94,7 @@ SceneCamera read_camera(const Gltf& gltf, const Json& json, const std::string& w
 }
 
 Light read_light(const Gltf& gltf, const Json& json, const std::string& where, const Affine& to_world,
-                 GltfLooks& looks) {
+                 GltfMaterials& looks) {
     const auto color = numbers_or(gltf, json, where, "color", {1, 1, 1});
     const double intensity = std::clamp(number_or(gltf, json, where, "intensity", 1), 0.0, 1e9);
     Light light;
@@ -146,7 +146,7 @@ void for_nodes(const Gltf& gltf, const Visit& visit) {
 }
 
 /// What the materials of a document have of which nothing is shown, and in how many.
-void note_materials(const Gltf& gltf, GltfLooks& looks) {
+void note_materials(const Gltf& gltf, GltfMaterials& looks) {
     static const std::map<std::string, std::string> names{
         {"KHR_materials_anisotropy", "anisotropy (KHR_materials_anisotropy)"},
         {"KHR_materials_clearcoat", "clear coats (KHR_materials_clearcoat)"},
@@ -180,7 +180,7 @@ void note_materials(const Gltf& gltf, GltfLooks& looks) {
             looks.notes.push_back(fmt::format("{} of {} material{} are left out", text, count, count == 1 ? "" : "s"));
 }
 
-void note_geometry(const Gltf& gltf, GltfLooks& looks) {
+void note_geometry(const Gltf& gltf, GltfMaterials& looks) {
     std::size_t thin = 0, morphed = 0;
     for (const Json& mesh : gltf.list("meshes"))
         for (const Json& primitive : mesh["primitives"]) {
@@ -197,7 +197,7 @@ void note_geometry(const Gltf& gltf, GltfLooks& looks) {
 
 }  // namespace
 
-void read_lights(const Gltf& gltf, GltfLooks& looks) {
+void read_lights(const Gltf& gltf, GltfMaterials& looks) {
     for_nodes(gltf, [&](const Json& node, const std::string& where, const Affine& to_world) {
         const auto number = gltf.reference(node, where, "camera", "cameras");
         if (!number) return;
@@ -221,7 +221,7 @@ void read_lights(const Gltf& gltf, GltfLooks& looks) {
     });
 }
 
-void note_what_is_left_out(const Gltf& gltf, GltfLooks& looks) {
+void note_what_is_left_out(const Gltf& gltf, GltfMaterials& looks) {
     note_materials(gltf, looks);
     note_geometry(gltf, looks);
     if (find_object(gltf, gltf.json, "document", {"extensions", "KHR_materials_variants"}) != nullptr)

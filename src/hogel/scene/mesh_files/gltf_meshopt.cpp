@@ -7,7 +7,7 @@
 #include "hogel/core/child_process.h"
 #include "hogel/core/part.h"
 #include "hogel/scene/mesh_files/checks.h"
-#include "hogel/scene/mesh_files/gltf_looks.h"
+#include "hogel/scene/mesh_files/gltf_materials.h"
 #include "hogel/scene/mesh_files/limits.h"
 #include "hogel/scene/mesh_files/meshopt.h"
 

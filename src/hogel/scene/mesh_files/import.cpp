@@ -11,10 +11,10 @@
 #include "hogel/error.h"
 #include "hogel/scene.h"
 #include "hogel/scene/edges.h"
-#include "hogel/scene/mesh_files/apply_looks.h"
+#include "hogel/scene/mesh_files/apply_materials.h"
 #include "hogel/scene/mesh_files/assimp_import.h"
 #include "hogel/scene/mesh_files/checks.h"
-#include "hogel/scene/mesh_files/gltf_looks.h"
+#include "hogel/scene/mesh_files/gltf_materials.h"
 #include "hogel/scene/mesh_files/limits.h"
 #include "hogel/scene/mesh_files/materials.h"
 #include "hogel/scene/mesh_files/mtl.h"
@@ -50,7 +50,7 @@ Imported import_in_child(const std::filesystem::path& path, const std::string& f
 /// A file of known kind, with what is to be known of its looks.
 struct Read {
     Imported imported;
-    GltfLooks looks;
+    GltfMaterials looks;
     bool has_looks = false;
 };
 
@@ -211,11 +211,11 @@ Scene convert(Read read, const std::filesystem::path& path, const std::string& f
     for (ImportedMesh& part : imported.meshes) {
         Mesh& mesh = part.mesh;
         if (read.has_looks) {
-            apply_looks(read.looks, part, textures);
+            apply_materials(read.looks, part, textures);
         } else {
             mesh.material.base_color_texture = textures.get(part.texture);
             if (mesh.texture_coordinates.empty()) mesh.material.base_color_texture = nullptr;
-            apply_obj_looks(part, textures);
+            apply_obj_materials(part, textures);
         }
         show_unlit(part);
         if (!mesh.triangles.empty()) scene.meshes.push_back(std::move(mesh));

@@ -51,7 +51,7 @@ Material read_material(const aiMaterial& source) {
          source.Get(AI_MATKEY_COLOR_DIFFUSE, color) == AI_SUCCESS))
         material.base_color = {reflectance(color.r), reflectance(color.g), reflectance(color.b)};
 
-    // Only glTF's materials are glossy. Those of glTF 2 are read by read_looks(); of glTF 1, metallic-roughness
+    // Only glTF's materials are glossy. Those of glTF 2 are read by read_materials(); of glTF 1, metallic-roughness
     // textures are not, and materials with one are treated as not metallic.
     float metallic = 1;
     if (source.Get(AI_MATKEY_METALLIC_FACTOR, metallic) == AI_SUCCESS) {
@@ -158,7 +158,7 @@ bool is_cut_out(const Image& picture) {
 
 }  // namespace
 
-void apply_obj_looks(ImportedMesh& part, Textures& textures) {
+void apply_obj_materials(ImportedMesh& part, Textures& textures) {
     Mesh& mesh = part.mesh;
     Material& material = mesh.material;
     const bool has_coordinates = !mesh.texture_coordinates.empty();

@@ -67,6 +67,6 @@ class Textures {
 };
 
 /// Gives a mesh of an OBJ file its opacity and its emission by pictures. `part` has its base-colour texture.
-void apply_obj_looks(ImportedMesh& part, Textures& textures);
+void apply_obj_materials(ImportedMesh& part, Textures& textures);
 
 }  // namespace hogel::scene::mesh_files

@@ -31,7 +31,7 @@ struct ImportedMesh {
     std::uint32_t opacity_texture = no_texture, emission_texture = no_texture;
     bool is_unlit = false;  ///< the material's colour is its radiance (glTF: KHR_materials_unlit)
     static constexpr std::uint32_t no_material = ~std::uint32_t{0};
-    std::uint32_t material = no_material;                    ///< number in GltfLooks::materials
+    std::uint32_t material = no_material;                    ///< number in GltfMaterials::materials
     std::vector<TextureCoordinate> second_coordinates = {};  ///< TEXCOORD_1
 };
 

@@ -136,12 +136,12 @@ void FillWindows(const WindowBatch::Shared& shared, WindowBatch::Work& work, con
         bool something = false, all_finite = true;
         for (std::size_t i = 0; i < width; i += hn::Lanes(d)) {
             const auto light = hn::Mul(hn::LoadU(d, radiance + i), hn::Set(d, direction.share));
-            const auto lit = hn::Gt(light, hn::Zero(d));
+            const auto active = hn::Gt(light, hn::Zero(d));
             // A smooth backdrop of rays that meet nothing lies on the plane; a rough one is a distant surface.
             auto ray = hn::LoadU(d, depth + i);
             if (!points) ray = hn::IfThenElseZero(hn::IsFinite(ray), ray);
             const auto finite = hn::IsFinite(ray);
-            something = something || !hn::AllFalse(d, lit);
+            something = something || !hn::AllFalse(d, active);
             all_finite = all_finite && hn::AllTrue(d, finite);
             const auto farthest = hn::Set(d, static_cast<float>(last));
             const auto at = hn::IfThenElse(finite, hn::Min(hn::Mul(hn::Abs(ray), steps_a_metre), farthest), farthest);
@@ -157,7 +157,7 @@ void FillWindows(const WindowBatch::Shared& shared, WindowBatch::Work& work, con
             const auto bright =
                 hn::Mul(one_axis(shared.brightness->across(), direction.across, direction.along_u, direction.slope_u),
                         one_axis(shared.brightness->down(), direction.down, direction.along_v, direction.slope_v));
-            hn::Store(hn::IfThenElseZero(lit, hn::Mul(hn::Sqrt(light), bright)), d, amplitudes + i);
+            hn::Store(hn::IfThenElseZero(active, hn::Mul(hn::Sqrt(light), bright)), d, amplitudes + i);
             hn::Store(hn::IfThenElseZero(finite, ray), d, finite_depths + i);
         }
         float* re = &work.re.data()[direction.coefficient * width];

@@ -122,7 +122,7 @@ class OverlapAddHologram final : public Stereogram, public HogelWaves {
             std::copy_n(&depths(hogel, 0), rays, &prepared(hogel, rays));
         }
     }
-    void waves(std::span<const float> prepared, const HogelPlace& place, const NearRows& rows,
+    void waves(std::span<const float> prepared, const HogelKey& place, const InBandRows& rows,
                float* waves) const override {
         const core::ThreadBuffer<Complex> buffer(side_ * side_);
         const View<Complex, 2> window(buffer.data(), {side_, side_});
@@ -138,7 +138,7 @@ class OverlapAddHologram final : public Stereogram, public HogelWaves {
     static constexpr std::size_t band_rays = std::size_t{1} << 18;
 
     // Whether the window reaches beyond the hologram.
-    bool is_cut(const HogelPlace& place) const {
+    bool is_cut(const HogelKey& place) const {
         const std::size_t reach = (side_ / hop_) / 2;
         const LightFieldGrid& hogels = light_field_.grid();
         return place.s < reach || place.t < reach || place.s + reach >= hogels.hogels_s ||
@@ -146,7 +146,7 @@ class OverlapAddHologram final : public Stereogram, public HogelWaves {
     }
 
     // Replaces the waves of a window by those of its samples within the hologram.
-    void cut(const HogelPlace& place, View<Complex, 2> window) const {
+    void cut(const HogelKey& place, View<Complex, 2> window) const {
         fft_.backward(window);
         const std::size_t before = (side_ - hop_) / 2;
         const auto inside = [&](std::size_t hogel, std::size_t sample, std::size_t samples) {
@@ -156,8 +156,8 @@ class OverlapAddHologram final : public Stereogram, public HogelWaves {
         const float share = 1 / static_cast<float>(side_ * side_);
         for (std::size_t y = 0; y < side_; ++y)
             for (std::size_t x = 0; x < side_; ++x) {
-                const bool lit = inside(place.t, y, grid_.plane.height) && inside(place.s, x, grid_.plane.width);
-                window(y, x) *= lit ? share : 0;
+                const bool active = inside(place.t, y, grid_.plane.height) && inside(place.s, x, grid_.plane.width);
+                window(y, x) *= active ? share : 0;
             }
         fft_.forward(window);
     }
@@ -311,7 +311,7 @@ class OverlapAddHologram final : public Stereogram, public HogelWaves {
 
     // @param points  phases of points by column and row; null if they have none
     template <class Points>
-    void fill(std::span<const float> radiance, std::span<const float> depths, const HogelPlace& place,
+    void fill(std::span<const float> radiance, std::span<const float> depths, const HogelKey& place,
               const Points* points, View<Complex, 2> window) const {
         std::fill(window.data(), window.data() + window.size(), Complex(0));
         for (const WindowDirection& direction : directions_) {
@@ -343,14 +343,14 @@ class OverlapAddHologram final : public Stereogram, public HogelWaves {
 
     // A ray that meets nothing is treated as one to a distant surface, of which neighbouring windows see different
     // points.
-    double cycles_of_nothing(const WindowDirection& direction, const HogelPlace& place) const {
+    double cycles_of_nothing(const WindowDirection& direction, const HogelKey& place) const {
         return cycle_series(place.look)(static_cast<std::uint32_t>(place.s), static_cast<std::uint32_t>(place.t),
                                         direction.coefficient + 1);
     }
 
     // A diffuse surface consists of points, point_spacing apart in x and y; a ray shows the nearest one.
     template <class Points>
-    double cycles_of_point(const WindowDirection& direction, double depth, const HogelPlace& place,
+    double cycles_of_point(const WindowDirection& direction, double depth, const HogelKey& place,
                            const Points& points) const {
         const double pitch = light_field_.grid().pitch, hogels = depth * hogels_a_metre_;
         const auto s = static_cast<double>(place.s), t = static_cast<double>(place.t);

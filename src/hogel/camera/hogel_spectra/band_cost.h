@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "hogel/camera/hogel_spectra/pupil_band.h"
+#include "hogel/hologram.h"
+#include "hogel/photograph.h"
+
+namespace hogel::camera::hogel_spectra {
+
+/// The hogels of all colours, of a method of which waves are known; none of any other.
+std::vector<HogelLayout> layouts_of(const HologramMethod& method, const LightFieldGrid& light_field,
+                                    std::span<const FieldGrid> colours);
+
+/// Resources to photograph a hologram of these colours from its hogels.
+Plan plan_from_hogels(std::span<const HogelLayout> colours, std::size_t looks, std::span<const Camera> cameras,
+                      const BandCamera& model);
+
+}  // namespace hogel::camera::hogel_spectra
