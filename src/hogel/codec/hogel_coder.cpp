@@ -27,7 +27,7 @@ using namespace format;
 
 namespace {
 
-// Larger tiles gain little (docs/decisions/0035-codec-tile-size.md).
+// Larger tiles gain little (docs/decisions/0030-codec-prediction.md).
 constexpr std::size_t preferred_side = 32;
 constexpr std::size_t preferred_samples = std::size_t{1} << 27;
 // Growth of the step from one layer to the next. Content that all hogels share is best coded once and finely, so the
@@ -39,7 +39,7 @@ float growth_for(float shared, bool single_row) {
     return single_row ? std::cbrt(growth) : growth;
 }
 // References on each side. The nearest ones are best if their blocks can be shifted by fractions of a direction;
-// otherwise a choice of more is better (docs/decisions/0031-codec-references-per-side.md).
+// otherwise a choice of more is better (docs/decisions/0030-codec-prediction.md).
 constexpr std::uint8_t max_references = 3;
 constexpr std::size_t counted_hogels = 48;    // hogels of a layer that are counted for the initial states of its models
 constexpr std::size_t tried_directions = 32;  // along a side of a window

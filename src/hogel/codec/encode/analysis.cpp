@@ -16,7 +16,7 @@ using namespace format;
 
 namespace {
 
-// Estimated bits (docs/decisions/0036-codec-encoder-search.md) of intra prediction, in general and in the first hogel,
+// Estimated bits (docs/decisions/0030-codec-prediction.md) of intra prediction, in general and in the first hogel,
 // and of the choice of intra predictor.
 constexpr float intra_block = 12, first_intra_block = 1;
 constexpr float bits_of_predictor(int predictor) { return predictor == 0 ? 0 : predictor < first_directional ? 2 : 5; }

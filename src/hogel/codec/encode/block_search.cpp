@@ -13,7 +13,7 @@ using namespace format;
 
 namespace {
 
-// Estimated bits (docs/decisions/0036-codec-encoder-search.md).
+// Estimated bits (docs/decisions/0030-codec-prediction.md).
 constexpr float first_candidate = 0.3f, other_candidate = 2, each_candidate = 0.7f, new_disparity = 14;
 constexpr float best_of_all_sides = 0.3f, one_side = 7;
 // Thresholds from the same page, in squared steps per block, for most layers and for the last one, from which no other

@@ -10,7 +10,7 @@
 namespace hogel::codec::encode {
 
 // Chooses the layout of a stream: that of the options, or by default `stacked` if it is possible and codes sample tiles
-// of each face in fewer bytes than `faces` (docs/decisions/0041-codec-stacked-layout.md). Throws Error(usage) for a
+// of each face in fewer bytes than `faces` (docs/decisions/0040-codec-layouts.md). Throws Error(usage) for a
 // layout that is impossible.
 // @param info       complete except for the layout
 // @param coder_of   makes the coder of a face in a stream

@@ -14,7 +14,7 @@ using namespace format;
 
 namespace {
 
-// Estimated bits (docs/decisions/0036-codec-encoder-search.md) of a coded block, of a basis other than cosines, and of
+// Estimated bits (docs/decisions/0030-codec-prediction.md) of a coded block, of a basis other than cosines, and of
 // a level in each basis.
 constexpr float coded_block = 8, other_basis = 3;
 constexpr float level_of_cosines = 3.5f, level_of_samples = 5.5f, level_of_half = 4.5f;

@@ -9,7 +9,7 @@ namespace hogel::codec::format {
 // The coding order of the hogels of a tile, by halving: the hogel in the middle, then the corners and the middles of
 // the edges, then the hogels halfway between coded ones, and so on. Each halving is a layer. A hogel is predicted from
 // hogels of its own row and column that come earlier, the nearest on each side, so that it can be decoded without most
-// of the others (docs/decisions/0032-codec-middle-first.md).
+// of the others (docs/decisions/0030-codec-prediction.md).
 class HogelOrder {
   public:
     struct Reference {

@@ -19,7 +19,7 @@ struct Box {
 };
 
 /// Reads samples of a dataset by HDF5 in a child process: the library finds, unpacks and converts chunks without
-/// checking them, and crashes on some that are damaged (docs/decisions/0064). The child starts with the first box and
+/// checking them, and crashes on some that are damaged (docs/decisions/0061). The child starts with the first box and
 /// reads one box after the other, so that HDF5's cache of chunks helps.
 class SampleServer {
   public:
