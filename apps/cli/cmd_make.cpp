@@ -61,11 +61,11 @@ void state_plan(MakeRequest& request, Options& options, const Session& session) 
     state_plan(session, plan_photographs(faces, request.hologram, cameras, request.camera),
                "photographing the hologram");
     request.speckle_free =
-        waves.is_expected() || is_speckle_free_cheap(faces, request.hologram, cameras, request.camera);
+        waves.is_speckle_free() || is_speckle_free_cheap(faces, request.hologram, cameras, request.camera);
     if (!*request.speckle_free)
-        session.detail(fmt::format(
-            "without pictures of infinitely many looks, which take about {:.0f} s; --looks expected makes them",
-            plan_photographs(faces, request.hologram, cameras, SpeckleFreeCamera()).seconds));
+        session.detail(
+            fmt::format("without speckle-free photographs, which take about {:.0f} s; --speckle none makes them",
+                        plan_photographs(faces, request.hologram, cameras, SpeckleFreeCamera()).seconds));
 }
 
 // The command that renders the light field again.
@@ -111,9 +111,9 @@ Records records_of(MakeParameters& make, const MakeRequest& request, const Sessi
     Records records;
     records.light_field = run_of(Output::light_field);
     make.hologram.resolve(request.hologram, request.light_field.grid);
-    const bool is_expected = make.waves.is_expected();
+    const bool is_expected = make.waves.is_speckle_free();
     make.waves.looks = "expected";
-    records.speckle_free = run_of(Output::expected_photographs);
+    records.speckle_free = run_of(Output::speckle_free_photographs);
     if (!is_expected) make.waves.looks = fmt::format("{}", request.hologram.looks);
     records.waves = run_of(Output::photographs);
     records.rays = run_of(Output::ray_photographs);

@@ -230,7 +230,7 @@ void add_photo(Command& command, Session& session) {
     options->render.declare(command);
     options->render.declare_hemicube(command);
     command.look_up("seed")->acts_if(
-        [options] { return options->hologram.is_seeded && !options->photo.waves.is_expected(); });
+        [options] { return options->hologram.is_seeded && !options->photo.waves.is_speckle_free(); });
     options->field.declare(command, false);
     options->field.declare_reconstruction(command);
     command.add_like_option();

@@ -359,13 +359,15 @@ enum class PhotographSource {
 struct HOGEL_API WaveCameraParameters {
     /// auto, eye (hogel-spectra), narrow (samples) or full (plane-waves).
     std::string camera = "auto";
-    std::string looks = {};  ///< a number, or "expected": speckle-free; empty: enough_looks()
+    std::string looks = {};  ///< a number; empty: enough_looks(); "expected": as speckle = "none"
+    /// averaged: over the looks; none: speckle-free, the mean over infinitely many looks.
+    std::string speckle = "averaged";
     bool preview = false;
     double film_distance = 0;  ///< from a thin lens, metres; 0: a perfect lens
     std::string diffuser = "none";
 
-    bool is_expected() const { return looks == "expected"; }
-    /// HologramRequest::looks: 0 if empty, 1 for expected. Throws Error(usage).
+    bool is_speckle_free() const { return speckle == "none" || looks == "expected"; }
+    /// HologramRequest::looks: 0 if empty, 1 if speckle-free. Throws Error(usage).
     std::size_t number_of_looks() const;
     CameraModel model() const;
 
@@ -386,11 +388,14 @@ struct HOGEL_API WaveCameraParameters {
     /// @param names  "--looks", with aliases
     /// @param help   its first line
     Parameter& declare_looks(Parameters& parameters, const std::string& names, const std::string& help);
+    /// Only --speckle.
+    Parameter& declare_speckle(Parameters& parameters);
     /// --camera, --preview, --film-distance and --diffuser.
     void declare(Parameters& parameters);
 
   private:
     std::string name() const;
+    void read_looks();
 };
 
 /// A photograph by geometric optics or by wave optics.
@@ -420,7 +425,7 @@ struct HOGEL_API MakeParameters {
     std::size_t pupil_samples = defaults.pupil_samples;
 
     /// The output whose options act; `report` stands for all of them.
-    enum class Output { light_field, hologram, photographs, expected_photographs, ray_photographs, report };
+    enum class Output { light_field, hologram, photographs, speckle_free_photographs, ray_photographs, report };
     Output made = Output::report;
     bool is_one_of(const std::vector<Output>& outputs) const;
 

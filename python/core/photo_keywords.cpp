@@ -18,21 +18,20 @@ using Origin = std::optional<std::pair<LightField, HologramRequest>>;
 
 // The parameters of photographs, with the values of keywords.
 struct PhotoKeywords {
-    bool expected = false;  // --looks expected
+    bool expected = false;  // --speckle none
     PhotoParameters values;
     Parameters table;
 
     explicit PhotoKeywords(const py::dict& keywords = {}) {
         values.is_linear = true;  // what saves the picture says its exposure
         values.declare(table);
-        table
-            .flag("--expected", expected, "The mean of infinitely many looks, of a hologram that is computed when read")
-            .never_acts();
+        table.flag("--expected", expected, "As speckle=\"none\"").never_acts();
         read_keywords(table, keywords);
-        if (expected) values.waves.looks = "expected";
+        if (expected) values.waves.speckle = "none";
     }
     void resolve(PhotographSource source) {
-        with_renamed_parameters({{"looks", "expected"}}, [&] { values.resolve(source); });
+        if (expected) return with_renamed_parameters({{"speckle", "expected"}}, [&] { values.resolve(source); });
+        values.resolve(source);
     }
 };
 
@@ -81,7 +80,7 @@ Metadata wave_photograph_record(const py::dict& keywords, const Origin& origin, 
     HologramParameters hologram;
     hologram.resolve(request, light_field.grid());
     waves.has_looks = hologram.is_seeded;
-    if (!waves.is_expected()) waves.looks = std::to_string(request.looks);
+    if (!waves.is_speckle_free()) waves.looks = std::to_string(request.looks);
     return asked.table.acting();
 }
 
@@ -116,7 +115,7 @@ void add_photo_keywords(py::module_& module) {
     add_cameras(module);
     add_ray_photographs(module);
     module.def("wave_photograph_keywords", [] {
-        return described_photo({"camera", "expected", "preview", "film-distance", "diffuser"});
+        return described_photo({"camera", "speckle", "expected", "preview", "film-distance", "diffuser"});
     });
     module.def("wave_camera", &wave_camera, arg("keywords"), arg("fields"));
     module.def("wave_photograph_record", &wave_photograph_record, arg("keywords"), arg("origin"), arg("cameras"));

@@ -41,7 +41,7 @@ def photograph_fields(
         return pictures
     if made is not None:
         record = {**made, **dict(_core.wave_photograph_record(options, origin, views))}
-        if record.get("looks") == "expected":
+        if record.get("speckle") == "none":
             record.pop("seed", None)
         pictures[0]._made = ("photo", record)
     return pictures[0]

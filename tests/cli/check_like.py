@@ -56,6 +56,7 @@ CASES = [
     (f"photo x.h5 {PHOTO} --focus 1mm", "o.exr"),
     (f"photo x.h5 {PHOTO} --wave --pitch 1.6um --looks 2", "o.exr"),
     ("photo x.h5 --eye 0,0,40mm --pupil 1mm --resolution 8 --wave --pitch 1.6um --looks expected", "o.exr"),
+    ("photo x.h5 --eye 0,0,40mm --pupil 1mm --resolution 8 --wave --pitch 1.6um --speckle none", "o.exr"),
     (f"photo m.obj {LIGHT} {PHOTO} --looks 2", "o.exr"),
     (f"photo f.npy {PHOTO} {FIELD}", "o.exr"),
     (f"photo real.npy {PHOTO} {FIELD} --values phase", "o.png"),

@@ -83,6 +83,8 @@ TEST(WaveCameraParameters, names_of_the_library_are_those_of_the_same_model) {
     const WaveCameraParameters full{.camera = "plane-waves", .film_distance = 0.02};
     EXPECT_EQ(std::get<PlaneWaveCamera>(full.model()).film_distance, 0.02);
     EXPECT_TRUE(std::holds_alternative<SpeckleFreeCamera>(WaveCameraParameters{.looks = "expected"}.model()));
+    EXPECT_EQ((WaveCameraParameters{.speckle = "none"}.number_of_looks()), 1);
+    EXPECT_TRUE(std::holds_alternative<SpeckleFreeCamera>(WaveCameraParameters{.speckle = "none"}.model()));
 }
 
 // What excludes each other, for every source of light.
@@ -94,12 +96,12 @@ TEST(WaveCameraParameters, errors_name_the_parameter) {
     for (const PhotographSource source : {rays, hogels, samples}) {
         EXPECT_EQ(refused({}, source), "none");
         EXPECT_EQ(refused({.looks = "some"}, source), "looks");
-        EXPECT_EQ(refused({.looks = "expected", .diffuser = "vertical"}, source), "looks");
+        EXPECT_EQ(refused({.looks = "expected", .diffuser = "vertical"}, source), "speckle");
         EXPECT_EQ(refused({.film_distance = 0.02}, source), "film_distance");
         EXPECT_EQ(refused({.camera = "samples", .preview = true}, source), source == rays ? "camera" : "preview");
         EXPECT_EQ(refused({.camera = "full", .diffuser = "vertical"}, source), source == rays ? "camera" : "diffuser");
         EXPECT_EQ(refused({.camera = "hogel-spectra"}, source), source == hogels ? "none" : "camera");
-        EXPECT_EQ(refused({.looks = "expected"}, source), source == hogels ? "none" : "looks");
+        EXPECT_EQ(refused({.looks = "expected"}, source), source == hogels ? "none" : "speckle");
         EXPECT_EQ(refused({.preview = true}, source), source == hogels ? "none" : "preview");
     }
 }

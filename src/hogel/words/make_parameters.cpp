@@ -30,10 +30,11 @@ void MakeParameters::declare(Parameters& parameters, bool with_plane_waves) {
     };
     parameters.group("Hologram");
     hologram.declare_pitch(parameters)
-        .acts_if(acts_on({Output::hologram, Output::photographs, Output::expected_photographs}));
+        .acts_if(acts_on({Output::hologram, Output::photographs, Output::speckle_free_photographs}));
     if (Parameter* const seed = parameters.look_up("seed"))
         seed->acts_if(acts_on({Output::hologram, Output::photographs}));
-    parameters.group("Camera", acts_on({Output::photographs, Output::expected_photographs, Output::ray_photographs}));
+    parameters.group("Camera",
+                     acts_on({Output::photographs, Output::speckle_free_photographs, Output::ray_photographs}));
     parameters.positive_length("--eye-distance", eye_distance, "Of the lens from the hologram's plane")
         .sets_parameter("eye")
         .sets_parameter("focus");
@@ -44,7 +45,8 @@ void MakeParameters::declare(Parameters& parameters, bool with_plane_waves) {
         .declare_looks(parameters, "--looks",
                        "Photographs averaged against speckle; fewer are enough where a pixel holds much of it")
         .default_text(fmt::format("up to {}", defaults.looks))
-        .acts_if(acts_on({Output::photographs, Output::expected_photographs}));
+        .acts_if([this] { return is_one_of({Output::photographs}) && !waves.is_speckle_free(); });
+    waves.declare_speckle(parameters).acts_if(acts_on({Output::photographs, Output::speckle_free_photographs}));
     parameters.count("--pupil-samples", pupil_samples, "Points of the pupil in a photograph by rays")
         .acts_if(acts_on({Output::ray_photographs}));
     render.declare(parameters);

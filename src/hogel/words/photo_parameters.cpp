@@ -28,20 +28,20 @@ std::string WaveCameraParameters::name() const {
 }
 
 std::size_t WaveCameraParameters::number_of_looks() const {
+    if (is_speckle_free()) return 1;
     if (looks.empty()) return 0;
-    if (is_expected()) return 1;
     constexpr double max_looks = 1 << 24;
     const std::optional<double> number = parse_number(looks);
     if (!number || !(*number >= 1 && *number <= max_looks) || *number != std::floor(*number))
-        refuse("looks",
-               fmt::format("'{}' is neither a number of pictures from 1 to {:.0f} nor expected", looks, max_looks));
+        refuse("looks", fmt::format("'{}' is not a number of pictures from 1 to {:.0f}; expected such a number", looks,
+                                    max_looks));
     return static_cast<std::size_t>(*number);
 }
 
 CameraModel WaveCameraParameters::model() const {
     const std::string model = name();
     if (model == "full") return PlaneWaveCamera{{}, film_distance};
-    if (is_expected()) return SpeckleFreeCamera();
+    if (is_speckle_free()) return SpeckleFreeCamera();
     return BandCamera{.source = model == "eye"      ? BandSource::hogel_spectra
                                 : model == "narrow" ? BandSource::samples
                                                     : BandSource::automatic,
@@ -49,23 +49,33 @@ CameraModel WaveCameraParameters::model() const {
                       .preview = preview};
 }
 
+// Files of earlier versions say that a photograph is speckle-free by its looks.
+void WaveCameraParameters::read_looks() {
+    if (looks == "expected") {
+        looks.clear();
+        speckle = "none";
+    }
+    static_cast<void>(number_of_looks());
+}
+
 void WaveCameraParameters::resolve(PhotographSource photographed) {
     source = photographed;
     camera = name();
     const bool is_full = camera == "full", is_sampled = is_full || camera == "narrow",
                has_diffuser = diffuser != "none";
-    static_cast<void>(number_of_looks());
+    read_looks();
     if (source == PhotographSource::rays && camera != "auto")
         refuse("camera", fmt::format("{} photographs waves; give wave or a hologram", camera));
-    if (source == PhotographSource::rays && is_expected())
-        refuse("looks", "expected is of waves, and rays have no speckle; give wave");
     if (source == PhotographSource::samples && camera == "eye") refuse("camera", fmt::format("eye {}", needs_hogels));
-    if (source == PhotographSource::samples && is_expected()) refuse("looks", fmt::format("expected {}", needs_hogels));
-    if (is_expected() && is_sampled)
-        refuse("looks", fmt::format("expected needs the hogels, not samples; leave out the camera {}", camera));
-    if (is_expected() && has_diffuser)
-        refuse("looks", "expected, the mean of infinitely many, is not known behind a diffuser");
-    if (preview && (source != PhotographSource::hogels || is_expected() || is_sampled))
+    if (is_speckle_free()) {
+        if (source == PhotographSource::rays)
+            refuse("speckle", "none is of waves, and rays have no speckle; give wave");
+        if (source == PhotographSource::samples) refuse("speckle", fmt::format("none {}", needs_hogels));
+        if (is_sampled)
+            refuse("speckle", fmt::format("none needs the hogels, not samples; leave out the camera {}", camera));
+        if (has_diffuser) refuse("speckle", "none is not known behind a diffuser; leave out the diffuser");
+    }
+    if (preview && (source != PhotographSource::hogels || is_speckle_free() || is_sampled))
         refuse("preview",
                "leaves out waves of the hogels of a light field or a scene; it is for a number of looks of waves and "
                "the camera eye");
@@ -76,6 +86,7 @@ void WaveCameraParameters::resolve(PhotographSource photographed) {
 
 std::string WaveCameraParameters::resolve(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                                           std::span<const Camera> cameras) {
+    read_looks();
     const BandSourceChoice choice = choose_band_source(faces, request, cameras, model());
     const std::string asked = name(), chosen = choice.source == BandSource::hogel_spectra ? "eye" : "narrow";
     if (preview && chosen != "eye") refuse("preview", fmt::format("{}; leave it out", choice.reason));
@@ -105,8 +116,14 @@ Parameter& WaveCameraParameters::declare_camera(Parameters& parameters, bool wit
 
 Parameter& WaveCameraParameters::declare_looks(Parameters& parameters, const std::string& names,
                                                const std::string& help) {
-    return parameters.text(names, looks, "NUMBER|expected",
-                           help + "\nexpected: the mean of infinitely many, without speckle");
+    return parameters.text(names, looks, "NUMBER", help);
+}
+
+Parameter& WaveCameraParameters::declare_speckle(Parameters& parameters) {
+    return parameters.choice("--speckle", speckle, {"averaged", "none"}, "averaged|none",
+                             "Speckle of photographs by waves:"
+                             "\naveraged: over the looks"
+                             "\nnone: the mean over infinitely many looks; also --looks expected");
 }
 
 void WaveCameraParameters::declare(Parameters& parameters) {
@@ -140,7 +157,9 @@ void PhotoParameters::declare(Parameters& parameters) {
     waves
         .declare_looks(parameters, "--looks,--average",
                        "Photographs averaged against speckle, unless of a hologram file")
-        .acts_if([this] { return waves.source == PhotographSource::hogels && waves.has_looks; });
+        .acts_if(
+            [this] { return waves.source == PhotographSource::hogels && waves.has_looks && !waves.is_speckle_free(); });
+    waves.declare_speckle(parameters).acts_if([this] { return waves.source == PhotographSource::hogels; });
     parameters.text("--exposure", exposure, "NUMBER|auto", "What linear values are multiplied by in PNG, or auto")
         .acts_if([this] { return display == "intensity" && !is_linear; });
     parameters.choice("--display", display, {"intensity", "log", "phase"}, "intensity|log|phase",
