@@ -15,7 +15,7 @@ namespace hogel {
 template <std::size_t Rank>
 using Shape = std::array<std::size_t, Rank>;
 
-/// Number of elements of an array of this shape.
+/// Returns the number of elements of an array of this shape.
 template <std::size_t Rank>
 constexpr std::size_t count(const Shape<Rank>& shape) {
     std::size_t n = 1;
@@ -23,13 +23,12 @@ constexpr std::size_t count(const Shape<Rank>& shape) {
     return n;
 }
 
-/// Allocates memory aligned to a cache line. Large blocks use huge pages where the system grants them, which saves
-/// page-table look-ups. Throws std::bad_alloc.
+/// Allocates memory aligned to a cache line. Large blocks use huge pages where possible. Throws std::bad_alloc.
 HOGEL_API void* allocate_lines(std::size_t bytes);
 /// Frees memory from allocate_lines().
 HOGEL_API void free_lines(void* memory);
 
-/// A standard allocator whose memory is aligned to a cache line, as vector code and FFT plans require.
+/// A standard allocator of memory aligned to a cache line, as SIMD code and FFT plans require.
 template <class T>
 struct CacheLineAllocator {
     using value_type = T;
@@ -42,13 +41,13 @@ struct CacheLineAllocator {
     friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
 };
 
-/// A reference to a dense row-major array that is owned elsewhere; the last index runs fastest. Cheap to copy.
+/// A reference to a dense row-major array that another object owns. Cheap to copy.
 template <class T, std::size_t Rank>
 class View {
   public:
     View() = default;
     View(T* data, const Shape<Rank>& shape) : data_(data), shape_(shape) {}
-    /// Converts a view of mutable elements into a view of constant ones.
+    /// Converts a view of mutable elements to a view of constant elements.
     template <class U>
     requires(std::is_same_v<const U, T> && !std::is_same_v<U, T>) View(const View<U, Rank>& other)
         : data_(other.data()), shape_(other.shape()) {}
@@ -64,7 +63,7 @@ class View {
         static_assert(sizeof...(Index) == Rank);
         return data_[offset({static_cast<std::size_t>(index)...})];
     }
-    /// The sub-array at a first index: one row of a picture, one channel of a light field.
+    /// Returns the sub-array at the index `first` of the first axis: a row of a picture, a channel of a light field.
     View<T, Rank - 1> operator[](std::size_t first) const requires(Rank > 1) {
         Shape<Rank - 1> rest;
         for (std::size_t axis = 1; axis < Rank; ++axis) rest[axis - 1] = shape_[axis];
@@ -82,7 +81,7 @@ class View {
     Shape<Rank> shape_{};
 };
 
-/// A dense row-major array that owns its elements; they are value-initialised and aligned to a cache line.
+/// A dense row-major array that owns its elements. Elements are value-initialised and aligned to a cache line.
 template <class T, std::size_t Rank>
 class Array {
   public:

@@ -19,125 +19,122 @@
 
 namespace hogel {
 
-/// Sets of views: the same scene photographed by a rectangle of cameras, as other programs store light fields. The
-/// pixel on the plane on which all views agree is a hogel, and the camera is a direction: that plane becomes the
-/// hologram, and the cameras are a fixed focal plane in front of it (docs/exchange.md).
+/// Sets of views: pictures of a scene from a rectangular array of cameras, as other programs store light fields. The
+/// plane on which all views agree becomes the hologram. A pixel there is a hogel, and a camera is a direction: the
+/// cameras lie on a fixed focal plane in front of the hologram (docs/exchange.md).
 
-/// The curve between the numbers of a picture, 0 to 1, and linear light. `linear` numbers may exceed 1.
+/// Transfer curve between picture values, 0 to 1, and linear light. Values of `linear` may exceed 1.
 enum class Transfer { srgb, linear, rec709, gamma22 };
-/// The words for them, in the order of the values: "srgb", "linear", "rec709", "gamma2.2".
+/// Returns the names of the curves in the order of the enumeration: "srgb", "linear", "rec709", "gamma2.2".
 HOGEL_API const std::vector<std::string>& transfer_names();
-/// The curve of that name; nothing for an empty one. Throws Error(usage) for an unknown one.
+/// Returns the curve of this name; nothing for an empty name. Throws Error(usage) for an unknown name.
 HOGEL_API std::optional<Transfer> transfer_named(const std::string& name);
 
-/// What is to be done with a set of views, and what the set does not say of itself. Lengths are those at the hologram,
-/// metres. What neither says is assumed, and ImportedViews::assumed names it.
+/// Import options, and camera parameters that the files do not contain. Lengths are in metres, at the hologram. Values
+/// given by neither the files nor the options are assumed, and listed in ImportedViews::assumed.
 struct ViewImportOptions {
-    std::string layout;                     ///< a name in view_layouts(); empty: the one that recognises the source
-    double size = 0;                        ///< width of the hologram
-    std::optional<double> distance;         ///< from the cameras to the hologram plane
-    std::optional<double> spacing;          ///< between neighbouring cameras of a row
-    std::optional<double> field_of_view;    ///< full angle that a row of views spans from the hologram, radians
-    std::optional<Transfer> transfer;       ///< otherwise sRGB for whole numbers, linear for floating-point ones
-    std::optional<bool> orthographic;       ///< whether a view is taken along one direction instead of from one point
-    std::optional<bool> column_first = {};  ///< which of two numbers in the names of files is the column
-    std::size_t columns = 0, rows = 0;      ///< of views, where one number counts them all
-    /// Views in the middle that are taken, where those at the rim are not to be; 0: all.
+    std::string layout;              ///< name of a row of view_layouts(); empty: the first that recognises the source
+    double size = 0;                 ///< width of the hologram; 0: as the files say
+    std::optional<double> distance;  ///< from the cameras to the hologram plane
+    std::optional<double> spacing;   ///< between neighbouring cameras of a row
+    std::optional<double> field_of_view;  ///< full horizontal angle of a row of views, seen from the hologram, radians
+    std::optional<Transfer> transfer;     ///< default: sRGB for whole numbers, linear for floating-point numbers
+    std::optional<bool> orthographic;     ///< whether a view has one direction instead of one viewpoint
+    std::optional<bool> column_first = {};  ///< whether the first of two numbers in a file name is the column
+    std::size_t columns = 0, rows = 0;      ///< number of views, if a single number counts them; 0: as recognised
+    /// Number of views to import from the middle of the set; 0: all.
     std::size_t middle_columns = 0, middle_rows = 0;
-    bool mirror_columns = false;  ///< whether columns of views are the other way round than the layout says
-    bool mirror_rows = false;     ///< likewise of rows
-    /// Pixels by which the plane that is to be the hologram moves to the left from a view to the one on its right; 0
-    /// for the plane on which the views agree. Views are sheared accordingly and cropped to what all of them show.
+    bool mirror_columns = false;  ///< whether the order of view columns is opposite to that of the layout
+    bool mirror_rows = false;     ///< the same for rows
+    /// Disparity of the plane that becomes the hologram: its shift to the left from a view to its right neighbour,
+    /// pixels. 0: the plane on which the views agree. Views are sheared accordingly and cropped to their common area.
     double disparity = 0;
-    /// One more than the number of views that are interpolated between neighbours, by the disparity that comes with the
-    /// set. With `estimate_disparity` a set may come without; then it is estimated.
+    /// Factor by which interpolation increases the number of view steps: densify − 1 new views between neighbours, from
+    /// the disparity of the set. A set without disparity needs `estimate_disparity`.
     std::size_t densify = 1;
     bool estimate_disparity = false;
-    /// Whether the light field is to have depth, by the same disparity.
+    /// Whether the light field has depth, computed from the same disparity.
     bool with_depth = false;
-    /// Codes of a metre in maps of depth that are whole numbers, or of a pixel in maps of disparity; 0 for none.
+    /// Code values per metre in integer depth maps, or per pixel in integer disparity maps; 0: none given.
     double depth_scale = 0;
-    double memory = 1e9;  ///< bytes of pictures held at any time
-    /// A folder for a temporary file of the size of all pictures, which is used if they do not fit into `memory`, so
-    /// that each is decoded once; empty: no such file.
+    double memory = 1e9;  ///< bytes of pictures in memory
+    /// Folder of a temporary file for pictures beyond `memory`, so that each is decoded once. Empty: no such file.
     std::filesystem::path spool = {};
 };
 
-/// A light field made of a set of views, and the geometry as it was understood.
+/// A light field made of a set of views, and its recognised geometry.
 struct ImportedViews {
     LightField light_field;             ///< reads the pictures when it is read; see import_views()
-    std::string layout;                 ///< a name in view_layouts()
-    std::size_t columns = 0, rows = 0;  ///< of views, those that were interpolated included
-    unsigned bits = 8;                  ///< of the pictures' samples; 32: floating-point numbers
+    std::string layout;                 ///< name of a row of view_layouts()
+    std::size_t columns = 0, rows = 0;  ///< number of views, including interpolated ones
+    unsigned bits = 8;                  ///< per sample of the pictures; 32: floating-point numbers
     Transfer transfer = Transfer::srgb;
-    double spacing = 0, distance = 0;  ///< of the cameras at the hologram; of orthographic views 0
-    double scale = 0;                  ///< size at the hologram by the size in the set; 0 where the set does not say
-    /// The largest parallax from one view to the next, in pixels: the 98th percentile over blocks with texture, between
-    /// the middle view and its neighbours.
+    double spacing = 0, distance = 0;  ///< of the cameras at the hologram, metres; 0 for orthographic views
+    double scale = 0;                  ///< size at the hologram divided by the size in the set; 0: the set does not say
+    /// Largest parallax between the middle view and its neighbours, pixels: 98th percentile over textured blocks.
     double parallax = 0;
-    bool estimated = false;            ///< whether the disparity that was used was estimated
-    double spool_bytes = 0;            ///< of the temporary file in ViewImportOptions::spool, once the views are read
-    std::string summary;               ///< the geometry, one line
-    std::vector<std::string> assumed;  ///< what neither the set nor the options said, and what was taken
-    std::vector<std::string> notes;    ///< what was found out about the set
+    bool estimated = false;  ///< whether the disparity was estimated
+    double spool_bytes = 0;  ///< size of the temporary file in ViewImportOptions::spool, after the views are read
+    std::string summary;     ///< geometry in one line
+    std::vector<std::string> assumed;  ///< assumed values that neither the set nor the options gave
+    std::vector<std::string> notes;    ///< other findings about the set
 };
 
-/// Whether the source is a set of views that a layout recognises: a folder, or a file such as a quilt.
+/// Returns whether the source is a set of views that a layout recognises: a folder, or a file such as a quilt.
 HOGEL_API bool is_view_set(const std::filesystem::path& source);
 
-/// Opens a set of views as a light field. Views that fit into options.memory are decoded once, by all threads, when
-/// they are first read; larger sets are held in bands of rows, so that they are to be read in the order of tiles
-/// (write_views()), and each band decodes every picture unless there is a folder for a temporary file. Throws
-/// Error(bad_input), naming the file, for a set with a hole, for pictures of different sizes, and for damaged ones
-/// (some of them only when they are read); Error(usage) for options that contradict the set.
+/// Opens a set of views as a light field. Views that fit into options.memory are decoded once, on all threads, at the
+/// first read. Larger sets are held in bands of rows: read them in tile order (write_views()). Each band decodes every
+/// picture again unless options.spool is set. Throws Error(bad_input), with the file name, for missing views, pictures
+/// of different sizes, and damaged pictures (some only when read); Error(usage) for options that contradict the set.
 HOGEL_API ImportedViews import_views(const std::filesystem::path& source, const ViewImportOptions& options,
                                      const Progress& progress = {});
 
-/// Resources to import a set of views and write it to an uncompressed file.
+/// Estimates the resources to import a set of views and write it to an uncompressed file.
 HOGEL_API Plan plan_import(const ImportedViews& views, const ViewImportOptions& options,
                            const LightFieldFileOptions& file = {});
 
-/// Copies an imported light field to a sink, band by band, with all threads. Memory: one band, and a row of hogels for
-/// each thread.
+/// Copies an imported light field to a sink, band by band on all threads. Memory: a band, and a hogel row per thread.
 HOGEL_API void write_views(const LightField& light_field, LightFieldSink& sink, const Progress& progress = {});
 
-/// How a light field is written as a set of views.
+/// Options of export_views().
 struct ViewExportOptions {
-    std::string layout = "rows-columns";    ///< a name in view_layouts()
+    std::string layout = "rows-columns";    ///< name of a row of view_layouts()
     std::string format = {};                ///< "png", "ppm", "pfm" or "exr"; empty: as imported, else "png"
-    unsigned bits = 0;                      ///< of whole numbers: 8 to 16; 0: as imported, else 8
-    std::optional<Transfer> transfer = {};  ///< otherwise as imported, else sRGB, or linear for floating-point numbers
-    double exposure = 1;                    ///< factor of linear values that become whole numbers
-    double memory = 1e9;                    ///< bytes of views held at any time
-    /// Stored in each PNG and EXR file, before the light field's own provenance.
+    unsigned bits = 0;                      ///< of integer samples, 8 to 16; 0: as imported, else 8
+    std::optional<Transfer> transfer = {};  ///< default: as imported, else sRGB, or linear for floating-point numbers
+    double exposure = 1;                    ///< factor of linear values before conversion to integers
+    double memory = 1e9;                    ///< bytes of views in memory
+    /// Metadata of each PNG and EXR file, before the light field's own provenance.
     Metadata metadata = {};
 };
 
-/// What export_views() wrote.
+/// The result of export_views().
 struct ExportedViews {
-    std::size_t columns = 0, rows = 0;         ///< of views
-    std::vector<std::filesystem::path> files;  ///< in order of writing
-    std::vector<std::string> notes = {};       ///< what a user of the set should know
+    std::size_t columns = 0, rows = 0;         ///< number of views
+    std::vector<std::filesystem::path> files;  ///< in writing order
+    std::vector<std::string> notes = {};       ///< remarks for users of the set
 };
 
-/// Writes a light field as a set of views: one for each direction, with a pixel for each hogel. With a fixed focal
-/// plane in front of the hologram these are what cameras there see; otherwise they are orthographic views, and layouts
-/// of cameras refuse them. The inverse of import_views(): numbers of 8 to 16 bits come back as they were if the light
-/// field holds them exactly enough, half floats those of 11 bits. `target` is a folder, which must exist, or for some
-/// layouts a file. Throws Error(usage) for what the layout cannot hold, Error(cannot_write).
+/// Writes a light field as a set of views: one view per direction, one pixel per hogel. With a fixed focal plane in
+/// front of the hologram the views are pictures of cameras there. Otherwise they are orthographic, which layouts of
+/// cameras refuse. It is the inverse of import_views(): integers of 8 to 16 bits are restored exactly if the light
+/// field's samples are precise enough; half floats restore integers up to 11 bits. Throws Error(usage) if the layout
+/// cannot hold the views, Error(cannot_write).
+/// @param target  an existing folder, or a file for some layouts
 HOGEL_API ExportedViews export_views(const LightField& light_field, const std::filesystem::path& target,
                                      const ViewExportOptions& options, const Progress& progress = {});
 
-/// Resources to write a light field as a set of views, without the cost of reading it. The disk space is an upper
+/// Estimates the resources of export_views(), without the cost of reading the light field. Disk space is an upper
 /// bound.
 HOGEL_API Plan plan_export(const LightField& light_field, const ViewExportOptions& options);
 
-/// Writes the cameras whose pictures make a light field of this grid, as transforms.json of nerfstudio and instant-ngp,
-/// for another program to render: pinholes on the fixed focal plane, with axes that are perpendicular to the hologram,
-/// and a pixel for each hogel. The frame is that of docs/notation.md, in metres, with its origin in the middle of the
-/// hologram; the pictures are to be 000_000.png and so on, the row from the top and the column from the left. Throws
-/// Error(usage) for a grid without a fixed focal plane in front of the hologram, Error(cannot_write). Returns what a
-/// user of the cameras should know.
+/// Writes the cameras that produce a light field of this grid as transforms.json (nerfstudio, instant-ngp), for
+/// rendering with another program. The cameras are pinholes on the fixed focal plane, with axes perpendicular to the
+/// hologram and one pixel per hogel. The frame is that of docs/notation.md, in metres, with its origin at the centre of
+/// the hologram. Picture names are 000_000.png and so on: row from the top, column from the left. Returns remarks for
+/// users of the cameras. Throws Error(usage) for a grid without a fixed focal plane in front of the hologram,
+/// Error(cannot_write).
 HOGEL_API std::vector<std::string> write_cameras(const LightFieldGrid& grid, const std::filesystem::path& file);
 
 namespace exchange {
@@ -146,34 +143,35 @@ class ViewWriter;
 struct ViewTarget;
 }  // namespace exchange
 
-/// One way to store a set of views.
+/// A file layout of sets of views.
 struct ViewLayout {
     std::string name;              ///< "hci"
-    std::string text;              ///< what it is, one line
-    bool is_folder = true;         ///< whether a set is a folder rather than a file
+    std::string text;              ///< one line
+    bool is_folder = true;         ///< whether a set is a folder, not a file
     bool cameras_only = true;      ///< whether it cannot hold orthographic views
-    bool has_pictures = true;      ///< whether views are pictures of some format
-    bool written_at_once = false;  ///< whether all views are held in memory until the last is there
+    bool has_pictures = true;      ///< whether views are stored in a picture format
+    bool written_at_once = false;  ///< whether all views are in memory until the last is complete
     bool (*probe)(const std::filesystem::path& source) = nullptr;  ///< whether a source is such a set
     exchange::ViewSet (*open)(const std::filesystem::path& source, const ViewImportOptions& options) = nullptr;
-    /// Null where such sets are only read.
+    /// Null if such sets can only be read.
     std::unique_ptr<exchange::ViewWriter> (*create)(const exchange::ViewTarget& target) = nullptr;
 };
 
-/// All layouts; of several that recognise a source the first is taken.
+/// Returns all layouts. The first one that recognises a source is used.
 HOGEL_API Table<ViewLayout>& view_layouts();
 
-/// Films are made and read by the program ffmpeg, which is looked for in PATH when it is needed; nothing of it is
-/// linked.
+/// Films are written and read by the program ffmpeg, found in PATH when needed; the library does not link to it.
 
-/// Whether that program is installed.
+/// Returns whether ffmpeg is installed.
 HOGEL_API bool can_make_films();
 
-/// Whether a name is that of a film: .mp4, .gif or .apng, without numbers ("####").
+/// Returns whether a name is that of a film: .mp4, .gif or .apng, without a number pattern ("####").
 HOGEL_API bool is_film(const std::filesystem::path& path);
 
-/// Makes a film (.mp4, .gif or .apng) of the pictures `frames` ("%06d.png") of a folder. `comment` is stored in it.
-/// Throws Error(not_built_in) without ffmpeg, Error(cannot_write) where it fails.
+/// Encodes the pictures of a folder as a film (.mp4, .gif or .apng). Throws Error(not_built_in) without ffmpeg,
+/// Error(cannot_write) if it fails.
+/// @param frames   pattern of the picture names: "%06d.png"
+/// @param comment  stored in the film
 HOGEL_API void make_film(const std::filesystem::path& film, const std::filesystem::path& folder,
                          const std::string& frames, double frames_a_second, const std::string& comment = {},
                          const Progress& progress = {});

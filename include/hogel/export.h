@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Marks what the library exports; everything else is hidden.
+/// Exports a symbol from the shared library; all other symbols are hidden.
 #define HOGEL_API __attribute__((visibility("default")))

@@ -6,7 +6,7 @@
 
 namespace hogel {
 
-/// A point or a direction in the frame of docs/notation.md: x right, y up, z towards the viewer; metres.
+/// A point or direction in the frame of docs/notation.md: x right, y up, z towards the viewer; metres.
 struct Vec3 {
     double x = 0, y = 0, z = 0;
 
@@ -25,7 +25,7 @@ inline Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a
 inline double length(Vec3 a) { return std::sqrt(dot(a, a)); }
 inline Vec3 normalize(Vec3 a) { return a / length(a); }
 
-/// A linear colour or any other RGB triple.
+/// A linear colour or another RGB triple.
 struct Rgb {
     float r = 0, g = 0, b = 0;
 
@@ -36,15 +36,15 @@ struct Rgb {
     friend bool operator==(const Rgb&, const Rgb&) = default;
 };
 
-/// The positions of samples on a plane parallel to the hologram, arranged as the viewer sees them: column 0 at the
-/// left, row 0 at the top. x(), y(), column() and row() convert between indices and metres.
+/// Positions of samples on a plane parallel to the hologram, as the viewer sees them: column 0 at the left, row 0 at
+/// the top. x(), y(), column() and row() convert between indices and metres.
 struct Grid {
     std::size_t width = 0;   ///< samples in x
     std::size_t height = 0;  ///< samples in y
     double pitch_x = 0;      ///< metres between columns
     double pitch_y = 0;      ///< metres between rows
-    double center_x = 0;     ///< x of the middle of all samples, metres
-    double center_y = 0;
+    double center_x = 0;     ///< x of the centre of the grid, metres
+    double center_y = 0;     ///< y of the centre, metres
 
     double x(double column) const { return center_x + (column + 0.5 - 0.5 * static_cast<double>(width)) * pitch_x; }
     double y(double row) const { return center_y + (0.5 * static_cast<double>(height) - row - 0.5) * pitch_y; }
@@ -65,14 +65,14 @@ struct Region {
     friend bool operator==(const Region&, const Region&) = default;
 };
 
-/// The grid of the samples of a region, at the same positions.
+/// Returns the grid of the samples of a region, at the same positions.
 inline Grid part(const Grid& grid, const Region& region) {
     const double middle_column = static_cast<double>(region.x0) + 0.5 * static_cast<double>(region.width) - 0.5;
     const double middle_row = static_cast<double>(region.y0) + 0.5 * static_cast<double>(region.height) - 0.5;
     return {region.width, region.height, grid.pitch_x, grid.pitch_y, grid.x(middle_column), grid.y(middle_row)};
 }
 
-/// A rectangle in a plane, metres. Points on its left and lower edges belong to it, those on the other two do not.
+/// A rectangle in a plane, metres. Points on the left and lower edges belong to it, points on the other edges do not.
 struct Rectangle {
     double left = 0, right = 0, bottom = 0, top = 0;
 

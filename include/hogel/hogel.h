@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// All public headers. Each may be included by itself; examples/ shows how they work together.
+// Includes all public headers. Each header can also be included by itself. The programs in examples/ show how they work
+// together.
 
 #include "hogel/array.h"
 #include "hogel/camera.h"

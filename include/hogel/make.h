@@ -23,129 +23,127 @@
 
 namespace hogel {
 
-/// The whole recipe in one call: make() turns a scene into a hologram, and photographs it by waves and by rays from
-/// several eyes. It chooses the eyes, the planes in focus, the number of looks and the pitch where the request leaves
-/// them out, and one exposure for all pictures.
+/// make() turns a scene into a hologram and photographs it by wave optics and by rays, from several viewpoints. It
+/// selects omitted viewpoints, planes in focus, looks (speckle realisations) and pitch, and a common exposure.
 
-/// A plane in focus.
+/// A named plane in focus.
 struct NamedFocus {
     std::string name;
     double depth = 0;  ///< ζ, metres
 };
 
-/// The centre of a lens.
+/// A named viewpoint.
 struct NamedEye {
     std::string name;
     Vec3 position;  ///< metres
 };
 
-/// A camera of make().
+/// A named camera of make().
 struct NamedCamera {
     std::string eye_name, focus_name;
     Camera camera;
 
-    /// The names of its picture files, without extension: "photo_left_near" by waves, with "_expected" without speckle,
-    /// and with "_geometric" by rays.
+    /// Names of the picture files without extension: "photo_left_near" by wave optics, with "_expected" for
+    /// speckle-free photographs and "_geometric" for photographs by rays.
     std::string wave_file() const { return "photo_" + eye_name + "_" + focus_name; }
     std::string speckle_free_file() const { return wave_file() + "_expected"; }
     std::string ray_file() const { return wave_file() + "_geometric"; }
 };
 
-/// Two planes in focus: "near", a sixth of the scene's depth behind its nearest point, but at most half-way to the eye;
-/// and "far", as much in front of its farthest point.
+/// Returns two planes in focus. "near" is a sixth of the scene's depth behind its nearest point, but at most half-way
+/// to the viewpoint. "far" is a sixth in front of its farthest point. `eye_distance` is in metres.
 HOGEL_API std::array<NamedFocus, 2> default_focuses(const Bounds& scene, double eye_distance);
 
-/// Three eyes: "left", "high" and "right". They are at 0.7 of the distance from the axis up to which every hogel sends
-/// rays to the whole pupil. Throws Error(usage) if that is not even so on the axis.
+/// Returns three viewpoints: "left", "high" and "right". Their distance from the axis is 0.7 of the largest at which
+/// every hogel sends rays to the whole pupil. Lengths are in metres. Throws Error(usage) if hogels do not fill the
+/// pupil even on the axis.
 HOGEL_API std::array<NamedEye, 3> default_eyes(const LightFieldGrid& grid, double eye_distance, double pupil);
 
-/// What make() is asked for. resolve() chooses what is left out.
+/// Parameters of make(). resolve() completes omitted values.
 struct MakeRequest {
     LightFieldRequest light_field;
     HologramRequest hologram{.looks = 0};  ///< looks = 0: enough_looks()
-    /// Whether to take a smaller pitch than that of `hologram` where that does not diffract the field of view.
+    /// Whether to reduce the pitch of `hologram` if it does not diffract the field of view.
     bool adapt_pitch = true;
-    /// The camera of the photographs by waves. With SpeckleFreeCamera only the speckle-free ones are made.
+    /// Camera model of photographs by wave optics. SpeckleFreeCamera makes only the speckle-free ones.
     CameraModel camera = BandCamera();
-    /// Whether there are photographs without speckle too; none: where is_speckle_free_cheap().
+    /// Whether to add speckle-free photographs. Empty: if is_speckle_free_cheap().
     std::optional<bool> speckle_free;
     RayCamera rays{defaults.pupil_samples};
     double eye_distance = defaults.eye_distance;   ///< metres
     double pupil = defaults.pupil;                 ///< metres
     std::size_t resolution = defaults.resolution;  ///< pixels across
-    /// Empty: default_eyes(), each with the default_focuses(). The second one sets the exposure.
+    /// Empty: default_eyes(), each with default_focuses(). The second camera determines the exposure.
     std::vector<NamedCamera> cameras;
 };
 
-/// The request with its pitch, its cameras and its number of looks. Throws Error(usage) as default_eyes() does, and for
-/// an invalid grid or camera.
-/// @param scene  as it is placed at the hologram
+/// Returns the request with pitch, cameras and number of looks. Throws Error(usage) as default_eyes() does, and for an
+/// invalid grid or camera.
+/// @param scene  bounds of the scene as placed at the hologram
 HOGEL_API MakeRequest resolve(MakeRequest request, const Bounds& scene);
 
-/// The cameras without their names.
+/// Returns the cameras without their names.
 HOGEL_API std::vector<Camera> cameras_of(const MakeRequest& request);
 
-/// Whether photographs without speckle take no longer than those of the looks, or no more than ten seconds. They take
-/// long where many waves of a hogel enter the pupil: where hogels are large. False for holograms that
-/// SpeckleFreeCamera refuses.
+/// Returns whether speckle-free photographs take no longer than those of all looks, or at most ten seconds. They are
+/// slow for large hogels, which send many waves into the pupil. Returns false if SpeckleFreeCamera refuses.
 HOGEL_API bool is_speckle_free_cheap(std::span<const LightFieldGrid> faces, const HologramRequest& hologram,
                                      std::span<const Camera> cameras, const CameraModel& model = BandCamera());
 
-/// Where make() keeps what is large, and who is told of its stages.
+/// Files and progress reports of make().
 struct MakeOptions {
-    /// HDF5 file that the light field is written to and read from. Empty: it is kept in memory, with samples of the
-    /// type of `light_field`, or rendered again where it does not fit (prepare_for_reading()).
+    /// HDF5 file to write the light field to and read it from. Empty: it is kept in memory, with samples of the type of
+    /// `light_field`, or rendered repeatedly if it does not fit (prepare_for_reading()).
     std::filesystem::path light_field_file = {};
-    std::filesystem::path hologram_file = {};  ///< HDF5 file that the hologram is written to; empty: none
+    std::filesystem::path hologram_file = {};  ///< HDF5 file for the hologram; empty: none
     LightFieldFileOptions light_field = {};    ///< of the light field's file
     HologramFileOptions hologram = {};         ///< of the hologram's file
-    /// Called at the beginning of each stage with its name; the result is the stage's Progress. Empty: stages are equal
-    /// parts of the Progress of make().
+    /// Called at the beginning of each stage with its name; returns the Progress of the stage. Empty: make()'s Progress
+    /// in equal parts.
     std::function<Progress(const std::string& stage)> stage = {};
 };
 
-/// A photograph by waves, compared with that by rays at the exposure of all.
+/// A photograph by wave optics, compared with the photograph by rays at the common exposure.
 struct ComparedImage {
     Image image;
     ImageComparison comparison;
 };
 
-/// The photographs of make() by one camera.
+/// The photographs of one camera of make().
 struct MadePhotographs {
     NamedCamera camera;
-    Image rays;  ///< one channel for each wavelength of the hologram, as `waves`
+    Image rays;  ///< one channel per wavelength of the hologram, as `waves`
     std::optional<ComparedImage> waves, speckle_free;
 };
 
-/// What make() has made.
+/// The results of make().
 struct Made {
-    MakeRequest request;     ///< as resolve() completed it
+    MakeRequest request;     ///< as completed by resolve()
     LightField light_field;  ///< in memory or in its file
-    Fields holograms;        ///< one per wavelength, computed when they are read
+    Fields holograms;        ///< one per wavelength, computed when read
     double exposure = 1;     ///< of all pictures
     std::vector<MadePhotographs> photographs;
 };
 
 /// Renders a scene, makes its hologram and photographs it. The pictures do not depend on where the light field is kept.
-/// While a ResumeScope exists, interrupted work can be continued. Processes of a team share the work. Throws
-/// Error(usage) as resolve(), require_holograms() and photograph() do.
-/// @param scene  as load_scene() or prepare_scene() places it
+/// With a ResumeScope, interrupted work can be continued. Ranks (communicator.h) share the work. Throws Error(usage) as
+/// resolve(), require_holograms() and photograph() do.
+/// @param scene  as placed by load_scene() or prepare_scene()
 HOGEL_API Made make(const Scene& scene, const MakeRequest& request = {}, const MakeOptions& options = {},
                     const Progress& progress = {});
 
-/// The same for a light field, such as one from render_light_field() or import_views(). Throws Error(usage) for a
+/// Does the same for a light field, such as one from render_light_field() or import_views(). Throws Error(usage) for a
 /// request without cameras or looks.
-/// @param request  from resolve(), or with cameras and looks of its own
+/// @param request  from resolve(), or with explicit cameras and looks
 HOGEL_API Made make(const LightField& light_field, const MakeRequest& request, const MakeOptions& options = {},
                     const Progress& progress = {});
 
-/// What picture files say beside the picture's provenance and the exposure.
+/// Metadata of the picture files, in addition to each picture's provenance and the exposure.
 struct MadeMetadata {
     Metadata waves, speckle_free, rays;
 };
 
-/// Writes all photographs into a folder as PNG and EXR files, whose names are those of NamedCamera. Throws
-/// Error(cannot_write).
+/// Writes all photographs into a folder as PNG and EXR files, named as NamedCamera defines. Throws Error(cannot_write).
 HOGEL_API void write_photographs(const std::filesystem::path& folder, const Made& made,
                                  const MadeMetadata& metadata = {}, const Progress& progress = {});
 

@@ -32,17 +32,17 @@ struct Angles {
     friend bool operator==(const Angles&, const Angles&) = default;
 };
 
-/// What the text of a parameter stands for.
+/// The form of a parameter's text.
 enum class ParameterKind {
     flag,             ///< "yes" or "no"
     text,             ///< any
-    texts,            ///< several
+    texts,            ///< several texts
     choice,           ///< one of Parameter::choices
     number,           ///< "0.5"
     count,            ///< a whole number from 1
     whole,            ///< a whole number from 0
     counts,           ///< "256x256"
-    resolution,       ///< "640x480", or "400": columns, with as many rows as the picture takes
+    resolution,       ///< "640x480", or "400": columns, with rows by the aspect ratio of the picture
     length,           ///< "16mm"
     positive_length,  ///< the same, above zero
     wavelengths,      ///< "633nm,532nm,460nm", up to three, or "rgb" for the three of Defaults
@@ -52,7 +52,7 @@ enum class ParameterKind {
     rotation          ///< "-90,0,0deg": angles about x, then y, then z
 };
 
-/// The variable of a parameter: one that has a default from the start, or one that is empty until it is set.
+/// Reference to the variable of a parameter: one with a default, or an optional one.
 template <class T>
 class ParameterValue {
   public:
@@ -72,35 +72,35 @@ class ParameterValue {
     std::optional<T>* optional_ = nullptr;
 };
 
-/// One parameter of a command: what it is called, which texts it takes and which variable they set.
+/// One parameter of a command: its names, its texts and the variable that they set.
 class HOGEL_API Parameter {
   public:
     std::string name;            ///< "focal-plane"
     std::string alias;           ///< another name, or empty
     std::string letter;          ///< "o" of "-o", or empty
-    bool is_positional = false;  ///< without a name on the command line
+    bool is_positional = false;  ///< whether it has no name on the command line
     bool is_required = false;
     ParameterKind kind = ParameterKind::text;
-    std::string type;                   ///< what a help shows in place of the text: "LENGTH"; empty for flags
-    std::string help;                   ///< what it does; lines after the first explain choices
-    std::string group;                  ///< the heading under which a help shows it
-    std::string shown_default;          ///< the text that a help shows as the default; empty: none
-    std::vector<std::string> choices;   ///< of ParameterKind::choice; words that a text may be
-    std::optional<double> low, high;    ///< of ParameterKind::number: the least and the greatest
-    std::vector<std::string> excluded;  ///< names of parameters that must not be given together with it
-    std::vector<std::string> needed;    ///< names of parameters without which it must not be given
-    /// Other names by which errors call what it sets, see Error::parameter(): "focus" of to-focus.
+    std::string type;                   ///< placeholder of the text in a help: "LENGTH"; empty for flags
+    std::string help;                   ///< description; lines after the first explain choices
+    std::string group;                  ///< heading in a help
+    std::string shown_default;          ///< default in a help; empty: none
+    std::vector<std::string> choices;   ///< allowed words of ParameterKind::choice; suggested words of other kinds
+    std::optional<double> low, high;    ///< range of ParameterKind::number
+    std::vector<std::string> excluded;  ///< names of parameters that must not be given with it
+    std::vector<std::string> needed;    ///< names of parameters that it requires
+    /// Other names of it in errors, see Error::parameter(): "focus" of to-focus.
     std::vector<std::string> other_names;
 
-    /// What messages call it: "--focal-plane", or without dashes if it is positional.
+    /// Returns its name in messages: "--focal-plane", or without dashes if it is positional.
     std::string option() const { return (is_positional ? "" : "--") + name; }
-    /// What Error::parameter() and Python call it: "focal_plane".
+    /// Returns its name in Error::parameter() and Python: "focal_plane".
     std::string keyword() const;
-    /// What stands on a shell's command line for a value(), with a blank before it: " --fov 40deg", of positional ones
-    /// " 'a b.h5'". Nothing for "no".
+    /// Returns the shell text for a value(), with a leading blank: " --fov 40deg", or " 'a b.h5'" if it is positional.
+    /// Returns nothing for the value "no" of a flag.
     std::string option_text(const std::string& value) const;
 
-    // What a declaration adds.
+    // Modifiers of a declaration.
     Parameter& required();
     Parameter& excludes(const Parameter& other) { return excludes(other.name); }
     Parameter& excludes(const std::string& other);
@@ -109,27 +109,27 @@ class HOGEL_API Parameter {
     Parameter& no_default() { return default_text(""); }
     Parameter& range(double least, double greatest);
     Parameter& positive();
-    /// Words that a text may be, for completion.
+    /// Adds suggested words for completion.
     Parameter& knows(std::vector<std::string> words);
-    /// A variable that becomes true if the parameter is given.
+    /// Sets a variable to true if the parameter is given.
     Parameter& sets(bool& given);
     Parameter& sets_parameter(const std::string& other);
-    /// When the parameter has an effect on what the command makes, asked after the work; otherwise it always has.
+    /// Sets a function, called after the work, that returns whether the parameter affected the output. Default: always.
     Parameter& acts_if(std::function<bool()> acts);
-    /// It says where results go or how the work is done, and never what they are.
+    /// Marks a parameter that never changes results: a destination, or how the work is done.
     Parameter& never_acts();
 
-    /// Sets the variable from a text, or from several for ParameterKind::texts. Throws Error(usage), whose message
-    /// begins with `what`, the name of the parameter where the text comes from: "--fov".
+    /// Sets the variable from a text, or from several for ParameterKind::texts. Throws Error(usage); the message begins
+    /// with `what`, the parameter's name in the source of the text: "--fov".
     void read(const std::vector<std::string>& texts, const std::string& what);
-    /// As read() of a text of value(), where several texts have blanks between them.
+    /// Sets the variable from a text of value(), with blanks between several texts.
     void read_value(const std::string& text, const std::string& what);
-    /// Whether read() has set it.
+    /// Returns whether read() has set it.
     bool is_given() const { return given_; }
-    /// The text that the variable was set from, "yes" or "no" for a flag, or that of its default if that has one; where
-    /// the variable was changed since, the shortest text that sets it to its value, exactly.
+    /// Returns the text that set the variable ("yes" or "no" for a flag), or that of its default. If the variable has
+    /// changed since, returns written().
     std::string value() const;
-    /// The latter in any case; empty if the variable has no value.
+    /// Returns the shortest text that sets the variable to exactly its value; empty without a value.
     std::string written() const { return write_ ? write_() : value(); }
     bool acts() const;
 
@@ -142,43 +142,42 @@ class HOGEL_API Parameter {
     bool* is_set_ = nullptr;
     bool is_positive_ = false;
     bool given_ = false;
-    std::string typed_;  // the text that set the variable, or of its default
-    std::string then_;   // what written() was then
+    std::string typed_;  // text that set the variable, or text of the default
+    std::string then_;   // written() at that time
 };
 
-/// The parameters of a command, in the order in which a help shows them. Names are written "--fov" or "-o,--output". A
-/// variable that a parameter sets must outlive it; its value when the parameter is declared is the default that is
-/// shown.
+/// The parameters of a command, in the order of its help. Names are written "--fov" or "-o,--output". The variable of a
+/// parameter must outlive it. Its value at declaration is the displayed default.
 class HOGEL_API Parameters {
   public:
     Parameters() = default;
     Parameters(const Parameters&) = delete;
     Parameters& operator=(const Parameters&) = delete;
 
-    /// The heading under which a help shows the parameters that are declared from now on, and when they act at all.
+    /// Begins a group of parameters: its heading in a help, and a function that returns whether it has an effect.
     void group(const std::string& heading, std::function<bool()> acts = {});
     static constexpr const char* default_group = "Options";
-    static constexpr const char* last_group = "General";  ///< of the parameters that all commands share
+    static constexpr const char* last_group = "General";  ///< of the parameters common to all commands
 
-    /// A required text without a name on the command line, or one or more of them.
+    /// Declares a required text without a name on the command line, or one or more such texts.
     Parameter& positional(const std::string& name, ParameterValue<std::string> value, const std::string& type,
                           const std::string& help);
     Parameter& positionals(const std::string& name, ParameterValue<std::vector<std::string>> values,
                            const std::string& type, const std::string& help);
     Parameter& text(const std::string& name, ParameterValue<std::string> value, const std::string& type,
                     const std::string& help);
-    /// A parameter that may be given several times.
+    /// Declares a parameter that can be given several times.
     Parameter& texts(const std::string& name, ParameterValue<std::vector<std::string>> values, const std::string& type,
                      const std::string& help);
-    /// A parameter without a default, whose text is read by a function that throws Error(usage).
+    /// Declares a parameter without a default. The function reads its text and throws Error(usage).
     Parameter& parsed(const std::string& name, const std::string& type, const std::string& help,
                       std::function<void(const std::string& text)> read);
     Parameter& number(const std::string& name, ParameterValue<double> value, const std::string& type,
                       const std::string& help);
     Parameter& flag(const std::string& name, ParameterValue<bool> value, const std::string& help);
-    /// A flag without effect, which names the default.
+    /// Declares a flag that names the default and has no effect.
     Parameter& flag(const std::string& name, const std::string& help);
-    /// One of several words, such as the names() of a table.
+    /// Declares a choice of words, such as the names() of a table.
     Parameter& choice(const std::string& name, ParameterValue<std::string> value, const std::vector<std::string>& words,
                       const std::string& type, const std::string& help);
     Parameter& length(const std::string& name, ParameterValue<double> metres, const std::string& help);
@@ -192,24 +191,24 @@ class HOGEL_API Parameters {
     Parameter& resolution(const std::string& name, ParameterValue<Counts> counts, const std::string& help);
     Parameter& point(const std::string& name, ParameterValue<Vec3> point, const std::string& help);
     Parameter& rotation(const std::string& name, ParameterValue<Vec3> radians, const std::string& help);
-    /// --wavelength, the colours that a hologram is made for. Sets the variable to the three of Defaults.
+    /// Declares --wavelength, the colours of a hologram. Sets the variable to the three of Defaults.
     Parameter& wavelengths(std::vector<double>& wavelengths);
 
     const std::deque<Parameter>& all() const { return all_; }
     std::deque<Parameter>& all() { return all_; }
-    /// The parameter of a name with or without dashes, or null.
+    /// Returns the parameter of a name with or without dashes, or null.
     const Parameter* look_up(std::string_view name) const;
     Parameter* look_up(std::string_view name);
-    /// Whether a parameter, of a name with or without dashes, is given. Throws Error(internal) for an unknown name.
+    /// Returns whether the parameter of a name, with or without dashes, is given. Throws Error(internal) if unknown.
     bool given(std::string_view name) const;
     /// Throws Error(usage) if a parameter is given together with one that it excludes, or without one that it needs.
     void require_compatible() const;
-    /// The message of an error, which begins with the options of its parameters: "--eye, --pitch: the eye sees ...". Of
-    /// the options that set one parameter it names the given ones, or the first one if none is given.
+    /// Returns the message of an error after the options of its parameters: "--eye, --pitch: the eye sees ...". If
+    /// several options set one parameter, it names the given ones, or the first if none is given.
     std::string describe(const Error& error) const;
-    /// Each name and Parameter::value().
+    /// Returns each name and Parameter::value().
     Metadata values() const;
-    /// Those of parameters that act and have a value: what is to be stored in the files that the command writes.
+    /// Returns the values of parameters that have an effect and a value, to be stored in output files.
     Metadata acting() const;
 
   private:
@@ -224,7 +223,7 @@ class HOGEL_API Parameters {
     std::function<bool()> group_acts_;
 };
 
-/// The text of a value in the shortest form that reads as the same number: "16mm", "633nm,532nm", "40,30deg".
+/// Return the shortest text that reads as the same value: "16mm", "633nm,532nm", "40,30deg".
 HOGEL_API std::string length_text(double metres);
 HOGEL_API std::string lengths_text(const std::vector<double>& metres);
 HOGEL_API std::string angle_text(double radians);
@@ -232,21 +231,21 @@ HOGEL_API std::string angles_text(const Angles& angles);
 HOGEL_API std::string point_text(const Vec3& metres);
 HOGEL_API std::string rotation_text(const Vec3& radians);
 
-/// A finite number without a unit, or nothing if the text is not one.
+/// Parses a finite number without a unit. Returns nothing for other texts.
 HOGEL_API std::optional<double> parse_number(const std::string& text);
-/// "0,0,300mm": a component without a unit takes that of the last; and a length, "16mm". Both refuse what is too long
-/// to be meant. They throw Error(usage), which begins with `what`.
+/// Parse a point, "0,0,300mm" (a component without a unit has that of the last), and a length, "16mm". They refuse
+/// implausibly large values. Throw Error(usage); the message begins with `what`.
 HOGEL_API Vec3 parse_point(const std::string& text, const std::string& what);
 HOGEL_API double parse_any_length(const std::string& text, const std::string& what);
 
-/// The names in Error::parameter().
+/// Splits the names in Error::parameter().
 HOGEL_API std::vector<std::string> names_of_parameters(const std::string& parameters);
 
-/// The same with other names, see with_renamed_parameters().
+/// Returns these names with the renames of with_renamed_parameters().
 HOGEL_API std::string renamed_parameters(const std::string& parameters,
                                          std::span<const std::pair<std::string_view, std::string_view>> names);
 
-/// Calls the work. An Error(usage) that names no parameter gets this one: "hogels, directions".
+/// Calls a function. Adds these parameters ("hogels, directions") to an Error that names none.
 template <class Work>
 auto with_parameter(const std::string& parameter, const Work& work) {
     try {
@@ -257,8 +256,8 @@ auto with_parameter(const std::string& parameter, const Work& work) {
     }
 }
 
-/// Calls the work. In parameters of an Error the first name of each pair becomes the second, which is what the command
-/// calls it, or several, "hogels, size", or empty if the command does not set it here.
+/// Calls a function. In the parameters of an Error, replaces the first name of each pair by the second: the name in
+/// this command, several ("hogels, size"), or empty if the command does not set it.
 template <class Work>
 auto with_renamed_parameters(std::initializer_list<std::pair<std::string_view, std::string_view>> names,
                              const Work& work) {

@@ -8,15 +8,15 @@
 
 namespace hogel {
 
-/// A part of the library that a build may lack. What needs a part that is missing throws Error(not_built_in).
+/// An optional part of the library. A function that needs a part missing from this build throws Error(not_built_in).
 struct Part {
-    std::string name;       ///< "Embree"
-    std::string text;       ///< what it brings, one line
-    std::string option;     ///< of CMake, which builds it in: "HOGEL_EMBREE=ON"
-    bool built_in = false;  ///< whether this build has it
+    std::string name;    ///< "Embree"
+    std::string text;    ///< what it adds, one line
+    std::string option;  ///< CMake option that builds it in: "HOGEL_EMBREE=ON"
+    bool built_in = false;
 };
 
-/// All optional parts, those that are built in and those that are not.
+/// Returns all optional parts, built in or not.
 HOGEL_API const std::vector<Part>& parts();
 
 }  // namespace hogel

@@ -9,19 +9,21 @@
 
 namespace hogel {
 
-/// How the whole numbers of a picture stand for phases. The phase of the number v of 0 to V (255 for 8 bits) is
-/// offset + range·u, where u = v/(V + 1), or v/V where the code is closed; an inverted code counts from V down. Numbers
-/// that are not whole, from 0 to 1, are u themselves, or 1 − u.
+/// The mapping between whole numbers of a picture and phases. The number v of 0 to V (255 for 8 bits) has the phase
+/// offset + range·u, with u = v/(V + 1), or u = v/V if the code is closed. An inverted code has V − v in place of v. In
+/// pictures of floating-point numbers from 0 to 1 the number itself is u, or 1 − u if inverted.
 struct PhaseCode {
     double range = 2 * std::numbers::pi;  ///< radians
     double offset = 0;                    ///< radians
-    bool inverted = false;                ///< whether larger numbers are smaller phases
-    bool closed = false;                  ///< whether V stands for the whole range; otherwise V + 1 would
+    bool inverted = false;                ///< whether larger numbers mean smaller phases
+    bool closed = false;                  ///< whether V stands for the full range; otherwise V + 1 does
 
-    /// The phase of a number, in radians. @param largest  V; 0 for numbers that are not whole
+    /// Returns the phase of a number, radians.
+    /// @param largest  V; 0 for floating-point numbers
     HOGEL_API double phase(double number, double largest) const;
-    /// The number from 0 to `largest` whose phase is nearest to one in radians, in whole turns. Where the range is less
-    /// than a turn, phases beyond it get the nearer end; where it is more, the smallest numbers that will do.
+    /// Returns the number from 0 to `largest` with the phase nearest to `phase` (radians), modulo 2π. If the range is
+    /// less than 2π, phases outside it get the nearer end of the range. If it is more, the smallest suitable number is
+    /// returned.
     HOGEL_API unsigned level(double phase, unsigned largest) const;
 
     friend bool operator==(const PhaseCode&, const PhaseCode&) = default;
@@ -34,15 +36,15 @@ struct PhaseCodeInfo {
     PhaseCode code;
 };
 
-/// The codes of phase pictures by the programs that make them: hogel, neural-holography, slmsuite, odak, tensorholo.
+/// Returns the phase codes of programs, by name: hogel, neural-holography, slmsuite, odak, tensorholo.
 HOGEL_API Table<PhaseCodeInfo>& phase_codes();
 
-/// The code of a name, or of a description such as "range=2.2pi,offset=-90deg,invert": angles as multiples of pi, or
-/// with the units deg or rad; the largest number stands for the whole range. Throws Error(usage).
+/// Parses the name of a phase code, or a description such as "range=2.2pi,offset=-90deg,invert". Angles are multiples
+/// of pi, or have the unit deg or rad. Described codes are closed. Throws Error(usage).
 HOGEL_API PhaseCode parse_phase_code(const std::string& text);
 
-/// The text by which parse_phase_code() knows a code: its name, or a description. That of an open code is for numbers
-/// of 8 bits, of which the largest then stands for 255/256 of the range.
+/// Returns the text of a code for parse_phase_code(): its name, or a description. The description of an open code is
+/// for 8-bit numbers, with 255/256 of the range for the largest number.
 HOGEL_API std::string phase_code_text(const PhaseCode& code);
 
 }  // namespace hogel

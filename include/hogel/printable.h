@@ -8,9 +8,9 @@
 
 namespace hogel {
 
-/// Text of strangers, from metadata and names of files, as one line of a terminal. Letters of UTF-8 stay. White space
-/// becomes a blank; every other control character, marks that change the direction of writing, and bytes that are no
-/// UTF-8 become '?'. Of more than 400 letters the first and the last 200 stay, with "..." between them.
+/// Returns untrusted text, such as metadata or a file name, as one line that is safe to print on a terminal. Valid
+/// UTF-8 letters stay. White space becomes a blank. Other control characters, marks of writing direction and invalid
+/// UTF-8 bytes become '?'. Text above 400 letters is cut to its first and last 200, with "..." between them.
 HOGEL_API std::string printable(std::string_view text);
 
 }  // namespace hogel

@@ -12,21 +12,20 @@
 
 namespace hogel {
 
-/// Reports the progress of long work to a caller and lets the caller stop it: the last argument of every function that
-/// may take long. Both ways to stop end the work with Error(cancelled). A stop request to the token takes effect within
-/// a second, because every parallel loop checks the token; a callback can stop the work by returning false, but only
-/// when it is called.
+/// Reports the progress of long work and lets the caller stop it. It is the last argument of every function that can
+/// take long. A stop request through the token takes effect within a second, because every parallel loop checks the
+/// token. A callback can stop the work by returning false, but only when it is called. Both cause Error(cancelled).
 class Progress {
   public:
-    /// Receives the fraction done, 0 to 1, on one thread at a time. Returns false to stop the work.
+    /// Receives the completed fraction, 0 to 1, on one thread at a time. Returns false to stop the work.
     using Callback = std::function<bool(double fraction)>;
 
-    /// No callback and no way to stop.
+    /// No callback, and no way to stop.
     Progress() = default;
-    /// Stops when a stop is requested from the token's source, on any thread; calls the callback if there is one.
+    /// Stops when the token's source requests a stop, from any thread; calls the callback if there is one.
     explicit Progress(std::stop_token stop, Callback callback = {})
         : stop_(std::move(stop)), callback_(std::move(callback)) {}
-    /// From a callback alone, which returns either nothing or whether to continue.
+    /// Takes a callback that returns nothing, or whether to continue.
     template <std::invocable<double> F>
     requires(!std::same_as<std::remove_cvref_t<F>, Progress>) Progress(F callback)
         : callback_([f = std::move(callback)](double fraction) {
@@ -38,24 +37,24 @@ class Progress {
               }
           }) {}
 
-    /// Whether there is a callback or a token through which a stop can be requested.
+    /// Returns whether there is a callback, or a token that can request a stop.
     explicit operator bool() const { return stop_.stop_possible() || callback_; }
     const std::stop_token& stop() const { return stop_; }
 
     /// Calls the callback and returns whether to continue.
     bool operator()(double fraction) const { return !stop_.stop_requested() && (!callback_ || callback_(fraction)); }
-    /// Calls the callback and throws Error(cancelled) if the work is to stop.
+    /// Calls the callback, and throws Error(cancelled) if the work must stop.
     void report(double fraction) const {
         if (!(*this)(fraction)) throw Error(ErrorCode::cancelled, "stopped on request");
     }
-    /// The progress of a part of the work: its fractions 0 to 1 are fractions `begin` to `end` of the whole.
+    /// Returns the progress of a part of the work: its fractions 0 to 1 become `begin` to `end`.
     Progress part(double begin, double end) const {
         if (!callback_) return Progress(stop_);
         return Progress(stop_, [callback = callback_, begin, end](double fraction) {
             return callback(begin + (end - begin) * fraction);
         });
     }
-    /// The progress of part number i (from 0) of n equal parts.
+    /// Returns the progress of part i (from 0) of n equal parts.
     Progress part(std::size_t i, std::size_t n) const {
         return part(static_cast<double>(i) / static_cast<double>(n),
                     static_cast<double>(i + 1) / static_cast<double>(n));
@@ -66,8 +65,9 @@ class Progress {
     Callback callback_;
 };
 
-/// While this object exists, functions without a Progress that this thread calls, such as write_image(), end with
-/// Error(cancelled) when a stop is requested from the progress's token. It must be destroyed by the same thread.
+/// Makes functions without a Progress argument, such as write_image(), stoppable on this thread while the object
+/// exists. They throw Error(cancelled) after a stop request through the token of `progress`. Destroy it on the same
+/// thread.
 class HOGEL_API Stoppable {
   public:
     explicit Stoppable(const Progress& progress);

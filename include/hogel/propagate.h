@@ -16,53 +16,52 @@ namespace hogel {
 
 /// Options of propagate().
 struct PropagateOptions {
-    std::size_t look = 0;                  ///< the look of the field to propagate
-    ScratchOptions scratch{SIZE_MAX, {}};  ///< for work arrays; by default they are in memory
-    /// The samples of the result: any number, any pitch, any centre, in the coordinates of the field. By default those
-    /// of the field.
+    std::size_t look = 0;                  ///< look of the field to propagate
+    ScratchOptions scratch{SIZE_MAX, {}};  ///< for work arrays; default: in memory
+    /// Samples of the result: any number, pitch and centre, in the field's coordinates. Default: those of the field.
     std::optional<Grid> output = {};
-    /// The largest relative root mean square error to accept, of the predicted error and of that which the field's own
-    /// light at grazing directions makes. Work that would exceed it is refused.
+    /// Largest accepted relative RMS error, for the predicted error and for the error due to light at grazing
+    /// directions. propagate() refuses work with a larger error.
     double max_error = 1e-3;
 };
 
-/// How propagate() will compute a field.
+/// The method and cost of propagate() for a field.
 struct PropagationMethod {
-    /// "identity": the distance is 0 and the output has the field's samples. "fft" or "chirp-z": the angular spectrum,
-    /// with the frequencies' steps of a Fourier transform of padded samples, or with steps and output samples that are
-    /// free of each other.
+    /// "identity": the distance is 0 and the output has the field's samples. "fft" or "chirp-z": angular spectrum.
+    /// "fft" has the frequency steps of a Fourier transform of padded samples; "chirp-z" has free steps and output
+    /// samples.
     std::string_view name;
     double fresnel_number = 0;  ///< (half the field's longer side)²/(λ distance); infinite at distance 0
-    double error = 0;           ///< predicted relative root mean square error of noise over the output's samples
-    std::size_t frequencies_x = 0, frequencies_y = 0;  ///< that are evaluated for a tile of the output, at the most
-    std::size_t tiles_x = 1, tiles_y = 1;  ///< of the output, each propagated on its own; the field is read for each
-    double bytes = 0;                      ///< of the work array; more than the scratch options' memory lies in a file
-    double operations = 0;                 ///< floating-point operations, for estimates of time
+    double error = 0;           ///< predicted relative RMS error of noise over the output's samples
+    std::size_t frequencies_x = 0, frequencies_y = 0;  ///< largest number of frequencies per output tile
+    std::size_t tiles_x = 1, tiles_y = 1;  ///< output tiles; each is propagated separately and reads the full field
+    double bytes = 0;                      ///< size of the work array; above ScratchOptions::memory it is in a file
+    double operations = 0;                 ///< floating-point operations, for time estimates
 };
 
-/// The method for a field of this grid. Throws Error(usage) for a distance that is not finite, an invalid output grid
-/// and a predicted error above options.max_error.
+/// Selects the method for a field of this grid. Throws Error(usage) if the distance is not finite, the output grid is
+/// invalid, or the predicted error exceeds options.max_error.
 HOGEL_API PropagationMethod propagation_method(const FieldGrid& field, double distance,
                                                const PropagateOptions& options = {});
 
-/// Propagates a field to a parallel plane, `distance` metres farther along +z (backwards if negative): the field at
-/// the samples of options.output, completely in memory. The samples are read as a field without frequencies beyond
-/// half a cycle per pitch (docs/notation.md, section 5), whose plane waves each gain e^{2πi f_z z} ([K] 6.1.1). That is
-/// exact; steps and range of the frequencies follow from the field, the output and √(λ distance), so that near and far
-/// planes are equally accurate. Evanescent waves decay forwards and are dropped backwards.
-/// Throws Error(usage) as propagation_method() does, for work arrays that do not fit, and for a field with so much
-/// light at grazing directions that the error would exceed options.max_error. Samples beside the cone of light that the
-/// field's samples can send are 0; an output that lies wholly beside it is refused.
+/// Propagates a field to a parallel plane, `distance` metres along +z (negative: backwards). Returns the field on the
+/// samples of options.output, in memory. The samples represent a field without frequencies above half a cycle per pitch
+/// (docs/notation.md, section 5). Each of its plane waves is multiplied by e^{2πi f_z z}, which is exact ([K] 6.1.1).
+/// Frequency range and steps follow from the field, the output and √(λ distance), so near and far planes are equally
+/// accurate. Evanescent waves decay forwards and are dropped backwards. Output samples outside the cone of light that
+/// the field's samples can emit are 0.
+///
+/// Throws Error(usage) as propagation_method() does, for work arrays that do not fit into memory, for an output wholly
+/// outside the cone of light, and if light at grazing directions would cause an error above options.max_error.
 HOGEL_API Field propagate(const FieldSource& field, double distance, const PropagateOptions& options = {},
                           const Progress& progress = {});
 
-/// As above, but writes the propagated field to a sink of the output's grid, which need not be in memory, and calls
-/// finish(). What the sink has already of an interrupted run is not computed again.
+/// Propagates a field as above into a sink of the output's grid, which need not be in memory, and calls finish(). Skips
+/// regions for which FieldSink::has_already() is true.
 HOGEL_API void propagate(const FieldSource& field, double distance, FieldSink& sink,
                          const PropagateOptions& options = {}, const Progress& progress = {});
 
-/// Resources to propagate fields one after the other and write them to a file. Throws Error(usage) as
-/// propagation_method() does.
+/// Estimates the resources to propagate fields in succession and write them to a file. Throws as propagation_method().
 HOGEL_API Plan plan_propagation(std::span<const FieldGrid> fields, double distance,
                                 const PropagateOptions& options = {});
 

@@ -24,14 +24,14 @@
 
 namespace hogel {
 
-// The options that the command line, Python and the viewer share. Each struct holds the values of one group. declare()
-// adds a row for each to a table, which the struct must outlive. A function of the struct makes the library's request.
-// resolve() stores the values that the work chose, and decides which options act: files store these.
+// Options that the command line, Python and the viewer share. Each struct has the values of one group. declare() adds a
+// row per option to a table, which the struct must outlive. A function of the struct returns the library's request.
+// resolve() stores the values selected by the work, and decides which options have an effect; files store these.
 
-/// A directional light, "X,Y,Z:COLOUR:STRENGTH": the direction towards it, its colour (default: white) and its
+/// Parses a directional light, "X,Y,Z:COLOUR:STRENGTH": the direction towards it, its colour (default: white) and its
 /// irradiance. Throws Error(usage).
 HOGEL_API Light parse_light(const std::string& text);
-/// The text of a light for parse_light(). Empty for a point light, a cone, or a light without shadows.
+/// Returns the text of a light for parse_light(). Empty for a point light, a cone, or a light without shadows.
 HOGEL_API std::string light_text(const Light& light);
 
 /// Pose, colours and lights of a scene.
@@ -41,9 +41,9 @@ struct HOGEL_API SceneParameters {
     std::string texture;    ///< file name of a picture
     double point_size = 1;  ///< 1: discs that just close the surface
 
-    /// The pose with its lights and its picture. Throws Error(usage) for a malformed light, and what read_image()
-    /// throws.
+    /// Returns the pose with its lights and picture. Throws Error(usage) for a malformed light, and as read_image().
     ScenePose complete_pose() const;
+    /// Stores the facts of the loaded scene.
     /// @param is_from_file  false for a built-in scene
     void resolve(const Scene& loaded, bool is_from_file);
     void declare(Parameters& parameters);
@@ -63,7 +63,7 @@ struct HOGEL_API ImportParameters {
     Counts counts;  ///< views across and down; 0: as recognised
     Counts middle;  ///< views to import, in the middle of the set; 0: all
 
-    /// Throws Error(usage).
+    /// Returns the options of import_views(). Throws Error(usage).
     ViewImportOptions options() const;
     /// Stores the recognised layout, transfer curve and width.
     void resolve(const ImportedViews& imported);
@@ -79,7 +79,7 @@ struct HOGEL_API ExportParameters {
     double frame_rate = 24;  ///< frames per second
     bool is_film = false;
 
-    /// Throws Error(usage).
+    /// Returns the options of export_views(). Throws Error(usage).
     ViewExportOptions options() const;
     /// Derives values from the name of the output: the layout unless it is given, the picture format of a quilt, and
     /// the pictures of a film. Throws Error(usage) for an unknown layout.
@@ -134,23 +134,23 @@ struct HOGEL_API LightFieldParameters {
     // Set by resolve().
     bool is_rendered = false, has_shadow_maps = false, is_lit_by_samples = false;
 
-    /// The grid of the front face. Throws Error(usage).
+    /// Returns the grid of the front face. Throws Error(usage).
     LightFieldGrid grid() const;
-    /// The request without the pose of the scene. Throws Error(usage).
+    /// Returns the request without the pose of the scene. Throws Error(usage).
     LightFieldRequest request() const;
-    /// The request with the pose, for load_scene(). Throws Error(usage), and what read_image() throws.
+    /// Returns the request with the pose, for load_scene(). Throws Error(usage), and as read_image() does.
     LightFieldRequest scene_request() const;
-    /// The request with the shading model that `auto` selects for a scene.
+    /// Returns the request with the shading model that `auto` selects for a scene.
     LightFieldRequest request(const Scene& loaded) const;
     /// Stores the shading of a placed scene, and the facts of its lighting.
     void resolve(const Scene& placed);
     void resolve(const ShadedScene& lit);
 
-    /// The options of the scene and of the light field, except those of the next two functions.
+    /// Declares the options of the scene and of the light field, except those of the next two functions.
     void declare(Parameters& parameters);
-    /// --hemicube, for commands that use all faces.
+    /// Declares --hemicube, for commands that use all faces.
     void declare_hemicube(Parameters& parameters);
-    /// --focal-plane, --frequencies and --interpolate, for commands that write light fields.
+    /// Declares --focal-plane, --frequencies and --interpolate, for commands that write light fields.
     void declare_directions(Parameters& parameters);
 };
 
@@ -170,7 +170,7 @@ struct HOGEL_API CompressionParameters {
     double tone_decades = defaults.tone_decades;
     Counts tile;  ///< hogels; 0: the coder's preferred tile
 
-    /// Options without metadata. Throws Error(usage).
+    /// Returns the options without metadata. Throws Error(usage).
     CompressionOptions options(const LightField& light_field) const;
     /// Stores the defaults that the coder selects. options() must not throw.
     void resolve(const LightField& light_field);
@@ -182,23 +182,24 @@ struct HOGEL_API CompressionParameters {
 
 /// The pattern of a spatial light modulator.
 struct HOGEL_API PatternParameters {
-    std::string encoding = "auto";     ///< a name of encodings(), or auto: selected for the fields
-    PatternOptions pattern;            ///< except encoding, modulator and phase code
-    std::string device;                ///< a name of modulators() in either case; empty: the next three values
-    Counts pixels;                     ///< across and down
-    double pixel_pitch = 0;            ///< metres
-    std::size_t levels = 256;          ///< per pixel
+    std::string encoding = "auto";  ///< name of a row of encodings(), or auto: selected for the fields
+    PatternOptions pattern;         ///< except encoding, modulator and phase code
+    std::string device;        ///< name of a row of modulators(), in upper or lower case; empty: the next three values
+    Counts pixels;             ///< across and down
+    double pixel_pitch = 0;    ///< metres
+    std::size_t levels = 256;  ///< per pixel
     std::string phase_code = "hogel";  ///< for parse_phase_code()
 
-    /// The named or described modulator. Throws Error(usage).
+    /// Returns the named or described modulator. Throws Error(usage).
     Modulator modulator() const;
-    /// Options with modulator and phase code, and with the encoding unless it is auto. Throws Error(usage).
+    /// Returns the options with modulator and phase code, and with the encoding unless it is auto. Throws Error(usage).
     PatternOptions options() const;
-    /// Encodes the field of each wavelength. Throws what options() and encode_pattern() throw.
+    /// Encodes the field of each wavelength. Throws as options() and encode_pattern() do.
     SuitablePatterns encode(const Fields& fields, const Progress& progress = {}) const;
     /// Stores the selected encoding, and the device's name as modulators() spells it.
     void resolve(Encoding chosen);
-    /// Metadata of a pattern file: results of each wavelength, such as "efficiency at 532 nm", and field_entries().
+    /// Returns metadata of a pattern file: results of each wavelength, such as "efficiency at 532 nm", and
+    /// field_entries().
     Metadata metadata(const SuitablePatterns& encoded, const Fields& fields) const;
     void declare(Parameters& parameters);
 };
@@ -206,7 +207,7 @@ struct HOGEL_API PatternParameters {
 /// Baking of the lighting into the vertices of a scene.
 struct HOGEL_API BakeParameters {
     BakeOptions options{.rays = defaults.bake_rays, .bounces = defaults.bake_bounces};  ///< except `seed`
-    LightFieldParameters place;                                                         ///< only `size` and `scene` act
+    LightFieldParameters place;  ///< only `size` and `scene` have an effect
 
     void declare(Parameters& parameters);
 };
@@ -218,28 +219,29 @@ struct HOGEL_API HologramParameters {
     std::vector<double> wavelengths{defaults.red, defaults.green, defaults.blue};  ///< metres
     double pitch = defaults.pitch;                                                 ///< of the samples, metres
     bool pitch_given = false;        ///< false: request(faces, …) may select a smaller pitch
-    std::string method = "fourier";  ///< a name of hologram_methods()
+    std::string method = "fourier";  ///< name of a row of hologram_methods()
     std::string phase;               ///< empty: the default of the method
     std::string average = "radiance";
-    std::string basis;                     ///< empty: that of the light field's coefficients, or else cdf97
-    double tolerance = 0;                  ///< share of a hogel's amplitude
+    std::string basis;                     ///< empty: that of the light field's coefficients, else cdf97
+    double tolerance = 0;                  ///< fraction of a hogel's amplitude
     double spacing = defaults.spacing;     ///< of points on surfaces, metres
     std::size_t planes = defaults.planes;  ///< depth planes
-    double lines = 0;                      ///< pitch of the lines of the method lines, metres; 0: that of the samples
+    double lines = 0;  ///< distance of lines, metres, for the method lines; 0: the pitch of the samples
 
     HologramMethod hologram_method() const;
     HologramRequest request(std::uint64_t seed, std::size_t looks) const;
-    /// The request for a light field of these faces. Unless the pitch is given, it is diffracting_pitch().
+    /// Returns the request for a light field with these faces. Unless the pitch is given, it is diffracting_pitch().
     HologramRequest request(std::span<const LightFieldGrid> faces, std::uint64_t seed, std::size_t looks) const;
-    /// A line about a selected pitch; empty if the request has the given or the default pitch.
+    /// Returns a line about a selected pitch; empty if the request has the given or the default pitch.
     std::string note_about_pitch(const HologramRequest& request) const;
-    /// The request of a method without a light field. The hologram has the size of `place`. Throws Error(usage).
+    /// Returns the request of a method without a light field. The hologram has the size of `place`. Throws
+    /// Error(usage).
     SceneHologramRequest scene_request(std::uint64_t seed, const LightFieldParameters& place) const;
 
     void declare(Parameters& parameters);
-    /// Only --pitch.
+    /// Declares only --pitch.
     Parameter& declare_pitch(Parameters& parameters);
-    /// As declare(), and the options of methods without a light field.
+    /// Declares the options of declare(), and those of methods without a light field.
     void declare_with_scene_methods(Parameters& parameters);
 
     // Set by resolve().
@@ -255,20 +257,19 @@ struct HOGEL_API HologramParameters {
     void resolve(const SceneHologramMethod& method);
 };
 
-/// require_holograms(), with errors that name options of the light field only if it is rendered, not read from a file.
+/// Calls require_holograms(). Errors name options of the light field only if it is `rendered`, not read from a file.
 HOGEL_API void check_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request, bool rendered,
                                std::span<const Camera> cameras = {});
 
-/// The result of FieldParameters::open(). A note says where an option overrides the file, or which diffraction order
-/// was selected.
+/// The result of FieldParameters::open(). Notes list overridden values and the selected order.
 struct OpenedFields {
     Fields fields;
     std::vector<std::string> notes;
 };
 
-/// A field of another program, and the reconstruction of an image from any hologram.
+/// A field of another program, and reconstruction of an image from any hologram.
 struct HOGEL_API FieldParameters {
-    std::string code_option = "--phase-code";  ///< its option, if the command uses that name for something else
+    std::string code_option = "--phase-code";  ///< option name, if --phase-code has another meaning
     double pitch = 0;                          ///< metres
     std::vector<double> wavelengths;           ///< metres
     std::string values, phase_code, imaginary, phases, zero = "median", variable;
@@ -281,26 +282,26 @@ struct HOGEL_API FieldParameters {
 
     bool is_opened = false;  ///< whether a field of another program is open; set by open()
 
-    /// The options that describe the file.
-    /// @param sampling  with --pitch and --wavelength; false if the command declares them, and sets them here
+    /// Declares the options that describe the file.
+    /// @param sampling  whether to declare --pitch and --wavelength; false: the command declares and sets them
     /// @param brief     short help, for commands that refer to `photo`
     void declare(Parameters& parameters, bool sampling = true, bool brief = false);
-    /// The options of the diffraction order, the reference wave and the lens.
+    /// Declares the options of the diffraction order, the reference wave and the lens.
     void declare_reconstruction(Parameters& parameters);
 
-    /// Whether a file is a field of another program: an array, a pattern, or a picture that options describe.
+    /// Returns whether a file is a field of another program: an array, a pattern, or a picture that options describe.
     bool is_external(const std::string& name) const;
-    /// Whether a file is a picture that describes its own field, and no option describes it.
+    /// Returns whether a file is a picture that describes its own field, and no option describes it.
     bool is_pattern(const std::string& name) const;
     /// Throws Error(usage) for a picture that neither its metadata nor an option describes.
     void require_described(const std::string& name) const;
-    /// The description of the file, without its sampling. Throws Error(usage).
+    /// Returns the description of the file, without its sampling. Throws Error(usage).
     ExternalField external_field() const;
 
-    /// Opens a hologram or a field of another program. Stores the values that the file contains.
+    /// Opens a hologram or a field of another program, and stores the values in the file. Throws Error(usage) if
+    /// neither the file nor an option gives the sampling, and if an option describes a hologram; Error(bad_input) for
+    /// other files; and as open_hologram() and open_external_field() do.
     /// @param table  options of the command, with --pitch and --wavelength
-    /// Throws Error(usage) if neither the file nor an option gives the sampling, and if an option describes a hologram;
-    /// Error(bad_input) for other files; and what open_hologram() and open_external_field() throw.
     OpenedFields open(const std::string& name, const Parameters& table);
     /// Opens the fields, selects the diffraction order, and computes the image behind the lens.
     OpenedFields open_and_reconstruct(const std::string& name, const Parameters& table, const Progress& progress = {});
@@ -318,13 +319,13 @@ struct HOGEL_API PropagateParameters {
     bool is_picture = false;  ///< whether the output is a picture
 
     void declare(Parameters& parameters);
-    /// Options for a field on this grid.
+    /// Returns the options for a field on this grid.
     PropagateOptions options(const Grid& field) const;
     /// Stores pitch and number of samples of the output.
     void resolve(const Grid& output);
 };
 
-/// A camera, and its motion from the first picture of a film to the last. Lengths are metres, angles radians.
+/// A camera, and its motion from the first to the last picture of a film. Lengths are in metres, angles in radians.
 struct HOGEL_API CameraParameters {
     Vec3 eye{0, 0, defaults.eye_distance}, gaze;
     double focus = 0;  ///< depth
@@ -340,15 +341,15 @@ struct HOGEL_API CameraParameters {
     double frame_rate = defaults.frame_rate;  ///< frames per second
     bool is_film = false;                     ///< whether the output is a film
 
-    /// The camera of each picture of a hologram of this size. Throws Error(usage).
+    /// Returns the camera of each picture of a hologram of this size (metres). Throws Error(usage).
     std::vector<Camera> cameras(double width, double height) const;
-    /// The options of one camera.
+    /// Declares the options of one camera.
     void declare(Parameters& parameters);
-    /// --to-eye, --to-focus, --frames and --frame-rate.
+    /// Declares --to-eye, --to-focus, --frames and --frame-rate.
     void declare_motion(Parameters& parameters);
 };
 
-/// The data that a photograph is computed from.
+/// Source of a photograph.
 enum class PhotographSource {
     rays,     ///< rays of a light field
     hogels,   ///< hogels of a hologram that is computed on demand
@@ -359,7 +360,7 @@ enum class PhotographSource {
 struct HOGEL_API WaveCameraParameters {
     /// auto, eye (hogel-spectra), narrow (samples) or full (plane-waves).
     std::string camera = "auto";
-    std::string looks = {};  ///< a number; empty: enough_looks(); "expected": as speckle = "none"
+    std::string looks = {};  ///< number of looks; empty: enough_looks(); "expected": as speckle = "none"
     /// averaged: over the looks; none: speckle-free, the mean over infinitely many looks.
     std::string speckle = "averaged";
     bool preview = false;
@@ -367,30 +368,30 @@ struct HOGEL_API WaveCameraParameters {
     std::string diffuser = "none";
 
     bool is_speckle_free() const { return speckle == "none" || looks == "expected"; }
-    /// HologramRequest::looks: 0 if empty, 1 if speckle-free. Throws Error(usage).
+    /// Returns HologramRequest::looks: 0 if empty, 1 if speckle-free. Throws Error(usage).
     std::size_t number_of_looks() const;
     CameraModel model() const;
 
     PhotographSource source = PhotographSource::hogels;  ///< set by resolve()
     bool has_looks = true;                               ///< whether looks differ
 
-    /// Throws Error(usage) for options that the source, or each other, exclude.
+    /// Throws Error(usage) for options that the source or other options exclude.
     void resolve(PhotographSource photographed);
     /// Stores the camera selected for holograms of a light field with these faces, and returns the reason. Throws
     /// Error(usage) if the given camera cannot photograph them.
     std::string resolve(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                         std::span<const Camera> cameras);
 
-    /// Only --camera.
-    /// @param with_plane_waves  with the value full
+    /// Declares only --camera.
+    /// @param with_plane_waves  whether to include the value full
     Parameter& declare_camera(Parameters& parameters, bool with_plane_waves);
-    /// Only --looks.
+    /// Declares only --looks.
     /// @param names  "--looks", with aliases
     /// @param help   its first line
     Parameter& declare_looks(Parameters& parameters, const std::string& names, const std::string& help);
-    /// Only --speckle.
+    /// Declares only --speckle.
     Parameter& declare_speckle(Parameters& parameters);
-    /// --camera, --preview, --film-distance and --diffuser.
+    /// Declares --camera, --preview, --film-distance and --diffuser.
     void declare(Parameters& parameters);
 
   private:
@@ -409,7 +410,7 @@ struct HOGEL_API PhotoParameters {
 
     bool is_linear = false;  ///< whether the file stores linear values, without an exposure
 
-    /// Throws Error(usage) for options that the source, or each other, exclude.
+    /// Throws Error(usage) for options that the source or other options exclude.
     void resolve(PhotographSource photographed);
     void declare(Parameters& parameters);
 };
@@ -424,13 +425,13 @@ struct HOGEL_API MakeParameters {
     std::size_t resolution = defaults.resolution;
     std::size_t pupil_samples = defaults.pupil_samples;
 
-    /// The output whose options act; `report` stands for all of them.
+    /// The output that selects the options with an effect; `report` selects the options of all outputs.
     enum class Output { light_field, hologram, photographs, speckle_free_photographs, ray_photographs, report };
     Output made = Output::report;
     bool is_one_of(const std::vector<Output>& outputs) const;
 
     MakeRequest request(std::uint64_t seed) const;
-    /// @param with_plane_waves  with the value full of --camera
+    /// @param with_plane_waves  whether to include the value full of --camera
     void declare(Parameters& parameters, bool with_plane_waves = false);
 };
 
@@ -438,20 +439,20 @@ struct HOGEL_API MakeParameters {
 struct HOGEL_API ViewerParameters {
     std::string input;
     std::string host = "127.0.0.1";
-    std::uint64_t port = 0;  ///< 0: one that is free
-    std::string token;       ///< empty: none, for a loopback address
+    std::uint64_t port = 0;  ///< 0: a free port
+    std::string token;       ///< empty: no token, for a loopback address
     bool no_browser = false;
     double memory = 4;  ///< GB for the samples of the light field
     std::size_t looks = defaults.looks;
     std::size_t layers = 0;  ///< decoded layers of a .hgl stream; 0: all
-    std::string original;    ///< reference light field of the shown errors; empty: the whole stream
+    std::string original;    ///< reference light field of displayed errors; empty: the complete stream
     LightFieldParameters render;
     HologramParameters hologram;
     FieldParameters field;
 
     void declare(Parameters& parameters);
-    /// The file or scene to open: the input, or the light field in a folder of `hogel make`. Throws Error(usage) and
-    /// Error(bad_input) for other inputs, and Error(usage) for a host or token that is not allowed.
+    /// Returns the file or scene to open: the input, or the light field in a folder of `hogel make`. Throws
+    /// Error(usage) and Error(bad_input) for other inputs, and Error(usage) for a host or token that is not allowed.
     std::string viewable() const;
 };
 

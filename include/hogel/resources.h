@@ -9,7 +9,7 @@
 
 namespace hogel {
 
-/// While this object exists, the parallel loops of the whole process use at most this number of threads; 0: no limit.
+/// Limits the number of threads of all parallel loops in this process while the object exists. 0: no limit.
 class HOGEL_API ThreadLimit {
   public:
     explicit ThreadLimit(std::size_t threads);
@@ -22,25 +22,25 @@ class HOGEL_API ThreadLimit {
     std::unique_ptr<Limit> limit_;
 };
 
-/// The number of threads that parallel loops use at present: all of the machine, or fewer under a ThreadLimit.
+/// Returns the number of threads of parallel loops: all of the machine, or fewer under a ThreadLimit.
 HOGEL_API std::size_t thread_count();
 
-/// Sets how many bytes of large arrays are kept when they are freed, for later ones, because the system clears every
-/// new page; 1 GiB unless set. Arrays in use and memory that is kept are together never more than was in use before. A
-/// program that ends after its work may keep all of it; one that lives long gives back the rest at once.
+/// Sets the number of bytes of freed large arrays that are kept for reuse; 1 GiB by default. Reuse saves time because
+/// the system clears every new page. Memory in use and kept memory together never exceed the earlier peak of memory in
+/// use. A program that exits after its work can keep all of it; a long-lived program should keep little.
 HOGEL_API void set_max_kept_memory(std::size_t bytes);
 
-/// Where to keep large arrays that may not fit into memory.
+/// Memory limit and folder for large work arrays.
 struct ScratchOptions {
-    std::size_t memory = std::size_t{2} << 30;  ///< an array of more bytes than this is kept in a file
-    std::filesystem::path folder;  ///< of that file; if empty, an array that needs a file throws Error(usage)
+    std::size_t memory = std::size_t{2} << 30;  ///< bytes; a larger array is stored in a file
+    std::filesystem::path folder;  ///< folder of that file; empty: an array that needs a file throws Error(usage)
 };
 
-/// Estimated resources of work.
+/// Estimated resources of an operation.
 struct Plan {
-    double memory = 0;   ///< maximum of bytes held at any time
-    double disk = 0;     ///< bytes of the output files
-    double seconds = 0;  ///< wall time on thread_count() threads; 0 where there is no estimate
+    double memory = 0;   ///< peak memory, bytes
+    double disk = 0;     ///< size of the output files, bytes
+    double seconds = 0;  ///< wall time on thread_count() threads; 0: no estimate
 };
 
 }  // namespace hogel

@@ -15,28 +15,27 @@ namespace work {
 class ResultLog;
 }
 
-/// While this object exists, what takes long is kept in a file too as soon as it is made: the results of tiles that
-/// compress() and the narrow camera of photograph() merge in order, the photographs of one colour by other cameras,
-/// those by rays, and patterns of encode_patterns(). The same work, done again with the same file after it was
-/// interrupted, takes from it what was made and goes on: the outcome has the same bytes. In a team the first process
-/// has the file, and the number of processes may be another each time. HDF5 files have journals of their own instead
+/// Stores results in a checkpoint file while the object exists, so that interrupted work can be continued. Stored are
+/// the results of tiles that compress() and photograph() with BandSource::samples merge in order, each colour's
+/// photograph by other camera models, photographs by rays, and the patterns of encode_patterns(). The same work,
+/// repeated with the same file, continues with the stored results and gives the same bytes. The root rank owns the
+/// file; the number of ranks may change between runs. HDF5 files have journals of their own instead
 /// (LightFieldFileOptions::resume).
 class HOGEL_API ResumeScope {
   public:
+    /// Opens or creates the checkpoint file. Throws Error(usage) if the file belongs to other work, with the first
+    /// difference, or if another scope exists; Error(bad_input) if it is not a checkpoint file; Error(cannot_write) if
+    /// it cannot be opened or another process is writing to it.
     /// @param work  lines that identify the work by its options and inputs
-    ///              Throws Error(usage), with the first difference, if the file was begun by other work or another
-    ///              scope exists; Error(bad_input) if it is no such file; Error(cannot_write) if it cannot be opened or
-    ///              another process is writing to it.
     ResumeScope(const std::filesystem::path& file, const std::vector<std::string>& work);
-    /// The file stays, for the next time, unless complete() was called or nothing was kept.
+    /// Keeps the file for the next run, unless complete() was called or nothing was stored.
     ~ResumeScope();
     ResumeScope(const ResumeScope&) = delete;
     ResumeScope& operator=(const ResumeScope&) = delete;
 
-    /// Does a piece of work whose results are in files of their own, unless it was done the last time. All processes of
-    /// a team call it.
+    /// Runs a step whose results are in files of their own, unless an earlier run has completed it. All ranks call it.
     void once(const std::function<void()>& work);
-    /// The work is complete: the file is removed.
+    /// Removes the file, because the work is complete.
     void complete();
 
   private:
