@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene, its light field, its hologram in three colours, and what an eye in front of the hologram sees.
+// Renders a scene as a light field, makes its hologram in three colours, and photographs it from the axis.
 #include "hogel/hogel.h"
 
 using namespace hogel;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mesh made by a program, lit by a lamp, and a camera that looks at its hologram from the side, focused behind it.
+// Makes a lit mesh and photographs its hologram from the side, focused behind the hologram plane.
 #include <cstdio>
 
 #include "hogel/hogel.h"
@@ -7,7 +7,7 @@
 using namespace hogel;
 using namespace hogel::literals;
 
-// An upright square, facing the viewer, at a depth behind the hologram.
+// Returns an upright square that faces the viewer, `depth` metres behind the hologram.
 Mesh square(double side, double depth, Rgb color) {
     const double a = side / 2;
     Mesh mesh;
@@ -35,9 +35,9 @@ int main() {
     camera.eye = {12_mm, 5_mm, 300_mm};
     camera.focus_depth = 5_mm;  // on the large square
     camera.pupil = 5_mm;
-    const Image seen = photograph_colours(holograms, camera);
-    const Image expected = photograph(light_field, camera);  // by rays: what it should look like
-    const double exposure = automatic_exposure(expected);
-    write_image("squares.png", seen, exposure);
-    std::printf("PSNR %.1f dB against geometric optics\n", compare(expected, seen, exposure).psnr);
+    const Image photo = photograph_colours(holograms, camera);
+    const Image reference = photograph(light_field, camera);  // by rays
+    const double exposure = automatic_exposure(reference);
+    write_image("squares.png", photo, exposure);
+    std::printf("PSNR %.1f dB against geometric optics\n", compare(reference, photo, exposure).psnr);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light field compressed to a quality, and one hogel of it decoded without the rest.
+// Compresses a light field to a given quality, and decodes a single hogel of it.
 #include <cstdio>
 
 #include "hogel/hogel.h"
@@ -19,7 +19,7 @@ int main() {
                 result.sqnr, result.pixels_per_bit);
 
     const LightField decoded = open_stream("pumpkin.hgl");
-    LightFieldTile hogel(decoded.grid(), {24, 24, 1, 1}, false);  // the one in the middle
+    LightFieldTile hogel(decoded.grid(), {24, 24, 1, 1}, false);  // the hogel in the middle
     decoded.front().read(hogel);
     std::printf("its middle ray has radiance %.4f %.4f %.4f\n", double(hogel.radiance(0, 0, 0, 16, 16)),
                 double(hogel.radiance(1, 0, 0, 16, 16)), double(hogel.radiance(2, 0, 0, 16, 16)));

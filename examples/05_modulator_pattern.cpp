@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hologram for a phase-only light modulator: the field of a light field, encoded as the modulator's levels.
+// Encodes the hologram of a light field as the drive levels of a phase-only modulator.
 #include <cstdio>
 
 #include "hogel/hogel.h"
@@ -8,8 +8,8 @@ using namespace hogel;
 using namespace hogel::literals;
 
 int main() {
-    Modulator modulator = modulators().find("leto");  // a name in the table; or fill in a Modulator
-    modulator.width = 480;                            // a part of it, to save time
+    Modulator modulator = modulators().find("leto");  // or define a Modulator
+    modulator.width = 480;                            // use a part of it, to save time
     modulator.height = 270;
 
     LightFieldRequest request;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A field that another program computed, here a zone plate in a NumPy file, photographed as any hologram.
+// Opens a field of another program, here a zone plate in a NumPy file, and photographs it.
 #include <cmath>
 #include <complex>
 #include <cstdio>
@@ -11,7 +11,7 @@ using namespace hogel;
 using namespace hogel::literals;
 
 int main() {
-    // Writes what another program might have: a spherical wave that converges 20 mm in front of its plane.
+    // Stands in for the other program: writes a spherical wave that converges 20 mm in front of its plane.
     constexpr std::size_t n = 1024;
     constexpr double pitch = 4e-6, wavelength = 532e-9, distance = 20e-3;
     Array<std::complex<float>, 2> samples({n, n});
@@ -23,7 +23,7 @@ int main() {
         }
     write_npy("zone_plate.npy", samples);
 
-    ExternalField field;  // a file of numbers does not say how it is sampled
+    ExternalField field;  // a NumPy file does not contain the sampling
     field.pitch_x = field.pitch_y = pitch;
     field.wavelength = wavelength;
     const auto hologram = open_external_field("zone_plate.npy", field);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A renderer of one's own, added to the table of renderers, where the pipeline finds it by name.
+// Defines a renderer and adds it to the table of renderers, so that the pipeline finds it by name.
 #include <cstdio>
 #include <memory>
 
@@ -8,7 +8,7 @@
 using namespace hogel;
 using namespace hogel::literals;
 
-// Shows the depth of the first triangle on each ray. For simplicity it tests all triangles one after the other.
+// Renders the depth of the first triangle on each ray as brightness. For simplicity it tests every triangle.
 class DepthRenderer final : public LightFieldSource {
   public:
     DepthRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
@@ -28,7 +28,7 @@ class DepthRenderer final : public LightFieldSource {
     }
 
   private:
-    // The smallest ζ at which the ray x = s + Uζ, y = t + Vζ meets a triangle; infinity if it meets none.
+    // Returns the smallest ζ at which the ray x = s + Uζ, y = t + Vζ meets a triangle; infinity if it meets none.
     double first_depth(double s, double t, double U, double V) const {
         double first = std::numeric_limits<double>::infinity();
         for (const ShadedScene::Triangle& triangle : scene_->triangles) {
@@ -52,7 +52,7 @@ class DepthRenderer final : public LightFieldSource {
 int main() {
     RendererInfo info;
     info.name = "depth";
-    info.text = "how deep the first triangle lies";
+    info.text = "depth of the first triangle on each ray";
     info.make = [](std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid) {
         return std::make_unique<DepthRenderer>(std::move(scene), grid);
     };
