@@ -13,42 +13,42 @@
 
 namespace hogel::work {
 
-/// What a piece of work has done: a key that identifies the item, and the item's result, if the checkpoint keeps it.
+/// A finished item of work: the key that identifies the item, and its result if the checkpoint keeps results.
 ///
-/// A file of records: a line `hogel checkpoint 1`, the lines of the work, each after `work `, a line `records`, and for
-/// each record, in little-endian numbers of 8 bytes, the checksum of what follows, the length of the key and of the
-/// bytes, the key, and the bytes.
+/// A checkpoint file holds a line `hogel checkpoint 1`, lines that describe the work, each after `work `, a line
+/// `records`, and the records. A record consists of the checksum of the rest, the number of key values, the number of
+/// result bytes, the key, and the result bytes. All numbers are little-endian, 8 bytes.
 struct CheckpointRecord {
     std::vector<std::uint64_t> key;
     std::string bytes;
 
-    /// As in the file.
+    /// Returns the record as stored in the file.
     std::string encoded() const;
 };
 
-/// What precedes the bytes of a record in the file.
+/// Returns the head of a record in the file: everything before the result bytes.
 std::string checkpoint_record_head(const std::vector<std::uint64_t>& key, std::string_view bytes);
-/// The length of that for a key of so many numbers.
+/// Returns the size in bytes of the head of a record with a key of `numbers` values.
 constexpr std::size_t checkpoint_record_head_bytes(std::size_t numbers) {
     return (3 + numbers) * sizeof(std::uint64_t);
 }
 
-/// What precedes the records of a file.
+/// Returns the part of a file before its records.
 /// @param work  lines that identify the work by its options and inputs
 std::string checkpoint_header(const std::vector<std::string>& work);
 
-/// Reads a file of records and changes nothing.
+/// Read-only access to a checkpoint file.
 class CheckpointReader {
   public:
-    /// @param kind  names such files in error messages
-    /// Throws Error(bad_input) if it is no such file.
+    /// Throws Error(bad_input) if the file is not a checkpoint file.
+    /// @param kind  noun for such files in error messages
     CheckpointReader(const std::filesystem::path& path, std::string_view kind);
 
     const std::vector<std::string>& work() const { return work_; }
-    /// The next record; none at the end of the file. Throws Error(bad_input) if it is damaged, incomplete, or has more
-    /// than `max_bytes` bytes.
+    /// Returns the next record, or nothing at the end of the file. Throws Error(bad_input) if the record is damaged,
+    /// incomplete, or longer than `max_bytes` bytes.
     std::optional<CheckpointRecord> read(std::uint64_t max_bytes = std::numeric_limits<std::uint64_t>::max());
-    /// Where the next record begins.
+    /// Returns the offset of the next record, bytes.
     std::uint64_t place() const { return next_; }
     std::uint64_t size() const { return file_.size(); }
     const std::filesystem::path& name() const { return file_.name(); }
@@ -59,20 +59,20 @@ class CheckpointReader {
     std::uint64_t next_ = 0;
 };
 
-/// A file of records of long work that can be interrupted and resumed. The first record that is damaged or incomplete
-/// ends the file, so that it never lists an item that is not done.
+/// Records of interruptible work. The first damaged or incomplete record ends the file: it never lists an unfinished
+/// item.
 class CheckpointFile {
   public:
-    /// Opens or creates the file, and locks it. An empty path keeps nothing.
-    /// @param work  as of checkpoint_header()
-    /// Throws Error(usage), with the first difference, if the file belongs to other work; Error(bad_input) if it is no
-    /// such file; Error(cannot_write) if it cannot be opened or another process is writing to it.
+    /// Opens or creates the file, and locks it. With an empty path nothing is stored. Throws Error(usage), with the
+    /// first difference, if the file belongs to other work; Error(bad_input) if it is not a checkpoint file;
+    /// Error(cannot_write) if it cannot be opened or another process writes to it.
+    /// @param work  as for checkpoint_header()
     CheckpointFile(const std::filesystem::path& path, const std::vector<std::string>& work);
 
-    /// The next record of earlier runs; none at the end. With `key` a record of another one is removed, with all that
-    /// follow.
+    /// Returns the next record of earlier runs, or nothing at the end. If `key` is given and differs from the record's
+    /// key, removes this record and all later ones.
     std::optional<CheckpointRecord> read(const std::vector<std::uint64_t>* key = nullptr);
-    /// Appends encoded records after the last one that was read; those that follow it are removed.
+    /// Appends encoded records after the last record read. Removes unread records.
     void append(std::string_view records);
     /// Removes all records.
     void clear();
@@ -82,11 +82,11 @@ class CheckpointFile {
 
   private:
     void check_work(const std::vector<std::string>& work);
-    void end_at(std::uint64_t place);
+    void truncate(std::uint64_t offset);
 
     std::optional<core::RawFile> file_;
-    std::uint64_t first_ = 0, next_ = 0;  // places of the first record, and of the next one
-    bool at_end_ = true;                  // nothing is left to be read
+    std::uint64_t first_ = 0, next_ = 0;  // offsets of the first and of the next record, bytes
+    bool at_end_ = true;                  // no record is left to read
 };
 
 }  // namespace hogel::work

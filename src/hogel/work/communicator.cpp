@@ -14,17 +14,17 @@ std::atomic<Communicator*> current_communicator = nullptr;
 
 }  // namespace
 
-std::string Communicator::share(const std::string& of_first) {
+std::string Communicator::share(const std::string& root_value) {
     meet();
     if (!is_root()) return receive_from(0);
-    for (std::size_t process = 1; process < size(); ++process) send_to(process, of_first);
-    return of_first;
+    for (std::size_t rank = 1; rank < size(); ++rank) send_to(rank, root_value);
+    return root_value;
 }
 
 CommunicatorScope::CommunicatorScope(Communicator& communicator) {
-    Communicator* none = nullptr;
-    if (!current_communicator.compare_exchange_strong(none, &communicator))
-        throw Error(ErrorCode::usage, "this process is one of a team already");
+    Communicator* expected = nullptr;
+    if (!current_communicator.compare_exchange_strong(expected, &communicator))
+        throw Error(ErrorCode::usage, "this process already has a communicator; only one can be active");
 }
 
 CommunicatorScope::~CommunicatorScope() { current_communicator = nullptr; }

@@ -9,10 +9,11 @@ namespace hogel::work {
 
 class ResultLog;
 
-/// Who does a job: one process of a team, or all of them together.
+/// Ranks that execute a job: one rank, or all ranks of the communicator together.
 enum class DoneBy { one_rank, all_ranks };
 
-/// While this object exists, a job is done: it sees no team, unless the whole team does it, and keeps nothing itself.
+/// Scope of one job. Hides the communicator unless all ranks execute the job, and disables checkpointing inside the
+/// job.
 class JobScope {
   public:
     explicit JobScope(DoneBy by = DoneBy::one_rank);

@@ -8,12 +8,12 @@
 namespace hogel::work {
 namespace {
 
-// The time between writes, which is the maximum of work that is lost when the machine stops.
+// Time between writes: at most this much work is lost if the machine stops.
 constexpr std::chrono::seconds between_writes{20};
 
 }  // namespace
 
-// The first record, without numbers, says that the file of samples is laid out.
+// The first record, with an empty key, means that the file of samples has been created.
 Journal::Journal(const std::filesystem::path& path, const std::vector<std::string>& work, std::function<void()> flush)
     : file_(std::in_place, path, work), flush_(std::move(flush)) {
     std::optional<CheckpointRecord> record = file_->read();
@@ -29,7 +29,7 @@ Journal::~Journal() {
     try {
         write();
     } catch (const Error&) {
-        // Ignored: parts that are not recorded will only be done again.
+        // Ignored: a run that resumes computes unrecorded parts again.
     }
 }
 

@@ -18,8 +18,8 @@
 
 namespace hogel::work {
 
-/// A thread-safe cache of results by key, which keeps the results used last. The first thread that asks for a result
-/// computes it; other threads that ask for the same result wait.
+/// Thread-safe cache that keeps the most recently used results. The first thread that requests a result computes it;
+/// other threads that request the same result wait for it.
 template <class Key, class Result>
 class LruCache {
   public:
@@ -28,20 +28,20 @@ class LruCache {
 
     std::size_t capacity() const { return capacity_; }
 
-    /// The cached result of that key, or else the result of make(), which returns std::shared_ptr<const Result>. An
-    /// exception of make() reaches all threads that wait for this result, and the next call makes it again. If the
-    /// thread that makes the result is stopped, a waiting thread that is not stopped makes it itself.
+    /// Returns the cached result of a key, or computes it with make(), which returns std::shared_ptr<const Result>. An
+    /// exception of make() reaches all waiting threads; the next call computes the result again. If the computing
+    /// thread is stopped, a waiting thread that is not stopped computes the result.
     template <class Make>
     std::shared_ptr<const Result> get(const Key& key, const Make& make) {
         for (;;) {
             Promise promise;
-            const auto [result, own] = look_up(key, promise);
-            if (own) return keep_promise(promise, *own, make);
+            const auto [result, new_entry] = look_up(key, promise);
+            if (new_entry) return keep_promise(promise, *new_entry, make);
             if (std::shared_ptr<const Result> made = wait(result)) return made;
         }
     }
 
-    /// Keeps nothing any longer. Results that are being made reach those that wait for them.
+    /// Removes all entries. Threads that wait for a pending result still receive it.
     void clear() {
         const std::lock_guard lock(mutex_);
         entries_.clear();
@@ -57,8 +57,8 @@ class LruCache {
         Future result;
     };
 
-    // The future of a result that exists or is being made; otherwise that of `promise`, with the number of its new
-    // entry.
+    // Returns the future of an existing or pending result. Otherwise adds an entry for `promise`, and returns its
+    // future and number.
     std::pair<Future, std::optional<std::uint64_t>> look_up(const Key& key, Promise& promise) {
         const std::lock_guard lock(mutex_);
         const auto found = std::ranges::find(entries_, key, &Entry::key);
@@ -75,7 +75,7 @@ class LruCache {
     std::shared_ptr<const Result> keep_promise(Promise& promise, std::uint64_t number, const Make& make) {
         try {
             std::shared_ptr<const Result> result;
-            // While it waits inside make(), this thread must not start other tasks, which may wait for this result.
+            // This thread must not execute other tasks while it waits inside make(): they may wait for this result.
             isolate([&] { result = make(); });
             promise.set_value(result);
             return result;
@@ -98,7 +98,7 @@ class LruCache {
         std::erase_if(entries_, [&](const Entry& entry) { return entry.number == number; });
     }
 
-    // Waits for a result. Returns null if the thread that makes it was stopped but this one was not.
+    // Waits for a result. Returns null if the computing thread was stopped but this thread was not.
     static std::shared_ptr<const Result> wait(const Future& future) {
         while (future.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) core::throw_if_stopped();
         std::shared_ptr<const Result> result = future.get();

@@ -14,11 +14,12 @@
 
 namespace hogel::work {
 
-/// What goes with a message on its way is added at its end, where large ones have room, and taken from there. A message
-/// that is too short has the number 0.
+/// Appends a number to a message. Trailing numbers carry the message's index and flags; long messages have room for
+/// them.
 inline void append_number(std::string& bytes, std::uint64_t number) {
     bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
 }
+/// Removes the last number of a message and returns it; returns 0 if the message is too short.
 inline std::uint64_t take_last_number(std::string& bytes) {
     std::uint64_t number = 0;
     if (bytes.size() < sizeof number) return number;
@@ -27,7 +28,7 @@ inline std::uint64_t take_last_number(std::string& bytes) {
     return number;
 }
 
-/// Writes values one after the other into a message between processes of a team, which run the same program.
+/// Serialises values into a message to another rank. All ranks run the same program.
 class MessageWriter {
   public:
     template <class Value>
@@ -44,7 +45,7 @@ class MessageWriter {
         put(array.data(), array.size());
     }
     std::string take() { return std::move(bytes_); }
-    /// Makes room at once for so many bytes, and for what is added on the way.
+    /// Reserves memory for `bytes` bytes and for the numbers that append_number() adds.
     void reserve(std::size_t bytes) { bytes_.reserve(bytes + 64); }
 
   private:
@@ -57,7 +58,7 @@ class MessageWriter {
     std::string bytes_;
 };
 
-/// Reads them in the same order. Throws Error(internal) for a message that is shorter.
+/// Reads the values of a MessageWriter in the same order. Throws Error(internal) if the message is too short.
 class MessageReader {
   public:
     explicit MessageReader(std::string_view bytes) : bytes_(bytes) {}
@@ -87,7 +88,7 @@ class MessageReader {
   private:
     void require(std::size_t count, std::size_t size) const {
         if (count > bytes_.size() / size)
-            throw Error(ErrorCode::internal, "a message from another process is shorter than it says");
+            throw Error(ErrorCode::internal, "a message from another rank is shorter than its header says");
     }
     template <class Value>
     void get(Value* values, std::size_t count) {

@@ -15,17 +15,17 @@
 namespace hogel::work {
 namespace {
 
-// How often the first process looks whether to stop while it waits for results of others.
+// Interval at which the root checks for a stop request while it waits for results of other ranks.
 constexpr std::chrono::milliseconds between_looks{20};
 
 }  // namespace
 
-// Processes ask for several tiles at once, because a request takes a tenth of the time of a small tile.
+// A rank holds several tiles, because a request takes a tenth of the time of a small tile.
 std::size_t tiles_in_flight(std::size_t in_flight) { return 4 * in_flight; }
 
 namespace {
 
-// Results that wait for their turn in the first process, and the thread that merges them.
+// Queue of results on the root, and the thread that merges them in order.
 class Merger {
   public:
     Merger(Communicator& communicator, std::uint64_t queue, std::size_t n,
@@ -57,10 +57,10 @@ class Merger {
         changed_.notify_all();
     }
 
-    // Threads that wait for tiles go on, although results are missing: a process has failed.
+    // Releases threads that wait for tiles although results are missing: a rank has failed.
     void open() { communicator_.pass(queue_, n_); }
 
-    // Throws what merging has thrown.
+    // Rethrows an exception of the merge.
     void check() {
         const std::lock_guard lock(mutex_);
         if (failure_) std::rethrow_exception(failure_);
@@ -80,7 +80,7 @@ class Merger {
   private:
     void end() {
         const std::lock_guard lock(mutex_);
-        over_ = true;
+        closed_ = true;
         changed_.notify_all();
     }
 
@@ -88,8 +88,8 @@ class Merger {
         try {
             for (std::size_t i = 0; i < n_; ++i) {
                 std::unique_lock lock(mutex_);
-                changed_.wait(lock, [&] { return over_ || results_.contains(i); });
-                if (over_) return;
+                changed_.wait(lock, [&] { return closed_ || results_.contains(i); });
+                if (closed_) return;
                 const std::string bytes = std::move(results_.extract(i).mapped());
                 lock.unlock();
                 merge_(i, bytes);
@@ -114,10 +114,10 @@ class Merger {
     const std::function<void(std::size_t, std::string_view)>& merge_;
     std::mutex mutex_;
     std::condition_variable changed_;
-    std::map<std::size_t, std::string> parts_;  // of results whose last part has not come
+    std::map<std::size_t, std::string> parts_;  // received parts of incomplete results
     std::map<std::size_t, std::string> results_;
     std::size_t merged_ = 0;
-    bool over_ = false;
+    bool closed_ = false;
     std::exception_ptr failure_;
     std::jthread thread_;
 };
@@ -126,7 +126,7 @@ class Merger {
 
 namespace {
 
-// Sends the result i to the first process.
+// Sends result i to the root.
 void send_result(Communicator& communicator, std::uint64_t channel, std::size_t i, std::string bytes,
                  std::size_t max_message) {
     const auto send = [&](std::string part, bool is_last) {
@@ -145,43 +145,43 @@ void ordered_reduce_in_ranks(Communicator& communicator, std::size_t n, std::siz
                              const std::function<std::string(std::size_t)>& body,
                              const std::function<void(std::size_t, std::string_view)>& merge, std::size_t max_message) {
     const bool one_by_one = in_flight == 1;
-    const std::uint64_t number = communicator.next_number();
-    const std::uint64_t ahead = one_by_one ? n : tiles_in_flight(in_flight) * communicator.size();
+    const std::uint64_t queue = communicator.next_number();
+    const std::uint64_t window = one_by_one ? n : tiles_in_flight(in_flight) * communicator.size();
     std::optional<Merger> merger;
-    if (communicator.is_root()) merger.emplace(communicator, number, n, merge);
-    const auto turn = [&](std::size_t) {
+    if (communicator.is_root()) merger.emplace(communicator, queue, n, merge);
+    const auto compute_next = [&](std::size_t) {
         if (merger) merger->check();
-        const std::optional<std::uint64_t> i = communicator.next_tile(number, n, ahead);
+        const std::optional<std::uint64_t> i = communicator.next_tile(queue, n, window);
         if (!i) return;
         try {
             std::string bytes = body(*i);
             merger ? merger->put(*i, std::move(bytes))
-                   : send_result(communicator, number, *i, std::move(bytes), max_message);
+                   : send_result(communicator, queue, *i, std::move(bytes), max_message);
         } catch (...) {
-            merger ? merger->open() : communicator.send(number, "");
+            merger ? merger->open() : communicator.send(queue, "");
             throw;
         }
     };
     if (one_by_one)
-        for (std::size_t i = 0; i < n; ++i) turn(i);
+        for (std::size_t i = 0; i < n; ++i) compute_next(i);
     else
-        parallel_for(n, turn);
+        parallel_for(n, compute_next);
     if (merger) merger->finish();
 }
 
 void ordered_reduce_bytes(std::size_t n, std::size_t in_flight, const std::function<std::string(std::size_t)>& body,
                           const std::function<void(std::size_t, std::string_view)>& merge, DoneBy by) {
-    Communicator* const all = communicator_of_several();
+    Communicator* const current = communicator_of_several();
     ResultLog* const log = result_log();
     std::size_t kept = log != nullptr ? log->begin(n, merge) : 0;
-    if (log != nullptr && all != nullptr) kept = all->sum(kept);  // which only the first one knows
+    if (log != nullptr && current != nullptr) kept = current->sum(kept);  // only the root knows the number
     const auto rest = [&](std::size_t i) { return body(kept + i); };
     const auto merge_rest = [&](std::size_t i, std::string_view bytes) {
         merge(kept + i, bytes);
         if (log != nullptr) log->keep(bytes);
     };
-    if (all != nullptr && by == DoneBy::one_rank)
-        return ordered_reduce_in_ranks(*all, n - kept, in_flight, rest, merge_rest);
+    if (current != nullptr && by == DoneBy::one_rank)
+        return ordered_reduce_in_ranks(*current, n - kept, in_flight, rest, merge_rest);
     if (in_flight > 1)
         return local_ordered_reduce<std::string>(
             n - kept, in_flight, rest, [&](std::size_t i, const std::string& bytes) { merge_rest(i, bytes); });

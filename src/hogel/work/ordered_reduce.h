@@ -15,18 +15,18 @@
 
 namespace hogel::work {
 
-/// The team of this process, or null if no other process is in it, so that there is nobody to share work with.
+/// Returns the communicator of this process, or null if it has only one rank.
 inline Communicator* communicator_of_several() {
-    Communicator* const all = communicator();
-    return all != nullptr && all->size() > 1 ? all : nullptr;
+    Communicator* const current = communicator();
+    return current != nullptr && current->size() > 1 ? current : nullptr;
 }
 
-/// Whether loops send their results to other processes, or keep them in a file.
+/// Returns whether loops send their results to other ranks or keep them in a file.
 inline bool is_shared_or_kept(DoneBy by = DoneBy::one_rank) {
     return (by == DoneBy::one_rank && communicator_of_several() != nullptr) || result_log() != nullptr;
 }
 
-/// How results travel between the processes of a team.
+/// Serialisation of results between ranks.
 template <class Result>
 struct Sent {
     std::function<void(MessageWriter& message, const Result& result)> write =
@@ -40,29 +40,28 @@ Sent<std::vector<Value>> sent_vector() {
             [](MessageReader& from) { return from.get_vector<Value>(); }};
 }
 
-/// ordered_reduce() in a team, for results as bytes.
-/// @param in_flight  as of local_ordered_reduce(); in a team tiles_in_flight() of each process, on the average, are
-/// alive,
-///                   results in the first one. 1: each process computes one result at a time, on the calling thread
-/// @param max_message  bytes; longer results are sent in parts
+/// ordered_reduce() over the ranks of a communicator, for results as bytes.
+/// @param in_flight    as for local_ordered_reduce(); on average tiles_in_flight() results per rank are alive, on the
+///                     root. 1: each rank computes one result at a time, on the calling thread
+/// @param max_message  bytes; longer results are sent in several messages
 void ordered_reduce_in_ranks(Communicator& communicator, std::size_t n, std::size_t in_flight,
                              const std::function<std::string(std::size_t)>& body,
                              const std::function<void(std::size_t, std::string_view)>& merge,
                              std::size_t max_message = std::size_t{1} << 30);
 
-/// ordered_reduce() for results as bytes, alone or in a team: those that are kept in a file are taken from it.
+/// ordered_reduce() for results as bytes, with or without a communicator. Takes results of earlier runs from the log.
 void ordered_reduce_bytes(std::size_t n, std::size_t in_flight, const std::function<std::string(std::size_t)>& body,
                           const std::function<void(std::size_t, std::string_view)>& merge, DoneBy by);
 
-/// How many tiles of each process of a team are alive on the average.
-/// @param in_flight  as of local_ordered_reduce()
+/// Returns the average number of tiles per rank that are alive.
+/// @param in_flight  as for local_ordered_reduce()
 std::size_t tiles_in_flight(std::size_t in_flight);
 
-/// As local_ordered_reduce(), but where this process is one of a team, each computes the results that are handed to it,
-/// and the first merges all of them, on a thread of its own while it computes others. So a sum over tiles is the same
-/// for any number of processes. All call it in the same order, never from bodies of loops; those that are not the first
-/// return without having merged anything, and may be ahead of it. Within a ResumeScope what is merged is kept in a
-/// file, and not computed again the next time.
+/// local_ordered_reduce() over all ranks: the ranks share the computation, and the root merges all results in order, on
+/// a separate thread while it computes further results. A sum over tiles is therefore the same for any number of ranks.
+/// All ranks must call it in the same order, and never from loop bodies. Other ranks than the root merge nothing and
+/// may return before the root. Within a ResumeScope merged results are kept in a file and not computed again in the
+/// next run.
 /// @param by  as for shared_jobs()
 template <class Result>
 void ordered_reduce(std::size_t n, std::size_t in_flight, const Sent<Result>& sent,
@@ -84,10 +83,10 @@ void ordered_reduce(std::size_t n, std::size_t in_flight, const Sent<Result>& se
         by);
 }
 
-/// As ordered_reduce(), for jobs that use all threads of a process, which works on one job at a time, within a
-/// JobScope. Within a ResumeScope jobs are kept as a whole.
-/// @param by  one_rank: jobs are handed to processes, and the first one takes all results. all_ranks: all processes
-///            make each job together and take its result; results that were kept are taken by the first one alone
+/// ordered_reduce() for jobs that use all threads of a process. A process executes one job at a time, within a
+/// JobScope. Within a ResumeScope each job is checkpointed as a whole.
+/// @param by  one_rank: each job runs on one rank, and the root takes all results. all_ranks: all ranks execute each
+///            job together and take its result; only the root takes the results of earlier runs
 template <class Result>
 void shared_jobs(std::size_t n, const Sent<Result>& sent, const std::function<Result(std::size_t)>& job,
                  const std::function<void(std::size_t, Result&)>& take, DoneBy by = DoneBy::one_rank) {
@@ -102,16 +101,16 @@ void shared_jobs(std::size_t n, const Sent<Result>& sent, const std::function<Re
     }
 }
 
-/// Gives all processes of a team what the first one has.
+/// Copies a result of the root to all ranks.
 template <class Result>
 void share_result(Result& result, const Sent<Result>& sent) {
-    Communicator* const all = communicator_of_several();
-    if (all == nullptr) return;
+    Communicator* const current = communicator_of_several();
+    if (current == nullptr) return;
     MessageWriter message;
-    if (all->is_root()) sent.write(message, result);
-    const std::string bytes = all->share(message.take());
+    if (current->is_root()) sent.write(message, result);
+    const std::string bytes = current->share(message.take());
     MessageReader reader(bytes);
-    if (!all->is_root()) result = sent.read(reader);
+    if (!current->is_root()) result = sent.read(reader);
 }
 
 }  // namespace hogel::work

@@ -20,8 +20,8 @@ namespace hogel::work {
 
 #ifdef __SANITIZE_THREAD__
 
-// The distribution's TBB is not instrumented: the thread sanitizer sees neither how work reaches other threads nor how
-// results come back, and reports every loop as a race. Builds with it therefore run loops on plain threads.
+// The distribution's TBB is not instrumented: the thread sanitizer does not see how TBB passes work between threads,
+// and reports every loop as a race. Builds with it therefore run loops on plain threads.
 void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body) {
     std::atomic<std::size_t> next{0};
     std::mutex mutex;
@@ -57,7 +57,7 @@ void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body) {
         body(i);
     };
     tbb::parallel_for(std::size_t{0}, n, run, tbb::simple_partitioner(), context);
-    // If the enclosing loop has failed, TBB skips bodies of this one silently.
+    // TBB silently skips bodies of this loop if the enclosing loop has failed.
     if (context.is_group_execution_cancelled()) throw Error(ErrorCode::cancelled, "stopped on request");
 }
 

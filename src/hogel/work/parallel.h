@@ -10,22 +10,23 @@
 
 namespace hogel::work {
 
-/// Calls body(i) once for every i in [0, n), on as many threads as the process may use. The order is unspecified, so
-/// bodies must not write to the same memory. The first exception thrown by a body is rethrown. Returns only when all
-/// bodies have run; if an enclosing loop has failed elsewhere, it throws Error(cancelled).
+/// Calls body(i) once for every i in [0, n), on all threads of the process. The order is unspecified, and bodies must
+/// not write to the same memory. Rethrows the first exception of a body. Returns after all bodies have run. Throws
+/// Error(cancelled) if an enclosing loop has failed elsewhere.
 void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body);
 
-/// Computes body(i) for every i in [0, n) on all threads and calls merge(i, result) in increasing order of i on the
-/// calling thread, with at most `in_flight` results alive. Thus a sum over tiles is the same for any number of threads.
+/// Computes body(i) for every i in [0, n) on all threads. Calls merge(i, result) in increasing order of i on the
+/// calling thread, with at most `in_flight` results alive. A sum over tiles is therefore the same for any number of
+/// threads.
 template <class Result>
 void local_ordered_reduce(std::size_t n, std::size_t in_flight, const std::function<Result(std::size_t)>& body,
                           const std::function<void(std::size_t, Result&)>& merge);
 
-/// Runs body on this thread; while the thread waits for parallel loops inside body, it executes only their tasks. For
-/// code that holds something, such as a lock or a promise, for which bodies of other loops wait.
+/// Runs `body` on this thread. While the thread waits for parallel loops inside `body`, it executes only their tasks.
+/// Needed for code that holds a lock or a promise for which bodies of other loops wait.
 void isolate(const std::function<void()>& body);
 
-/// The number of results that local_ordered_reduce() keeps alive so that threads seldom wait for the merge.
+/// Returns a number of results in flight for local_ordered_reduce() at which threads seldom wait for the merge.
 inline std::size_t default_in_flight() { return 4 * thread_count(); }
 
 template <class Result>

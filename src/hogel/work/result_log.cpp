@@ -60,7 +60,8 @@ namespace hogel {
 
 ResumeScope::ResumeScope(const std::filesystem::path& file, const std::vector<std::string>& work)
     : log_(std::make_unique<work::ResultLog>(is_root_rank() ? file : std::filesystem::path(), work)) {
-    if (work::result_log() != nullptr) throw Error(ErrorCode::usage, "only one work at a time can be resumed");
+    if (work::result_log() != nullptr)
+        throw Error(ErrorCode::usage, "a ResumeScope exists already; only one can be active at a time");
     work::set_result_log(log_.get());
 }
 

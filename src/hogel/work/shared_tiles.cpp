@@ -18,10 +18,10 @@ void for_each_tile(std::size_t tiles, SharedSink* shared, const Progress& progre
     std::mutex reporting;
     std::size_t done = 0;
     progress.report(0);
-    // With a queue every turn of the loop asks for a tile, so that loops inside the body find the threads as they would
-    // without one; the turns of tiles that other processes have find the queue empty.
-    parallel_for(tiles, [&](std::size_t turn) {
-        const std::optional<std::size_t> tile = queue ? queue->next() : turn;
+    // With a queue every iteration requests a tile: loops inside the body then find the same threads as without one.
+    // Iterations for tiles of other ranks find the queue empty.
+    parallel_for(tiles, [&](std::size_t iteration) {
+        const std::optional<std::size_t> tile = queue ? queue->next() : iteration;
         if (!tile) return;
         body(*tile);
         const std::lock_guard lock(reporting);

@@ -14,14 +14,14 @@
 
 namespace hogel::work {
 
-/// The tiles that a team's queue hands out to this process. Thread-safe.
+/// Tiles that a communicator's queue hands out to this rank. Thread-safe.
 class TileQueue {
   public:
     TileQueue(Communicator& communicator, std::uint64_t queue, std::size_t tiles)
         : communicator_(communicator), queue_(queue), tiles_(tiles) {}
-    /// The next tile, or nothing if all are handed out. Throws Error(cancelled) if another process has failed.
+    /// Returns the next tile, or nothing if no tile is left. Throws Error(cancelled) if another rank has failed.
     std::optional<std::size_t> next();
-    /// The fraction of all tiles that some process has been given, as far as this one knows.
+    /// Returns the fraction of all tiles handed out to any rank, as known to this rank.
     double handed_out() const { return static_cast<double>(last_.load()) / static_cast<double>(tiles_); }
 
   private:
@@ -32,17 +32,17 @@ class TileQueue {
     std::atomic<std::size_t> last_{0};
 };
 
-/// Implemented by a sink that the processes of a team may fill together.
+/// A sink that several ranks can fill together.
 class SharedSink {
   public:
     virtual ~SharedSink() = default;
-    /// The queue of its tiles, or null if this process writes them all. Called once.
+    /// Returns the queue of the tiles, or null if this rank writes all tiles. Called once.
     virtual std::unique_ptr<TileQueue> share_tiles(std::size_t tiles) = 0;
 };
 
-/// Calls body(tile) on all threads for every tile in [0, tiles) or, where a sink is shared, for those that are handed
-/// to this process, and reports progress after each.
-/// @param shared  null if all tiles are this process's
+/// Calls body(tile) for every tile in [0, tiles) on all threads, and reports progress after each. With a shared sink,
+/// handles only the tiles that the queue hands out to this rank.
+/// @param shared  null if this rank handles all tiles
 void for_each_tile(std::size_t tiles, SharedSink* shared, const Progress& progress,
                    const std::function<void(std::size_t tile)>& body);
 

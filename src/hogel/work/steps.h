@@ -8,12 +8,12 @@
 
 namespace hogel::work {
 
-/// The progress of equal steps that several threads do in any order.
+/// Thread-safe progress of equal steps, finished in any order.
 class Steps {
   public:
     Steps(const Progress& progress, std::size_t count) : progress_(progress), count_(count) {}
 
-    /// One more is done.
+    /// Reports that one more step is finished.
     void report_one() {
         const std::lock_guard lock(mutex_);
         progress_.report(static_cast<double>(++done_) / static_cast<double>(count_));
