@@ -28,12 +28,13 @@ void multiply_everywhere(Wave& wave, const Factor& factor) {
     });
 }
 
-// The transmission of an edge that falls from 1 to 0 over one sample, at a point `inside` metres inside of it.
+// Returns the transmission of an edge that falls from 1 to 0 over one sample, at a point `inside` metres inside it.
 double edge(double inside, double pitch) { return std::clamp(inside / pitch + 0.5, 0.0, 1.0); }
 
 void require_opening(double diameter) {
     if (!(std::isfinite(diameter) && diameter > 0))
-        throw Error(ErrorCode::usage, fmt::format("an opening of {} m: it must be positive and finite", diameter));
+        throw Error(ErrorCode::usage,
+                    fmt::format("the diameter of an aperture is {} m, but must be positive and finite", diameter));
 }
 
 }  // namespace
@@ -46,10 +47,10 @@ void circular_aperture(Wave& wave, double center_x, double center_y, double diam
 }
 
 void weigh_alike(Wave& wave, double center_x, double center_y, Vec3 path) {
-    const double middle = dot(path, path);
+    const double centre_square = dot(path, path);
     multiply_everywhere(wave, [&](double x, double y) {
-        const Vec3 way = path - Vec3{x - center_x, y - center_y, 0};
-        return dot(way, way) / middle;
+        const Vec3 to_sample = path - Vec3{x - center_x, y - center_y, 0};
+        return dot(to_sample, to_sample) / centre_square;
     });
 }
 
@@ -64,24 +65,26 @@ void rectangular_aperture(Wave& wave, const Rectangle& opening) {
 void thin_lens(Wave& wave, double center_x, double center_y, double diameter, double focal_length) {
     require_opening(diameter);
     if (!std::isfinite(focal_length) || focal_length == 0)
-        throw Error(ErrorCode::usage, fmt::format("a lens with a focal length of {} m", focal_length));
+        throw Error(ErrorCode::usage,
+                    fmt::format("the focal length of a lens is {} m, but must be finite and not zero", focal_length));
     const double wavelength = wave.grid().wavelength;
     const double pitch = std::max(wave.grid().plane.pitch_x, wave.grid().plane.pitch_y);
-    // At a distance a from the centre the phase has a frequency of a/(λl) cycles per metre; samples can represent half
-    // a cycle per pitch.
-    const double widest = wavelength * std::abs(focal_length) / pitch;
-    if (diameter > widest)
+    // At a distance a from the centre the phase has a frequency of a/(λl) cycles per metre. Samples represent at most
+    // half a cycle per pitch.
+    const double max_diameter = wavelength * std::abs(focal_length) / pitch;
+    if (diameter > max_diameter)
         throw Error(
             ErrorCode::usage,
-            fmt::format("a lens of {} with a focal length of {} is too steep for samples {} apart; a diameter of "
-                        "{} or samples {} apart would do",
-                        format_length(diameter), format_length(std::abs(focal_length)), format_length(pitch),
-                        format_length(widest), format_length(pitch * widest / diameter)));
+            fmt::format(
+                "a lens with a diameter of {} and a focal length of {} is undersampled at a pitch of {}; expected "
+                "a diameter of at most {} or a pitch of at most {}",
+                format_length(diameter), format_length(std::abs(focal_length)), format_length(pitch),
+                format_length(max_diameter), format_length(pitch * max_diameter / diameter)));
     multiply_everywhere(wave, [&](double x, double y) -> std::complex<double> {
         const double square = (x - center_x) * (x - center_x) + (y - center_y) * (y - center_y);
-        const double passes = edge(0.5 * diameter - std::sqrt(square), pitch);
-        if (passes == 0) return 0;
-        return passes * unit_phasor(-square / (2 * focal_length * wavelength));
+        const double transmission = edge(0.5 * diameter - std::sqrt(square), pitch);
+        if (transmission == 0) return 0;
+        return transmission * unit_phasor(-square / (2 * focal_length * wavelength));
     });
 }
 

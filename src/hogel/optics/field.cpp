@@ -17,11 +17,11 @@ namespace hogel {
 namespace {
 
 constexpr std::size_t region_samples = std::size_t{1} << 20;  // 8 MiB
-// Rows that are written together, so that a row of a narrow source is not a region.
+// Minimum number of rows of a region, so that a row of a narrow source is not a region.
 constexpr std::size_t min_rows = 64;
 constexpr std::size_t max_samples = (std::numeric_limits<std::size_t>::max() >> 1) / sizeof(std::complex<float>);
 
-// A longer wavelength was given in other units.
+// A longer wavelength indicates a wrong unit.
 constexpr double max_wavelength = 0.1e-3;
 
 void require_wavelength(double wavelength, ErrorCode code, const std::string& what) {
@@ -36,17 +36,17 @@ void require_wavelength(double wavelength, ErrorCode code, const std::string& wh
                     what, wavelength, format_length(max_wavelength), nanometres, nanometres, nanometres, nanometres));
 }
 
-// The largest multiple of `alignment` up to a number, at least one.
+// Returns the largest multiple of `alignment` up to a number, at least `alignment`.
 std::size_t aligned(std::size_t number, std::size_t alignment) {
     return std::max(number / alignment, std::size_t{1}) * alignment;
 }
 
-// The size of the regions in which a field is copied. Rows that are long in a file are written in a fraction of the
-// time of short ones; but what overlaps is computed least often for a square.
-// @param whole_rows  whether regions must be whole rows
+// Returns the size of the regions in which a field is copied. Long rows in a file are written much faster than short
+// rows; overlapping samples are computed least often for a square.
+// @param whole_rows  regions must be whole rows
 Region copied_region(const FieldSource& source, bool whole_rows) {
-    const std::size_t alignment = source.alignment(), all = source.grid().plane.width;
-    if (whole_rows) return {0, 0, all, aligned(region_samples / all, alignment)};
+    const std::size_t alignment = source.alignment(), width = source.grid().plane.width;
+    if (whole_rows) return {0, 0, width, aligned(region_samples / width, alignment)};
     const std::size_t height =
         aligned(source.overlap() > 0 ? static_cast<std::size_t>(std::sqrt(region_samples)) : min_rows, alignment);
     return {0, 0, aligned(region_samples / height, alignment), height};
@@ -110,20 +110,20 @@ void Field::write(const Region& region, View<const std::complex<float>, 2> value
 void copy(const FieldSource& source, FieldSink& sink, std::size_t look, const Progress& progress) {
     const core::StopScope scope(progress);
     const Grid& plane = source.grid().plane;
-    // Whole rows are contiguous in memory, so regions of whole rows can be read directly into the sink.
-    const View<std::complex<float>, 2> whole = sink.in_memory();
-    const bool in_place = whole.size() > 0;
-    const Region each = copied_region(source, in_place);
-    const std::size_t across = (plane.width + each.width - 1) / each.width,
-                      down = (plane.height + each.height - 1) / each.height;
+    // Whole rows are contiguous in memory: the source can read them directly into the sink.
+    const View<std::complex<float>, 2> destination = sink.in_memory();
+    const bool in_place = destination.size() > 0;
+    const Region tile = copied_region(source, in_place);
+    const std::size_t across = (plane.width + tile.width - 1) / tile.width,
+                      down = (plane.height + tile.height - 1) / tile.height;
     core::ObjectPool<Array<std::complex<float>, 1>> scratch_pool;
     const auto shared = dynamic_cast<work::SharedSink*>(&sink);
     work::for_each_tile(across * down, shared, progress, [&](std::size_t i) {
-        Region region{(i % across) * each.width, (i / across) * each.height, each.width, each.height};
+        Region region{(i % across) * tile.width, (i / across) * tile.height, tile.width, tile.height};
         region.width = std::min(region.width, plane.width - region.x0);
         region.height = std::min(region.height, plane.height - region.y0);
         if (in_place) {
-            source.read(region, look, {&whole(region.y0, 0), {region.height, region.width}});
+            source.read(region, look, {&destination(region.y0, 0), {region.height, region.width}});
         } else if (!sink.has_already(region)) {
             auto scratch = scratch_pool.take();
             if (scratch->size() < region.samples()) *scratch = Array<std::complex<float>, 1>({region.samples()});

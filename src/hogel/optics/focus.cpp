@@ -21,10 +21,10 @@ using namespace optics;
 
 namespace {
 
-// The parts of several fields that are looked at.
+// The parts of several fields as plane waves.
 class Parts {
   public:
-    explicit Parts(std::size_t fields) : of_field_(fields) {}
+    explicit Parts(std::size_t fields) : parts_(fields) {}
 
     void read(std::size_t index, const FieldSource& field, const Region& region, std::size_t max_side) {
         const std::size_t across = (region.width + max_side - 1) / max_side,
@@ -33,54 +33,53 @@ class Parts {
             for (std::size_t i = 0; i < across; ++i) {
                 core::throw_if_stopped();
                 const std::size_t x = region.width * i / across, y = region.height * j / down;
-                of_field_[index].emplace_back(field,
-                                              Region{region.x0 + x, region.y0 + y, region.width * (i + 1) / across - x,
-                                                     region.height * (j + 1) / down - y});
+                parts_[index].emplace_back(field,
+                                           Region{region.x0 + x, region.y0 + y, region.width * (i + 1) / across - x,
+                                                  region.height * (j + 1) / down - y});
             }
     }
 
-    // The parts of a field are one picture, and fields count alike.
+    // Returns the contrasts at a depth: of each field over all its parts, averaged over the fields with equal weights.
     Contrasts at(double depth) const {
         Contrasts mean{};
-        for (const auto& parts : of_field_) {
+        for (const auto& parts : parts_) {
             LightSums sums;
             for (const PlaneWaves& part : parts) {
                 core::throw_if_stopped();
                 sums.add(part.at(depth));
             }
             const Contrasts contrasts = sums.contrasts();
-            for (std::size_t s = 0; s < mean.size(); ++s)
-                mean[s] += contrasts[s] / static_cast<double>(of_field_.size());
+            for (std::size_t s = 0; s < mean.size(); ++s) mean[s] += contrasts[s] / static_cast<double>(parts_.size());
         }
         return mean;
     }
 
-    // Metres to either side that light of its frequencies is in focus: 1/(2λB²).
+    // Returns the depth of focus, metres to either side, for the bandwidth B of a field's light: 1/(2λB²).
     double depth_of_focus(std::size_t index, double wavelength) const {
         double band = 0;
-        for (const PlaneWaves& part : of_field_[index]) band = std::max(band, part.band());
+        for (const PlaneWaves& part : parts_[index]) band = std::max(band, part.band());
         return 1 / (2 * wavelength * band * band);
     }
 
   private:
-    std::vector<std::deque<PlaneWaves>> of_field_;
+    std::vector<std::deque<PlaneWaves>> parts_;
 };
 
-// The middle of the extremum: the mean depth weighted by what exceeds half the prominence. Where few depths do, more
-// are looked at.
+// Returns the centre of an extremum: the mean depth, weighted by the height above half the prominence. Computes more
+// depths if few are in this range.
 double middle_of(const Parts& parts, const FocusSearch& search, const Extremum& extremum) {
-    constexpr std::size_t enough = 12, more = 25;
+    constexpr std::size_t min_depths = 12, refined_depths = 25;
     const std::size_t begin = extremum.begin == 0 ? 0 : extremum.begin - 1,
                       end = std::min(search.depths.size() - 1, extremum.end + 1);
     std::vector<double> depths(search.depths.begin() + static_cast<std::ptrdiff_t>(begin),
                                search.depths.begin() + static_cast<std::ptrdiff_t>(end) + 1);
     std::vector<Contrasts> contrasts(search.contrasts.begin() + static_cast<std::ptrdiff_t>(begin),
                                      search.contrasts.begin() + static_cast<std::ptrdiff_t>(end) + 1);
-    if (depths.size() < enough) {
-        const double low = depths.front(), step = (depths.back() - low) / (more - 1);
-        depths.resize(more);
-        contrasts.resize(more);
-        work::parallel_for(more, [&](std::size_t i) {
+    if (depths.size() < min_depths) {
+        const double low = depths.front(), step = (depths.back() - low) / (refined_depths - 1);
+        depths.resize(refined_depths);
+        contrasts.resize(refined_depths);
+        work::parallel_for(refined_depths, [&](std::size_t i) {
             depths[i] = low + step * static_cast<double>(i);
             contrasts[i] = parts.at(depths[i]);
         });
@@ -99,24 +98,24 @@ double middle_of(const Parts& parts, const FocusSearch& search, const Extremum& 
     return weights > 0 ? sum / weights : search.depths[extremum.index];
 }
 
-// As far as the samples and the size of a field resolve alike.
-double farthest(const FieldGrid& grid) {
+// Returns the depth, metres, at which pitch and size of a field limit the resolution equally.
+double equal_resolution_depth(const FieldGrid& grid) {
     const Grid& plane = grid.plane;
     return std::min(static_cast<double>(plane.width) * plane.pitch_x * plane.pitch_x,
                     static_cast<double>(plane.height) * plane.pitch_y * plane.pitch_y) /
            grid.wavelength;
 }
 
-// Directions beyond 90 degrees carry nothing: samples finer than half a wave resolve no more.
+// Directions beyond 90 degrees carry no light: samples finer than half a wavelength resolve no more.
 double depth_of_focus(const FieldGrid& grid) {
     const double finest = std::max(std::min(grid.plane.pitch_x, grid.plane.pitch_y), grid.wavelength / 2);
     return 2 * finest * finest / grid.wavelength;
 }
 
-// As far as the samples and the size of the fields resolve alike.
-double farthest(const Fields& fields) {
+// Returns the largest such depth of several fields.
+double equal_resolution_depth(const Fields& fields) {
     double depth = 0;
-    for (const auto& field : fields) depth = std::max(depth, farthest(field->grid()));
+    for (const auto& field : fields) depth = std::max(depth, equal_resolution_depth(field->grid()));
     return depth;
 }
 
@@ -128,25 +127,26 @@ struct DepthRange {
 DepthRange range_of(const Fields& fields, const FocusOptions& options, double depth_of_focus) {
     double from = options.from, to = options.to;
     if (!std::isfinite(from) || !std::isfinite(to))
-        throw Error(ErrorCode::usage, "from, to", "the depths to search are not finite");
+        throw Error(ErrorCode::usage, "from, to", "the depths to search must be finite");
     if (from > to) std::swap(from, to);
     if (from == to) {
-        to = farthest(fields);
+        to = equal_resolution_depth(fields);
         from = -to;
     }
-    constexpr std::size_t least = 8, most = 1 << 16;
+    constexpr std::size_t min_planes = 8, max_planes = 1 << 16;
     const double wanted = std::ceil((to - from) / depth_of_focus) + 1;
     const std::size_t count = options.planes > 0
                                   ? options.planes
                                   : std::max<std::size_t>(33, static_cast<std::size_t>(std::min(wanted, 1e9)));
-    if (count < least || count > most)
+    if (count < min_planes || count > max_planes)
         throw Error(ErrorCode::usage, "from, to, planes",
                     fmt::format("{} depths from {} to {} m were asked for; {} to {} are searched", count, from, to,
-                                least, most));
+                                min_planes, max_planes));
     return {from, to, count};
 }
 
-// Searches depths at equal steps. Begins with a search that knows the depths of focus.
+// Searches equidistant depths.
+// @param search  initial result, with the depths of focus
 FocusSearch search_range(const Parts& parts, FocusSearch search, const DepthRange& range, const Progress& progress) {
     search.depths.resize(range.planes);
     search.contrasts.resize(range.planes);
@@ -159,16 +159,16 @@ FocusSearch search_range(const Parts& parts, FocusSearch search, const DepthRang
         const std::lock_guard lock(mutex);
         progress.report(0.95 * static_cast<double>(++done) / static_cast<double>(range.planes));
     });
-    // Planes that stand out much less steeply than the clearest one are ripple and shoulders of its defocus.
-    constexpr double faintest = 0.3;
+    // Planes with a much smaller slope than the clearest plane are ripple and shoulders of its defocus.
+    constexpr double min_relative_slope = 0.3;
     double steepest = 0;
     for (const Extremum& extremum : planes_among(search.contrasts, step / search.depth_of_focus,
                                                  search.light_depth_of_focus / search.depth_of_focus)) {
         const double depth = middle_of(parts, search, extremum);
-        // Nearly all holograms are more even than what they show.
+        // Nearly all holograms are more uniform than the objects that they show.
         if (!extremum.maximum && std::abs(depth) <= 2 * std::max(search.depth_of_focus, step)) continue;
         steepest = std::max(steepest, extremum.slope);
-        if (extremum.slope < faintest * steepest) break;
+        if (extremum.slope < min_relative_slope * steepest) break;
         search.planes.push_back({depth, extremum.prominence, extremum.maximum,
                                  extremum.scale == FocusSearch::edges ? 0 : FocusSearch::cells[extremum.scale]});
     }
@@ -176,23 +176,25 @@ FocusSearch search_range(const Parts& parts, FocusSearch search, const DepthRang
     return search;
 }
 
-double clearest(const FocusSearch& search) { return search.planes.empty() ? 0 : search.planes.front().prominence; }
+double max_prominence(const FocusSearch& search) {
+    return search.planes.empty() ? 0 : search.planes.front().prominence;
+}
 
-// Where nothing stands out as planes in focus do, searches twice as far, and again. At depths beyond those at which
-// samples and size resolve alike, the depth of focus grows with the square of the depth, so that fewer depths will do.
+// Doubles the searched range up to three times until a plane is in focus. Beyond the depth at which pitch and size
+// limit the resolution equally, the depth of focus grows with the square of the depth, so fewer depths suffice.
 FocusSearch search_farther(const Parts& parts, const FocusSearch& start, const DepthRange& range,
                            const Progress& progress) {
-    constexpr std::size_t times = 3, fewest = 33;
-    // Measured on discs, smooth and rough: 2.7 to 4.3 at the right depth, 0.37 or less elsewhere.
-    constexpr double clear = 1, clearer = 2;
-    FocusSearch best = search_range(parts, start, range, progress.part(0, 1 + times));
+    constexpr std::size_t max_doublings = 3, min_planes = 33;
+    // Tuned on discs, smooth and rough: prominence 2.7 to 4.3 at the right depth, 0.37 or less elsewhere.
+    constexpr double min_prominence = 1, min_gain = 2;
+    FocusSearch best = search_range(parts, start, range, progress.part(0, 1 + max_doublings));
     double factor = 1;
-    for (std::size_t i = 1; i <= times && clearest(best) < clear; ++i) {
+    for (std::size_t i = 1; i <= max_doublings && max_prominence(best) < min_prominence; ++i) {
         factor *= 2;
-        const std::size_t planes = std::max(range.planes >> (i - 1), fewest);
-        FocusSearch farther =
-            search_range(parts, start, {factor * range.from, factor * range.to, planes}, progress.part(i, 1 + times));
-        if (clearest(farther) > clearer * clearest(best)) best = std::move(farther);
+        const std::size_t planes = std::max(range.planes >> (i - 1), min_planes);
+        FocusSearch farther = search_range(parts, start, {factor * range.from, factor * range.to, planes},
+                                           progress.part(i, 1 + max_doublings));
+        if (max_prominence(farther) > min_gain * max_prominence(best)) best = std::move(farther);
     }
     progress.report(1);
     return best;
@@ -232,7 +234,7 @@ FocusSearch find_focus(const Fields& fields, const FocusOptions& options, const 
 }
 
 FocusSearch find_focus(const FieldSource& field, const FocusOptions& options, const Progress& progress) {
-    // Without a part in its lifetime.
+    // The pointer does not own the field.
     return find_focus(Fields{std::shared_ptr<const FieldSource>(std::shared_ptr<void>(), &field)}, options, progress);
 }
 

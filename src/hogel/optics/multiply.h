@@ -6,7 +6,7 @@
 
 namespace hogel::optics {
 
-/// out[x] = a[x] · b[x], for every x of `out`. Plain and fast twins agree to rounding.
+/// Computes out[x] = a[x] · b[x] for every x of `out`. The plain and the SIMD version agree to rounding.
 void multiply_plain(const std::complex<float>* a, const std::complex<float>* b, std::span<std::complex<float>> out);
 extern decltype(multiply_plain)& multiply;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twin of multiply.cpp, compiled for every SIMD target and chosen when first called.
+// The SIMD version of multiply.cpp, compiled for every SIMD target.
 #include <cstddef>
 
 #include "hogel/core/simd_targets-inl.h"

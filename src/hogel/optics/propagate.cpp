@@ -13,18 +13,18 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// 1 up to `reach`, 0 from reach + fade on, smooth in between.
-double passes(double distance, double reach, double fade) {
+// Returns the fade-out weight: 1 up to `reach`, 0 beyond reach + fade, smooth in between.
+double fade_weight(double distance, double reach, double fade) {
     if (distance <= reach) return 1;
     if (distance >= reach + fade) return 0;
     const double c = std::cos(0.5 * std::numbers::pi * (distance - reach) / fade);
     return c * c;
 }
 
-// Propagates the directions of one row of a spectrum.
-class RowOfDirections {
+// The directions of one row of a spectrum.
+class DirectionRow {
   public:
-    RowOfDirections(const Spectrum& spectrum, const PropagationOptions& options, double row)
+    DirectionRow(const Spectrum& spectrum, const PropagationOptions& options, double row)
         : spectrum_(spectrum),
           options_(options),
           frequency_(1 / spectrum.wavelength),
@@ -32,14 +32,14 @@ class RowOfDirections {
           reach_x_(options.reach_x > 0 ? options.reach_x : 0.5 * spectrum.window.size_x()),
           reach_y_(options.reach_y > 0 ? options.reach_y : 0.5 * spectrum.window.size_y()) {}
 
-    // The propagation phase of a direction, in cycles.
+    // Returns the propagation phase of a direction, in cycles.
     double cycles(double column) const {
         return along_z(column) * options_.distance + fx(column) * options_.shift_x + fy_ * options_.shift_y;
     }
 
-    // A bound on the deviation of the phase over `count` columns from a parabola through both ends and the middle: the
-    // third derivative, at most 3 z f_x f_z⁻⁵/λ², times 0.065 times the cube of half the range.
-    double bend(double column, double count) const {
+    // Returns a bound on the deviation of the phase over `count` columns from the parabola through both ends and the
+    // middle, in cycles: the third derivative, at most 3 z f_x f_z⁻⁵/λ², times 0.065 times the cube of half the range.
+    double phase_deviation(double column, double count) const {
         const double fz = std::min(along_z(column), along_z(column + count));
         const double steepest = std::max(std::abs(fx(column)), std::abs(fx(column + count)));
         const double half = 0.5 * count / spectrum_.window.size_x();
@@ -47,26 +47,26 @@ class RowOfDirections {
                half;
     }
 
-    // The fraction of a direction's amplitude that is kept.
-    double stays(double column) const {
+    // Returns the fraction of a direction's amplitude that is kept.
+    double kept_fraction(double column) const {
         const double fz = along_z(column);
         if (fz <= 0) return 0;
-        return passes(std::abs(aside_x(column, fz)), reach_x_, options_.fade_x) *
-               passes(std::abs(aside_y(fz)), reach_y_, options_.fade_y);
+        return fade_weight(std::abs(aside_x(column, fz)), reach_x_, options_.fade_x) *
+               fade_weight(std::abs(aside_y(fz)), reach_y_, options_.fade_y);
     }
 
-    // The sideways path of directions is monotonic between two columns on the same side of f_x = 0. So if both ends are
-    // kept, all columns between them are, and if both are dropped on the same side, all are.
-    enum class Stays { whole, partly, lost };
-    Stays between(double first, double last) const {
+    // The sideways path is monotonic between two columns on the same side of f_x = 0. If both ends are kept, all
+    // columns in between are kept; if both are dropped on the same side, all are dropped.
+    enum class Kept { whole, partly, none };
+    Kept between(double first, double last) const {
         const double fz0 = along_z(first), fz1 = along_z(last);
-        if (fx(first) * fx(last) < 0 || fz0 <= 0 || fz1 <= 0) return Stays::partly;
+        if (fx(first) * fx(last) < 0 || fz0 <= 0 || fz1 <= 0) return Kept::partly;
         const auto [left, right] = std::minmax({aside_x(first, fz0), aside_x(last, fz1)});
         const auto [low, high] = std::minmax({aside_y(fz0), aside_y(fz1)});
-        const double lost_x = reach_x_ + options_.fade_x, lost_y = reach_y_ + options_.fade_y;
-        if (left > lost_x || right < -lost_x || low > lost_y || high < -lost_y) return Stays::lost;
+        const double end_x = reach_x_ + options_.fade_x, end_y = reach_y_ + options_.fade_y;
+        if (left > end_x || right < -end_x || low > end_y || high < -end_y) return Kept::none;
         const bool whole = left >= -reach_x_ && right <= reach_x_ && low >= -reach_y_ && high <= reach_y_;
-        return whole ? Stays::whole : Stays::partly;
+        return whole ? Kept::whole : Kept::partly;
     }
 
   private:
@@ -83,34 +83,34 @@ class RowOfDirections {
     double frequency_, fy_, reach_x_, reach_y_;
 };
 
-// Directions are followed from the first one of each stretch: samples that begin at a multiple of it are the same as
-// those of a whole row.
-constexpr std::size_t stretch = 32;
-static_assert(columns_of_waves_together % stretch == 0);
+// Phases are continued from the first direction of each segment. A block of columns that begins at a multiple of the
+// segment therefore gives the same samples as a whole row.
+constexpr std::size_t segment = 32;
+static_assert(spectrum_block_columns % segment == 0);
 
-// The samples of a row from column `first` on.
-void propagate_row(std::span<Complex> samples, std::size_t first, const RowOfDirections& row) {
-    using Stays = RowOfDirections::Stays;
-    constexpr double small = 1e-4;  // cycles
-    for (std::size_t begin = 0; begin < samples.size(); begin += stretch) {
-        const std::size_t count = std::min(stretch, samples.size() - begin);
-        const double at = static_cast<double>(first + begin);
-        const Stays all = row.between(at, at + static_cast<double>(count - 1));
-        if (all == Stays::lost) {
+// Propagates the samples of a row, beginning with column `first`.
+void propagate_row(std::span<Complex> samples, std::size_t first, const DirectionRow& row) {
+    using Kept = DirectionRow::Kept;
+    constexpr double max_deviation = 1e-4;  // cycles
+    for (std::size_t begin = 0; begin < samples.size(); begin += segment) {
+        const std::size_t count = std::min(segment, samples.size() - begin);
+        const double start = static_cast<double>(first + begin);
+        const Kept kept = row.between(start, start + static_cast<double>(count - 1));
+        if (kept == Kept::none) {
             std::ranges::fill(samples.subspan(begin, count), Complex(0));
             continue;
         }
         const auto times_phase = [&](std::size_t i, std::complex<double> phase) {
             Complex& value = samples[begin + i];
-            const double part = all == Stays::whole ? 1 : row.stays(at + static_cast<double>(i));
-            value = part > 0 ? Complex(part * times(std::complex<double>(value), phase)) : 0;
+            const double fraction = kept == Kept::whole ? 1 : row.kept_fraction(start + static_cast<double>(i));
+            value = fraction > 0 ? Complex(fraction * times(std::complex<double>(value), phase)) : 0;
         };
-        if (row.bend(at, stretch) < small) {
+        if (row.phase_deviation(start, segment) < max_deviation) {
             walk_phase(
-                count, [&](double step) { return row.cycles(at + step); }, times_phase);
+                count, [&](double step) { return row.cycles(start + step); }, times_phase);
         } else {
             for (std::size_t i = 0; i < count; ++i)
-                times_phase(i, unit_phasor(row.cycles(at + static_cast<double>(i))));
+                times_phase(i, unit_phasor(row.cycles(start + static_cast<double>(i))));
         }
     }
 }
@@ -118,11 +118,11 @@ void propagate_row(std::span<Complex> samples, std::size_t first, const RowOfDir
 }  // namespace
 
 void propagate(Spectrum& spectrum, const PropagationOptions& options) {
-    const distributed::LineRange own = spectrum.samples.local_columns();
-    work::parallel_for(own.count > 0 ? blocks_of(spectrum.height()) : 0, [&](std::size_t block) {
+    const distributed::LineRange local = spectrum.samples.local_columns();
+    work::parallel_for(local.count > 0 ? blocks_of(spectrum.height()) : 0, [&](std::size_t block) {
         for (std::size_t r = block * block_lines; r < std::min((block + 1) * block_lines, spectrum.height()); ++r)
-            propagate_row({&spectrum.samples.at(r, own.first), own.count}, own.first,
-                          RowOfDirections(spectrum, options, static_cast<double>(r)));
+            propagate_row({&spectrum.samples.at(r, local.first), local.count}, local.first,
+                          DirectionRow(spectrum, options, static_cast<double>(r)));
     });
     spectrum.window.center_x += options.shift_x;
     spectrum.window.center_y += options.shift_y;

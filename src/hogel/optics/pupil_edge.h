@@ -6,47 +6,47 @@
 
 namespace hogel::optics {
 
-/// How far from the image of a point its light is followed, in direction sines. A film of W sines of a wave that is
-/// sampled at frequencies 1/W repeats with the period W, so light must end before it reaches the next copy.
+/// Support of the point spread function on the film, in direction sines. The film of a wave sampled at frequency steps
+/// 1/W is periodic with period W, so the support must end before the next period begins.
 struct SpreadWindow {
-    double flat = 0;  ///< all light is kept up to this distance
-    double stop = 0;  ///< and none from this distance on
-    double spot = 0;  ///< the radius of the image of a point out of focus
+    double flat = 0;  ///< the PSF is kept unchanged up to this distance
+    double stop = 0;  ///< and is zero beyond this distance
+    double spot = 0;  ///< radius of the geometric PSF out of focus
 
-    /// Light is followed across the whole hologram, but no farther than 128 resolution cells from the spot of a point,
-    /// beyond which is 0.16 % of it.
-    /// @param span_x, span_y  sines that the hologram covers
-    /// @param blur            the width of a point out of focus, in sines
-    /// @param cell            λ/A
+    /// The support covers the whole hologram, but at most 128 resolution cells from the rim of the geometric PSF; 0.16
+    /// % of the light falls beyond.
+    /// @param span_x, span_y  extent of the hologram, sines
+    /// @param blur            diameter of the geometric PSF, sines
+    /// @param cell            resolution cell λ/A, sines
     SpreadWindow(double span_x, double span_y, double blur, double cell);
 
-    /// Shrinks the window to stop within `room`.
+    /// Shrinks the support so that it ends within `room` sines.
     void fit(double room);
 };
 
-/// The fraction of the light of a point that falls on a hologram but is not followed by a window, for the middle of the
-/// hologram: beyond m resolution cells from its image falls 2/π²m, the mean of J₀² + J₁² (Rayleigh).
+/// Returns the fraction of a point's light that falls on a hologram but outside the support, for a point at the centre
+/// of the hologram. The fraction beyond m resolution cells is 2/π²m, the mean of J₀² + J₁² (Rayleigh).
 double light_left_out(const SpreadWindow& window, double span_x, double span_y, double cell);
 
-/// The rim of a pupil whose point spread is limited to a SpreadWindow. The transform of (point spread · window) is the
-/// disc convolved with the window's transform; at a rim that is nearly straight over the width of the latter, this is
-/// the integral of the one-dimensional transform of the window, a function of the distance from the rim. The window is
-/// a rectangle convolved with the transform of a Kaiser window, so the rim is exactly zero and one beyond reach().
+/// Edge of a pupil whose PSF is limited to a SpreadWindow. The transform of (PSF · window) is the disc convolved with
+/// the transform of the window. The edge is nearly straight over the width of that transform, so the convolution is the
+/// integral of the one-dimensional transform, a function of the distance from the edge. The window is a rectangle
+/// convolved with the transform of a Kaiser window: the transmission is exactly 0 or 1 beyond reach().
 class PupilEdge {
   public:
     /// @param wavelength  metres
     PupilEdge(const SpreadWindow& window, double wavelength);
 
-    /// The distance from the geometric rim, metres, from which on the transmission is constant.
+    /// Returns the distance from the geometric edge, metres, beyond which the transmission is constant.
     double reach() const { return reach_; }
-    /// The amplitude transmission at a point `inside` metres inside of the rim.
+    /// Returns the amplitude transmission at a point `inside` metres inside the edge.
     double transmission(double inside) const {
-        const double place = (inside + reach_) * scale_;
-        if (place <= 0) return 0;
-        if (place >= static_cast<double>(table_.size() - 1)) return 1;
-        const auto whole = static_cast<std::size_t>(place);
-        const double part = place - static_cast<double>(whole);
-        return table_[whole] + part * (table_[whole + 1] - table_[whole]);
+        const double position = (inside + reach_) * scale_;
+        if (position <= 0) return 0;
+        if (position >= static_cast<double>(table_.size() - 1)) return 1;
+        const auto index = static_cast<std::size_t>(position);
+        const double fraction = position - static_cast<double>(index);
+        return table_[index] + fraction * (table_[index + 1] - table_[index]);
     }
 
   private:

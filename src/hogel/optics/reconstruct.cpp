@@ -18,7 +18,7 @@ namespace {
 using Complex = std::complex<float>;
 using std::numbers::pi;
 
-Field whole(const FieldSource& source) {
+Field read_all(const FieldSource& source) {
     Field field(source.grid());
     const Grid& plane = source.grid().plane;
     source.read({0, 0, plane.width, plane.height}, 0, field.samples);
@@ -35,7 +35,7 @@ double y_of(const Grid& plane, std::size_t row) {
 
 // Multiplies each sample by e^{i phase(x, y)}.
 template <class Phase>
-void turn(Field& field, const Phase& phase) {
+void multiply_phase(Field& field, const Phase& phase) {
     const Grid& plane = field.grid().plane;
     work::parallel_for(plane.height, [&](std::size_t row) {
         const double y = y_of(plane, row);
@@ -52,21 +52,21 @@ void subtract_mean(Array<Complex, 2>& samples) {
     for (Complex& sample : samples.elements()) sample -= Complex(mean);
 }
 
-// Frequencies of a transform along an axis, cycles per sample.
+// Returns the frequency of an index of a transform, cycles per sample.
 double frequency(std::size_t index, std::size_t count) {
-    const auto at = static_cast<double>(index), n = static_cast<double>(count);
-    return (at < n / 2 ? at : at - n) / n;
+    const auto position = static_cast<double>(index), n = static_cast<double>(count);
+    return (position < n / 2 ? position : position - n) / n;
 }
 
 struct Peak {
     double x = 0, y = 0;
 };
 
-// The brightest place of a half of the spectrum, away from zero: of the light in squares of frequencies, so that one
-// bright frequency in noise counts less than an order.
+// Returns the brightest diffraction order in one half of the spectrum, away from zero. Sums the power over cells of
+// frequencies, so that a single bright frequency in noise counts less than an order.
 Peak brightest_order(View<const Complex, 2> spectrum, bool right) {
-    constexpr std::size_t cells = 64;  // across the spectrum
-    constexpr double center = 0.05;    // cycles per sample around zero, which hold the light that is not diffracted
+    constexpr std::size_t cells = 64;           // across the spectrum
+    constexpr double zero_order_radius = 0.05;  // radius of the undiffracted light around zero, cycles per sample
     const std::size_t height = spectrum.extent(0), width = spectrum.extent(1);
     const double sign = right ? 1 : -1;
     Array<double, 2> light({cells, cells});
@@ -76,20 +76,20 @@ Peak brightest_order(View<const Complex, 2> spectrum, bool right) {
     Array<double, 2> sum_x = light, sum_y = light;
     for (std::size_t row = 0; row < height; ++row)
         for (std::size_t column = 0; column < width; ++column) {
-            // The left half is looked at as the right one of the mirrored spectrum, so that real holograms have two
-            // equal orders.
+            // The left half is treated as the right half of the mirrored spectrum: for real holograms both orders are
+            // equal.
             const double fx = sign * frequency(column, width), fy = -sign * frequency(row, height);
             const bool in_half = fx > 0 || (fx == 0 && fy > 0);
-            if (std::hypot(fx, fy) < center || !in_half) continue;
+            if (std::hypot(fx, fy) < zero_order_radius || !in_half) continue;
             const double power = std::norm(spectrum(row, column));
             const std::size_t i = cell_of(fy), j = cell_of(fx);
             light(i, j) += power;
             sum_x(i, j) += power * fx;
             sum_y(i, j) += power * fy;
         }
-    // The mean frequency of the light in the cells around the brightest block of 3 x 3.
+    // Mean frequency of the light in the brightest block of 3 × 3 cells.
     Peak best;
-    double most = -1;
+    double max_power = -1;
     for (std::size_t i = 0; i < cells; ++i)
         for (std::size_t j = 0; j < cells; ++j) {
             double power = 0, x = 0, y = 0;
@@ -99,42 +99,43 @@ Peak brightest_order(View<const Complex, 2> spectrum, bool right) {
                     x += sum_x(k, l);
                     y += sum_y(k, l);
                 }
-            if (power <= most) continue;
-            most = power;
+            if (power <= max_power) continue;
+            max_power = power;
             best = power > 0 ? Peak{sign * x / power, sign * y / power} : Peak{};
         }
     return best;
 }
 
-// 1 inside the opening, falling to 0 over the last tenth of its radius.
-double opening(double distance, double radius) {
+// Returns the transmission of a soft aperture: 1 inside, falling to 0 over the last tenth of the radius.
+double soft_aperture(double distance, double radius) {
     const double inside = (radius - distance) / (0.1 * radius);
     return inside >= 1 ? 1 : inside <= 0 ? 0 : 0.5 - 0.5 * std::cos(pi * inside);
 }
 
-// Moves frequency (fx, fy) to the nearest whole index, which keeps the transform exact.
-void cut_out(Array<Complex, 2>& spectrum, SelectedOrder& order) {
+// Cuts out an order with an aperture and moves it to zero frequency, by a whole number of frequency steps, so that the
+// shift is exact.
+void isolate_order(Array<Complex, 2>& spectrum, SelectedOrder& order) {
     const std::size_t height = spectrum.extent(0), width = spectrum.extent(1);
     const auto shift = [](double f, std::size_t n) {
-        const auto whole = static_cast<std::ptrdiff_t>(std::lround(f * static_cast<double>(n)));
-        return static_cast<std::size_t>(whole + static_cast<std::ptrdiff_t>(2 * n)) % n;
+        const auto steps = static_cast<std::ptrdiff_t>(std::lround(f * static_cast<double>(n)));
+        return static_cast<std::size_t>(steps + static_cast<std::ptrdiff_t>(2 * n)) % n;
     };
-    const std::size_t by_x = shift(order.frequency_x, width), by_y = shift(-order.frequency_y, height);
-    order.frequency_x = frequency(by_x, width);
-    order.frequency_y = -frequency(by_y, height);
+    const std::size_t offset_x = shift(order.frequency_x, width), offset_y = shift(-order.frequency_y, height);
+    order.frequency_x = frequency(offset_x, width);
+    order.frequency_y = -frequency(offset_y, height);
     Array<Complex, 2> moved(spectrum.shape());
     for (std::size_t row = 0; row < height; ++row)
         for (std::size_t column = 0; column < width; ++column) {
             const double f = std::hypot(frequency(column, width), frequency(row, height));
-            const double weight = opening(f, order.radius);
+            const double weight = soft_aperture(f, order.radius);
             if (weight > 0)
-                moved(row, column) = spectrum((row + by_y) % height, (column + by_x) % width) *
+                moved(row, column) = spectrum((row + offset_y) % height, (column + offset_x) % width) *
                                      static_cast<float>(weight / static_cast<double>(width * height));
         }
     spectrum = std::move(moved);
 }
 
-// The transform of one axis is ∫ e^{−2πi x·X/(λ·length)}, where `length` may be negative.
+// Transforms a field along both axes: ∫ e^{−2πi x·X/(λ·length)} dx, where `length` may be negative.
 Field transformed(Field field, double length) {
     const FieldGrid in = field.grid();
     const Grid& plane = in.plane;
@@ -143,30 +144,30 @@ Field transformed(Field field, double length) {
     };
     Field out({{plane.width, plane.height, pitch(plane.width, plane.pitch_x), pitch(plane.height, plane.pitch_y), 0, 0},
                in.wavelength});
-    // Samples lie at (j + ½ − N/2) of both pitches: a transform with ramps before and behind it.
+    // Samples are at (j + ½ − N/2) of both pitches: a transform with phase ramps before and after it.
     const double sign = length > 0 ? -1 : 1;
     const auto ramp = [&](std::size_t i, std::size_t n) {
         return sign * 2 * pi * static_cast<double>(i) * (0.5 - static_cast<double>(n) / 2) / static_cast<double>(n);
     };
-    const auto turn_both = [&](Array<Complex, 2>& samples) {
+    const auto apply_ramps = [&](Array<Complex, 2>& samples) {
         work::parallel_for(plane.height, [&](std::size_t y) {
             for (std::size_t x = 0; x < plane.width; ++x)
                 samples(y, x) *=
                     Complex(std::polar(1.0, std::remainder(ramp(x, plane.width) + ramp(y, plane.height), 2 * pi)));
         });
     };
-    turn_both(field.samples);
+    apply_ramps(field.samples);
     const math::Fft2 fft(plane.height, plane.width);
     if (length > 0)
         fft.forward(field.samples);
     else
         fft.backward(field.samples);
-    turn_both(field.samples);
+    apply_ramps(field.samples);
     const auto half = [](std::size_t n) {
         const double offset = 0.5 - static_cast<double>(n) / 2;
         return offset * offset / static_cast<double>(n);
     };
-    // 1/(iλ length) and the part of the ramps that all samples share.
+    // 1/(iλ length) and the constant part of the ramps.
     const std::complex<double> factor = plane.pitch_x * plane.pitch_y /
                                         (std::complex<double>(0, 1) * in.wavelength * length) *
                                         std::polar(1.0, sign * 2 * pi * (half(plane.width) + half(plane.height)));
@@ -183,16 +184,17 @@ Field transformed(Field field, double length) {
 SelectedOrder select_order(const FieldSource& hologram, const OrderSelection& selection, const Progress& progress) {
     const core::StopScope scope(progress);
     using Which = OrderSelection::Which;
-    SelectedOrder order{whole(hologram)};
+    SelectedOrder order{read_all(hologram)};
     Array<Complex, 2>& samples = order.field.samples;
     if (selection.without_mean) subtract_mean(samples);
     if (selection.reference_source) {
         const Vec3 source = *selection.reference_source;
         if (source.z == 0)
             throw Error(ErrorCode::usage, "reference_source",
-                        "the source of the reference wave lies in the hologram's plane");
+                        "the source of the reference wave must not be in the plane of the hologram");
         const double k = (source.z < 0 ? 2 : -2) * pi / order.field.grid().wavelength;
-        turn(order.field, [&](double x, double y) { return k * std::hypot(x - source.x, y - source.y, source.z); });
+        multiply_phase(order.field,
+                       [&](double x, double y) { return k * std::hypot(x - source.x, y - source.y, source.z); });
     }
     const std::size_t height = samples.extent(0), width = samples.extent(1);
     const math::Fft2 fft(height, width);
@@ -206,19 +208,18 @@ SelectedOrder select_order(const FieldSource& hologram, const OrderSelection& se
         order.frequency_x = peak.x;
         order.frequency_y = peak.y;
     }
-    const double away = std::hypot(order.frequency_x, order.frequency_y);
-    constexpr double all = 0.75;  // beyond the corners of the spectrum, with the soft rim
-    order.radius = selection.radius > 0 ? selection.radius : away > 0 ? away / 2 : all / 0.9;
+    const double carrier = std::hypot(order.frequency_x, order.frequency_y);
+    constexpr double full_radius = 0.75;  // beyond the corners of the spectrum, including the soft edge
+    order.radius = selection.radius > 0 ? selection.radius : carrier > 0 ? carrier / 2 : full_radius / 0.9;
     if (!(std::abs(order.frequency_x) <= 0.5 && std::abs(order.frequency_y) <= 0.5) || !std::isfinite(order.radius))
         throw Error(ErrorCode::usage, "order",
                     fmt::format("an order at {:.4g}, {:.4g} cycles per sample lies beyond half a cycle per sample",
                                 order.frequency_x, order.frequency_y));
     if (order.radius * static_cast<double>(std::min(width, height)) < 1)
-        throw Error(ErrorCode::usage, "aperture",
-                    fmt::format("an opening with the radius {:.4g} cycles per sample holds no "
-                                "frequency",
-                                order.radius));
-    cut_out(samples, order);
+        throw Error(
+            ErrorCode::usage, "aperture",
+            fmt::format("an aperture with a radius of {:.4g} cycles per sample contains no frequency", order.radius));
+    isolate_order(samples, order);
     fft.backward(samples);
     progress.report(1);
     return order;
@@ -228,8 +229,8 @@ Field fourier_image(const FieldSource& hologram, double focal_length, const Prog
     const core::StopScope scope(progress);
     if (!(std::isfinite(focal_length) && focal_length > 0))
         throw Error(ErrorCode::usage, "focal",
-                    fmt::format("a lens of focal length {} was asked for; it must be positive", focal_length));
-    Field image = transformed(whole(hologram), focal_length);
+                    fmt::format("the focal length of the lens is {} m, but must be positive and finite", focal_length));
+    Field image = transformed(read_all(hologram), focal_length);
     progress.report(1);
     return image;
 }
@@ -238,13 +239,13 @@ Field fresnel_image(const FieldSource& hologram, double distance, const Progress
     const core::StopScope scope(progress);
     if (!(std::isfinite(distance) && distance != 0))
         throw Error(ErrorCode::usage,
-                    fmt::format("an image at the distance {} was asked for; it must not be 0", distance));
-    Field field = whole(hologram);
+                    fmt::format("the distance of the image is {} m, but must be finite and not zero", distance));
+    Field field = read_all(hologram);
     const double k = pi / (field.grid().wavelength * distance);
     const auto chirp = [&](double x, double y) { return k * (x * x + y * y); };
-    turn(field, chirp);
+    multiply_phase(field, chirp);
     Field image = transformed(std::move(field), distance);
-    turn(image, chirp);
+    multiply_phase(image, chirp);
     progress.report(1);
     return image;
 }

@@ -22,8 +22,10 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// e^{−2πi j (½ − N/2)/N} for j = first … first + count − 1: the phase that moves the origin from the first sample of a
-// transform to the window's middle. `samples` is N, `sign` −1 for the transform to the spectrum.
+// Returns e^{sign·2πi j (½ − N/2)/N} · scale for j = first … first + count − 1. This phase moves the origin from the
+// first sample of a transform to the centre of the window.
+// @param samples  N
+// @param sign     −1 for the transform to the spectrum
 std::vector<Complex> centring(std::ptrdiff_t first, std::size_t count, std::size_t samples, double sign, double scale) {
     std::vector<Complex> phases(count);
     const double n = static_cast<double>(samples);
@@ -34,7 +36,7 @@ std::vector<Complex> centring(std::ptrdiff_t first, std::size_t count, std::size
     return phases;
 }
 
-// The range of frequency steps in [low, high] that n samples represent around a carrier.
+// Returns the range of frequency steps in [low, high] that n samples represent around a carrier.
 std::pair<std::ptrdiff_t, std::ptrdiff_t> steps(double low, double high, double size, std::size_t n, double carrier) {
     const double half = 0.5 * static_cast<double>(n), middle = std::round(carrier * size);
     constexpr double rounding = 1e-6;
@@ -60,8 +62,8 @@ Wave::Wave(const FieldGrid& grid, const ScratchOptions& scratch) : grid_(grid) {
     rows = {0, grid.plane.height};
 }
 
-Wave::Wave(const FieldGrid& grid, core::PagedArray samples_of_rows, const distributed::LineRange& own)
-    : samples(std::move(samples_of_rows)), rows(own), grid_(grid) {}
+Wave::Wave(const FieldGrid& grid, core::PagedArray samples_of_rows, const distributed::LineRange& local_rows)
+    : samples(std::move(samples_of_rows)), rows(local_rows), grid_(grid) {}
 
 void Wave::read(const Region& region, std::size_t look, View<Complex, 2> out) const {
     validate(region, grid_, out.shape());
@@ -75,7 +77,7 @@ Grid padded(const Grid& plane, double size_x, double size_y) {
     const auto grown = [](std::size_t samples, double size, double pitch) {
         const auto wanted = static_cast<std::size_t>(std::ceil(size / pitch));
         std::size_t n = math::good_fft_size(std::max(wanted, samples));
-        // The samples are in the middle, so an even number must be added.
+        // An even number of samples must be added to keep the samples in the middle.
         while ((n - samples) % 2 != 0) n = math::good_fft_size(n + 1);
         return n;
     };
@@ -86,7 +88,7 @@ Grid padded(const Grid& plane, double size_x, double size_y) {
 
 namespace {
 
-// Without samples, and their rows and columns.
+// Returns a spectrum without samples, and in `shape` its numbers of rows and columns.
 Spectrum frame_of(const Grid& window, double wavelength, const Band& band, double carrier_x, double carrier_y,
                   Shape<2>& shape) {
     Spectrum result;
@@ -131,21 +133,23 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
     result.window.center_y = plane.center_y;
     const std::ptrdiff_t first_column = result.first_column, first_row = result.first_row;
 
-    // Transforms the rows and keeps the band's columns.
-    const std::size_t together = source.alignment() * std::max<std::size_t>(block_lines / source.alignment(), 1);
-    result.samples = distributed::SharedPlane(std::max(plane.height, rows), columns, together,
-                                              columns_of_waves_together, scratch, communicator);
-    distributed::SharedPlane& kept = result.samples;
-    kept.begin_rows(plane.height);
-    const distributed::LineRange own = kept.local_rows(plane.height), across = kept.local_columns();
+    // Transforms the rows and keeps the columns of the band.
+    const std::size_t group_rows = source.alignment() * std::max<std::size_t>(block_lines / source.alignment(), 1);
+    result.samples = distributed::SharedPlane(std::max(plane.height, rows), columns, group_rows, spectrum_block_columns,
+                                              scratch, communicator);
+    distributed::SharedPlane& shared = result.samples;
+    shared.begin_rows(plane.height);
+    const distributed::LineRange local_rows = shared.local_rows(plane.height), local_columns = shared.local_columns();
     const math::Fft1 along(window.width), down(window.height);
     const std::vector<Complex> centre_x =
         centring(first_column, columns, window.width, -1, window.pitch_x * window.pitch_y);
-    const std::size_t row_blocks = blocks_of(own.count, together), all_blocks = row_blocks + blocks_of(across.count);
+    const std::size_t row_blocks = blocks_of(local_rows.count, group_rows),
+                      all_blocks = row_blocks + blocks_of(local_columns.count);
     work::Steps steps(progress, all_blocks);
     const std::size_t left = (window.width - plane.width) / 2, above = (window.height - plane.height) / 2;
     work::parallel_for(row_blocks, [&](std::size_t block) {
-        const std::size_t y0 = own.first + block * together, height = std::min(together, own.end() - y0);
+        const std::size_t y0 = local_rows.first + block * group_rows,
+                          height = std::min(group_rows, local_rows.end() - y0);
         Array<Complex, 2> lines({height, plane.width});
         source.read({0, y0, plane.width, height}, look, lines);
         Array<Complex, 1> line({window.width});
@@ -156,28 +160,29 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
             along.forward(line.data());
             take_frequencies(line.data(), window.width, first_column, columns, row.data());
             multiply(row.data(), centre_x.data(), row);
-            kept.put_row(y0 + y, row.data());
+            shared.put_row(y0 + y, row.data());
         }
         steps.report_one();
     });
 
-    // Transforms the columns and keeps the band's rows.
-    kept.to_columns(plane.height);
+    // Transforms the columns and keeps the rows of the band.
+    shared.to_columns(plane.height);
     const std::vector<Complex> centre_y = centring(first_row, rows, window.height, -1, 1);
-    const distributed::LocalColumns before = kept.in_columns(plane.height), after = kept.in_columns(rows);
-    work::parallel_for(blocks_of(across.count), [&](std::size_t block) {
-        const std::size_t x0 = across.first + block * block_lines, width = std::min(block_lines, across.end() - x0);
+    const distributed::LocalColumns before = shared.in_columns(plane.height), after = shared.in_columns(rows);
+    work::parallel_for(blocks_of(local_columns.count), [&](std::size_t block) {
+        const std::size_t x0 = local_columns.first + block * block_lines,
+                          width = std::min(block_lines, local_columns.end() - x0);
         Array<Complex, 2> lines({width, stride_of(window.height)});
         for (std::size_t y = 0; y < plane.height; ++y)
             for (std::size_t i = 0; i < width; ++i) lines(i, above + y) = before(y, x0 + i);
         for (std::size_t i = 0; i < width; ++i) down.forward(&lines(i, 0));
         for (std::size_t r = 0; r < rows; ++r) {
-            const std::size_t at = wrapped(first_row + static_cast<std::ptrdiff_t>(r), window.height);
-            for (std::size_t i = 0; i < width; ++i) after(r, x0 + i) = times(lines(i, at), centre_y[r]);
+            const std::size_t index = wrapped(first_row + static_cast<std::ptrdiff_t>(r), window.height);
+            for (std::size_t i = 0; i < width; ++i) after(r, x0 + i) = times(lines(i, index), centre_y[r]);
         }
         steps.report_one();
     });
-    kept.begin_columns(rows);
+    shared.begin_columns(rows);
     return result;
 }
 
@@ -205,8 +210,8 @@ Grid grid_of(const Spectrum& spectrum, std::size_t width, std::size_t height) {
 
 namespace {
 
-// From a spectrum to the samples of its wave: first along columns, after which its own samples are not needed, then
-// along rows.
+// Transform of a spectrum to the samples of its wave: first along columns, then along rows. The second step no longer
+// needs the spectrum's samples.
 class ToWave {
   public:
     ToWave(const Spectrum& spectrum, std::size_t width, std::size_t height)
@@ -222,7 +227,7 @@ class ToWave {
 
     std::size_t columns() const { return columns_; }
 
-    // The wave without samples, of which a process will have some rows.
+    // Returns the wave without samples; `rows` are the rows that this rank will have.
     Wave frame(const distributed::LineRange& rows) const {
         Wave wave({grid_of(spectrum_, width_, height_), spectrum_.wavelength}, core::PagedArray(), rows);
         wave.carrier_x = spectrum_.frequency_x(static_cast<double>(columns_ / 2));
@@ -230,39 +235,38 @@ class ToWave {
         return wave;
     }
 
-    // Transforms some columns.
-    // @param place  where the numbers of a row go from a column on
-    template <class Place>
-    void along_columns(const distributed::LineRange& across, const Place& place) const {
+    // Transforms a range of columns.
+    // @param destination  destination(y, x): the address of the result of row y, from column x on
+    template <class Destination>
+    void along_columns(const distributed::LineRange& across, const Destination& destination) const {
         const math::Fft1 down(height_);
         work::parallel_for(blocks_of(across.count), [&](std::size_t block) {
             const std::size_t x0 = across.first + block * block_lines, count = std::min(block_lines, across.end() - x0);
             Array<Complex, 2> lines({count, stride_of(height_)});
             for (std::size_t r = 0; r < centre_y_.size(); ++r) {
-                const std::size_t at = wrapped(spectrum_.first_row + static_cast<std::ptrdiff_t>(r), height_);
+                const std::size_t index = wrapped(spectrum_.first_row + static_cast<std::ptrdiff_t>(r), height_);
                 const Complex* const row = &spectrum_.samples.at(r, x0);
                 for (std::size_t i = 0; i < count; ++i)
-                    lines(i, at) = times(row[i], times(centre_y_[r], centre_x_[x0 + i]));
+                    lines(i, index) = times(row[i], times(centre_y_[r], centre_x_[x0 + i]));
             }
             for (std::size_t i = 0; i < count; ++i) down.backward(&lines(i, 0));
             for (std::size_t y = 0; y < height_; ++y) {
-                Complex* const row = place(y, x0);
+                Complex* const row = destination(y, x0);
                 for (std::size_t i = 0; i < count; ++i) row[i] = lines(i, y);
             }
         });
     }
 
-    // Transforms the columns with those of the other processes of a team, and gives each of them some rows.
+    // Transforms the local columns, and transposes the plane to rows.
     distributed::SharedPlane to_rows(const ScratchOptions& scratch, Communicator* communicator) const {
-        distributed::SharedPlane plane(height_, columns_, block_lines, columns_of_waves_together, scratch,
-                                       communicator);
+        distributed::SharedPlane plane(height_, columns_, block_lines, spectrum_block_columns, scratch, communicator);
         along_columns(plane.local_columns(), [&](std::size_t y, std::size_t x) { return &plane.at(y, x); });
         plane.to_rows(height_);
         return plane;
     }
 
-    // Transforms some rows, in place.
-    // @param row  the place of a row, which begins with what along_columns() has made of it
+    // Transforms a range of rows in place.
+    // @param row  row(y): the address of row y, which begins with the results of along_columns()
     template <class Row>
     void along_rows(const distributed::LineRange& rows, const Row& row) const {
         const math::Fft1 along(width_);
@@ -288,17 +292,17 @@ core::PagedArray samples_of(std::size_t rows, std::size_t width, const ScratchOp
     return rows > 0 ? core::PagedArray({rows, width}, scratch, core::Contents::unset) : core::PagedArray();
 }
 
-// Rows of a wave that a process makes for others.
-class RowsForOthers {
+// Local rows of a wave that other ranks receive.
+class RowsToSend {
   public:
-    // As few as hold all of some rows that others want.
-    RowsForOthers(const distributed::LineRange& some, const Communicator& communicator,
-                  const std::function<distributed::LineRange(std::size_t)>& wanted, std::size_t width,
-                  const ScratchOptions& scratch)
-        : rows_{some.end(), 0} {
-        std::size_t end = some.first;
-        for (std::size_t process = 0; process < communicator.size(); ++process)
-            if (const distributed::LineRange rows = common_lines(some, wanted(process)); rows.count > 0) {
+    // Holds the smallest range that contains all rows of `range` wanted by any rank.
+    RowsToSend(const distributed::LineRange& range, const Communicator& communicator,
+               const std::function<distributed::LineRange(std::size_t)>& wanted, std::size_t width,
+               const ScratchOptions& scratch)
+        : rows_{range.end(), 0} {
+        std::size_t end = range.first;
+        for (std::size_t rank = 0; rank < communicator.size(); ++rank)
+            if (const distributed::LineRange rows = common_lines(range, wanted(rank)); rows.count > 0) {
                 rows_.first = std::min(rows_.first, rows.first);
                 end = std::max(end, rows.end());
             }
@@ -307,8 +311,8 @@ class RowsForOthers {
     }
 
     const distributed::LineRange& rows() const { return rows_; }
-    bool has(std::size_t y) const { return y >= rows_.first && y < rows_.end(); }
-    Complex* at(std::size_t y) { return &samples_.view()(y - rows_.first, 0); }
+    bool contains(std::size_t y) const { return y >= rows_.first && y < rows_.end(); }
+    Complex* row(std::size_t y) { return &samples_.view()(y - rows_.first, 0); }
 
   private:
     distributed::LineRange rows_;
@@ -323,17 +327,17 @@ Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, co
     Wave wave = to_wave.frame({0, height});
     const auto row = [&](std::size_t y) { return &wave.samples.view()(y - wave.rows.first, 0); };
     if (communicator == nullptr) {
-        // The columns, too, are transformed in place, in the left part of the result.
+        // The columns are also transformed in place, in the left part of the result.
         wave.samples = samples_of(height, width, scratch);
         to_wave.along_columns({0, to_wave.columns()}, [&](std::size_t y, std::size_t x) { return row(y) + x; });
         to_wave.along_rows(wave.rows, row);
         return wave;
     }
-    const distributed::SharedPlane kept = to_wave.to_rows(scratch, communicator);
-    wave.rows = kept.local_rows(height);
+    const distributed::SharedPlane shared = to_wave.to_rows(scratch, communicator);
+    wave.rows = shared.local_rows(height);
     wave.samples = samples_of(wave.rows.count, width, scratch);
     to_wave.along_rows(wave.rows, [&](std::size_t y) {
-        kept.get_row(y, row(y));
+        shared.get_row(y, row(y));
         return row(y);
     });
     return wave;
@@ -342,25 +346,25 @@ Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, co
 Wave wave_of(Spectrum spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch,
              Communicator& communicator, const std::function<distributed::LineRange(std::size_t)>& wanted) {
     const ToWave to_wave(spectrum, width, height);
-    const distributed::SharedPlane kept = to_wave.to_rows(scratch, &communicator);
+    const distributed::SharedPlane shared = to_wave.to_rows(scratch, &communicator);
     Wave wave = to_wave.frame(wanted(communicator.rank()));
     spectrum.samples = distributed::SharedPlane();
-    // Own rows before and after those that this process wants itself.
-    const distributed::LineRange own = kept.local_rows(height);
-    const auto for_others = [&](const distributed::LineRange& some) {
-        return RowsForOthers(common_lines(own, some), communicator, wanted, width, scratch);
+    // Local rows before and after the rows that this rank wants.
+    const distributed::LineRange local = shared.local_rows(height);
+    const auto to_send = [&](const distributed::LineRange& range) {
+        return RowsToSend(common_lines(local, range), communicator, wanted, width, scratch);
     };
-    std::array<RowsForOthers, 2> aside{for_others({0, wave.rows.first}),
-                                       for_others({wave.rows.end(), height - wave.rows.end()})};
+    std::array<RowsToSend, 2> outer{to_send({0, wave.rows.first}),
+                                    to_send({wave.rows.end(), height - wave.rows.end()})};
     wave.samples = samples_of(wave.rows.count, width, scratch);
     const auto row = [&](std::size_t y) {
-        for (RowsForOthers& rows : aside)
-            if (rows.has(y)) return rows.at(y);
+        for (RowsToSend& rows : outer)
+            if (rows.contains(y)) return rows.row(y);
         return &wave.samples.view()(y - wave.rows.first, 0);
     };
-    for (const distributed::LineRange& rows : {aside[0].rows(), common_lines(own, wave.rows), aside[1].rows()})
+    for (const distributed::LineRange& rows : {outer[0].rows(), common_lines(local, wave.rows), outer[1].rows()})
         to_wave.along_rows(rows, [&](std::size_t y) {
-            kept.get_row(y, row(y));
+            shared.get_row(y, row(y));
             return row(y);
         });
     distributed::send_rows(
@@ -379,8 +383,8 @@ Spectrum gathered(Spectrum spectrum, Communicator& communicator, const ScratchOp
     if (communicator.is_root()) spectrum.samples = distributed::SharedPlane(rows, columns, 1, 1, scratch, nullptr);
     distributed::send_rows(
         communicator, {rows, columns}, block_lines,
-        [&](std::size_t process) {
-            return distributed::LineRange{0, process == 0 ? rows : 0};
+        [&](std::size_t rank) {
+            return distributed::LineRange{0, rank == 0 ? rows : 0};
         },
         [&](std::size_t y, Complex* row) { shared.get_row(y, row); },
         [&](std::size_t y) { return &spectrum.samples.at(y, 0); });
@@ -394,12 +398,12 @@ Band band_between(const Rectangle& from, const Rectangle& to, double distance, d
     const double dx_low = to.left - from.right, dx_high = to.right - from.left;
     const double dy_low = to.bottom - from.top, dy_high = to.top - from.bottom;
     const auto sines = [&](double low, double high, double other_low, double other_high) {
-        // Away from the axis the sine is largest where the other offset is smallest, towards the axis where it is
-        // largest.
-        const double near = min_offset(other_low, other_high),
-                     far = std::max(std::abs(other_low), std::abs(other_high));
+        // For directions away from the axis the sine is largest at the smallest other offset; for directions towards
+        // the axis, at the largest.
+        const double other_min = min_offset(other_low, other_high),
+                     other_max = std::max(std::abs(other_low), std::abs(other_high));
         const auto sine = [&](double offset, double other) { return offset / std::hypot(offset, other, distance); };
-        return std::pair(sine(low, low < 0 ? near : far), sine(high, high > 0 ? near : far));
+        return std::pair(sine(low, low < 0 ? other_min : other_max), sine(high, high > 0 ? other_min : other_max));
     };
     const auto x = sines(dx_low, dx_high, dy_low, dy_high), y = sines(dy_low, dy_high, dx_low, dx_high);
     return {x.first / wavelength, x.second / wavelength, y.first / wavelength, y.second / wavelength};

@@ -13,7 +13,7 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// The low-pass as an interpolation kernel: ten taps, tabulated by the fraction of a sample.
+// The low-pass as an interpolation kernel of ten taps, tabulated by the fraction of a sample.
 class Kernel {
   public:
     static constexpr std::ptrdiff_t taps = 10, before = 4;
@@ -33,7 +33,7 @@ class Kernel {
     std::array<std::array<float, 10>, phases + 1> weights_;
 };
 
-// The interpolated value at a position between samples; samples outside are zero.
+// Returns the value interpolated at a fractional position; samples outside the array are zero.
 Complex interpolated(View<const Complex, 2> samples, const Kernel& kernel, double row, double column) {
     const double row0 = std::floor(row), column0 = std::floor(column);
     const auto& down = kernel.at(row - row0);
@@ -79,15 +79,19 @@ Spectrum tilt(const Spectrum& spectrum, const Orientation& plane, const Grid& wi
             const double square = frequency * frequency - fx * fx - fy * fy;
             if (square <= 0) continue;
             const double fz = std::sqrt(square);
-            const Vec3 old = fx * plane.x + fy * plane.y + fz * plane.z();
-            if (old.z <= 0) continue;
-            const double at_row = -old.y * spectrum.window.size_y() - static_cast<double>(spectrum.first_row);
-            const double at_column = old.x * spectrum.window.size_x() - static_cast<double>(spectrum.first_column);
-            if (at_row < -Kernel::taps || at_row > static_cast<double>(spectrum.height()) + Kernel::taps ||
-                at_column < -Kernel::taps || at_column > static_cast<double>(spectrum.width()) + Kernel::taps)
+            const Vec3 in_old_frame = fx * plane.x + fy * plane.y + fz * plane.z();
+            if (in_old_frame.z <= 0) continue;
+            const double row_position =
+                -in_old_frame.y * spectrum.window.size_y() - static_cast<double>(spectrum.first_row);
+            const double column_position =
+                in_old_frame.x * spectrum.window.size_x() - static_cast<double>(spectrum.first_column);
+            if (row_position < -Kernel::taps || row_position > static_cast<double>(spectrum.height()) + Kernel::taps ||
+                column_position < -Kernel::taps ||
+                column_position > static_cast<double>(spectrum.width()) + Kernel::taps)
                 continue;
             result.samples.view()(row, column) =
-                static_cast<float>(old.z / fz) * interpolated(spectrum.samples.view(), kernel, at_row, at_column);
+                static_cast<float>(in_old_frame.z / fz) *
+                interpolated(spectrum.samples.view(), kernel, row_position, column_position);
         }
     });
     return result;

@@ -13,31 +13,30 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// Samples of a message between processes, and the messages that are sent before one is waited for: few, so that what is
-// under way takes little memory.
+// Size of a message between ranks in samples, and the number of messages in flight: few, to save memory.
 constexpr std::size_t max_message = (std::size_t{1} << 20) / sizeof(Complex), messages_ahead = 4;
 
-std::size_t messages_of(std::size_t items, std::size_t items_in_one) {
-    return (items + items_in_one - 1) / items_in_one;
+std::size_t messages_of(std::size_t items, std::size_t items_per_message) {
+    return (items + items_per_message - 1) / items_per_message;
 }
 
-// Sends another process as many messages as it sends to this one; few are under way. Message i is taken after all
-// before it, and itself, have been packed.
+// Exchanges `count` messages in each direction with a peer, with few in flight. Calls take(i) after pack(0) … pack(i).
 template <class Pack, class Take>
-void swap_messages(Communicator& communicator, std::size_t other, std::size_t count, const Pack& pack,
+void swap_messages(Communicator& communicator, std::size_t peer, std::size_t count, const Pack& pack,
                    const Take& take) {
-    for (std::size_t sent = 0, taken = 0; taken < count; ++taken) {
-        for (; sent < std::min(count, taken + messages_ahead); ++sent) communicator.send_to(other, pack(sent));
-        take(taken, communicator.receive_from(other));
+    for (std::size_t packed = 0, taken = 0; taken < count; ++taken) {
+        for (; packed < std::min(count, taken + messages_ahead); ++packed) communicator.send_to(peer, pack(packed));
+        take(taken, communicator.receive_from(peer));
     }
 }
 
 void require_size(const std::string& bytes, std::size_t samples) {
     if (bytes.size() != samples * sizeof(Complex))
-        throw Error(ErrorCode::internal, "a message from another process has another size than expected");
+        throw Error(ErrorCode::internal, "a message from another rank has an unexpected length");
 }
 
-// The process that a process swaps with in a step, of as many as there are: itself in one of them.
+// Returns the rank with which this rank exchanges messages in a step. In one of communicator.size() steps it is its
+// own.
 std::size_t partner(const Communicator& communicator, std::size_t step) {
     return (step + communicator.size() - communicator.rank()) % communicator.size();
 }
@@ -49,10 +48,10 @@ LineRange common_lines(const LineRange& a, const LineRange& b) {
     return {first, std::max(first, end) - first};
 }
 
-LineRange lines_of(std::size_t process, std::size_t processes, std::size_t lines, std::size_t together) {
-    const std::size_t groups = (lines + together - 1) / together;
-    const auto begin = [&](std::size_t i) { return std::min(lines, i * groups / processes * together); };
-    return {begin(process), begin(process + 1) - begin(process)};
+LineRange lines_of(std::size_t rank, std::size_t ranks, std::size_t lines, std::size_t group) {
+    const std::size_t groups = (lines + group - 1) / group;
+    const auto begin = [&](std::size_t i) { return std::min(lines, i * groups / ranks * group); };
+    return {begin(rank), begin(rank + 1) - begin(rank)};
 }
 
 SharedPlane::SharedPlane(std::size_t rows, std::size_t columns, std::size_t block_rows, std::size_t block_columns,
@@ -63,13 +62,13 @@ SharedPlane::SharedPlane(std::size_t rows, std::size_t columns, std::size_t bloc
         rank_ = communicator->rank();
         size_ = communicator->size();
     }
-    // For any number of rows up to this one.
+    // Enough for any number of rows up to `rows`.
     const std::size_t groups = (rows + block_rows - 1) / block_rows;
     const std::size_t max_rows = std::min(rows, (groups + size_ - 1) / size_ * block_rows);
     std::size_t samples = 0;
-    for (std::size_t process = 0; process < size_; ++process) {
+    for (std::size_t rank = 0; rank < size_; ++rank) {
         block_starts_.push_back(samples);
-        samples += max_rows * std::max(lines_of(process, size_, columns, block_columns).count, local_columns().count);
+        samples += max_rows * std::max(lines_of(rank, size_, columns, block_columns).count, local_columns().count);
     }
     samples_ = size_ == 1 ? core::PagedArray({rows, columns}, scratch, core::Contents::unset)
                           : core::PagedArray({1, std::max<std::size_t>(samples, 1)}, scratch, core::Contents::unset);
@@ -78,35 +77,35 @@ SharedPlane::SharedPlane(std::size_t rows, std::size_t columns, std::size_t bloc
 
 void SharedPlane::begin_columns(std::size_t rows) {
     rows_ = rows;
-    places_ = in_columns(rows);
+    local_samples_ = in_columns(rows);
 }
 
 LocalColumns SharedPlane::in_columns(std::size_t rows) {
-    const LineRange across = local_columns();
-    std::vector<Complex*> starts;
-    starts.reserve(rows);
-    for (std::size_t process = 0; process < size_; ++process) {
-        const std::size_t count = lines_of(process, size_, rows, block_rows_).count;
+    const LineRange local = local_columns();
+    std::vector<Complex*> row_addresses;
+    row_addresses.reserve(rows);
+    for (std::size_t rank = 0; rank < size_; ++rank) {
+        const std::size_t count = lines_of(rank, size_, rows, block_rows_).count;
         for (std::size_t y = 0; y < count; ++y)
-            starts.push_back(samples_.view().data() + block_starts_[process] + y * across.count);
+            row_addresses.push_back(samples_.view().data() + block_starts_[rank] + y * local.count);
     }
-    return {std::move(starts), across.first};
+    return {std::move(row_addresses), local.first};
 }
 
 void SharedPlane::put_row(std::size_t y, const Complex* from) {
-    const std::size_t own = y - local_rows(rows_).first;
-    for (std::size_t process = 0; process < size_; ++process) {
-        const LineRange columns = lines_of(process, size_, columns_, block_columns_);
+    const std::size_t local = y - local_rows(rows_).first;
+    for (std::size_t rank = 0; rank < size_; ++rank) {
+        const LineRange columns = lines_of(rank, size_, columns_, block_columns_);
         std::copy_n(from + columns.first, columns.count,
-                    samples_.view().data() + block_starts_[process] + own * columns.count);
+                    samples_.view().data() + block_starts_[rank] + local * columns.count);
     }
 }
 
 void SharedPlane::get_row(std::size_t y, Complex* to) const {
-    const std::size_t own = y - local_rows(rows_).first;
-    for (std::size_t process = 0; process < size_; ++process) {
-        const LineRange columns = lines_of(process, size_, columns_, block_columns_);
-        std::copy_n(samples_.view().data() + block_starts_[process] + own * columns.count, columns.count,
+    const std::size_t local = y - local_rows(rows_).first;
+    for (std::size_t rank = 0; rank < size_; ++rank) {
+        const LineRange columns = lines_of(rank, size_, columns_, block_columns_);
+        std::copy_n(samples_.view().data() + block_starts_[rank] + local * columns.count, columns.count,
                     to + columns.first);
     }
 }
@@ -122,33 +121,33 @@ void SharedPlane::to_rows(std::size_t rows) {
     transpose(true);
 }
 
-// Samples of the block for another process.
-std::size_t SharedPlane::block_size(std::size_t process, bool columns) const {
-    return columns ? lines_of(process, size_, rows_, block_rows_).count * local_columns().count
-                   : local_rows(rows_).count * lines_of(process, size_, columns_, block_columns_).count;
+// Returns the number of samples of the block for another rank.
+std::size_t SharedPlane::block_size(std::size_t rank, bool columns) const {
+    return columns ? lines_of(rank, size_, rows_, block_rows_).count * local_columns().count
+                   : local_rows(rows_).count * lines_of(rank, size_, columns_, block_columns_).count;
 }
 
-// Each two processes swap the blocks that they have for each other. What comes takes the place of what was sent before.
+// Each pair of ranks exchanges its blocks in place: received samples overwrite samples already sent.
 void SharedPlane::transpose(bool columns) {
     for (std::size_t step = 0; step < size_; ++step) {
-        const std::size_t other = communicator_ != nullptr ? partner(*communicator_, step) : 0;
-        if (other == rank_) continue;
-        Complex* const block = samples_.view().data() + block_starts_[other];
-        const std::size_t to_send = block_size(other, columns), to_get = block_size(other, !columns);
-        const auto part = [](std::size_t message, std::size_t samples) {
+        const std::size_t peer = communicator_ != nullptr ? partner(*communicator_, step) : 0;
+        if (peer == rank_) continue;
+        Complex* const block = samples_.view().data() + block_starts_[peer];
+        const std::size_t to_send = block_size(peer, columns), to_receive = block_size(peer, !columns);
+        const auto chunk = [](std::size_t message, std::size_t samples) {
             const std::size_t first = std::min(samples, message * max_message);
             return LineRange{first, std::min(max_message, samples - first)};
         };
         swap_messages(
-            *communicator_, other, messages_of(std::max(to_send, to_get), max_message),
+            *communicator_, peer, messages_of(std::max(to_send, to_receive), max_message),
             [&](std::size_t i) {
-                const LineRange sent = part(i, to_send);
+                const LineRange sent = chunk(i, to_send);
                 return std::string(reinterpret_cast<const char*>(block + sent.first), sent.count * sizeof(Complex));
             },
             [&](std::size_t i, const std::string& bytes) {
-                const LineRange got = part(i, to_get);
-                require_size(bytes, got.count);
-                std::memcpy(static_cast<void*>(block + got.first), bytes.data(), bytes.size());
+                const LineRange received = chunk(i, to_receive);
+                require_size(bytes, received.count);
+                std::memcpy(static_cast<void*>(block + received.first), bytes.data(), bytes.size());
             });
     }
 }
@@ -156,47 +155,48 @@ void SharedPlane::transpose(bool columns) {
 void send_rows(Communicator& communicator, const Shape<2>& shape, std::size_t block_rows,
                const std::function<LineRange(std::size_t)>& wanted,
                const std::function<void(std::size_t, Complex*)>& get_row,
-               const std::function<Complex*(std::size_t)>& place) {
-    const std::size_t columns = shape[1], at_once = std::max<std::size_t>(1, max_message / columns);
+               const std::function<Complex*(std::size_t)>& destination) {
+    const std::size_t columns = shape[1], rows_per_message = std::max<std::size_t>(1, max_message / columns);
     const auto rows_from_to = [&](std::size_t from, std::size_t to) {
         return common_lines(lines_of(from, communicator.size(), shape[0], block_rows), wanted(to));
     };
     for (std::size_t step = 0; step < communicator.size(); ++step) {
-        const std::size_t other = partner(communicator, step);
-        const LineRange sent = rows_from_to(communicator.rank(), other), got = rows_from_to(other, communicator.rank());
-        if (other == communicator.rank()) {
-            for (std::size_t y = sent.first; y < sent.end(); ++y) get_row(y, place(y));
+        const std::size_t peer = partner(communicator, step);
+        const LineRange sent = rows_from_to(communicator.rank(), peer),
+                        received = rows_from_to(peer, communicator.rank());
+        if (peer == communicator.rank()) {
+            for (std::size_t y = sent.first; y < sent.end(); ++y) get_row(y, destination(y));
             continue;
         }
-        const auto part = [&](std::size_t message, const LineRange& rows) {
-            return common_lines({rows.first + message * at_once, at_once}, rows);
+        const auto chunk = [&](std::size_t message, const LineRange& rows) {
+            return common_lines({rows.first + message * rows_per_message, rows_per_message}, rows);
         };
         swap_messages(
-            communicator, other, messages_of(std::max(sent.count, got.count), at_once),
+            communicator, peer, messages_of(std::max(sent.count, received.count), rows_per_message),
             [&](std::size_t i) {
-                const LineRange rows = part(i, sent);
+                const LineRange rows = chunk(i, sent);
                 std::string bytes(rows.count * columns * sizeof(Complex), '\0');
                 for (std::size_t y = 0; y < rows.count; ++y)
                     get_row(rows.first + y, reinterpret_cast<Complex*>(bytes.data()) + y * columns);
                 return bytes;
             },
             [&](std::size_t i, const std::string& bytes) {
-                const LineRange rows = part(i, got);
+                const LineRange rows = chunk(i, received);
                 require_size(bytes, rows.count * columns);
                 for (std::size_t y = 0; y < rows.count; ++y)
-                    std::memcpy(static_cast<void*>(place(rows.first + y)), bytes.data() + y * columns * sizeof(Complex),
-                                columns * sizeof(Complex));
+                    std::memcpy(static_cast<void*>(destination(rows.first + y)),
+                                bytes.data() + y * columns * sizeof(Complex), columns * sizeof(Complex));
             });
     }
 }
 
-std::vector<std::string> all_of(Communicator& communicator, const std::string& own) {
-    for (std::size_t other = 0; other < communicator.size(); ++other)
-        if (other != communicator.rank()) communicator.send_to(other, own);
-    std::vector<std::string> all;
-    for (std::size_t other = 0; other < communicator.size(); ++other)
-        all.push_back(other == communicator.rank() ? own : communicator.receive_from(other));
-    return all;
+std::vector<std::string> all_of(Communicator& communicator, const std::string& local) {
+    for (std::size_t rank = 0; rank < communicator.size(); ++rank)
+        if (rank != communicator.rank()) communicator.send_to(rank, local);
+    std::vector<std::string> strings;
+    for (std::size_t rank = 0; rank < communicator.size(); ++rank)
+        strings.push_back(rank == communicator.rank() ? local : communicator.receive_from(rank));
+    return strings;
 }
 
 }  // namespace hogel::optics::distributed

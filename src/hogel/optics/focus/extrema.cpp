@@ -8,20 +8,20 @@
 namespace hogel::optics {
 namespace {
 
-// How far a curve goes up and down from sample to sample: by no more than this nine samples of ten are off from their
-// neighbours' mean. The tenth may be a plane in focus.
+// Returns the noise of a curve: the 90th percentile of the deviations of samples from the mean of their neighbours. The
+// upper tenth may be planes in focus.
 double noise_of(const std::vector<double>& curve) {
-    std::vector<double> off;
+    std::vector<double> deviations;
     for (std::size_t i = 1; i + 1 < curve.size(); ++i)
-        off.push_back(std::abs(curve[i] - (curve[i - 1] + curve[i + 1]) / 2));
-    const std::size_t most = off.size() * 9 / 10;
-    std::ranges::nth_element(off, off.begin() + static_cast<std::ptrdiff_t>(most));
-    return off[most];
+        deviations.push_back(std::abs(curve[i] - (curve[i - 1] + curve[i + 1]) / 2));
+    const std::size_t percentile = deviations.size() * 9 / 10;
+    std::ranges::nth_element(deviations, deviations.begin() + static_cast<std::ptrdiff_t>(percentile));
+    return deviations[percentile];
 }
 
-// The maxima of a curve that is not at its ends, with how far one must descend from each to reach a higher one.
+// Returns the inner maxima of a curve and their prominences.
 std::vector<Extremum> maxima_of(const std::vector<double>& curve) {
-    std::vector<Extremum> found;
+    std::vector<Extremum> maxima;
     const std::size_t n = curve.size();
     for (std::size_t i = 1; i + 1 < n; ++i) {
         if (!(curve[i] > curve[i - 1] && curve[i] >= curve[i + 1])) continue;
@@ -33,29 +33,30 @@ std::vector<Extremum> maxima_of(const std::vector<double>& curve) {
         Extremum extremum{i};
         extremum.base = curve[left] > curve[right] ? left : right;
         extremum.prominence = curve[i] - curve[extremum.base];
-        // Halfway down, or where high peaks have fallen to 0.7.
-        const double near = curve[i] - std::min(extremum.prominence / 2, 0.35);
-        for (extremum.first = i; extremum.first > 0 && curve[extremum.first - 1] >= near;) --extremum.first;
-        for (extremum.last = i; extremum.last + 1 < n && curve[extremum.last + 1] >= near;) ++extremum.last;
-        const double half = curve[i] - extremum.drop();
-        for (extremum.begin = i; extremum.begin > 0 && curve[extremum.begin - 1] >= half;) --extremum.begin;
-        for (extremum.end = i; extremum.end + 1 < n && curve[extremum.end + 1] >= half;) ++extremum.end;
-        found.push_back(extremum);
+        // Half the prominence, at most 0.35 (a factor of 0.7 in contrast).
+        const double threshold = curve[i] - std::min(extremum.prominence / 2, 0.35);
+        for (extremum.first = i; extremum.first > 0 && curve[extremum.first - 1] >= threshold;) --extremum.first;
+        for (extremum.last = i; extremum.last + 1 < n && curve[extremum.last + 1] >= threshold;) ++extremum.last;
+        const double drop_level = curve[i] - extremum.drop();
+        for (extremum.begin = i; extremum.begin > 0 && curve[extremum.begin - 1] >= drop_level;) --extremum.begin;
+        for (extremum.end = i; extremum.end + 1 < n && curve[extremum.end + 1] >= drop_level;) ++extremum.end;
+        maxima.push_back(extremum);
     }
-    return found;
+    return maxima;
 }
 
-// Extrema of both kinds at all scales that stand out of the noise and are no wider than defocus makes them: a square
-// of n samples is blurred away in about n depths of focus, more where the light has not all frequencies of the samples.
+// Returns extrema of both kinds at all scales that exceed the noise and are no wider than defocus makes them. Defocus
+// blurs a square of n samples away in about n depths of focus, more if the light has not all frequencies of the
+// samples.
 std::vector<Extremum> extrema_of(std::span<const Contrasts> contrasts, double step, double light_depth) {
-    // Measured on the fields of docs/holograms-from-elsewhere.md (docs/decisions/0085-planes-in-focus.md).
-    constexpr double least = 0.08, above_noise = 4, widest = 8;
+    // Tuned on the fields of docs/holograms-from-elsewhere.md (docs/decisions/0085-planes-in-focus.md).
+    constexpr double min_prominence = 0.08, min_noise_ratio = 4, max_width = 8;
     std::vector<Extremum> found, too_wide;
     for (std::size_t s = 0; s <= FocusSearch::edges; ++s) {
         std::vector<double> curve;
         for (const Contrasts& contrast : contrasts) curve.push_back(height_of(contrast, s));
         const double noise = noise_of(curve);
-        // Edges of light with few frequencies are as wide as the largest squares.
+        // For light with few frequencies, edges are as wide as the largest squares.
         const std::size_t cell = FocusSearch::cells[std::min(s, FocusSearch::cells.size() - 1)];
         for (const bool maximum : {true, false}) {
             for (Extremum extremum : maxima_of(curve)) {
@@ -64,19 +65,19 @@ std::vector<Extremum> extrema_of(std::span<const Contrasts> contrasts, double st
                 const double width =
                     static_cast<double>(std::max<std::size_t>(extremum.last - extremum.first, 1)) * step / 2;
                 extremum.slope = extremum.prominence / width;
-                const bool wide = width > widest * std::max(static_cast<double>(cell), light_depth);
+                const bool is_wide = width > max_width * std::max(static_cast<double>(cell), light_depth);
                 if (s == FocusSearch::edges && !maximum) continue;
-                if (extremum.prominence > least && extremum.prominence > above_noise * noise)
-                    (wide ? too_wide : found).push_back(extremum);
+                if (extremum.prominence > min_prominence && extremum.prominence > min_noise_ratio * noise)
+                    (is_wide ? too_wide : found).push_back(extremum);
             }
             for (double& value : curve) value = -value;
         }
     }
-    // Light whose waves end at hogels is nowhere sharper than they are.
+    // Light whose waves end at hogel borders has no detail finer than hogels.
     return found.empty() ? too_wide : found;
 }
 
-// Whether two extrema are of one plane: their surroundings overlap.
+// Returns whether two extrema belong to one plane: their ranges of depths overlap.
 bool same_plane(const Extremum& a, const Extremum& b) { return a.first <= b.last && b.first <= a.last; }
 
 }  // namespace
@@ -88,7 +89,7 @@ std::vector<Extremum> planes_among(std::span<const Contrasts> contrasts, double 
     std::ranges::stable_sort(extrema, std::greater(), &Extremum::slope);
     std::vector<Extremum> planes, best;
     for (const Extremum& extremum : extrema) {
-        // The rise between two planes of lowest contrast, or beside one, is no plane.
+        // An extremum between two planes of lowest contrast, or beside one, is no plane.
         if (std::ranges::any_of(best, [&](const Extremum& b) {
                 return b.maximum != extremum.maximum && extremum.base >= b.first && extremum.base <= b.last;
             }))

@@ -10,22 +10,22 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// Means over squares of two by two.
+// Averages 2 × 2 samples.
 void halve(std::vector<double>& light, std::size_t& height, std::size_t& width) {
     const std::size_t down = height / 2, across = width / 2;
     std::vector<double> means(down * across);
     for (std::size_t y = 0; y < down; ++y)
         for (std::size_t x = 0; x < across; ++x) {
-            const double* at = &light[2 * y * width + 2 * x];
-            means[y * across + x] = (at[0] + at[1] + at[width] + at[width + 1]) / 4;
+            const double* corner = &light[2 * y * width + 2 * x];
+            means[y * across + x] = (corner[0] + corner[1] + corner[width] + corner[width + 1]) / 4;
         }
     light = std::move(means);
     height = down;
     width = across;
 }
 
-// Half the distance between the twentieth and the last but one twentieth of a distribution on a circle that begins at
-// its emptiest place, in cycles a sample.
+// Returns half the width of a circular distribution between its 5 % and 95 % points, in cycles per sample. The
+// distribution begins at its minimum.
 double half_width(const std::vector<double>& amplitudes) {
     const std::size_t n = amplitudes.size(),
                       from = static_cast<std::size_t>(std::ranges::min_element(amplitudes) - amplitudes.begin());
@@ -66,29 +66,29 @@ PlaneWaves::PlaneWaves(const FieldSource& field, const Region& region)
       spectrum_({height_, width_}) {
     field.read(region, 0, spectrum_);
     fft_.forward(spectrum_);
-    // There and back is then the field, so that parts of unlike sizes go together.
+    // Normalises forward and backward transform to the identity, which makes parts of different sizes comparable.
     for (Complex& wave : spectrum_.elements()) wave /= static_cast<float>(width_ * height_);
 }
 
 LightSums PlaneWaves::at(double depth) const {
     Array<Complex, 2> wave(spectrum_.shape());
     const double inverse = 1 / grid_.wavelength;
-    // Frequencies of either sign turn alike.
+    // The four frequencies ±f_x, ±f_y have the same phase factor.
     for (std::size_t y = 0; y <= height_ / 2; ++y) {
         const double fy = static_cast<double>(y) / static_cast<double>(height_) / grid_.plane.pitch_y;
-        const std::size_t other_y = (height_ - y) % height_;
+        const std::size_t mirrored_y = (height_ - y) % height_;
         for (std::size_t x = 0; x <= width_ / 2; ++x) {
             const double fx = static_cast<double>(x) / static_cast<double>(width_) / grid_.plane.pitch_x;
             const double square = fx * fx + fy * fy;
             if (square >= inverse * inverse) continue;
-            // √(1/λ² − f²) − 1/λ without the difference of large numbers
+            // √(1/λ² − f²) − 1/λ without cancellation
             const double along = -square / (std::sqrt(inverse * inverse - square) + inverse);
-            const Complex turn(std::polar(1.0, -2 * std::numbers::pi * std::remainder(along * depth, 1.0)));
-            const std::size_t other_x = (width_ - x) % width_;
-            wave(y, x) = spectrum_(y, x) * turn;
-            wave(y, other_x) = spectrum_(y, other_x) * turn;
-            wave(other_y, x) = spectrum_(other_y, x) * turn;
-            wave(other_y, other_x) = spectrum_(other_y, other_x) * turn;
+            const Complex phase_factor(std::polar(1.0, -2 * std::numbers::pi * std::remainder(along * depth, 1.0)));
+            const std::size_t mirrored_x = (width_ - x) % width_;
+            wave(y, x) = spectrum_(y, x) * phase_factor;
+            wave(y, mirrored_x) = spectrum_(y, mirrored_x) * phase_factor;
+            wave(mirrored_y, x) = spectrum_(mirrored_y, x) * phase_factor;
+            wave(mirrored_y, mirrored_x) = spectrum_(mirrored_y, mirrored_x) * phase_factor;
         }
     }
     fft_.backward(wave);
@@ -116,7 +116,7 @@ LightSums PlaneWaves::sums_of(const Array<Complex, 2>& wave) const {
         for (const double value : light) sums.light[s] += value, sums.squares[s] += value * value;
         sums.count[s] = static_cast<double>(light.size());
     }
-    // Differences of neighbours, but not of the sides of the part.
+    // Squared differences of adjacent samples, without wrapping around at the borders of the part.
     constexpr std::size_t edges = FocusSearch::edges;
     for (std::size_t y = 0; y + 1 < height_; ++y)
         for (std::size_t x = 0; x + 1 < width_; ++x) {

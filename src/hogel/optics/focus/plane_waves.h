@@ -10,27 +10,26 @@
 
 namespace hogel::optics {
 
-/// For each of FocusSearch::Contrasts the number of values, their sum and that of their squares.
+/// Number, sum and sum of squares of the values, for each entry of FocusSearch::Contrasts.
 struct LightSums {
     FocusSearch::Contrasts count = {}, light = {}, squares = {};
 
     void add(const LightSums& other);
-    /// The variances relative to the mean squared; 0 without light.
+    /// Returns the variances divided by the squared means; 0 without light.
     FocusSearch::Contrasts contrasts() const;
 };
 
-/// A part of a field as a sum of plane waves, which can be looked at on any parallel plane. What leaves the part at one
-/// side comes back at the other.
+/// Plane-wave spectrum of a part of a field, for refocusing to parallel planes. Light that leaves the part on one side
+/// wraps around to the other.
 class PlaneWaves {
   public:
-    /// Reads look 0.
+    /// Reads the region of the field at look 0.
     PlaneWaves(const FieldSource& field, const Region& region);
 
-    /// The sums for the intensity at a depth, metres behind the field: waves go back to it.
+    /// Returns the sums of the intensity at a depth, metres behind the field, by backward propagation.
     LightSums at(double depth) const;
 
-    /// Half the width of the frequencies, cycles a metre, that hold nine tenths of the amplitudes: the mean of both
-    /// directions.
+    /// Returns half the bandwidth, cycles per metre, that contains nine tenths of the amplitudes: the mean of x and y.
     double band() const;
 
   private:

@@ -13,13 +13,13 @@ namespace {
 using DoubleComplex = std::complex<double>;
 using std::numbers::pi;
 
-// The integral less the trapezoidal rule, at t.
-DoubleComplex missing(double t) {
+// Returns the integral minus the trapezoidal rule at t.
+DoubleComplex trapezoid_error(double t) {
     if (std::abs(t) < 1e-3) return DoubleComplex(0, -pi * t / 6);  // the first term of the series
     return DoubleComplex(0, -1) * (0.5 / (pi * t) - 0.5 / std::tan(pi * t));
 }
 
-// Solves a x = b by elimination with row pivots; a has b's size squared.
+// Solves a x = b by Gaussian elimination with row pivoting; `a` is row-major, n × n.
 std::vector<DoubleComplex> solved(std::vector<DoubleComplex> a, std::vector<DoubleComplex> b) {
     const std::size_t n = b.size();
     for (std::size_t column = 0; column < n; ++column) {
@@ -46,16 +46,16 @@ std::vector<DoubleComplex> solved(std::vector<DoubleComplex> a, std::vector<Doub
 BandEdge::BandEdge(double low, double high) {
     constexpr std::size_t count = 2 * max_beyond + 1, points = 300;
     constexpr double regularisation = 1e-12;
-    const auto at = [&](std::size_t p) { return low + (high - low) * static_cast<double>(p) / (points - 1); };
+    const auto position = [&](std::size_t p) { return low + (high - low) * static_cast<double>(p) / (points - 1); };
     const auto wave = [](std::size_t k, double t) {
         return unit_phasor((static_cast<double>(k) - static_cast<double>(max_beyond)) * t);
     };
-    // The normal equations.
+    // Normal equations of the least-squares fit.
     std::vector<DoubleComplex> a(count * count), b(count), waves(count);
     for (std::size_t p = 0; p < points; ++p) {
-        for (std::size_t i = 0; i < count; ++i) waves[i] = wave(i, at(p));
+        for (std::size_t i = 0; i < count; ++i) waves[i] = wave(i, position(p));
         for (std::size_t i = 0; i < count; ++i) {
-            b[i] += times(std::conj(waves[i]), missing(at(p)));
+            b[i] += times(std::conj(waves[i]), trapezoid_error(position(p)));
             for (std::size_t j = 0; j < count; ++j) a[i * count + j] += times(std::conj(waves[i]), waves[j]);
         }
     }
@@ -63,9 +63,9 @@ BandEdge::BandEdge(double low, double high) {
     corrections = solved(a, b);
     double sum = 0;
     for (std::size_t p = 0; p < points; ++p) {
-        DoubleComplex rest = missing(at(p));
-        for (std::size_t i = 0; i < count; ++i) rest -= corrections[i] * wave(i, at(p));
-        sum += std::norm(rest);
+        DoubleComplex residual = trapezoid_error(position(p));
+        for (std::size_t i = 0; i < count; ++i) residual -= corrections[i] * wave(i, position(p));
+        sum += std::norm(residual);
     }
     error = std::sqrt(sum / points);
 }

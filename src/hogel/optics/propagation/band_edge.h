@@ -7,14 +7,14 @@
 
 namespace hogel::optics::propagation {
 
-/// Weights of an integral over frequencies that ends at a sharp edge. The trapezoidal rule of step 1, over the
-/// frequencies −∞ … 0 with half the weight at 0, integrates e^{2πift} to ½ cot(πt)/i instead of 1/(2πit). The sum of
-/// c_k e^{2πikt} over the frequencies k = −max_beyond … max_beyond around the edge makes up for the difference, for all
-/// t of a range: the least squares of what remains.
+/// Quadrature weights for an integral over frequencies that ends at a sharp band edge. The trapezoidal rule of step 1
+/// over the frequencies −∞ … 0, with half the weight at 0, integrates e^{2πift} to ½ cot(πt)/i instead of 1/(2πit). The
+/// sum of c_k e^{2πikt} over k = −max_beyond … max_beyond around the edge corrects the difference over a range of t in
+/// the least-squares sense.
 struct BandEdge {
     static constexpr std::ptrdiff_t max_beyond = 12;
     std::vector<std::complex<double>> corrections;  ///< c_k, k = −max_beyond …
-    double error = 0;                               ///< root mean square of what remains over the range
+    double error = 0;                               ///< root mean square of the residual over the range
 
     /// @param low, high  the range of t, in (−1, 1) and shorter than 1
     BandEdge(double low, double high);

@@ -28,17 +28,18 @@ LineTransform::LineTransform(const Steps& from, const Steps& to, int sign, doubl
     : fft_(transform > 0 ? transform : convolution(from.count, to.count)),
       forward_(sign < 0),
       convolves_(transform == 0),
-      before_(from.count),
-      after_(to.count) {
+      input_factors_(from.count),
+      output_factors_(to.count) {
     // a_i b_j = a_i b_0 + a_0 (b_j − b_0) + ij ν.
     const double nu = from.step * to.step;
     const auto half_square = [&](std::size_t i) { return convolves_ ? std::fmod(0.5 * nu * square(i), 1.0) : 0.0; };
     for (std::size_t i = 0; i < from.count; ++i) {
         const double a = from.first + static_cast<double>(i) * from.step;
-        before_[i] = Complex(scale * unit_phasor(sign * (a * to.first + half_square(i))));
+        input_factors_[i] = Complex(scale * unit_phasor(sign * (a * to.first + half_square(i))));
     }
     for (std::size_t j = 0; j < to.count; ++j)
-        after_[j] = Complex(unit_phasor(sign * (from.first * static_cast<double>(j) * to.step + half_square(j))));
+        output_factors_[j] =
+            Complex(unit_phasor(sign * (from.first * static_cast<double>(j) * to.step + half_square(j))));
     if (!convolves_) return;
     const std::size_t n = fft_.size();
     chirp_.assign(n, Complex(0));
@@ -51,15 +52,15 @@ LineTransform::LineTransform(const Steps& from, const Steps& to, int sign, doubl
 std::size_t LineTransform::buffer() const { return std::max({fft_.size(), inputs(), outputs()}); }
 
 void LineTransform::operator()(std::span<Complex> line) const {
-    for (std::size_t i = 0; i < inputs(); ++i) line[i] = times(line[i], before_[i]);
+    for (std::size_t i = 0; i < inputs(); ++i) line[i] = times(line[i], input_factors_[i]);
     if (convolves_)
         by_convolution(line);
     else
         by_transform(line);
-    for (std::size_t j = 0; j < outputs(); ++j) line[j] = times(line[j], after_[j]);
+    for (std::size_t j = 0; j < outputs(); ++j) line[j] = times(line[j], output_factors_[j]);
 }
 
-// Inputs and outputs may be a few more than the transform has; those that are a period apart belong together.
+// Inputs or outputs may outnumber the transform by a few; the excess wraps around by one period.
 void LineTransform::by_transform(std::span<Complex> line) const {
     const std::size_t n = fft_.size();
     for (std::size_t i = n; i < inputs(); ++i) line[i % n] += line[i];

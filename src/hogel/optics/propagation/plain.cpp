@@ -16,19 +16,20 @@ using DoubleComplex = std::complex<double>;
 using std::numbers::pi;
 
 struct Nodes {
-    std::vector<double> at, weight;
+    std::vector<double> position, weight;
 };
 
-// Gauss's rule of 16 nodes on equal panels of [−edge, edge]: the zeros of Legendre's polynomial by Newton's method.
+// Returns the Gauss rule of 16 nodes per panel on equal panels of [−edge, edge]. The nodes are the zeros of the
+// Legendre polynomial, found by Newton's method.
 Nodes gauss(double edge, std::size_t panels) {
     constexpr int order = 16;
     std::array<double, order> zero{}, weight{};
     for (int i = 0; i < order; ++i) {
         double x = std::cos(pi * (i + 0.75) / (order + 0.5)), slope = 1;
         for (int step = 0; step < 50; ++step) {
-            double p = 1, before = 0;
-            for (int n = 0; n < order; ++n) before = std::exchange(p, ((2 * n + 1) * x * p - n * before) / (n + 1));
-            slope = order * (x * p - before) / (x * x - 1);
+            double p = 1, previous = 0;
+            for (int n = 0; n < order; ++n) previous = std::exchange(p, ((2 * n + 1) * x * p - n * previous) / (n + 1));
+            slope = order * (x * p - previous) / (x * x - 1);
             x -= p / slope;
         }
         zero[std::size_t(i)] = x;
@@ -38,13 +39,13 @@ Nodes gauss(double edge, std::size_t panels) {
     const double half = edge / static_cast<double>(panels);
     for (std::size_t panel = 0; panel < panels; ++panel)
         for (std::size_t i = 0; i < order; ++i) {
-            nodes.at.push_back(-edge + half * (2 * static_cast<double>(panel) + 1 + zero[i]));
+            nodes.position.push_back(-edge + half * (2 * static_cast<double>(panel) + 1 + zero[i]));
             nodes.weight.push_back(half * weight[i]);
         }
     return nodes;
 }
 
-// Panels of about two cycles of e^{2πi f u}, u being the longest path that light can remain from a point.
+// Returns nodes on panels of about two cycles of e^{2πi f u}, for the longest sideways path u from a point.
 Nodes nodes_of(double pitch, double path, double wavelength) {
     const double edge = std::min(0.5 / pitch, 4 / wavelength);
     return gauss(edge, static_cast<std::size_t>(std::ceil(edge * path)) + 2);
@@ -71,22 +72,23 @@ std::vector<DoubleComplex> sum_of_plane_waves(const Field& field, double distanc
                 y = nodes_of(plane.pitch_y, path_y + aside, field.grid().wavelength);
     std::vector<DoubleComplex> result(points.size()), column(plane.height), along_x(points.size());
     std::vector<DoubleComplex> along_y;  // [node][point]
-    for (const double f : y.at)
+    for (const double f : y.position)
         for (const PlanePoint& point : points) along_y.push_back(unit_phasor(f * point.y));
-    for (std::size_t i = 0; i < x.at.size(); ++i) {
-        // The transform along the rows at f_x, then along the column at each f_y.
+    for (std::size_t i = 0; i < x.position.size(); ++i) {
+        // Transforms the rows at f_x, then the column at each f_y.
         std::ranges::fill(column, DoubleComplex(0));
         for (std::size_t s = 0; s < plane.width; ++s) {
-            const DoubleComplex wave = unit_phasor(-x.at[i] * plane.x(static_cast<double>(s)));
+            const DoubleComplex wave = unit_phasor(-x.position[i] * plane.x(static_cast<double>(s)));
             for (std::size_t t = 0; t < plane.height; ++t) column[t] += times(wave, DoubleComplex(field.samples(t, s)));
         }
-        for (std::size_t p = 0; p < points.size(); ++p) along_x[p] = x.weight[i] * unit_phasor(x.at[i] * points[p].x);
-        for (std::size_t j = 0; j < y.at.size(); ++j) {
-            const double square = k * k - x.at[i] * x.at[i] - y.at[j] * y.at[j];
+        for (std::size_t p = 0; p < points.size(); ++p)
+            along_x[p] = x.weight[i] * unit_phasor(x.position[i] * points[p].x);
+        for (std::size_t j = 0; j < y.position.size(); ++j) {
+            const double square = k * k - x.position[i] * x.position[i] - y.position[j] * y.position[j];
             if (square < 0 && distance < 0) continue;
             DoubleComplex value = 0;
-            const DoubleComplex step = unit_phasor(y.at[j] * plane.pitch_y);
-            DoubleComplex wave = unit_phasor(-y.at[j] * plane.y(0));
+            const DoubleComplex step = unit_phasor(y.position[j] * plane.pitch_y);
+            DoubleComplex wave = unit_phasor(-y.position[j] * plane.y(0));
             for (std::size_t t = 0; t < plane.height; ++t, wave = times(wave, step)) value += times(wave, column[t]);
             value *= square >= 0 ? unit_phasor(std::sqrt(square) * distance)
                                  : DoubleComplex(std::exp(-2 * pi * std::sqrt(-square) * distance));
@@ -111,7 +113,7 @@ std::vector<DoubleComplex> sum_of_spherical_waves(const Field& field, double dis
                     std::hypot(point.x - plane.x(static_cast<double>(s)), point.y - plane.y(static_cast<double>(t)), z);
                 DoubleComplex kernel =
                     z / (2 * pi * r * r) * DoubleComplex(1 / r, -2 * pi / wavelength) * unit_phasor(r / wavelength);
-                // Light that goes backwards is the conjugate of light that goes forwards.
+                // Backward propagation uses the conjugate kernel of forward propagation.
                 if (distance < 0) kernel = std::conj(kernel);
                 sum += kernel * DoubleComplex(field.samples(t, s));
             }

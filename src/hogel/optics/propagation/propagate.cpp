@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Propagation of fields in three passes: rows to frequencies; columns to frequencies, on to the other plane, and to its
-// rows; rows to samples. One array, of the columns' frequencies, is all that is kept between them.
+// Propagates fields in three passes: rows to frequencies; columns to frequencies, times the transfer function, to
+// output rows; rows to output samples. Between the passes only one array is kept, the frequencies of the columns.
 #include "hogel/propagate.h"
 
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// Buffers of several lines, apart by a stride.
+// Buffers of several lines with a padded stride.
 struct Lines {
     Lines(std::size_t count, std::size_t size) : stride(stride_of(size)), values({count, stride}) {}
     std::span<Complex> operator[](std::size_t line) { return {&values(line, 0), stride}; }
@@ -45,34 +45,34 @@ class TileWork {
           options_(options),
           progress_(progress),
           transfer_(plan),
-          together_(source.alignment() * std::max<std::size_t>(block_lines / source.alignment(), 1)),
-          kept_(std::max(plan.y.field.count, plan.y.output.count), plan.x.frequencies.count, together_, block_lines,
-                options.scratch),
-          field_rows_(kept_.local_rows(plan.y.field.count)),
-          columns_(kept_.local_columns()),
-          output_rows_(kept_.local_rows(plan.y.output.count)) {}
+          group_rows_(source.alignment() * std::max<std::size_t>(block_lines / source.alignment(), 1)),
+          frequencies_(std::max(plan.y.field.count, plan.y.output.count), plan.x.frequencies.count, group_rows_,
+                       block_lines, options.scratch),
+          field_rows_(frequencies_.local_rows(plan.y.field.count)),
+          columns_(frequencies_.local_columns()),
+          output_rows_(frequencies_.local_rows(plan.y.output.count)) {}
 
-    // Writes what the sink does not have already of the tile at `region`.
+    // Writes the samples of the tile at `region` that the sink does not have yet.
     void run(FieldSink& sink, const Region& region) {
         const std::vector<distributed::LineRange> missing = missing_rows(sink, region);
-        Communicator* const all = work::communicator_of_several();
-        if ((all != nullptr ? all->sum(missing.size()) : missing.size()) == 0) return;
-        blocks_ = blocks_of(field_rows_.count, together_) + blocks_of(columns_.count) + missing.size();
+        Communicator* const communicator = work::communicator_of_several();
+        if ((communicator != nullptr ? communicator->sum(missing.size()) : missing.size()) == 0) return;
+        blocks_ = blocks_of(field_rows_.count, group_rows_) + blocks_of(columns_.count) + missing.size();
         rows_to_frequencies();
-        kept_.to_columns(plan_.y.field.count);
+        frequencies_.to_columns(plan_.y.field.count);
         columns();
-        kept_.to_rows(plan_.y.output.count);
+        frequencies_.to_rows(plan_.y.output.count);
         frequencies_to_rows(sink, region, missing);
-        if (all != nullptr) share_rows(*all, sink, region);
+        if (communicator != nullptr) share_rows(*communicator, sink, region);
     }
 
   private:
-    // The own rows of the tile that are to be written, in blocks that are the same for any number of processes, because
-    // each process has whole groups of rows.
+    // Returns the local rows of the tile that must be written, in blocks. The blocks are the same for any number of
+    // ranks, because each rank has whole groups of rows.
     std::vector<distributed::LineRange> missing_rows(FieldSink& sink, const Region& region) const {
         std::vector<distributed::LineRange> missing;
-        for (std::size_t group = output_rows_.first; group < output_rows_.end(); group += together_) {
-            const std::size_t end = std::min(group + together_, output_rows_.end());
+        for (std::size_t group = output_rows_.first; group < output_rows_.end(); group += group_rows_) {
+            const std::size_t end = std::min(group + group_rows_, output_rows_.end());
             for (std::size_t y = group; y < end; y += block_lines) {
                 const distributed::LineRange rows{y, std::min(block_lines, end - y)};
                 if (!sink.has_already(part(region, rows))) missing.push_back(rows);
@@ -85,27 +85,27 @@ class TileWork {
         return {region.x0, region.y0 + rows.first, region.width, rows.count};
     }
 
-    void done() {
+    void report_block() {
         const std::lock_guard lock(reporting_);
         progress_.report(static_cast<double>(++done_) / static_cast<double>(blocks_));
     }
 
     void rows_to_frequencies() {
         const std::size_t width = plan_.x.field.count;
-        kept_.begin_rows(plan_.y.field.count);
+        frequencies_.begin_rows(plan_.y.field.count);
         const LineTransform inward(plan_.x.field, plan_.x.frequencies, -1, plan_.x.field.step, plan_.x.inward);
-        work::parallel_for(blocks_of(field_rows_.count, together_), [&](std::size_t block) {
-            const std::size_t y0 = field_rows_.first + block * together_,
-                              rows = std::min(together_, field_rows_.end() - y0);
+        work::parallel_for(blocks_of(field_rows_.count, group_rows_), [&](std::size_t block) {
+            const std::size_t y0 = field_rows_.first + block * group_rows_,
+                              rows = std::min(group_rows_, field_rows_.end() - y0);
             Array<Complex, 2> samples({rows, width});
             source_.read({0, y0, width, rows}, options_.look, samples);
             Lines line(1, inward.buffer());
             for (std::size_t y = 0; y < rows; ++y) {
                 std::copy_n(&samples(y, 0), width, line[0].data());
                 inward(line[0]);
-                kept_.put_row(y0 + y, line[0].data());
+                frequencies_.put_row(y0 + y, line[0].data());
             }
-            done();
+            report_block();
         });
     }
 
@@ -113,8 +113,8 @@ class TileWork {
         const AxisPlan& y = plan_.y;
         const LineTransform inward(y.field, y.frequencies, -1, y.field.step, y.inward);
         const LineTransform outward(y.frequencies, y.output, 1, 1 / (plan_.x.period * y.period), y.outward);
-        const distributed::LocalColumns before = kept_.in_columns(y.field.count),
-                                        after = kept_.in_columns(y.output.count);
+        const distributed::LocalColumns before = frequencies_.in_columns(y.field.count),
+                                        after = frequencies_.in_columns(y.output.count);
         const std::size_t blocks = blocks_of(columns_.count);
         std::vector<Transfer::Energy> energies(blocks);
         work::parallel_for(blocks, [&](std::size_t block) {
@@ -136,19 +136,19 @@ class TileWork {
             }
             for (std::size_t row = 0; row < y.output.count; ++row)
                 for (std::size_t i = 0; i < count; ++i) after(row, x0 + i) = lines[i][row];
-            done();
+            report_block();
         });
         require_little_grazing_light(energies);
     }
 
-    // Those of all processes are added in the order of the columns.
+    // The energies of all ranks are added in the order of the columns: the sum is the same for any number of ranks.
     void require_little_grazing_light(std::vector<Transfer::Energy> energies) const {
         double all = 0, grazing = 0;
-        if (Communicator* const others = work::communicator_of_several()) {
-            work::MessageWriter own;
-            own.put(energies);
+        if (Communicator* const communicator = work::communicator_of_several()) {
+            work::MessageWriter local_energies;
+            local_energies.put(energies);
             energies.clear();
-            for (const std::string& bytes : distributed::all_of(*others, own.take())) {
+            for (const std::string& bytes : distributed::all_of(*communicator, local_energies.take())) {
                 work::MessageReader message(bytes);
                 std::ranges::copy(message.get_vector<Transfer::Energy>(), std::back_inserter(energies));
             }
@@ -172,29 +172,31 @@ class TileWork {
             Lines line(1, outward.buffer());
             Array<Complex, 2> samples({rows.count, region.width});
             for (std::size_t y = 0; y < rows.count; ++y) {
-                kept_.get_row(rows.first + y, line[0].data());
+                frequencies_.get_row(rows.first + y, line[0].data());
                 outward(line[0]);
                 std::copy_n(line[0].data(), region.width, &samples(y, 0));
             }
             sink.write(part(region, rows), samples);
-            done();
+            report_block();
         });
     }
 
-    // Gives all processes the rows of all, where each has the output in its memory.
-    void share_rows(Communicator& all, FieldSink& sink, const Region& region) {
+    // All-gathers the rows of a tile if every rank has the output in its own memory.
+    void share_rows(Communicator& communicator, FieldSink& sink, const Region& region) {
         const View<Complex, 2> output = sink.in_memory();
         if (output.size() == 0) return;
-        for (std::size_t process = 0; process < all.size(); ++process) {
-            const distributed::LineRange rows = distributed::lines_of(process, all.size(), region.height, together_);
+        for (std::size_t rank = 0; rank < communicator.size(); ++rank) {
+            const distributed::LineRange rows =
+                distributed::lines_of(rank, communicator.size(), region.height, group_rows_);
             for (std::size_t y = rows.first; y < rows.end(); ++y) {
                 Complex* const samples = &output(region.y0 + y, region.x0);
                 const std::size_t bytes = region.width * sizeof(Complex);
-                if (process != all.rank())
-                    std::memcpy(static_cast<void*>(samples), all.receive_from(process).data(), bytes);
+                if (rank != communicator.rank())
+                    std::memcpy(static_cast<void*>(samples), communicator.receive_from(rank).data(), bytes);
                 else
-                    for (std::size_t other = 0; other < all.size(); ++other)
-                        if (other != process) all.send_to(other, {reinterpret_cast<const char*>(samples), bytes});
+                    for (std::size_t receiver = 0; receiver < communicator.size(); ++receiver)
+                        if (receiver != rank)
+                            communicator.send_to(receiver, {reinterpret_cast<const char*>(samples), bytes});
             }
         }
     }
@@ -203,32 +205,33 @@ class TileWork {
     const PropagateOptions& options_;
     const Progress& progress_;
     Transfer transfer_;
-    std::size_t together_;           // rows that are read together
-    distributed::SharedPlane kept_;  // [row][frequency], first rows of the field, then of the output
-    distributed::LineRange field_rows_, columns_, output_rows_;  // of this process
+    std::size_t group_rows_;                // number of rows that are read together
+    distributed::SharedPlane frequencies_;  // [row][frequency], first rows of the field, then of the output
+    distributed::LineRange field_rows_, columns_, output_rows_;  // of this rank
     std::size_t blocks_ = 0, done_ = 0;
     std::mutex reporting_;
 };
 
-// Writes zeros to all of the output but its lit part. Processes take blocks in turn, except into their own memories.
-void write_dark(FieldSink& sink, const Grid& output, const Region& active) {
-    const std::size_t right = active.x0 + active.width, below = active.y0 + active.height;
-    const Region parts[] = {{0, 0, output.width, active.y0},
-                            {0, active.y0, active.x0, active.height},
-                            {right, active.y0, output.width - right, active.height},
+// Writes zeros to the output outside its illuminated region. Ranks take turns with blocks, except if each rank has the
+// output in its own memory.
+void write_dark(FieldSink& sink, const Grid& output, const Region& illuminated) {
+    const std::size_t right = illuminated.x0 + illuminated.width, below = illuminated.y0 + illuminated.height;
+    const Region parts[] = {{0, 0, output.width, illuminated.y0},
+                            {0, illuminated.y0, illuminated.x0, illuminated.height},
+                            {right, illuminated.y0, output.width - right, illuminated.height},
                             {0, below, output.width, output.height - below}};
-    Communicator* const all = work::communicator_of_several();
-    const bool alone = all == nullptr || sink.in_memory().size() > 0;
-    constexpr std::size_t samples_at_once = 1 << 18;
+    Communicator* const communicator = work::communicator_of_several();
+    const bool writes_all = communicator == nullptr || sink.in_memory().size() > 0;
+    constexpr std::size_t block_samples = 1 << 18;
     std::size_t block = 0;
     for (const Region& part : parts) {
         if (part.samples() == 0) continue;
-        const std::size_t rows = std::max<std::size_t>(samples_at_once / part.width, 1);
+        const std::size_t rows = std::max<std::size_t>(block_samples / part.width, 1);
         for (std::size_t y = 0; y < part.height; y += rows, ++block) {
             core::throw_if_stopped();
-            const Region some{part.x0, part.y0 + y, part.width, std::min(rows, part.height - y)};
-            if ((alone || block % all->size() == all->rank()) && !sink.has_already(some))
-                sink.write(some, Array<Complex, 2>({some.height, some.width}));
+            const Region block_region{part.x0, part.y0 + y, part.width, std::min(rows, part.height - y)};
+            if ((writes_all || block % communicator->size() == communicator->rank()) && !sink.has_already(block_region))
+                sink.write(block_region, Array<Complex, 2>({block_region.height, block_region.width}));
         }
     }
 }
@@ -246,9 +249,9 @@ struct Tiling {
         const auto [y0, y1] = range(row, down, output.height);
         return {x0, y0, x1 - x0, y1 - y0};
     }
-    // The plans of the tiles at the four corners, which are the most oblique, and of one in the middle: corners may be
-    // dark.
-    std::vector<TilePlan> samples(const FieldGrid& field, double distance) const {
+    // Returns the plans of the four corner tiles, which are the most oblique, and of a central tile, because corners
+    // may be dark.
+    std::vector<TilePlan> sample_plans(const FieldGrid& field, double distance) const {
         std::vector<TilePlan> plans{plan_tile(field, distance, part(output, tile(across / 2, down / 2)))};
         for (const std::size_t row : {std::size_t{0}, down - 1})
             for (const std::size_t column : {std::size_t{0}, across - 1})
@@ -257,23 +260,24 @@ struct Tiling {
     }
 };
 
-// Tiles need fewer frequencies each, because less light leads to them, but each begins with the whole field.
+// Chooses a tiling. A tile needs fewer frequencies than the whole output, because less light leads to it, but each tile
+// transforms the whole field.
 Tiling tiling_of(const FieldGrid& field, double distance, const Grid& output) {
     const auto operations = [&](const Tiling& tiling) {
         double worst = 0;
-        for (const TilePlan& plan : tiling.samples(field, distance)) worst = std::max(worst, plan.operations());
+        for (const TilePlan& plan : tiling.sample_plans(field, distance)) worst = std::max(worst, plan.operations());
         return worst * static_cast<double>(tiling.across) * static_cast<double>(tiling.down);
     };
     Tiling best{output};
-    double least = operations(best);
+    double best_operations = operations(best);
     for (Tiling next = best; next.across < output.width || next.down < output.height;) {
         next.across = std::min(2 * next.across, output.width);
         next.down = std::min(2 * next.down, output.height);
-        const double all = operations(next);
-        // Beyond the best size operations rise without end.
-        if (all > 2 * least) break;
-        if (all < 0.7 * least) {
-            least = all;
+        const double total = operations(next);
+        // The number of operations increases monotonically beyond the best size.
+        if (total > 2 * best_operations) break;
+        if (total < 0.7 * best_operations) {
+            best_operations = total;
             best = next;
         }
     }
@@ -298,8 +302,8 @@ bool is_identity(const FieldGrid& field, double distance, const Grid& output) {
 
 void require_accuracy(double error, double max_error) {
     if (error <= max_error) return;
-    throw Error(ErrorCode::usage, fmt::format("a relative error of {:.2g} is predicted, and at most {:.2g} is accepted",
-                                              error, max_error));
+    throw Error(ErrorCode::usage,
+                fmt::format("the predicted relative error is {:.2g}; at most {:.2g} is accepted", error, max_error));
 }
 
 }  // namespace
@@ -316,11 +320,11 @@ PropagationMethod propagation_method(const FieldGrid& field, double distance, co
         distance == 0 ? std::numeric_limits<double>::infinity() : half * half / (field.wavelength * std::abs(distance));
     method.name = "identity";
     if (is_identity(field, distance, output)) return method;
-    const Tiling tiling = tiling_of(field, distance, part(output, lit_part(field, distance, output)));
+    const Tiling tiling = tiling_of(field, distance, part(output, illuminated_region(field, distance, output)));
     method.name = "fft";
     method.tiles_x = tiling.across;
     method.tiles_y = tiling.down;
-    for (const TilePlan& plan : tiling.samples(field, distance)) {
+    for (const TilePlan& plan : tiling.sample_plans(field, distance)) {
         method.frequencies_x = std::max(method.frequencies_x, plan.x.frequencies.count);
         method.frequencies_y = std::max(method.frequencies_y, plan.y.frequencies.count);
         method.bytes = std::max(method.bytes, plan.bytes());
@@ -341,8 +345,8 @@ Plan plan_propagation(std::span<const FieldGrid> fields, double distance, const 
         const auto in_memory = static_cast<double>(options.scratch.memory);
         const double result =
             static_cast<double>(options.output.value_or(field.plane).samples()) * sizeof(std::complex<float>);
-        // Besides the work array every thread transforms lines, padded to about three times their frequencies. Pages of
-        // a file stay in memory where there is room, but the system may take that back.
+        // Besides the work array, every thread transforms lines, padded to about three times their frequencies. Pages
+        // of a mapped file stay in memory only while there is room.
         const double lines = 3 * static_cast<double>(block_lines * thread_count()) *
                              static_cast<double>(std::max(method.frequencies_x, method.frequencies_y)) *
                              sizeof(std::complex<float>);
@@ -359,16 +363,16 @@ void propagate(const FieldSource& source, double distance, FieldSink& sink, cons
     const FieldGrid& field = source.grid();
     const Grid output = output_of(field, distance, options);
     if (is_identity(field, distance, output)) return copy(source, sink, options.look, progress);
-    const Region active = lit_part(field, distance, output);
-    write_dark(sink, output, active);
-    const Tiling tiling = tiling_of(field, distance, part(output, active));
+    const Region illuminated = illuminated_region(field, distance, output);
+    write_dark(sink, output, illuminated);
+    const Tiling tiling = tiling_of(field, distance, part(output, illuminated));
     const std::size_t tiles = tiling.across * tiling.down;
     for (std::size_t i = 0; i < tiles; ++i) {
         Region region = tiling.tile(i % tiling.across, i / tiling.across);
         const TilePlan plan = plan_tile(field, distance, part(tiling.output, region));
         require_accuracy(Transfer(plan).error(), options.max_error);
-        region.x0 += active.x0;
-        region.y0 += active.y0;
+        region.x0 += illuminated.x0;
+        region.y0 += illuminated.y0;
         TileWork(source, plan, options, progress.part(i, tiles)).run(sink, region);
     }
     sink.finish();

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// How finely and how far the frequencies of a propagated field must be sampled.
+// Computes the step and the range of the frequencies that propagate a field.
 //
-// Frequencies at steps of 1/W repeat the output with period W. Light reaches the output from the field at sideways
-// paths within middle ± R, R being half of both sizes together. The kernel of the propagation is e^{iπu²/λz} for a path
-// u, so that a direction has the path to within a few Fresnel lengths L = √(λz). So the frequencies are multiplied by
-// ½ erfc((|path − middle| − R − G/2)/s) and the period is W = 2R + G: the path of a wanted direction, and that of the
-// next period's, lies G/2 or more from the middle of the fade. The least error is that of s = L/√π, about
-// e^{−(π/8)(G/L)²}: a convolution of the erfc with the kernel is again an erfc, of complex width. Thus the number of
-// frequencies, W times the kept band, is about (2R + 5.5 L)(2R + 9 L)/λz: that of the samples for near planes, a
-// hundred for far ones.
+// Frequencies at steps of 1/W make the output periodic with period W. Light reaches the output on sideways paths within
+// middle ± R, where 2R is the sum of the sizes of field and output. The propagation kernel is e^{iπu²/λz} for a path u:
+// a direction determines the path to within a few Fresnel lengths L = √(λz). The frequencies are therefore multiplied
+// by ½ erfc((|path − middle| − R − G/2)/s), and the period is W = 2R + G. The paths of a wanted direction and of its
+// alias in the next period are G/2 or more from the middle of the fade. s = L/√π minimises the error, about
+// e^{−(π/8)(G/L)²}: a convolution of the erfc with the kernel is an erfc of complex width. The number of frequencies, W
+// times the kept band, is about (2R + 5.5 L)(2R + 9 L)/λz. It equals the number of samples for near planes, and a
+// hundred for far planes.
 //
-// Oblique directions have a larger L: the second derivative of z f_z, λz/cos³θ at the most.
+// Oblique directions have a larger L, determined by the second derivative of z f_z, at most λz/cos³θ.
 #include "hogel/optics/propagation/tile_plan.h"
 
 #include <fmt/format.h>
@@ -29,14 +29,14 @@
 namespace hogel::optics::propagation {
 namespace {
 
-// In Fresnel lengths: an error of 7e-6 from the fade, and its end, beyond which 1e-5 of the amplitude is dropped.
+// In Fresnel lengths. The fade has an error of 7e-6; beyond its end 1e-5 of the amplitude is dropped.
 constexpr double guard_lengths = 5.5, fade_lengths = 1.69;
-// The part of the period that paths to a lit edge of the band may take.
+// The largest fraction of the period for paths to an active edge of the band.
 constexpr double max_edge_path = 0.85;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// Sets the Fresnel lengths: those of the most oblique direction that is kept. Where grazing directions would need more
-// than four times the sizes of field and output, a smallest cosine.
+// Sets the Fresnel lengths for the most oblique direction that is kept. If grazing directions need more than four times
+// the size of field and output, sets a minimum cosine instead.
 void set_guards(TilePlan& plan) {
     AxisPlan &x = plan.x, &y = plan.y;
     const double z = std::abs(plan.distance), lambda = plan.wavelength;
@@ -47,18 +47,18 @@ void set_guards(TilePlan& plan) {
     double length = along_axis;
     plan.min_cosine = 0;
     for (int i = 0; i < 40 && z > 0; ++i) {
-        const double beyond = (0.5 * guard_lengths + fade_lengths) * length;
-        const double dx = std::abs(x.middle) + x.reach + beyond, dy = std::abs(y.middle) + y.reach + beyond;
+        const double margin = (0.5 * guard_lengths + fade_lengths) * length;
+        const double dx = std::abs(x.middle) + x.reach + margin, dy = std::abs(y.middle) + y.reach + margin;
         const double cosine = std::max(band_cosine, z / std::hypot(z, dx, dy));
         const double next = along_axis / std::pow(cosine, 1.5);
-        const bool settled = next <= length * 1.001;
+        const bool converged = next <= length * 1.001;
         length = std::max(length, next);
         if (length > max_length) {
             length = max_length;
             plan.min_cosine = std::pow(along_axis / length, 2.0 / 3);
             break;
         }
-        if (settled) break;
+        if (converged) break;
     }
     for (AxisPlan* axis : {&x, &y}) {
         axis->fresnel = length;
@@ -66,7 +66,8 @@ void set_guards(TilePlan& plan) {
     }
 }
 
-// Sideways paths of the band's edge on this axis, at all frequencies of the other axis: the nearest and the farthest.
+// Returns the shortest and the longest sideways path at the band edge of this axis, over all frequencies of the other
+// axis.
 std::pair<double, double> edge_paths(const TilePlan& plan, const AxisPlan& axis, double other_frequency) {
     const double z = std::abs(plan.distance), f = axis.edge_frequency();
     const double squares = 1 / (plan.wavelength * plan.wavelength) - f * f;
@@ -77,33 +78,33 @@ std::pair<double, double> edge_paths(const TilePlan& plan, const AxisPlan& axis,
             rest <= 0 ? infinite : z * f / std::sqrt(rest)};
 }
 
-// The path that remains at an edge whose directions travel by between low and high.
+// Returns the range of remaining paths at an edge whose directions have sideways paths between low and high.
 AxisPlan::Edge edge_between(const AxisPlan& axis, double low, double high) {
-    const double kept = axis.reach + axis.end_of_fade();
-    low = std::max(low, axis.middle - kept);
-    high = std::min(high, axis.middle + kept);
+    const double max_path = axis.reach + axis.end_of_fade();
+    low = std::max(low, axis.middle - max_path);
+    high = std::min(high, axis.middle + max_path);
     if (low > high) return {};
     return {true, axis.middle - axis.reach - high, axis.middle + axis.reach - low};
 }
 
-// Chooses the period, and the edges' paths in it.
+// Sets the period, and the paths of the edges in periods.
 void set_period(const TilePlan& plan, AxisPlan& axis, double other_frequency) {
     const auto [near, far] = edge_paths(plan, axis, other_frequency);
     const bool backwards = plan.distance < 0;
     axis.upper = backwards ? edge_between(axis, -far, -near) : edge_between(axis, near, far);
     axis.lower = backwards ? edge_between(axis, near, far) : edge_between(axis, -far, -near);
-    double wanted = std::max(2 * axis.reach + axis.guard, 64 * axis.field.step);
+    double min_period = std::max(2 * axis.reach + axis.guard, 64 * axis.field.step);
     for (const AxisPlan::Edge& edge : {axis.lower, axis.upper})
         if (edge.active)
-            wanted = std::max({wanted, std::abs(edge.low) / max_edge_path, std::abs(edge.high) / max_edge_path,
-                               (edge.high - edge.low) / max_edge_path});
-    const double samples = wanted / axis.field.step;
+            min_period = std::max({min_period, std::abs(edge.low) / max_edge_path, std::abs(edge.high) / max_edge_path,
+                                   (edge.high - edge.low) / max_edge_path});
+    const double samples = min_period / axis.field.step;
     if (!(samples < 1e12))
         throw Error(ErrorCode::usage, "output_pitch, output_samples, offset_x, offset_y",
                     fmt::format("an output {} from the field's middle and {} wide is too large to compute",
                                 format_length(axis.middle),
                                 format_length(static_cast<double>(axis.output.count) * axis.output.step)));
-    // An even number, so that a frequency lies at each edge of the band.
+    // An even number of samples puts a frequency on each edge of the band.
     const std::size_t half = math::good_fft_size(static_cast<std::size_t>(std::ceil(0.5 * samples)));
     axis.period = 2 * static_cast<double>(half) * axis.field.step;
     for (AxisPlan::Edge* edge : {&axis.lower, &axis.upper}) {
@@ -113,17 +114,17 @@ void set_period(const TilePlan& plan, AxisPlan& axis, double other_frequency) {
     axis.inward = axis.outward = 2 * half;
 }
 
-// Chooses the frequencies of the band that are kept, and the transforms to and from them.
+// Sets the frequencies of the band that are kept, and the transforms.
 void set_frequencies(AxisPlan& axis, double low, double high) {
     const double half = 0.5 * axis.period / axis.field.step;
-    constexpr auto beyond = static_cast<double>(BandEdge::max_beyond);
-    const double lowest = axis.lower.active ? -half - beyond : -half,
-                 highest = axis.upper.active ? half + beyond : half;
-    // One frequency more at each end, so that there is one in any band.
+    constexpr auto margin = static_cast<double>(BandEdge::max_beyond);
+    const double lowest = axis.lower.active ? -half - margin : -half,
+                 highest = axis.upper.active ? half + margin : half;
+    // One more frequency at each end, so that any band contains at least one.
     const double first = std::clamp(std::floor(low * axis.period) - 1, lowest, half);
     const double last = std::clamp(std::ceil(high * axis.period) + 1, -half, highest);
-    const double begin = axis.lower.active && first <= -half + beyond ? lowest : first;
-    const double end = axis.upper.active && last >= half - beyond ? highest : last;
+    const double begin = axis.lower.active && first <= -half + margin ? lowest : first;
+    const double end = axis.upper.active && last >= half - margin ? highest : last;
     axis.frequencies = {begin / axis.period, 1 / axis.period, static_cast<std::size_t>(end - begin) + 1};
     const std::size_t n = axis.frequencies.count;
     const auto cheaper = [](std::size_t inputs, std::size_t outputs, std::size_t transform) {
@@ -134,19 +135,19 @@ void set_frequencies(AxisPlan& axis, double low, double high) {
 }
 
 AxisPlan axis_of(std::size_t field, double field_pitch, std::size_t output, double output_pitch, double middle) {
-    const auto centred = [](double at, std::size_t n, double pitch) {
-        return Steps{at + (0.5 - 0.5 * static_cast<double>(n)) * pitch, pitch, n};
+    const auto centred = [](double centre, std::size_t n, double pitch) {
+        return Steps{centre + (0.5 - 0.5 * static_cast<double>(n)) * pitch, pitch, n};
     };
     AxisPlan axis;
     axis.field = centred(0, field, field_pitch);
     axis.output = centred(middle, output, output_pitch);
     axis.middle = middle;
-    // The output's samples are points, those of the field as wide as their pitch.
+    // Output samples are points; field samples are as wide as their pitch.
     axis.reach = 0.5 * (static_cast<double>(field) * field_pitch + static_cast<double>(output - 1) * output_pitch);
     return axis;
 }
 
-// What does not depend on the frequencies.
+// Returns the part of a plan that does not depend on the frequencies.
 TilePlan geometry_of(const FieldGrid& field, double distance, const Grid& output) {
     const Grid& plane = field.plane;
     TilePlan plan;
@@ -154,27 +155,27 @@ TilePlan geometry_of(const FieldGrid& field, double distance, const Grid& output
     plan.wavelength = field.wavelength;
     plan.x = axis_of(plane.width, plane.pitch_x, output.width, output.pitch_x, output.center_x - plane.center_x);
     plan.y = axis_of(plane.height, plane.pitch_y, output.height, output.pitch_y, plane.center_y - output.center_y);
-    // Evanescent waves of noise carry 1e-4 of its amplitude at a distance of 500 pitches.
+    // Evanescent waves of noise have decayed to 1e-4 of its amplitude at a distance of 500 pitches.
     constexpr double pitches = 500;
     plan.evanescent = std::hypot(plan.x.edge_frequency(), plan.y.edge_frequency()) * field.wavelength > 1 &&
                       distance >= 0 && distance < pitches * std::min(plane.pitch_x, plane.pitch_y);
     return plan;
 }
 
-// The first of the positions that is not below `at`, or their number.
-std::size_t first_from(const Steps& positions, double at) {
-    const double index = std::ceil((at - positions.first) / positions.step);
+// Returns the index of the first position not below `minimum`, or the number of positions.
+std::size_t first_from(const Steps& positions, double minimum) {
+    const double index = std::ceil((minimum - positions.first) / positions.step);
     return static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(positions.count)));
 }
 
-// The first and the end of the output's samples on this axis that light may reach.
-std::pair<std::size_t, std::size_t> lit_samples(const TilePlan& plan, const AxisPlan& axis, double other_frequency,
-                                                const char* across) {
+// Returns the range [first, end) of output samples on this axis that light can reach.
+std::pair<std::size_t, std::size_t> illuminated_samples(const TilePlan& plan, const AxisPlan& axis,
+                                                        double other_frequency, const char* across) {
     const Steps& output = axis.output;
     const double widest = edge_paths(plan, axis, other_frequency).second;
     const double cone = 0.5 * static_cast<double>(axis.field.count) * axis.field.step + widest;
     const auto position = [&](std::size_t i) { return std::abs(output.first + static_cast<double>(i) * output.step); };
-    // One of the two samples beside the field's middle is nearest to it.
+    // The nearest sample to the centre of the field is one of its two neighbours.
     const std::size_t next = std::min(first_from(output, 0), output.count - 1);
     const double nearest = std::min(position(next), position(next == 0 ? 0 : next - 1));
     if (!plan.evanescent && nearest > cone)
@@ -193,10 +194,10 @@ double AxisPlan::end_of_fade() const { return 0.5 * guard + fade_lengths * fresn
 
 double AxisPlan::outermost() const { return reach + end_of_fade(); }
 
-Region lit_part(const FieldGrid& field, double distance, const Grid& output) {
+Region illuminated_region(const FieldGrid& field, double distance, const Grid& output) {
     const TilePlan plan = geometry_of(field, distance, output);
-    const auto [x0, x1] = lit_samples(plan, plan.x, plan.y.edge_frequency(), "sideways");
-    const auto [y0, y1] = lit_samples(plan, plan.y, plan.x.edge_frequency(), "up and down");
+    const auto [x0, x1] = illuminated_samples(plan, plan.x, plan.y.edge_frequency(), "sideways");
+    const auto [y0, y1] = illuminated_samples(plan, plan.y, plan.x.edge_frequency(), "up and down");
     return {x0, y0, x1 - x0, y1 - y0};
 }
 
@@ -208,7 +209,7 @@ TilePlan plan_tile(const FieldGrid& field, double distance, const Grid& output) 
     set_period(plan, plan.y, fx);
     Band band{-fx, fx, -fy, fy};
     if (distance != 0 && !plan.evanescent) {
-        // From the origin to the paths that are kept.
+        // Directions from the origin to the paths that are kept.
         Rectangle from{Grid()}, to{Grid()};
         to.left = plan.x.middle - plan.x.outermost();
         to.right = plan.x.middle + plan.x.outermost();
@@ -230,7 +231,7 @@ double TilePlan::bytes() const {
 double TilePlan::operations() const {
     const std::size_t nx = x.frequencies.count, ny = y.frequencies.count;
     const auto count = [](std::size_t n) { return static_cast<double>(n); };
-    constexpr double phase = 30;  // of a frequency, in the same unit
+    constexpr double phase = 30;  // operations per frequency
     return count(y.field.count) * LineTransform::operations(x.field.count, nx, x.inward) +
            count(nx) * (LineTransform::operations(y.field.count, ny, y.inward) + phase * count(ny) +
                         LineTransform::operations(ny, y.output.count, y.outward)) +

@@ -8,27 +8,27 @@
 
 namespace hogel::optics::propagation {
 
-/// One axis of the propagation of a field to a rectangle of samples. Positions are relative to the field's middle and
-/// run with the samples: to the right along x, downwards along y.
+/// Sampling of one axis for the propagation of a field to a rectangle of samples. Positions are relative to the centre
+/// of the field and increase with the sample index: to the right along x, downwards along y.
 struct AxisPlan {
     Steps field, output, frequencies;
-    /// Light that reaches the output travels sideways by middle ± reach.
+    /// Light to the output has sideways paths within middle ± reach, metres.
     double middle = 0, reach = 0;
-    /// Directions that travel farther by more than half of `guard` fade out over a multiple of `fresnel`, √(λz) for
-    /// light along the axis.
+    /// Directions whose sideways path exceeds that by more than guard/2 fade out over a multiple of `fresnel`, which is
+    /// √(λz) for light along the axis. Metres.
     double fresnel = 0, guard = 0;
-    double period = 0;  ///< one over the step of the frequencies, an even number of the field's samples
-    /// The Fourier transforms of the samples to the frequencies and of these to the output; 0: chirp-z.
+    double period = 0;  ///< inverse of the frequency step, metres; an even number of field samples
+    /// Sizes of the Fourier transforms from samples to frequencies and from frequencies to the output; 0: chirp-z.
     std::size_t inward = 0, outward = 0;
-    /// One of the band's edges, half a cycle per sample: whether light there reaches the output, and then the range of
-    /// the path that remains from any sample to any output, in periods.
+    /// An edge of the band, at half a cycle per sample. `active`: light at the edge reaches the output. low, high: the
+    /// range of remaining paths from any sample to any output sample, in periods.
     struct Edge {
         bool active = false;
         double low = 0, high = 0;
     } lower, upper;
 
     double edge_frequency() const { return 0.5 / field.step; }
-    /// The largest sideways path of directions that are kept, beyond middle ± reach.
+    /// Returns the largest sideways path, relative to middle, of the directions that are kept.
     double outermost() const;
     double end_of_fade() const;
 };
@@ -37,18 +37,18 @@ struct AxisPlan {
 struct TilePlan {
     AxisPlan x, y;
     double distance = 0, wavelength = 0;
-    bool evanescent = false;  ///< whether evanescent waves have not decayed yet
-    /// Directions at smaller cosines to the z axis travel too far for the period.
+    bool evanescent = false;  ///< true if evanescent waves have not decayed at this distance
+    /// Directions with a smaller cosine to the z axis have a sideways path too long for the period.
     double min_cosine = 0;
 
     double bytes() const;
     double operations() const;
 };
 
-/// The samples of an output that light of the field may reach: those in the cone of the directions of its samples, and
-/// beside it, where the ends of the field's band diffract, as many as are in it on either side. All others are dark.
-/// Throws Error(usage) if no sample is in the cone.
-Region lit_part(const FieldGrid& field, double distance, const Grid& output);
+/// Returns the output samples that light of the field can reach. They lie in the cone of directions of the field's
+/// samples, or beside it, where the edges of the field's band diffract: on either side as many samples as in the cone.
+/// All other samples are dark. Throws Error(usage) if no sample is in the cone.
+Region illuminated_region(const FieldGrid& field, double distance, const Grid& output);
 
 TilePlan plan_tile(const FieldGrid& field, double distance, const Grid& output);
 

@@ -14,7 +14,7 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// The weights of the axis' frequencies in the integral over its band; adds what the edges leave as error to `square`.
+// Returns the quadrature weights of an axis over its band. Adds the squared error at the edges to `square`.
 std::vector<std::complex<double>> weights_of(const AxisPlan& axis, double& square) {
     const double half = std::round(0.5 * axis.period / axis.field.step);
     const double first = std::round(axis.frequencies.first * axis.period);
@@ -28,11 +28,11 @@ std::vector<std::complex<double>> weights_of(const AxisPlan& axis, double& squar
         const BandEdge rule = side > 0 ? BandEdge(edge.low, edge.high) : BandEdge(-edge.high, -edge.low);
         for (std::size_t c = 0; c < rule.corrections.size(); ++c) {
             const double k = static_cast<double>(c) - static_cast<double>(BandEdge::max_beyond);
-            const double at = side * (half + k) - first;
-            if (at >= 0 && at < static_cast<double>(weights.size()))
-                weights[static_cast<std::size_t>(at)] += rule.corrections[c];
+            const double index = side * (half + k) - first;
+            if (index >= 0 && index < static_cast<double>(weights.size()))
+                weights[static_cast<std::size_t>(index)] += rule.corrections[c];
         }
-        // One sample lights another to 1/(2 half) of the error; those of a line add up as noise.
+        // A sample adds 1/(2 half) of the error to another sample; the errors of a line add up as noise.
         square += static_cast<double>(axis.field.count) * rule.error * rule.error / (4 * half * half);
     };
     correct(axis.lower, -1);
@@ -40,18 +40,18 @@ std::vector<std::complex<double>> weights_of(const AxisPlan& axis, double& squar
     return weights;
 }
 
-// The part of light that travels sideways by `path` which is kept.
-double kept(const AxisPlan& axis, double path) {
+// Returns the fraction of the amplitude that is kept for a sideways path.
+double kept_amplitude(const AxisPlan& axis, double path) {
     if (axis.fresnel == 0) return 1;
     const double width = axis.fresnel * std::numbers::inv_sqrtpi;
-    const double beyond = std::abs(path - axis.middle) - axis.reach - 0.5 * axis.guard;
+    const double excess = std::abs(path - axis.middle) - axis.reach - 0.5 * axis.guard;
     const double end = axis.end_of_fade() - 0.5 * axis.guard;
-    return beyond <= -end ? 1 : beyond >= end ? 0 : 0.5 * std::erfc(beyond / width);
+    return excess <= -end ? 1 : excess >= end ? 0 : 0.5 * std::erfc(excess / width);
 }
 
 }  // namespace
 
-// One f_x, at all f_y.
+// A column of frequencies: one f_x, all f_y.
 class Transfer::Column {
   public:
     Column(const TilePlan& plan, std::size_t column)
@@ -65,9 +65,9 @@ class Transfer::Column {
     double path_x(double fz) const { return plan_.distance * fx_ / fz; }
     double path_y(double row, double fz) const { return plan_.distance * fy(row) / fz; }
 
-    // A bound on the deviation of f_z z over `count` rows from a parabola through both ends and the middle: the third
-    // derivative, at most 3 z f_y f_z⁻⁵/λ², times 0.065 times the cube of half the range.
-    double bend(double row, double count) const {
+    // Returns a bound on the deviation of f_z z over `count` rows from the parabola through both ends and the middle,
+    // cycles: the third derivative, at most 3 z f_y f_z⁻⁵/λ², times 0.065 times the cube of half the range.
+    double phase_deviation(double row, double count) const {
         const double fz = std::min(along_z(row), along_z(row + count));
         const double steepest = std::max(std::abs(fy(row)), std::abs(fy(row + count)));
         const double half = 0.5 * count * plan_.y.frequencies.step;
@@ -76,7 +76,7 @@ class Transfer::Column {
     }
 
     enum class Kept { whole, partly, none };
-    // Paths are monotonic between two rows on the same side of f_y = 0, so those at both ends bound all.
+    // Paths are monotonic between two rows on the same side of f_y = 0: the paths at both ends bound all others.
     Kept between(double first, double last) const {
         if (fy(first) * fy(last) < 0 || square(first) <= 0 || square(last) <= 0) return Kept::partly;
         const double fz0 = along_z(first), fz1 = along_z(last);
@@ -84,9 +84,9 @@ class Transfer::Column {
             if (axis.fresnel == 0) return Kept::whole;
             const double low = std::min(paths.first, paths.second) - axis.middle;
             const double high = std::max(paths.first, paths.second) - axis.middle;
-            const double whole = axis.reach + axis.guard - axis.end_of_fade();
+            const double full = axis.reach + axis.guard - axis.end_of_fade();
             if (low >= axis.outermost() || high <= -axis.outermost()) return Kept::none;
-            return low >= -whole && high <= whole ? Kept::whole : Kept::partly;
+            return low >= -full && high <= full ? Kept::whole : Kept::partly;
         };
         const Kept x = side(plan_.x, {path_x(fz0), path_x(fz1)});
         const Kept y = side(plan_.y, {path_y(first, fz0), path_y(last, fz1)});
@@ -94,16 +94,16 @@ class Transfer::Column {
         return x == Kept::whole && y == Kept::whole ? Kept::whole : Kept::partly;
     }
 
-    // The part of a propagating direction's amplitude that is kept.
-    double part(double row) const {
+    // Returns the kept fraction of the amplitude of a propagating direction.
+    double kept_part(double row) const {
         const double fz = along_z(row);
-        return fz > 0 ? kept(plan_.x, path_x(fz)) * kept(plan_.y, path_y(row, fz)) : 0;
+        return fz > 0 ? kept_amplitude(plan_.x, path_x(fz)) * kept_amplitude(plan_.y, path_y(row, fz)) : 0;
     }
 
     std::complex<double> factor(double row) const {
         if (const double s = square(row); s <= 0)
             return plan_.evanescent ? std::exp(-2 * std::numbers::pi * std::sqrt(-s) * plan_.distance) : 0;
-        const double amplitude = part(row);
+        const double amplitude = kept_part(row);
         return amplitude > 0 ? amplitude * unit_phasor(along_z(row) * plan_.distance) : 0;
     }
 
@@ -121,37 +121,38 @@ Transfer::Transfer(const TilePlan& plan) : plan_(plan) {
 }
 
 void Transfer::multiply(std::size_t column, std::span<Complex> values) const {
-    constexpr std::size_t stretch = 32;  // that of walk_phase()
-    constexpr double small = 1e-4;       // cycles
+    constexpr std::size_t segment = 32;     // as in walk_phase()
+    constexpr double max_deviation = 1e-4;  // cycles
     const Column along(plan_, column);
     const std::complex<double> weight = weights_x_[column];
     const auto set = [&](std::size_t row, std::complex<double> factor) {
         values[row] = Complex(times(std::complex<double>(values[row]), times(times(weight, weights_y_[row]), factor)));
     };
-    for (std::size_t begin = 0; begin < values.size(); begin += stretch) {
-        const std::size_t count = std::min(stretch, values.size() - begin);
-        const double at = static_cast<double>(begin);
-        const Column::Kept all = along.between(at, at + static_cast<double>(count - 1));
-        if (all == Column::Kept::none) {
+    for (std::size_t begin = 0; begin < values.size(); begin += segment) {
+        const std::size_t count = std::min(segment, values.size() - begin);
+        const double start = static_cast<double>(begin);
+        const Column::Kept kept = along.between(start, start + static_cast<double>(count - 1));
+        if (kept == Column::Kept::none) {
             std::ranges::fill(values.subspan(begin, count), Complex(0));
-        } else if (all == Column::Kept::whole && along.square(at + stretch) > 0 && along.bend(at, stretch) < small) {
+        } else if (kept == Column::Kept::whole && along.square(start + segment) > 0 &&
+                   along.phase_deviation(start, segment) < max_deviation) {
             walk_phase(
-                count, [&](double step) { return along.along_z(at + step) * plan_.distance; },
+                count, [&](double step) { return along.along_z(start + step) * plan_.distance; },
                 [&](std::size_t i, std::complex<double> phase) { set(begin + i, phase); });
         } else {
-            for (std::size_t i = 0; i < count; ++i) set(begin + i, along.factor(at + static_cast<double>(i)));
+            for (std::size_t i = 0; i < count; ++i) set(begin + i, along.factor(start + static_cast<double>(i)));
         }
     }
 }
 
 Transfer::Energy Transfer::energy(std::size_t column, std::span<const Complex> values) const {
     const Column along(plan_, column);
-    const double least = plan_.min_cosine / plan_.wavelength;
+    const double min_fz = plan_.min_cosine / plan_.wavelength;
     Energy energy;
     for (std::size_t i = 0; i < values.size(); ++i) {
         const double square = along.square(static_cast<double>(i)), value = std::norm(std::complex<double>(values[i]));
         energy.all += value;
-        if (square > 0 && square < least * least) energy.grazing += value;
+        if (square > 0 && square < min_fz * min_fz) energy.grazing += value;
     }
     return energy;
 }

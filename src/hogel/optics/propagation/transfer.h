@@ -9,20 +9,20 @@
 
 namespace hogel::optics::propagation {
 
-/// What a tile's frequencies are multiplied by on their way: e^{2πi f_z z}, the fade of directions that do not lead to
-/// the output, and the weights of the integral over the band.
+/// Transfer function of a tile: e^{2πi f_z z}, the fade of directions that do not lead to the output, and the
+/// quadrature weights of the integral over the band.
 class Transfer {
   public:
     explicit Transfer(const TilePlan& plan);
 
-    /// Multiplies one column of frequencies, all at one f_x.
+    /// Multiplies one column of frequencies, i.e. those with the same f_x.
     void multiply(std::size_t column, std::span<std::complex<float>> values) const;
-    /// The energy of a column's values, all of them and those at directions below min_cosine.
+    /// Energy of a column: in all directions, and in directions below min_cosine.
     struct Energy {
         double all = 0, grazing = 0;
     };
     Energy energy(std::size_t column, std::span<const std::complex<float>> values) const;
-    /// The error of noise at the output, from the fade and the edges of the band.
+    /// Returns the relative output error for a field of noise, caused by the fade and the band edges.
     double error() const { return error_; }
 
   private:
