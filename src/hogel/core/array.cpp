@@ -12,7 +12,7 @@
 
 namespace hogel {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-// A sanitizer shall see every block begin and end.
+// The sanitizers must see every allocation and deallocation.
 void set_max_kept_memory(std::size_t) {}
 
 void* allocate_lines(std::size_t bytes) {
@@ -26,10 +26,10 @@ void free_lines(void* memory) { std::free(memory); }
 namespace {
 
 constexpr std::size_t max_kept = std::size_t{1} << 30;
-// A few tiles of a light field.
+// Enough for a few tiles of a light field.
 constexpr std::size_t spare = std::size_t{32} << 20;
 
-// Never destroyed, because other objects that live until the program ends may own blocks.
+// Never destroyed, because objects with a longer lifetime may own blocks.
 core::FreedBlocks& freed_blocks() {
     static auto* blocks = new core::FreedBlocks(max_kept, spare);
     return *blocks;
@@ -37,13 +37,13 @@ core::FreedBlocks& freed_blocks() {
 
 constexpr std::size_t large = std::size_t{256} << 20;
 
-// Has the system clear the pages of a large block, which takes seconds for gigabytes, in parts between which it checks
-// for a stop.
+// Touches the pages of a large block, so that the system clears them: this takes seconds for gigabytes. Checks for a
+// stop request regularly.
 void touch(std::byte* memory, std::size_t bytes) {
     constexpr std::size_t page = 4096, bytes_between_checks = std::size_t{16} << 20;
-    for (std::size_t at = 0; at < bytes; at += page) {
-        if (at % bytes_between_checks == 0) core::throw_if_stopped();
-        *static_cast<volatile std::byte*>(memory + at) = std::byte{};
+    for (std::size_t offset = 0; offset < bytes; offset += page) {
+        if (offset % bytes_between_checks == 0) core::throw_if_stopped();
+        *static_cast<volatile std::byte*>(memory + offset) = std::byte{};
     }
 }
 

@@ -5,10 +5,10 @@
 
 namespace hogel::core {
 
-/// Bytes that this process can take without swapping: the least of the free memory of the machine, of what the limits
-/// of the process leave (`ulimit -v` and `-d`), and of what its control groups leave (versions 1 and 2). Infinity if
-/// the system says none of them.
-/// @param root  the folder in which `proc` and `sys` are
+/// Returns the number of bytes that this process can allocate without swapping. This is the minimum of the free memory
+/// of the machine, the remainder of the process limits (`ulimit -v`, `-d`), and the remainder of the control groups
+/// (versions 1 and 2). Returns infinity if the system reports none of them.
+/// @param root  parent folder of `proc` and `sys`
 double available_memory(const std::filesystem::path& root = "/");
 
 }  // namespace hogel::core

@@ -27,9 +27,9 @@ namespace hogel::core {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr int poll_ms = 100;  // how soon a stop is seen
+constexpr int poll_ms = 100;  // milliseconds between checks for a stop request
 
-/// Bytes of address space that this process uses.
+/// Returns the address space of this process, bytes.
 std::uint64_t address_space() {
     char text[64] = {};
     const int file = open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
@@ -39,7 +39,7 @@ std::uint64_t address_space() {
     return size > 0 ? std::strtoull(text, nullptr, 10) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
 }
 
-// Soft limits only: the child raises them for files that it opens. Never above what this process may use itself.
+// Sets a soft limit, which the child may raise later. Never exceeds the limit of this process.
 void set_limit(__rlimit_resource resource, rlim_t value) {
     rlimit limit{};
     if (getrlimit(resource, &limit) != 0) return;
@@ -61,17 +61,17 @@ void raise_limit(__rlimit_resource resource, rlim_t more) {
     setrlimit(resource, &limit);
 }
 
-/// Nothing of the parent reaches the child, or the reverse, but by the pipe, which becomes file 3.
+/// Closes all files of the parent. The pipe becomes file 3; it is the only connection to the parent.
 void close_files(int pipe) {
-    const int kept = fcntl(pipe, F_DUPFD, 10);  // out of the way of the numbers below
+    const int pipe_copy = fcntl(pipe, F_DUPFD, 10);  // above the numbers used below
     const int null = open("/dev/null", O_RDWR);
     for (const int stream : {0, 1, 2}) dup2(null, stream);
-    dup2(kept, 3);
+    dup2(pipe_copy, 3);
     if (syscall(SYS_close_range, 4, ~0U, 0) == 0) return;
     for (int file = 4; file < 4096; ++file) close(file);  // before Linux 5.9
 }
 
-/// Handlers of the parent are not run here. Ctrl-C reaches the parent as well, which ends the child.
+/// Removes the parent's handlers. Ctrl-C also reaches the parent, which then ends the child.
 void reset_signals() {
     for (int signal = 1; signal < NSIG; ++signal) ::signal(signal, SIG_DFL);
     for (const int signal : {SIGINT, SIGQUIT, SIGHUP, SIGTSTP}) ::signal(signal, SIG_IGN);
@@ -82,9 +82,9 @@ void reset_signals() {
 
 [[noreturn]] void run_child(pid_t parent, const ChildLimits& limits, int pipe,
                             const std::function<void(int)>& work) noexcept {
-    if (!limits.serves) {  // the signal would come with the end of the thread
+    if (!limits.serves) {  // PDEATHSIG would fire at the end of the starting thread
         prctl(PR_SET_PDEATHSIG, SIGKILL);
-        if (getppid() != parent) _exit(1);  // it ended before that
+        if (getppid() != parent) _exit(1);  // the parent ended before prctl()
     }
     reset_signals();
     close_files(pipe);
@@ -93,10 +93,10 @@ void reset_signals() {
     set_limit(RLIMIT_CPU, limits.cpu_seconds);  // a child starts with no time used
     set_limit(RLIMIT_AS, address_space() + limits.memory);
     work(3);
-    _exit(0);  // no destructors of the parent's objects, no buffers of its streams
+    _exit(0);  // skips the parent's destructors and stream buffers
 }
 
-/// Processor time that another process has used.
+/// Returns the processor time used by another process.
 std::chrono::nanoseconds cpu_time(pid_t process) {
     clockid_t clock{};
     timespec time{};
@@ -110,12 +110,12 @@ ChildProcess::ChildProcess(const ChildLimits& limits, const std::function<void(i
     : patience_(limits.patience) {
     int ends[2] = {};
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-        throw Error(ErrorCode::internal, fmt::format("cannot make a pipe: {}", std::strerror(errno)));
-    constexpr int buffer = 1 << 20;  // fewer switches; a smaller one works as well
+        throw Error(ErrorCode::internal, fmt::format("cannot create a socket pair: {}", std::strerror(errno)));
+    constexpr int buffer = 1 << 20;  // fewer context switches; works with smaller buffers too
     setsockopt(ends[1], SOL_SOCKET, SO_SNDBUF, &buffer, sizeof buffer);
     pipe_ = ends[0];
     const pid_t parent = getpid();
-    // No signal may run a handler of this process in the child.
+    // Blocks all signals, so that no handler of this process runs in the child.
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -135,7 +135,7 @@ ChildProcess::~ChildProcess() {
     close(pipe_);
 }
 
-/// Returns the status of waitpid(), or 0 where the program around this library has taken it.
+/// Returns the status of waitpid(), or 0 if other code in this process has already waited for the child.
 int ChildProcess::reap(bool kill_first) {
     if (child_ < 0) return 0;
     if (kill_first) kill(child_, SIGKILL);
@@ -167,51 +167,51 @@ void ChildProcess::wait_for_data() {
             alive = Clock::now();
         } else if (Clock::now() - alive > patience_) {
             reap(true);
-            throw ChildFailure(ChildFailure::Kind::stuck, "waits for something that never comes");
+            throw ChildFailure(ChildFailure::Kind::stuck, "makes no progress");
         }
     }
 }
 
 void ChildProcess::read(void* to, std::size_t bytes) {
-    char* at = static_cast<char*>(to);
+    char* destination = static_cast<char*>(to);
     while (bytes > 0) {
         wait_for_data();
-        const ssize_t got = ::read(pipe_, at, bytes);
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) fail();
-        at += got;
-        bytes -= static_cast<std::size_t>(got);
+        const ssize_t count = ::read(pipe_, destination, bytes);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) fail();
+        destination += count;
+        bytes -= static_cast<std::size_t>(count);
     }
 }
 
 void ChildProcess::send(const void* from, std::size_t bytes) {
-    const char* at = static_cast<const char*>(from);
+    const char* source = static_cast<const char*>(from);
     while (bytes > 0) {
-        const ssize_t put = ::send(pipe_, at, bytes, MSG_NOSIGNAL);
-        if (put < 0 && errno == EINTR) continue;
-        if (put <= 0) fail();
-        at += put;
-        bytes -= static_cast<std::size_t>(put);
+        const ssize_t count = ::send(pipe_, source, bytes, MSG_NOSIGNAL);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) fail();
+        source += count;
+        bytes -= static_cast<std::size_t>(count);
     }
 }
 
 void ChildProcess::renew_limits(const ChildLimits& limits) {
     rusage used{};
     getrusage(RUSAGE_SELF, &used);
-    const auto whole = used.ru_utime.tv_sec + used.ru_stime.tv_sec,
-               parts = used.ru_utime.tv_usec + used.ru_stime.tv_usec;
-    renew_limit(RLIMIT_CPU, static_cast<rlim_t>(whole + (parts + 999999) / 1000000) + limits.cpu_seconds);
+    const auto seconds = used.ru_utime.tv_sec + used.ru_stime.tv_sec,
+               microseconds = used.ru_utime.tv_usec + used.ru_stime.tv_usec;
+    renew_limit(RLIMIT_CPU, static_cast<rlim_t>(seconds + (microseconds + 999999) / 1000000) + limits.cpu_seconds);
     renew_limit(RLIMIT_AS, address_space() + limits.memory);
 }
 
 bool ChildProcess::receive(int pipe, void* to, std::size_t bytes) {
-    char* at = static_cast<char*>(to);
+    char* destination = static_cast<char*>(to);
     while (bytes > 0) {
-        const ssize_t got = ::read(pipe, at, bytes);
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) return false;
-        at += got;
-        bytes -= static_cast<std::size_t>(got);
+        const ssize_t count = ::read(pipe, destination, bytes);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) return false;
+        destination += count;
+        bytes -= static_cast<std::size_t>(count);
     }
     return true;
 }
@@ -222,13 +222,13 @@ void ChildProcess::raise_limits(const ChildLimits& more) {
 }
 
 void ChildProcess::write(int pipe, const void* from, std::size_t bytes) {
-    const char* at = static_cast<const char*>(from);
+    const char* source = static_cast<const char*>(from);
     while (bytes > 0) {
-        const ssize_t put = ::write(pipe, at, bytes);
-        if (put < 0 && errno == EINTR) continue;
-        if (put <= 0) _exit(1);
-        at += put;
-        bytes -= static_cast<std::size_t>(put);
+        const ssize_t count = ::write(pipe, source, bytes);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) _exit(1);
+        source += count;
+        bytes -= static_cast<std::size_t>(count);
     }
 }
 

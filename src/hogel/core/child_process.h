@@ -11,24 +11,24 @@
 
 namespace hogel::core {
 
-/// What a child process may use, above what the process that starts it uses already.
+/// Resource limits of a child process, in addition to the current usage of its parent.
 struct ChildLimits {
     std::uint64_t memory = std::uint64_t{1} << 30;  ///< bytes of address space
-    unsigned cpu_seconds = 60;                      ///< then it is ended
-    std::chrono::seconds patience{30};              ///< so long it may use no processor time, then it is ended
-    /// Whether the child serves threads other than the one that starts it and may outlive that. It then ends when the
-    /// other end of its pipe is closed, so it must read from there whenever it has nothing else to do.
+    unsigned cpu_seconds = 60;                      ///< processor time
+    std::chrono::seconds patience{30};              ///< maximum time without using processor time
+    /// True if the child serves several threads and may outlive the thread that starts it. The child then ends when the
+    /// other end of its pipe is closed, and must read from the pipe whenever it is idle.
     bool serves = false;
 };
 
-/// Thrown where a child process ended without having sent what was to be read: what() says how, in a few words that
-/// begin a sentence about it ("crashed (segmentation fault)").
+/// Thrown if a child process ended before it sent the expected data. what() is the predicate of a sentence: "crashed
+/// (segmentation fault)".
 class ChildFailure : public std::exception {
   public:
     enum class Kind {
-        crashed,  ///< or ended without a word
-        time,     ///< used up
-        stuck,    ///< waits for something, such as a lock of a thread that it does not have
+        crashed,  ///< or exited early
+        time,     ///< exceeded its processor time
+        stuck,    ///< makes no progress, e.g. because another thread's lock was held at the fork
     };
     ChildFailure(Kind kind, std::string text) : kind_(kind), text_(std::move(text)) {}
     Kind kind() const { return kind_; }
@@ -39,36 +39,35 @@ class ChildFailure : public std::exception {
     std::string text_;
 };
 
-/// Work in a copy of this process (fork without exec), so that libraries which crash on damaged files, or ask for very
-/// much memory, do so there. The child inherits no open file, writes none, and ends with this process.
+/// Runs work in a forked copy of this process (no exec), to isolate libraries that crash or allocate too much memory on
+/// damaged files. The child inherits no open file, writes none, and ends with this process.
 ///
-/// Other threads of this process do not exist in the child, and a lock that one of them held stays locked there. glibc
-/// releases its own (memory, streams, loader); `work` must use nothing else that this process uses on several threads:
-/// no parallel loops, no library with threads of its own. A child that waits for a lock uses no processor time and is
-/// ended as `stuck`.
+/// The child has only the forking thread. Locks held by other threads at the fork stay locked. glibc releases its own
+/// locks (memory, streams, loader). `work` must not use anything else that several threads use: no parallel loops, no
+/// library with threads of its own. A child that waits for a lock uses no processor time and is ended as `stuck`.
 class ChildProcess {
   public:
-    /// Calls work(pipe) in the child, which ends when it returns; the pipe works both ways. Throws Error(internal) if
-    /// no process can be started.
+    /// Calls work(pipe) in the child, which ends when `work` returns. The pipe is bidirectional. Throws Error(internal)
+    /// if no process can be started.
     ChildProcess(const ChildLimits& limits, const std::function<void(int pipe)>& work);
-    /// Ends the child if it runs.
+    /// Kills the child if it still runs.
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
-    /// The next bytes that the child writes into its pipe. Throws ChildFailure if it ended before, Error(cancelled)
-    /// when the work of this thread is to stop.
+    /// Reads bytes that the child writes. Throws ChildFailure if the child ended before, Error(cancelled) on a stop
+    /// request.
     void read(void* to, std::size_t bytes);
-    /// Sends bytes to the child. Throws as read() does. The child has to read them at once, or they have to be few.
+    /// Sends bytes to the child. Throws as read() does. The child must read them at once, unless they are few.
     void send(const void* from, std::size_t bytes);
 
-    /// In the child: allows more, for instance after a further file was opened.
+    /// In the child: raises the limits, e.g. after opening another file.
     static void raise_limits(const ChildLimits& more);
-    /// In the child: allows this much beyond what it uses now, whatever it was allowed before.
+    /// In the child: sets the limits relative to the current usage.
     static void renew_limits(const ChildLimits& limits);
-    /// In the child: reads what was sent. False if nothing more will come.
+    /// In the child: reads bytes from the parent. Returns false at the end of the data.
     static bool receive(int pipe, void* to, std::size_t bytes);
-    /// In the child: writes everything into the pipe; ends the child if that fails.
+    /// In the child: writes bytes into the pipe. Ends the child if that fails.
     static void write(int pipe, const void* from, std::size_t bytes);
 
   private:
@@ -81,8 +80,8 @@ class ChildProcess {
     int pipe_ = -1;
 };
 
-/// The result of use(child) for a child that does `work`. A child that is stuck has met a lock of another thread of
-/// this process, which is rare: the work is tried once more. Throws ChildFailure as ChildProcess::read() does.
+/// Returns use(child) for a child that runs `work`. Retries once if the child is stuck on a lock that another thread
+/// held at the fork, which is rare. Throws ChildFailure as ChildProcess::read() does.
 template <class Use>
 auto with_child(const ChildLimits& limits, const std::function<void(int pipe)>& work, const Use& use) {
     const auto attempt = [&] {

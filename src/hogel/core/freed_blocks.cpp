@@ -14,19 +14,18 @@
 namespace hogel::core {
 namespace {
 
-// The part of a block that may be idle, and of one that would have to go otherwise.
-constexpr double max_idle = 0.25, max_idle_of_last = 0.6;
+// Maximum unused fraction of a reused block, and of a block that would otherwise be released.
+constexpr double max_idle = 0.25, max_idle_before_release = 0.6;
 
 constexpr std::size_t line = 64, page = 4096, huge_page = std::size_t{2} << 20;
-// From here on blocks are of huge pages.
+// Blocks of this size and more consist of huge pages.
 constexpr std::size_t smallest_of_pages = 2 * huge_page;
-// Smaller ones are malloc's own matter.
+// Smaller blocks are left to malloc.
 constexpr std::size_t smallest_kept = std::size_t{128} << 10;
-// malloc may give up to a page and some more than was asked for, and a block's size is all that tells whether it was
-// counted.
+// malloc may return up to a page more than requested; the usable size alone shows whether a block was counted.
 constexpr std::size_t smallest_counted = smallest_kept - 2 * page;
 
-std::size_t whole(std::size_t bytes, std::size_t unit) { return (bytes + unit - 1) / unit * unit; }
+std::size_t round_up(std::size_t bytes, std::size_t unit) { return (bytes + unit - 1) / unit * unit; }
 
 bool is_on_huge_page(const void* memory) { return reinterpret_cast<std::uintptr_t>(memory) % huge_page == 0; }
 
@@ -34,7 +33,7 @@ void unmap(std::byte* first, std::size_t bytes) {
     if (bytes > 0) munmap(first, bytes);
 }
 
-// New pages, or nullptr.
+// Maps new pages; returns null on failure.
 std::byte* map(std::size_t bytes) {
     const auto mapped = [](std::size_t size) -> std::byte* {
         void* memory = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -45,13 +44,13 @@ std::byte* map(std::size_t bytes) {
         unmap(memory, bytes);
         memory = mapped(bytes + huge_page);
         if (memory != nullptr) {
-            const std::size_t ahead = huge_page - reinterpret_cast<std::uintptr_t>(memory) % huge_page;
-            unmap(memory, ahead);
-            memory += ahead;
-            unmap(memory + bytes, huge_page - ahead);
+            const std::size_t padding = huge_page - reinterpret_cast<std::uintptr_t>(memory) % huge_page;
+            unmap(memory, padding);
+            memory += padding;
+            unmap(memory + bytes, huge_page - padding);
         }
     }
-    // A hint; only the speed depends on whether the system follows it.
+    // Only a hint: affects speed alone.
     if (memory != nullptr) madvise(memory, bytes, MADV_HUGEPAGE);
     return memory;
 }
@@ -60,27 +59,27 @@ std::byte* map(std::size_t bytes) {
 
 FreedBlocks::~FreedBlocks() { give_back(overflow(0)); }
 
-// One block of pieces that are kept, and of new pages for what they lack; nullptr if there are none, and then the
-// pieces are gone.
-std::byte* FreedBlocks::joined(const std::vector<Pages>& pieces, std::size_t bytes) {
-    if (pieces.size() == 1 && pieces.front().bytes == bytes) return pieces.front().first;
+// Joins kept pages and new pages into one block. Returns null if no pages are available; the kept pages are then
+// unmapped.
+std::byte* FreedBlocks::joined(const std::vector<Pages>& kept_pages, std::size_t bytes) {
+    if (kept_pages.size() == 1 && kept_pages.front().bytes == bytes) return kept_pages.front().first;
     std::byte* const memory = map(bytes);
-    std::size_t done = 0;
-    bool moved = memory != nullptr;
-    for (const Pages& piece : pieces) {
-        // The pages change their address; nothing is copied.
-        if (moved &&
-            mremap(piece.first, piece.bytes, piece.bytes, MREMAP_MAYMOVE | MREMAP_FIXED, memory + done) == MAP_FAILED) {
-            moved = false;
-            // Not the place itself: it may be another's by now.
-            unmap(memory, done);
-            unmap(memory + done + piece.bytes, bytes - done - piece.bytes);
+    std::size_t offset = 0;
+    bool ok = memory != nullptr;
+    for (const Pages& pages : kept_pages) {
+        // Remapping changes the address of the pages without copying.
+        if (ok && mremap(pages.first, pages.bytes, pages.bytes, MREMAP_MAYMOVE | MREMAP_FIXED, memory + offset) ==
+                      MAP_FAILED) {
+            ok = false;
+            // Does not unmap the range of the failed call: another thread may have mapped it since.
+            unmap(memory, offset);
+            unmap(memory + offset + pages.bytes, bytes - offset - pages.bytes);
         }
-        if (!moved) unmap(piece.first, piece.bytes);
-        done += piece.bytes;
+        if (!ok) unmap(pages.first, pages.bytes);
+        offset += pages.bytes;
     }
-    if (!moved) return nullptr;
-    new_pages_ += bytes - done;
+    if (!ok) return nullptr;
+    new_pages_ += bytes - offset;
     return memory;
 }
 
@@ -89,8 +88,8 @@ void FreedBlocks::give_back(const Surplus& surplus) {
     for (const Pages& pages : surplus.pages) unmap(pages.first, pages.bytes);
 }
 
-// The smallest kept block that is large enough, unless more than a part of it would be idle; of several, the one that
-// was used last.
+// Returns the smallest sufficient kept block, most recently used first, or null if more than a fraction `idle` of it
+// would be unused.
 void* FreedBlocks::take_block(std::size_t bytes, double idle) {
     const auto smallest = blocks_.lower_bound(bytes);
     if (smallest == blocks_.end() ||
@@ -104,7 +103,7 @@ void* FreedBlocks::take_block(std::size_t bytes, double idle) {
     return memory;
 }
 
-// Kept pages for so many bytes, or all: of the smallest that are enough, or else of as few as possible.
+// Takes kept pages for `bytes` bytes, or all: from the smallest sufficient range, or from as few ranges as possible.
 std::vector<FreedBlocks::Pages> FreedBlocks::take_pages(std::size_t bytes) {
     std::vector<Pages> taken;
     while (bytes > 0 && !pages_.empty()) {
@@ -112,18 +111,18 @@ std::vector<FreedBlocks::Pages> FreedBlocks::take_pages(std::size_t bytes) {
         const auto from = std::prev(smallest != pages_.end() ? pages_.upper_bound(smallest->first) : pages_.end());
         const auto [size, first] = *from;
         pages_.erase(from);
-        const std::size_t part = std::min(size, bytes);
-        if (size > part) pages_.emplace(size - part, first + part);
-        taken.push_back({first, part});
-        kept_ -= part;
-        bytes -= part;
+        const std::size_t used = std::min(size, bytes);
+        if (size > used) pages_.emplace(size - used, first + used);
+        taken.push_back({first, used});
+        kept_ -= used;
+        bytes -= used;
     }
     return taken;
 }
 
-// Kept pages in a row rather than new ones, unless more than half of them would be idle.
+// Takes contiguous kept pages instead of a malloc block, or returns null if more than half would be unused.
 void* FreedBlocks::take_pages_for_block(std::size_t bytes) {
-    const std::size_t pages = whole(bytes, huge_page);
+    const std::size_t pages = round_up(bytes, huge_page);
     if (2 * bytes < pages || pages_.lower_bound(pages) == pages_.end()) return nullptr;
     std::byte* const memory = take_pages(pages).front().first;
     in_use_ += pages;
@@ -131,47 +130,47 @@ void* FreedBlocks::take_pages_for_block(std::size_t bytes) {
     return memory;
 }
 
-// Bytes that may be kept beside so many in use.
-std::size_t FreedBlocks::can_stay(std::size_t in_use) const {
+// Returns the number of bytes that may be kept if `in_use` bytes are in use.
+std::size_t FreedBlocks::max_kept_beside(std::size_t in_use) const {
     return spare_ + (max_in_use_ > in_use ? max_in_use_ - in_use : 0);
 }
 
-// What must go so that no more than max_kept bytes stay: pages, which are the most, then the largest blocks.
+// Removes kept memory beyond max_kept bytes: pages first, because they hold most of it, then the largest blocks.
 FreedBlocks::Surplus FreedBlocks::overflow(std::size_t max_kept) {
-    Surplus gone;
-    if (kept_ > max_kept) gone.pages = take_pages(whole(kept_ - max_kept, huge_page));
+    Surplus surplus;
+    if (kept_ > max_kept) surplus.pages = take_pages(round_up(kept_ - max_kept, huge_page));
     while (kept_ > max_kept) {
         const auto largest = std::prev(blocks_.end());
         kept_ -= largest->first;
-        gone.blocks.push_back(largest->second);
+        surplus.blocks.push_back(largest->second);
         blocks_.erase(largest);
     }
-    return gone;
+    return surplus;
 }
 
 void* FreedBlocks::allocate(std::size_t bytes) {
     if (bytes > std::numeric_limits<std::size_t>::max() / 2) throw std::bad_alloc();  // more than can be addressed
-    if (bytes >= smallest_of_pages) return allocate_pages(whole(bytes, huge_page));
-    if (bytes >= smallest_counted) return allocate_block(whole(std::max(bytes, smallest_kept), page));
+    if (bytes >= smallest_of_pages) return allocate_pages(round_up(bytes, huge_page));
+    if (bytes >= smallest_counted) return allocate_block(round_up(std::max(bytes, smallest_kept), page));
     void* memory = nullptr;
     if (posix_memalign(&memory, line, bytes) != 0) throw std::bad_alloc();
     return memory;
 }
 
 void* FreedBlocks::allocate_block(std::size_t bytes) {
-    Surplus gone;
+    Surplus surplus;
     {
         const std::lock_guard lock(mutex_);
         if (void* memory = take_block(bytes, max_idle)) return memory;
         if (void* memory = take_pages_for_block(bytes)) return memory;
-        // Rather than that a larger block goes, it is used.
+        // Uses a larger block rather than releasing it.
         const std::size_t needed = in_use_ + bytes;
-        if (kept_ > can_stay(needed))
-            if (void* memory = take_block(bytes, max_idle_of_last)) return memory;
+        if (kept_ > max_kept_beside(needed))
+            if (void* memory = take_block(bytes, max_idle_before_release)) return memory;
         in_use_ = needed;
-        gone = overflow(can_stay(needed));
+        surplus = overflow(max_kept_beside(needed));
     }
-    give_back(gone);
+    give_back(surplus);
     void* memory = nullptr;
     const bool given = posix_memalign(&memory, line, bytes) == 0;
     const std::lock_guard lock(mutex_);
@@ -180,23 +179,23 @@ void* FreedBlocks::allocate_block(std::size_t bytes) {
         in_use_ -= bytes;
         throw std::bad_alloc();
     }
-    // malloc may give a little more than was asked for.
+    // malloc may return a little more than requested.
     in_use_ += malloc_usable_size(memory) - bytes;
     max_in_use_ = std::max(max_in_use_, in_use_);
     return memory;
 }
 
 void* FreedBlocks::allocate_pages(std::size_t bytes) {
-    std::vector<Pages> pieces;
-    Surplus gone;
+    std::vector<Pages> kept_pages;
+    Surplus surplus;
     {
         const std::lock_guard lock(mutex_);
-        pieces = take_pages(bytes);
+        kept_pages = take_pages(bytes);
         in_use_ += bytes;
-        gone = overflow(can_stay(in_use_));
+        surplus = overflow(max_kept_beside(in_use_));
     }
-    give_back(gone);
-    std::byte* memory = joined(pieces, bytes);
+    give_back(surplus);
+    std::byte* memory = joined(kept_pages, bytes);
     const std::lock_guard lock(mutex_);
     if (memory == nullptr) {
         give_back(overflow(0));
@@ -213,12 +212,12 @@ void* FreedBlocks::allocate_pages(std::size_t bytes) {
 }
 
 void FreedBlocks::free(void* memory) {
-    Surplus gone;
+    Surplus surplus;
     const auto keep = [&](auto& kept, std::size_t bytes, auto* block) {
         in_use_ -= bytes;
         kept_ += bytes;
         kept.emplace(bytes, block);
-        gone = overflow(max_kept_);
+        surplus = overflow(max_kept_);
     };
     bool of_pages = false;
     if (is_on_huge_page(memory)) {
@@ -237,17 +236,17 @@ void FreedBlocks::free(void* memory) {
         const std::lock_guard lock(mutex_);
         keep(blocks_, bytes, memory);
     }
-    give_back(gone);
+    give_back(surplus);
 }
 
 void FreedBlocks::set_max_kept(std::size_t max_kept) {
-    Surplus gone;
+    Surplus surplus;
     {
         const std::lock_guard lock(mutex_);
         max_kept_ = max_kept;
-        gone = overflow(max_kept_);
+        surplus = overflow(max_kept_);
     }
-    give_back(gone);
+    give_back(surplus);
 }
 
 std::size_t FreedBlocks::kept() const {

@@ -10,17 +10,15 @@
 
 namespace hogel::core {
 
-/// Memory of arrays. Large blocks are kept when they are freed and handed out again, because the system clears every
-/// new page: up to a second for each gigabyte on a virtual machine, and more where a page must be had from its host.
-/// Thread-safe.
+/// Allocator for arrays that reuses freed blocks, because the system clears every new page: up to a second per gigabyte
+/// on a virtual machine, more if its host must provide the page. Thread-safe.
 ///
-/// Blocks of less than 4 MiB come from malloc, and are handed out again to what needs about as much; from 1 MiB on,
-/// kept pages are used before malloc is asked. Larger ones are of whole huge pages. These are cut, moved in the address
-/// space and joined as needed, so that new pages are taken only when all that are kept are in use.
+/// Blocks below 4 MiB come from malloc and are reused for blocks of similar size; from 1 MiB, kept pages are preferred
+/// to malloc. Larger blocks consist of huge pages. These are split, remapped and joined as needed: new pages are taken
+/// only if all kept pages are in use.
 ///
-/// A program needs hardly more memory for it: blocks in use and blocks kept are together never more than was in use at
-/// some time before and `spare`, and what is kept is never more than max_kept. Without anything to spare, smaller
-/// blocks of two sizes that are needed in turns would drive out each other.
+/// Memory overhead is small: blocks in use plus kept blocks never exceed the peak of blocks in use plus `spare`, and
+/// kept blocks never exceed max_kept. With spare = 0, small blocks of two alternating sizes would evict each other.
 class FreedBlocks {
   public:
     explicit FreedBlocks(std::size_t max_kept, std::size_t spare = 0) : max_kept_(max_kept), spare_(spare) {}
@@ -28,35 +26,34 @@ class FreedBlocks {
     FreedBlocks& operator=(const FreedBlocks&) = delete;
     ~FreedBlocks();
 
-    /// A block of at least so many bytes with any content, aligned to a cache line; from 4 MiB on it is aligned to a
-    /// huge page and asks for such pages. Throws std::bad_alloc.
+    /// Allocates at least `bytes` bytes with unspecified content, aligned to a cache line. Blocks of 4 MiB and more are
+    /// aligned to a huge page and request huge pages. Throws std::bad_alloc.
     void* allocate(std::size_t bytes);
-    /// Takes back a block from allocate().
     void free(void* memory);
 
-    /// Sets max_kept, and gives back what is beyond it.
+    /// Sets max_kept, and releases the surplus.
     void set_max_kept(std::size_t max_kept);
 
-    /// Bytes of the blocks that are kept.
+    /// Returns the number of bytes of kept blocks.
     std::size_t kept() const;
-    /// Bytes of the blocks that are in use and would be kept.
+    /// Returns the number of bytes of blocks in use that would be kept when freed.
     std::size_t in_use() const;
-    /// Bytes of the new pages that blocks of pages were given so far, which the system had to clear.
+    /// Returns the number of bytes of new pages allocated so far, which the system had to clear.
     std::size_t new_pages() const { return new_pages_; }
 
   private:
-    // Huge pages in a row.
+    // Contiguous huge pages.
     struct Pages {
         std::byte* first;
         std::size_t bytes;
     };
-    // What goes back to the system, which is done without the lock.
+    // Memory to return to the system, without holding the lock.
     struct Surplus {
         std::vector<void*> blocks;
         std::vector<Pages> pages;
     };
 
-    std::byte* joined(const std::vector<Pages>& pieces, std::size_t bytes);
+    std::byte* joined(const std::vector<Pages>& kept_pages, std::size_t bytes);
     static void give_back(const Surplus& surplus);
 
     void* allocate_block(std::size_t bytes);
@@ -65,14 +62,14 @@ class FreedBlocks {
     std::vector<Pages> take_pages(std::size_t bytes);
     void* take_pages_for_block(std::size_t bytes);
     Surplus overflow(std::size_t max_kept);
-    std::size_t can_stay(std::size_t in_use) const;
+    std::size_t max_kept_beside(std::size_t in_use) const;
 
     std::size_t max_kept_, spare_;
     mutable std::mutex mutex_;
-    std::multimap<std::size_t, void*> blocks_;            // kept, by their bytes
-    std::multimap<std::size_t, std::byte*> pages_;        // kept, by their bytes
-    std::unordered_map<void*, std::size_t> used_pages_;   // bytes of the blocks in use that are of pages
-    std::size_t kept_ = 0, in_use_ = 0, max_in_use_ = 0;  // bytes of both
+    std::multimap<std::size_t, void*> blocks_;            // kept blocks, by size in bytes
+    std::multimap<std::size_t, std::byte*> pages_;        // kept pages, by size in bytes
+    std::unordered_map<void*, std::size_t> used_pages_;   // bytes of the blocks in use made of huge pages
+    std::size_t kept_ = 0, in_use_ = 0, max_in_use_ = 0;  // bytes of blocks and pages
     std::atomic<std::size_t> new_pages_{0};
 };
 

@@ -7,14 +7,15 @@
 
 namespace hogel::core {
 
-/// The IEEE 754 binary16 nearest to a float, ties to even; infinite from 65520 on. NaN stays NaN.
+/// Returns the IEEE 754 binary16 nearest to a float, ties to even; infinite from 65520. NaN stays NaN.
 inline std::uint16_t half_of(float value) {
     const auto bits = std::bit_cast<std::uint32_t>(value);
     const auto size = static_cast<std::int32_t>(bits & 0x7fffffffu);
-    // Normal halves: move the exponent bias from 127 to 15 and round away 13 bits; a carry into the exponent is right.
+    // Normal halves: changes the exponent bias from 127 to 15 and rounds off 13 bits. A carry into the exponent is
+    // correct.
     std::int32_t normal = (size + 0xfff + ((size >> 13) & 1) - 0x38000000) >> 13;
     normal = normal > 0x7c00 ? 0x7c00 : normal;
-    // Subnormal halves are multiples of 2^-24, which is the last place of 0.5: the addition rounds.
+    // Subnormal halves are multiples of 2^-24, the last bit of 0.5: the addition rounds.
     const float above_half = std::bit_cast<float>(size) + 0.5f;
     const std::int32_t subnormal = std::bit_cast<std::int32_t>(above_half) - 0x3f000000;
     const std::int32_t nan = 0x7e00 | ((size >> 13) & 0x3ff);
@@ -23,7 +24,7 @@ inline std::uint16_t half_of(float value) {
     return static_cast<std::uint16_t>(static_cast<std::uint32_t>(half) | ((bits >> 16) & 0x8000u));
 }
 
-/// The value of a binary16, exactly.
+/// Returns the exact value of a binary16.
 inline float float_of(std::uint16_t half) {
     const std::int32_t size = half & 0x7fff;
     const float subnormal = static_cast<float>(size) * 0x1p-24f;
@@ -33,9 +34,9 @@ inline float float_of(std::uint16_t half) {
     return std::bit_cast<float>(static_cast<std::uint32_t>(bits) | (std::uint32_t{half} & 0x8000u) << 16);
 }
 
-/// half_of() of n values of an array.
+/// Applies half_of() to n values.
 extern void (&to_half)(const float* from, std::uint16_t* to, std::size_t n);
-/// float_of() of n values of an array. Returns whether none of them is infinite or NaN.
+/// Applies float_of() to n values. Returns whether all results are finite.
 extern bool (&to_float)(const std::uint16_t* from, float* to, std::size_t n);
 
 }  // namespace hogel::core

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled for every SIMD target: from AVX2 on with the processor's conversions (F16C), otherwise with loops of
-// half_of() and float_of(), which compile to code without branches.
+// Compiled for every SIMD target. Uses the processor's conversions (F16C) with AVX2 and later, otherwise branch-free
+// loops of half_of() and float_of().
 #include "hogel/core/half.h"
 #include "hogel/core/simd_targets-inl.h"
 
@@ -20,8 +20,8 @@ void ToHalf(const float* from, std::uint16_t* to, std::size_t n) {
     for (; i < n; ++i) to[i] = half_of(from[i]);
 }
 
-// A half is infinite or NaN if all bits of its exponent are set, so that adding 1 to it carries into the place of the
-// sign: one addition finds out for all numbers of a vector, whose carries are gathered.
+// A half is infinite or NaN if all bits of its exponent are set. Adding 1 to the exponent then carries into the sign
+// bit. The carries of all values are ORed.
 bool ToFloat(const std::uint16_t* from, float* to, std::size_t n) {
     std::size_t i = 0;
     bool finite = true;
@@ -37,12 +37,12 @@ bool ToFloat(const std::uint16_t* from, float* to, std::size_t n) {
     }
     finite = hn::AllTrue(bits, hn::Eq(hn::And(carries, hn::Set(bits, 0x8000)), hn::Zero(bits)));
 #endif
-    std::uint16_t rest = 0;
+    std::uint16_t tail_carries = 0;
     for (; i < n; ++i) {
-        rest = static_cast<std::uint16_t>(rest | ((from[i] & 0x7fff) + 0x0400));
+        tail_carries = static_cast<std::uint16_t>(tail_carries | ((from[i] & 0x7fff) + 0x0400));
         to[i] = float_of(from[i]);
     }
-    return finite && (rest & 0x8000) == 0;
+    return finite && (tail_carries & 0x8000) == 0;
 }
 
 }  // namespace hogel::core::HWY_NAMESPACE

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// The characters of a text. Moving over them looks for a stop once in a while.
+/// Iterator over a text that checks for a stop request at intervals.
 class JsonText {
   public:
     using iterator_category = std::forward_iterator_tag;
@@ -24,21 +24,21 @@ class JsonText {
     using pointer = const char*;
     using reference = const char&;
 
-    explicit JsonText(const char* at) : at_(at) {}
-    reference operator*() const { return *at_; }
+    explicit JsonText(const char* position) : position_(position) {}
+    reference operator*() const { return *position_; }
     JsonText& operator++() {
         constexpr std::uintptr_t interval = 1 << 18;
-        if (reinterpret_cast<std::uintptr_t>(++at_) % interval == 0) throw_if_stopped();
+        if (reinterpret_cast<std::uintptr_t>(++position_) % interval == 0) throw_if_stopped();
         return *this;
     }
     bool operator==(const JsonText&) const = default;
 
   private:
-    const char* at_;
+    const char* position_;
 };
 
-/// Builds a document from the events of the parser. The parser's own callbacks, which could refuse values as well,
-/// search the whole enclosing array after each of its elements.
+/// Builds a document from parser events. The parser's callbacks could reject values too, but search the whole enclosing
+/// array after each element.
 class JsonBuilder final : public nlohmann::json_sax<Json> {
   public:
     explicit JsonBuilder(const std::function<void(const std::string&)>& reject) : reject_(reject) {}
@@ -57,14 +57,14 @@ class JsonBuilder final : public nlohmann::json_sax<Json> {
     bool end_array() override { return close(); }
 
     bool key(string_t& name) override {
-        const auto [place, is_new] = open_.back()->get_ref<Json::object_t&>().emplace(std::move(name), nullptr);
+        const auto [entry, is_new] = open_.back()->get_ref<Json::object_t&>().emplace(std::move(name), nullptr);
         if (!is_new) {
-            constexpr std::size_t longest = 40;
-            std::string shown = Json(place->first).dump(-1, ' ', true, Json::error_handler_t::replace);
-            if (shown.size() > longest) shown = shown.substr(0, longest) + " ...";
+            constexpr std::size_t max_length = 40;
+            std::string shown = Json(entry->first).dump(-1, ' ', true, Json::error_handler_t::replace);
+            if (shown.size() > max_length) shown = shown.substr(0, max_length) + " ...";
             reject_(fmt::format("the key {} occurs twice in one object of its JSON", shown));
         }
-        member_ = &place->second;
+        member_ = &entry->second;
         return true;
     }
 
@@ -75,19 +75,19 @@ class JsonBuilder final : public nlohmann::json_sax<Json> {
     }
 
   private:
-    Json* place(Json&& value) {
+    Json* insert(Json&& value) {
         if (++values_ > max_json_values) reject_(fmt::format("its JSON has more than {} values", max_json_values));
         if (open_.empty()) return &(root_ = std::move(value));
         if (open_.back()->is_object()) return &(*member_ = std::move(value));
         return &open_.back()->get_ref<Json::array_t&>().emplace_back(std::move(value));
     }
     bool add(Json&& value) {
-        place(std::move(value));
+        insert(std::move(value));
         return true;
     }
     bool open(Json&& value) {
         if (open_.size() == max_json_depth) reject_(fmt::format("its JSON nests deeper than {}", max_json_depth));
-        open_.push_back(place(std::move(value)));
+        open_.push_back(insert(std::move(value)));
         return true;
     }
     bool close() {
@@ -97,8 +97,8 @@ class JsonBuilder final : public nlohmann::json_sax<Json> {
 
     const std::function<void(const std::string&)>& reject_;
     Json root_;
-    std::vector<Json*> open_;  ///< arrays and objects around the next value
-    Json* member_ = nullptr;   ///< the place of an object's next value
+    std::vector<Json*> open_;  ///< enclosing arrays and objects
+    Json* member_ = nullptr;   ///< destination of the next value of an object
     std::size_t values_ = 0;
 };
 

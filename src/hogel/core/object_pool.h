@@ -8,12 +8,12 @@
 
 namespace hogel::core {
 
-/// A thread-safe pool of objects that tasks use temporarily, such as arrays of a few megabytes. An object is made if
-/// none is free and kept for the next task, because the system clears new memory page by page.
+/// Thread-safe pool of temporary objects, such as arrays of a few megabytes. Creates an object if none is free, and
+/// keeps it for the next task, because the system clears new memory page by page.
 template <class T>
 class ObjectPool {
   public:
-    /// An object in use; its destructor returns the object to the pool.
+    /// An object in use. The destructor returns the object to the pool.
     class Lease {
       public:
         Lease(ObjectPool& pool, std::unique_ptr<T> object) : pool_(pool), object_(std::move(object)) {}
@@ -31,7 +31,7 @@ class ObjectPool {
         std::unique_ptr<T> object_;
     };
 
-    /// Leases a free object, in the state in which its last user left it, or a new one.
+    /// Leases a free object in the state left by its last user, or a new one.
     Lease take() {
         std::unique_ptr<T> object;
         {

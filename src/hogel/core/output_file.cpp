@@ -30,8 +30,8 @@ namespace {
 
 std::string message(int error) { return std::generic_category().message(error); }
 
-// Locks one byte far behind the end of a file, which no other lock of the file covers. Returns whether that worked; the
-// lock ends with the descriptor.
+// Locks one byte far beyond the end of a file, which no other lock covers. Returns whether that succeeded. The lock
+// ends with the descriptor.
 bool lock(int descriptor) {
     struct flock range {};
     range.l_type = F_WRLCK;
@@ -41,11 +41,11 @@ bool lock(int descriptor) {
     return ::fcntl(descriptor, F_OFD_SETLK, &range) == 0;
 }
 
-// Opens a temporary file or folder that exists and locks it. Returns its descriptor, or -1 if another process holds the
+// Opens and locks an existing temporary file or folder. Returns its descriptor, or -1 if another process holds the
 // lock.
 int open_locked(const std::filesystem::path& temporary) {
-    std::error_code none;
-    const bool is_folder = std::filesystem::is_directory(std::filesystem::symlink_status(temporary, none));
+    std::error_code ignored;
+    const bool is_folder = std::filesystem::is_directory(std::filesystem::symlink_status(temporary, ignored));
     const int descriptor =
         ::open(temporary.c_str(), (is_folder ? O_RDONLY | O_DIRECTORY : O_RDWR) | O_CLOEXEC | O_NOFOLLOW);
     if (descriptor < 0) return -1;
@@ -54,23 +54,23 @@ int open_locked(const std::filesystem::path& temporary) {
     return -1;
 }
 
-// Removes the temporaries of processes that were killed while they wrote the file or set of this name.
+// Removes temporaries of this file or set that killed processes left behind.
 void remove_stale_temporaries(const std::filesystem::path& directory, const std::string& name) {
-    std::error_code none;
-    for (const auto& entry : std::filesystem::directory_iterator(directory, none)) {
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(directory, ignored)) {
         const std::string file = entry.path().filename().string();
         int pid = 0, parsed = 0;
         unsigned number = 0;
-        const std::string begin = fmt::format(".{}.", name);
-        if (!file.starts_with(begin) ||
-            std::sscanf(file.c_str() + begin.size(), "%d.%u.tmp%n", &pid, &number, &parsed) != 2 ||
-            static_cast<std::size_t>(parsed) != file.size() - begin.size() || pid <= 0)
+        const std::string prefix = fmt::format(".{}.", name);
+        if (!file.starts_with(prefix) ||
+            std::sscanf(file.c_str() + prefix.size(), "%d.%u.tmp%n", &pid, &number, &parsed) != 2 ||
+            static_cast<std::size_t>(parsed) != file.size() - prefix.size() || pid <= 0)
             continue;
         if (::kill(pid, 0) == 0 || errno != ESRCH) continue;
-        // A process of another machine that shares the folder may hold the lock.
+        // A process on another machine that shares the folder may hold the lock.
         const int descriptor = open_locked(entry.path());
         if (descriptor < 0) continue;
-        std::filesystem::remove_all(entry.path(), none);
+        std::filesystem::remove_all(entry.path(), ignored);
         ::close(descriptor);
     }
 }
@@ -84,15 +84,15 @@ std::filesystem::path directory_of(const std::filesystem::path& file) {
     return file.has_parent_path() ? file.parent_path() : ".";
 }
 
-// The file that a target names, behind a link, which can be written as far as its kind and its directory's tell.
+// Returns the file of a target, with symbolic links followed. Throws if it or its directory has the wrong type.
 std::filesystem::path final_name_of(const std::filesystem::path& target) {
     if (target.filename().empty()) fail(target, "it has no file name");
     std::error_code status;
     const bool link = std::filesystem::is_symlink(std::filesystem::symlink_status(target, status));
     std::filesystem::path file = link ? std::filesystem::weakly_canonical(target, status) : target;
-    const std::filesystem::file_status there = std::filesystem::status(file, status);
-    if (std::filesystem::is_directory(there)) fail(target, "it is a directory");
-    if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
+    const std::filesystem::file_status file_status = std::filesystem::status(file, status);
+    if (std::filesystem::is_directory(file_status)) fail(target, "it is a directory");
+    if (std::filesystem::exists(file_status) && !std::filesystem::is_regular_file(file_status))
         fail(target, "it is not a plain file");
     const std::filesystem::path directory = directory_of(file);
     if (!std::filesystem::is_directory(directory, status))
@@ -120,7 +120,7 @@ OutputFile::OutputFile(const std::filesystem::path& target, Unfinished unfinishe
     temporary_ = directory / temporary_name(name);
     lock_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (lock_ < 0) fail(target, message(errno));
-    lock(lock_);  // where a file system has no locks, the process number alone tells
+    lock(lock_);  // without locks of the file system, only the process number identifies the owner
 }
 
 OutputFile::~OutputFile() {
@@ -140,9 +140,9 @@ void write_file(const std::filesystem::path& path, std::span<const unsigned char
     constexpr std::size_t bytes_between_checks = std::size_t{16} << 20;
     OutputFile file(path);
     RawFile out(file.temporary(), RawFile::Mode::create, path);
-    for (std::size_t at = 0; at < bytes.size(); at += bytes_between_checks) {
+    for (std::size_t offset = 0; offset < bytes.size(); offset += bytes_between_checks) {
         throw_if_stopped();
-        out.write(at, bytes.data() + at, std::min(bytes_between_checks, bytes.size() - at));
+        out.write(offset, bytes.data() + offset, std::min(bytes_between_checks, bytes.size() - offset));
     }
     out.close();
     file.commit();
@@ -150,7 +150,7 @@ void write_file(const std::filesystem::path& path, std::span<const unsigned char
 
 namespace {
 
-// The temporary folder of a set.
+// Temporary folder of a set of files.
 class SetFolder {
   public:
     explicit SetFolder(const std::filesystem::path& folder) : folder_(folder) {
@@ -172,7 +172,7 @@ class SetFolder {
 
     const std::filesystem::path& path() const { return path_; }
 
-    // Moves all files into the folder. What is in the way of one of them is found before the first is moved.
+    // Moves all files into the folder. Checks all destinations before the first move.
     void commit() {
         std::vector<std::pair<std::filesystem::path, std::filesystem::path>> moves;
         std::error_code error;
@@ -182,12 +182,13 @@ class SetFolder {
         for (const auto& [from, to] : moves) move(from, to);
     }
 
-    // An error message in which the files are where they would have been.
+    // Returns an error message with the final instead of the temporary path of files.
     std::string message_of(const Error& error) const {
         std::string text = error.what();
-        const std::string here = path_.string(), there = folder_.string();
-        for (std::size_t at = 0; (at = text.find(here, at)) != std::string::npos; at += there.size())
-            text.replace(at, here.size(), there);
+        const std::string temporary = path_.string(), final_path = folder_.string();
+        for (std::size_t position = 0; (position = text.find(temporary, position)) != std::string::npos;
+             position += final_path.size())
+            text.replace(position, temporary.size(), final_path);
         return text;
     }
 
@@ -199,14 +200,14 @@ class SetFolder {
             if (error) fail(to, error.message());
             return;
         }
-        OutputFile copy(to);  // behind a link
+        OutputFile copy(to);  // the destination is a link to another file system
         std::filesystem::copy_file(from, copy.temporary(), std::filesystem::copy_options::overwrite_existing, error);
         if (error) fail(to, error.message());
         copy.commit();
     }
 
     std::filesystem::path folder_, path_;
-    int lock_ = -1;  // a descriptor of the folder that holds the lock
+    int lock_ = -1;  // descriptor of the folder; holds the lock
 };
 
 }  // namespace

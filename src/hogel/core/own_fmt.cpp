@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In a minimal library: the compiled part of fmt 9, which is then in this library instead of being linked. The same as
-// fmt's src/format.cc, for char alone. The other sources include fmt as ever, so that their objects are those of a
-// full library.
+// For the minimal library: compiles the part of fmt 9 that would otherwise be linked, for char only, as fmt's
+// src/format.cc does. Other sources include fmt as usual, so that their objects equal those of a full library.
 #include <fmt/format-inl.h>
 
 FMT_BEGIN_NAMESPACE

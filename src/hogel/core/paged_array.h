@@ -10,16 +10,16 @@
 
 namespace hogel::core {
 
-/// What a new array holds: anything, for one that is written before it is read, takes no time.
+/// Initial content of an array. Unset content takes no time, for arrays that are written before they are read.
 enum class Contents { zero, unset };
 
-/// An array of complex values, in memory or in a mapped file without a name, which the system pages in and out and
-/// removes with the array. It should be accessed by rows or by blocks of neighbouring columns.
+/// A complex array in memory or in a mapped file without a name, which the system removes with the array. Accesses
+/// should go along rows or in blocks of adjacent columns.
 class PagedArray {
   public:
     PagedArray() = default;
-    /// Throws Error(usage) for an empty array and for one of more than scratch.memory bytes without a folder, and
-    /// Error(cannot_write) if the file cannot be created or the disk is full.
+    /// Throws Error(usage) for an empty array, and for an array of more than scratch.memory bytes without a scratch
+    /// folder. Throws Error(cannot_write) if the file cannot be created or the disk is full.
     PagedArray(const Shape<2>& shape, const ScratchOptions& scratch, Contents contents = Contents::zero);
 
     View<std::complex<float>, 2> view() { return {data_.get(), shape_}; }

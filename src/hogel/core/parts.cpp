@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one source that the build tells which parts there are (CMakeLists.txt).
+// The only source for which the build defines the available parts (CMakeLists.txt).
 #include "hogel/parts.h"
 
 #include <fmt/format.h>

@@ -9,15 +9,15 @@
 namespace hogel {
 namespace {
 
-constexpr std::size_t letters_at_an_end = 200;
+constexpr std::size_t letters_per_end = 200;
 constexpr char32_t damaged = 0xFFFFFFFF;
 
 struct Letter {
-    char32_t code;      // `damaged` for a byte that is no UTF-8
-    std::size_t bytes;  // that it takes
+    char32_t code;      // `damaged` for a byte that is not valid UTF-8
+    std::size_t bytes;  // length
 };
 
-// The first letter of a text that is not empty.
+// Returns the first letter of a nonempty text.
 Letter first_letter(std::string_view text) {
     const unsigned first = static_cast<unsigned char>(text[0]);
     if (first < 0x80) return {first, 1};
@@ -35,7 +35,7 @@ Letter first_letter(std::string_view text) {
 }
 
 bool is_shown(char32_t code) {
-    // Control characters, separators of lines and marks of direction, annotations, and tags.
+    // Hides control characters, line separators, direction marks, annotations and tags.
     constexpr std::array<std::pair<char32_t, char32_t>, 10> hidden{{{0, 0x1F},
                                                                     {0x7F, 0x9F},
                                                                     {0x61C, 0x61C},
@@ -54,10 +54,10 @@ bool is_shown(char32_t code) {
 
 std::string printable(std::string_view text) {
     std::string line;
-    std::vector<std::size_t> begins;  // of the letters of the line
+    std::vector<std::size_t> offsets;  // offset of each letter in `line`
     while (!text.empty()) {
         const auto [code, bytes] = first_letter(text);
-        begins.push_back(line.size());
+        offsets.push_back(line.size());
         if (code == '\n' || code == '\t' || code == '\r')
             line += ' ';
         else if (is_shown(code))
@@ -66,8 +66,8 @@ std::string printable(std::string_view text) {
             line += '?';
         text.remove_prefix(bytes);
     }
-    if (begins.size() <= 2 * letters_at_an_end) return line;
-    return line.substr(0, begins[letters_at_an_end]) + "..." + line.substr(begins[begins.size() - letters_at_an_end]);
+    if (offsets.size() <= 2 * letters_per_end) return line;
+    return line.substr(0, offsets[letters_per_end]) + "..." + line.substr(offsets[offsets.size() - letters_per_end]);
 }
 
 }  // namespace hogel

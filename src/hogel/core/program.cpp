@@ -18,7 +18,7 @@
 namespace hogel::core {
 namespace {
 
-// Waits for the program; ends it if the work is to stop.
+// Waits for the program; kills it on a stop request.
 int status_of(pid_t child) {
     constexpr std::chrono::milliseconds pause{20};
     int status = 0;
@@ -40,8 +40,8 @@ int status_of(pid_t child) {
 }  // namespace
 
 std::string find_program(const std::string& name) {
-    const char* places = std::getenv("PATH");
-    std::istringstream folders(places != nullptr ? places : "");
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path != nullptr ? path : "");
     for (std::string folder; std::getline(folders, folder, ':');) {
         const std::string program = folder + "/" + name;
         if (!folder.empty() && access(program.c_str(), X_OK) == 0) return program;
@@ -56,7 +56,7 @@ bool run_program(const std::vector<std::string>& words) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     for (int stream : {0, 1, 2}) posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_RDWR, 0);
-    // The program would inherit the blocked signals and could not be stopped.
+    // Unblocks all signals: the program would inherit blocked ones and could not be stopped.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     sigset_t none;

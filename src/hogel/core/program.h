@@ -6,12 +6,12 @@
 
 namespace hogel::core {
 
-/// The path of a program that is found by PATH; empty if there is none.
+/// Returns the path of a program found in PATH, or an empty string.
 std::string find_program(const std::string& name);
 
-/// Runs a program, by its path and arguments, with nothing to read and nowhere to write but to files, and waits for it.
-/// Returns whether it ended well. When the work of this thread is to stop, the program is ended and Error(cancelled)
-/// thrown.
+/// Runs a program and waits for it. Its standard streams are /dev/null. Returns whether it exited with status 0. On a
+/// stop request kills the program and throws Error(cancelled).
+/// @param words  path of the program and its arguments
 bool run_program(const std::vector<std::string>& words);
 
 }  // namespace hogel::core

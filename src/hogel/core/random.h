@@ -6,8 +6,8 @@
 
 namespace hogel::core {
 
-/// Philox4x32-10: 128 random bits as a pure function of a 128-bit counter and a 64-bit key, so that a (seed, hogel,
-/// direction) gives the same phase in any order of work, tile and thread. Source: Salmon, Moraes, Dror and Shaw,
+/// Philox4x32-10: 128 random bits as a pure function of a 128-bit counter and a 64-bit key. The same (seed, hogel,
+/// direction) gives the same phase in any order of work, tiles and threads. Source: Salmon, Moraes, Dror and Shaw,
 /// "Parallel random numbers: as easy as 1, 2, 3", SC 2011.
 inline std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key) {
     for (int round = 0; round < 10; ++round) {

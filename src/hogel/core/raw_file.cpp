@@ -20,7 +20,7 @@ namespace hogel::core {
 namespace {
 
 constexpr std::uint64_t max_bytes = std::numeric_limits<std::int64_t>::max();
-constexpr std::size_t max_at_once = std::size_t{1} << 30;  // one system call transfers a little less than 2 GiB
+constexpr std::size_t max_transfer = std::size_t{1} << 30;  // one system call transfers a little less than 2 GiB
 
 int flags(RawFile::Mode mode) {
     switch (mode) {
@@ -67,29 +67,29 @@ std::uint64_t RawFile::size() const {
 }
 
 void RawFile::read(std::uint64_t offset, void* to, std::size_t bytes) const {
-    auto* place = static_cast<char*>(to);
+    auto* destination = static_cast<char*>(to);
     while (bytes > 0) {
-        const ssize_t got = ::pread(file_, place, std::min(bytes, max_at_once), static_cast<off_t>(offset));
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) fail(errno);
-        if (got == 0)
+        const ssize_t count = ::pread(file_, destination, std::min(bytes, max_transfer), static_cast<off_t>(offset));
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) fail(errno);
+        if (count == 0)
             throw Error(ErrorCode::bad_input,
                         fmt::format("cannot read '{}': it ends at byte {}", name_.string(), offset));
-        place += got;
-        offset += static_cast<std::uint64_t>(got);
-        bytes -= static_cast<std::size_t>(got);
+        destination += count;
+        offset += static_cast<std::uint64_t>(count);
+        bytes -= static_cast<std::size_t>(count);
     }
 }
 
 void RawFile::write(std::uint64_t offset, const void* from, std::size_t bytes) {
-    const auto* place = static_cast<const char*>(from);
+    const auto* source = static_cast<const char*>(from);
     while (bytes > 0) {
-        const ssize_t put = ::pwrite(file_, place, std::min(bytes, max_at_once), static_cast<off_t>(offset));
-        if (put < 0 && errno == EINTR) continue;
-        if (put <= 0) fail(put < 0 ? errno : ENOSPC);
-        place += put;
-        offset += static_cast<std::uint64_t>(put);
-        bytes -= static_cast<std::size_t>(put);
+        const ssize_t count = ::pwrite(file_, source, std::min(bytes, max_transfer), static_cast<off_t>(offset));
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) fail(count < 0 ? errno : ENOSPC);
+        source += count;
+        offset += static_cast<std::uint64_t>(count);
+        bytes -= static_cast<std::size_t>(count);
     }
 }
 
@@ -121,7 +121,7 @@ int open_unnamed(const std::filesystem::path& folder) {
 #ifdef O_TMPFILE
     if (const int file = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600); file >= 0) return file;
 #endif
-    // File systems exist that cannot create such files.
+    // For file systems without support for unnamed files.
     std::string name = (folder / ".hogel-XXXXXX.tmp").string();
     const int file = ::mkostemps(name.data(), 4, O_CLOEXEC);
     if (file >= 0) ::unlink(name.c_str());

@@ -7,14 +7,14 @@
 
 namespace hogel::core {
 
-/// A file that is read and written at offsets. Thread-safe.
+/// A file with reads and writes at offsets. Thread-safe.
 class RawFile {
   public:
-    /// `create` begins with an empty file, `kept` with what is there, if anything. An unnamed file is a new one in the
-    /// folder that `path` names. It is gone when it is closed or the process ends.
+    /// `create` truncates an existing file; `kept` keeps its content. `unnamed` creates a file without a name in the
+    /// folder `path`; it disappears when it is closed or the process ends.
     enum class Mode { read, write, create, kept, unnamed };
-    /// Throws Error(bad_input) when reading, Error(cannot_write) otherwise.
-    /// @param name  the file's name in error messages
+    /// Throws Error(bad_input) if `mode` is read, Error(cannot_write) otherwise.
+    /// @param name  name of the file in error messages
     RawFile(const std::filesystem::path& path, Mode mode, const std::filesystem::path& name);
     ~RawFile();
     RawFile(const RawFile&) = delete;
@@ -26,16 +26,16 @@ class RawFile {
     void read(std::uint64_t offset, void* to, std::size_t bytes) const;
     /// Throws Error(cannot_write).
     void write(std::uint64_t offset, const void* from, std::size_t bytes);
-    /// Makes the file at least this long and reserves disk space if the file system supports it. Throws
+    /// Extends the file to at least `bytes`, and reserves disk space if the file system supports it. Throws
     /// Error(cannot_write).
     void reserve(std::uint64_t bytes);
-    /// Sets the length of the file; added bytes are a hole. Throws Error(cannot_write).
+    /// Sets the length of the file; added bytes are zero and take no disk space. Throws Error(cannot_write).
     void resize(std::uint64_t bytes);
-    /// Takes the lock of the file until it is closed. Returns false if another RawFile has it, of any process.
+    /// Locks the file until it is closed. Returns false if another RawFile of any process holds the lock.
     bool lock();
-    /// Waits until all data has reached the disk. Throws Error(cannot_write).
+    /// Flushes all data to disk. Throws Error(cannot_write).
     void flush();
-    /// Throws Error(cannot_write) if the system reports a delayed failure.
+    /// Throws Error(cannot_write) if the system reports a delayed write error.
     void close();
 
   private:
@@ -46,7 +46,7 @@ class RawFile {
     int file_ = -1;
 };
 
-/// Opens a new file without a name in a folder, for reading and writing. Returns its descriptor, or -1 with errno.
+/// Opens a new file without a name in a folder, for reading and writing. Returns a descriptor, or -1 with errno set.
 int open_unnamed(const std::filesystem::path& folder);
 
 }  // namespace hogel::core

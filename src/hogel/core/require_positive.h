@@ -8,8 +8,8 @@
 namespace hogel::core {
 
 /// Throws Error(code) about a parameter unless the value is positive and finite.
-/// @param what    whose member it is, with which the message begins: "light field"
-/// @param member  the value's name in the message: "the wavelength"
+/// @param what    subject of the message: "light field"
+/// @param member  name of the value in the message: "the wavelength"
 void require_positive(double value, const char* parameter, ErrorCode code, const std::string& what, const char* member);
 
 }  // namespace hogel::core

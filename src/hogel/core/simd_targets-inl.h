@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiles the source that includes this header once for every SIMD target: Highway includes the source again for each
-// of them, by the name HWY_TARGET_INCLUDE, which cmake/HogelModule.cmake defines for all *_simd.cpp. This header has no
-// guard, because each target reads it.
+// Compiles the including source once for every SIMD target. Highway includes the source again for each target, by the
+// name HWY_TARGET_INCLUDE, which cmake/HogelModule.cmake defines for all *_simd.cpp. No include guard: each target
+// reads this header.
 #include <hwy/foreach_target.h>
 // Must be included after foreach_target.h:
 #include <hwy/highway.h>
 
-// HOGEL_DISPATCH(name, Target) defines the function reference `name`, which a header declares, so that each call goes
-// to Target of the SIMD target in use. Both have the same type. The macro belongs after HWY_AFTER_NAMESPACE(), in the
+// HOGEL_DISPATCH(name, Target) defines the function reference `name`, declared in a header with the same type as
+// Target. Each call goes to Target of the active SIMD target. Place the macro after HWY_AFTER_NAMESPACE(), in the
 // namespace of `name`:
 //     float sum_plain(const float* values, std::size_t count);    // in sum.h
 //     extern decltype(sum_plain)& sum;
@@ -18,7 +18,7 @@
 
 namespace hogel::core {
 
-/// Calls the function to which Choose()() points.
+/// Calls the function pointer that Choose()() returns.
 template <class Choose, class Result, class... Arguments>
 Result call_chosen(Arguments... arguments) {
     Result (*const function)(Arguments...) = Choose()();

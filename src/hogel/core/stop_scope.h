@@ -7,9 +7,9 @@
 
 namespace hogel::core {
 
-/// While this object exists, parallel loops begun by this thread, and loops inside their bodies on any thread, end with
-/// Error(cancelled) when a stop is requested from the token. Every public function that takes a Progress begins with a
-/// StopScope, so that the token need not be passed down to loops. Scopes nest: a stop of any of them takes effect.
+/// Scope of a stop token. Parallel loops begun by this thread, and loops nested in their bodies on any thread, end with
+/// Error(cancelled) after a stop request. Every public function with a Progress begins with a StopScope, so that loops
+/// need no token argument. Scopes nest: a stop request of any of them takes effect.
 class StopScope {
   public:
     explicit StopScope(const Progress& progress);
@@ -24,10 +24,10 @@ class StopScope {
     const StopScope* outer_;
 };
 
-/// The innermost scope of this thread, or null: what a loop hands on to the other threads that it uses.
+/// Returns the innermost scope of this thread, or null. Loops pass it to their other threads.
 const StopScope* stop_scope();
 
-/// While this object exists, this thread is in the scope of the thread that began a loop.
+/// Puts this thread into the scope of the thread that began a loop.
 class InheritedStopScope {
   public:
     explicit InheritedStopScope(const StopScope* scope);

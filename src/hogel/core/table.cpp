@@ -11,8 +11,8 @@
 namespace hogel {
 namespace {
 
-// The number of insertions, deletions, replacements and swaps of neighbours that turn a into b (optimal string
-// alignment).
+// Returns the number of insertions, deletions, replacements and swaps of adjacent letters that turn a into b (optimal
+// string alignment).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
     for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
@@ -40,8 +40,9 @@ std::string nearest_word(std::string_view word, std::span<const std::string> wor
         }
     }
     if (!nearest.empty() || word.size() < 3) return nearest;
-    const auto begins = std::ranges::find_if(words, [&](const std::string& any) { return any.starts_with(word); });
-    return begins != words.end() ? *begins : std::string();
+    const auto match =
+        std::ranges::find_if(words, [&](const std::string& candidate) { return candidate.starts_with(word); });
+    return match != words.end() ? *match : std::string();
 }
 
 void throw_unknown(std::string_view kind, std::string_view name, std::span<const std::string> known,

@@ -7,7 +7,7 @@
 
 namespace hogel::core {
 
-// The code of the Error that a call throws; a call that throws none fails the test.
+// Returns the code of the Error that a call throws. Fails the test if the call throws none.
 ErrorCode code_of(const auto& call) {
     try {
         call();
@@ -18,7 +18,7 @@ ErrorCode code_of(const auto& call) {
     return ErrorCode::internal;
 }
 
-// Whether a call ends by a stop; any other Error fails the test.
+// Returns whether a call is cancelled. Any other Error fails the test.
 bool is_cancelled(const auto& call) {
     try {
         call();

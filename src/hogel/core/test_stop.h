@@ -13,26 +13,25 @@
 
 namespace hogel::core {
 
-// Work in items of a millisecond, one of which requests a stop. Each thread may begin one more item after that: one
-// that had passed the check of its loop before. How long this takes depends on the machine; how many items begin does
-// not.
+// Work in items of one millisecond. One item requests a stop; each thread may begin one more item after it, because it
+// may have passed its check already. The number of items begun does not depend on the speed of the machine.
 class StoppedWork {
   public:
-    // `at`: the number, from 1, of the item that requests the stop.
-    explicit StoppedWork(std::size_t at) : at_(at) {}
+    // @param stop_at  number of the item, from 1, that requests the stop
+    explicit StoppedWork(std::size_t stop_at) : stop_at_(stop_at) {}
 
     Progress progress() const { return Progress(source_.get_token()); }
 
-    // One item. On a thread that has begun too many it does nothing, so that a wrong loop ends soon.
+    // Runs one item. Does nothing on a thread that has begun too many, so that a broken loop ends soon.
     void item() {
         if (is_stopped_ && begins_another_later()) return;
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        if (++done_ < at_ || is_stopped_) return;
+        if (++done_ < stop_at_ || is_stopped_) return;
         source_.request_stop();
         is_stopped_ = true;
     }
 
-    // The most items that one thread has begun after the stop.
+    // Returns the largest number of items that one thread began after the stop.
     std::size_t most_begun_later() {
         const std::lock_guard lock(mutex_);
         std::size_t most = 0;
@@ -46,7 +45,7 @@ class StoppedWork {
         return ++begun_later_[std::this_thread::get_id()] > 1;
     }
 
-    std::size_t at_;
+    std::size_t stop_at_;
     std::stop_source source_;
     std::atomic<std::size_t> done_{0};
     std::atomic<bool> is_stopped_{false};

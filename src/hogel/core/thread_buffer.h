@@ -8,21 +8,21 @@
 
 namespace hogel::core {
 
-/// Memory for values that a function needs while it runs: any values, aligned to a cache line. The thread keeps it for
-/// the next ThreadBuffer of the same type, because the system clears every new page. Buffers end in the reverse order
-/// of their beginnings, as local variables do.
+/// Temporary memory of a function, with unspecified values, aligned to a cache line. The thread reuses it for the next
+/// ThreadBuffer of the same type, because the system clears every new page. Buffers must be destroyed in the reverse
+/// order of their construction, like local variables.
 template <class T>
 class ThreadBuffer {
   public:
     explicit ThreadBuffer(std::size_t count) : count_(count) {
-        Kept& kept = kept_by_thread();
-        if (kept.in_use == kept.blocks.size()) kept.blocks.emplace_back();
-        Array<T, 1>& block = kept.blocks[kept.in_use];
+        Pool& pool = thread_pool();
+        if (pool.in_use == pool.blocks.size()) pool.blocks.emplace_back();
+        Array<T, 1>& block = pool.blocks[pool.in_use];
         if (block.size() < count) block = Array<T, 1>({count});
         data_ = block.data();
-        ++kept.in_use;
+        ++pool.in_use;
     }
-    ~ThreadBuffer() { --kept_by_thread().in_use; }
+    ~ThreadBuffer() { --thread_pool().in_use; }
     ThreadBuffer(const ThreadBuffer&) = delete;
     ThreadBuffer& operator=(const ThreadBuffer&) = delete;
 
@@ -33,13 +33,13 @@ class ThreadBuffer {
     T* end() const { return data_ + count_; }
 
   private:
-    struct Kept {
-        std::vector<Array<T, 1>> blocks;  // one for each buffer that exists at the same time
+    struct Pool {
+        std::vector<Array<T, 1>> blocks;  // one per buffer alive
         std::size_t in_use = 0;
     };
-    static Kept& kept_by_thread() {
-        thread_local Kept kept;
-        return kept;
+    static Pool& thread_pool() {
+        thread_local Pool pool;
+        return pool;
     }
 
     T* data_;

@@ -17,26 +17,26 @@ namespace {
 struct Unit {
     std::string_view name;
     double scale;
-    int exponent = 0;  // a power of ten beside the scale
+    int exponent = 0;  // decimal exponent, in addition to the scale
 };
 
 constexpr std::array length_units{Unit{"m", 1},      Unit{"cm", 1, -2},      Unit{"mm", 1, -3}, Unit{"um", 1, -6},
                                   Unit{"µm", 1, -6}, Unit{"\u03bcm", 1, -6}, Unit{"nm", 1, -9}};
 constexpr std::array angle_units{Unit{"deg", std::numbers::pi / 180}, Unit{"rad", 1}};
 
-// A number with its decimal point moved, so that 460 nm is 460e-9 to the last bit, as in a program. A product by 1e-9,
-// which no double is, would not be.
+// Returns a number times 10^exponent by moving its decimal point: 460 nm is exactly the double 460e-9, as in a program.
+// A product with 1e-9 would not be, because 1e-9 is not a double.
 double shifted(std::string_view number, double value, int exponent) {
     if (exponent == 0) return value;
     const std::size_t end = std::min(number.find_first_of("eE"), number.size());
     std::string_view digits = number.substr(std::min(end + 1, number.size()));
     if (digits.starts_with('+')) digits.remove_prefix(1);
-    int own = 0;
-    std::from_chars(digits.data(), digits.data() + digits.size(), own);
-    const std::string text = fmt::format("{}e{}", number.substr(0, end), own + exponent);
+    int own_exponent = 0;
+    std::from_chars(digits.data(), digits.data() + digits.size(), own_exponent);
+    const std::string text = fmt::format("{}e{}", number.substr(0, end), own_exponent + exponent);
     double moved = 0;
     const bool is_read = std::from_chars(text.data(), text.data() + text.size(), moved).ec == std::errc{};
-    return is_read ? moved : value * std::pow(10, exponent);  // next to zero
+    return is_read ? moved : value * std::pow(10, exponent);  // underflow
 }
 
 double parse(std::string_view text, std::string_view what, std::span<const Unit> units, std::string_view hint) {
@@ -92,7 +92,7 @@ std::string format_duration(double seconds) {
         const char* name;
         double seconds;
     };
-    // Each from two of it on, so that no digit is lost and no number is 1.
+    // Each unit is used from two units upwards: keeps two digits, and never prints the number 1.
     constexpr std::array<Unit, 5> units{
         {{"years", 365.25 * 86400}, {"days", 86400}, {"hours", 3600}, {"minutes", 60}, {"s", 1}}};
     const auto* unit = std::ranges::find_if(units, [&](const Unit& each) { return seconds >= 1.995 * each.seconds; });

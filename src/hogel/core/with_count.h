@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loops with a number of sums that is known when they are compiled, for files that are compiled once for every SIMD
-// target. To be included after hwy/highway.h.
+// Loops with a compile-time number of sums, for files that are compiled once per SIMD target. Include it after
+// hwy/highway.h.
 #if defined(HOGEL_CORE_WITH_COUNT) == defined(HWY_TARGET_TOGGLE)
 #ifdef HOGEL_CORE_WITH_COUNT
 #undef HOGEL_CORE_WITH_COUNT
@@ -16,7 +16,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace hogel::core::HWY_NAMESPACE {
 
-// Calls use(std::integral_constant<count>) with count = 1 … max.
+// Calls use(std::integral_constant<count>) for a count of 1 … max.
 template <std::size_t max, class Use>
 HWY_INLINE void with_count(std::size_t count, const Use& use) {
     if constexpr (max > 0) {
