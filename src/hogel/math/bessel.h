@@ -3,7 +3,7 @@
 
 namespace hogel::math {
 
-/// The modified Bessel function I₀(x) = Σ (x²/4)^k/k!², for the windows of Kaiser; exact to rounding up to x = 20, and
+/// Returns the modified Bessel function I₀(x) = Σ (x²/4)^k/k!², for Kaiser windows. Exact to rounding up to x = 20, and
 /// several times faster than the general function of the standard library.
 inline double bessel_i0(double x) {
     const double quarter = 0.25 * x * x;

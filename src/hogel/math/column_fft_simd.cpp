@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled for every SIMD target and dispatched at run time. The plain twin is math/fourier/plain.cpp.
+// Compiled for every SIMD target and dispatched at run time. The reference version is math/fourier/plain.cpp.
 #include "hogel/math/column_fft.h"
 
 #include <hwy/cache_control.h>
@@ -24,21 +24,22 @@ void TransformSplitToInterleaved(const ColumnFft::Plan&, const float*, float*, s
 #else
 bool HasVectors() { return true; }
 
-constexpr std::size_t together = ColumnFft::together;
+constexpr std::size_t batch_columns = ColumnFft::batch_columns;
 HWY_INLINE Numbers Times(D d, const Numbers& x, const ColumnFft::Factor& factor) {
     return Times(x, hn::Set(d, factor.re), hn::Set(d, factor.im));
 }
 
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
-// Interleaved, written by whole cache lines with non-temporal stores: a large result is not read again soon, and a
-// normal store would first fetch the line.
+// Interleaved layout with non-temporal stores of whole cache lines: a large result is not read again soon, and a normal
+// store would first fetch the line.
 struct Streamed {
     static HWY_INLINE void Store(D d, const Numbers& x, float* row, std::size_t i) {
         alignas(64) static constexpr std::int32_t order[] = {0, 1, 2, 3, 8, 9, 10, 11, 4, 5, 6, 7, 12, 13, 14, 15};
-        const auto places = hn::SetTableIndices(d, order);
+        const auto indices = hn::SetTableIndices(d, order);
         const V lower = hn::InterleaveLower(d, x.re, x.im), upper = hn::InterleaveUpper(d, x.re, x.im);
-        hn::Stream(hn::TableLookupLanes(hn::ConcatLowerLower(d, upper, lower), places), d, row + 2 * i);
-        hn::Stream(hn::TableLookupLanes(hn::ConcatUpperUpper(d, upper, lower), places), d, row + 2 * i + together);
+        hn::Stream(hn::TableLookupLanes(hn::ConcatLowerLower(d, upper, lower), indices), d, row + 2 * i);
+        hn::Stream(hn::TableLookupLanes(hn::ConcatUpperUpper(d, upper, lower), indices), d,
+                   row + 2 * i + batch_columns);
     }
 };
 #else
@@ -49,19 +50,18 @@ struct Four {
     Numbers a, b, c, d;
 };
 
-// The radix-4 butterfly of four rows: sums with the powers of i, or of −i if forward.
+// Radix-4 butterfly of four rows: sums with powers of i, or of −i if forward.
 template <bool forward, class Layout>
-HWY_INLINE Four Butterfly(D d, const float* rows, std::size_t apart, std::size_t i) {
-    const Numbers a = Layout::Load(d, rows, i), b = Layout::Load(d, rows + apart, i),
-                  c = Layout::Load(d, rows + 2 * apart, i), e = Layout::Load(d, rows + 3 * apart, i);
+HWY_INLINE Four Butterfly(D d, const float* rows, std::size_t stride, std::size_t i) {
+    const Numbers a = Layout::Load(d, rows, i), b = Layout::Load(d, rows + stride, i),
+                  c = Layout::Load(d, rows + 2 * stride, i), e = Layout::Load(d, rows + 3 * stride, i);
     const Numbers sum_ac = a + c, difference_ac = a - c, sum_be = b + e, difference_be = b - e;
     const Numbers plus = PlusTurned(difference_ac, difference_be), minus = MinusTurned(difference_ac, difference_be);
     return {sum_ac + sum_be, forward ? minus : plus, sum_ac - sum_be, forward ? plus : minus};
 }
 
-constexpr std::size_t scratch_row = 2 * together;
+constexpr std::size_t scratch_row = 2 * batch_columns;
 
-// One radix-4 step over all groups of `length` rows.
 template <bool forward, class Layout>
 HWY_INLINE void Step(const ColumnFft::Plan& plan, std::size_t length, const ColumnFft::Factor* factors, const float* in,
                      std::size_t in_row, float* scratch) {
@@ -71,7 +71,7 @@ HWY_INLINE void Step(const ColumnFft::Plan& plan, std::size_t length, const Colu
         for (std::size_t j = 0; j < part; ++j) {
             const ColumnFft::Factor* w = factors + 3 * j;
             float* y = scratch + (group + j) * scratch_row;
-            for (std::size_t i = 0; i < together; i += hn::Lanes(d)) {
+            for (std::size_t i = 0; i < batch_columns; i += hn::Lanes(d)) {
                 const Four four = Butterfly<forward, Layout>(d, in + (group + j) * in_row, part * in_row, i);
                 InSplit::Store(d, four.a, y, i);
                 InSplit::Store(d, Times(d, four.b, w[0]), y + part * scratch_row, i);
@@ -81,7 +81,7 @@ HWY_INLINE void Step(const ColumnFft::Plan& plan, std::size_t length, const Colu
         }
 }
 
-// All steps for sixteen columns. The first step reads the source, the last one writes the result.
+// All steps for sixteen columns. The first step reads the source; the last step writes the result.
 template <bool forward, class From, class To>
 void TransformBlock(const ColumnFft::Plan& plan, const float* from, std::size_t from_row, float* to, std::size_t to_row,
                     float* scratch) {
@@ -91,11 +91,11 @@ void TransformBlock(const ColumnFft::Plan& plan, const float* from, std::size_t 
     Step<forward, From>(plan, length, factors, from, from_row, scratch);
     for (factors += 3 * (length / 4), length /= 4; length > 4; factors += 3 * (length / 4), length /= 4)
         Step<forward, InSplit>(plan, length, factors, scratch, scratch_row, scratch);
-    const auto put = [&](const Numbers& x, std::size_t place, std::size_t i) {
-        To::Store(d, x, to + plan.order[place] * to_row, i);
+    const auto put = [&](const Numbers& x, std::size_t row_index, std::size_t i) {
+        To::Store(d, x, to + plan.order[row_index] * to_row, i);
     };
     for (std::size_t row = 0; row < plan.length; row += length)
-        for (std::size_t i = 0; i < together; i += hn::Lanes(d)) {
+        for (std::size_t i = 0; i < batch_columns; i += hn::Lanes(d)) {
             const float* x = scratch + row * scratch_row;
             if (length == 4) {
                 const Four four = Butterfly<forward, InSplit>(d, x, scratch_row, i);
@@ -129,8 +129,8 @@ void TransformSplit(const ColumnFft::Plan& plan, float* columns) {
 void TransformSplitToInterleaved(const ColumnFft::Plan& plan, const float* from, float* to, std::size_t to_row,
                                  std::size_t floats) {
     const core::ThreadBuffer<float> scratch(plan.length * scratch_row);
-    const bool lines = (reinterpret_cast<std::uintptr_t>(to) | to_row * sizeof(float)) % 64 == 0;
-    const bool streamed = lines && to_row > floats;
+    const bool aligned = (reinterpret_cast<std::uintptr_t>(to) | to_row * sizeof(float)) % 64 == 0;
+    const bool streamed = aligned && to_row > floats;
     for (std::size_t i = 0; i < floats; i += scratch_row, from += plan.length * scratch_row)
         if (streamed)
             TransformBlock<false, InSplit, Streamed>(plan, from, scratch_row, to + i, to_row, scratch.data());
@@ -164,7 +164,7 @@ HWY_EXPORT(TransformSplit);
 HWY_EXPORT(TransformSplitToInterleaved);
 
 bool ColumnFft::can(std::size_t length, std::size_t columns) {
-    return length >= shortest && std::has_single_bit(length) && columns > 0 && columns % together == 0 &&
+    return length >= shortest && std::has_single_bit(length) && columns > 0 && columns % batch_columns == 0 &&
            HWY_DYNAMIC_DISPATCH(HasVectors)();
 }
 
@@ -177,13 +177,13 @@ ColumnFft::ColumnFft(std::size_t length) : plan_{length, {0}, {}} {
                 plan_.factors[0].push_back(factor_of(cycles));
                 plan_.factors[1].push_back(factor_of(-cycles));
             }
-    // A step sorts frequencies by their remainder modulo its radix. From the last step backwards: frequency f of part k
-    // is frequency k + radix · f of the whole.
+    // A step orders frequencies by their remainder modulo its radix. Backwards from the last step: frequency f of part
+    // k is frequency k + radix · f of all parts.
     std::size_t parts = 1;
     for (std::size_t step = rest;; step = 4) {
         std::vector<std::uint32_t> order;
         for (std::size_t k = 0; k < step; ++k)
-            for (const std::uint32_t place : plan_.order) order.push_back(static_cast<std::uint32_t>(k + step * place));
+            for (const std::uint32_t f : plan_.order) order.push_back(static_cast<std::uint32_t>(k + step * f));
         plan_.order = std::move(order);
         parts *= step;
         if (parts == length) break;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arrays and threads; the transforms of lines are those of fft_engine.h.
+// Distributes arrays over threads; fft_engine.h transforms the lines.
 #include "hogel/math/fft.h"
 
 #include <fmt/format.h>
@@ -16,22 +16,22 @@
 namespace hogel::math {
 namespace {
 
-// Arrays from this size on are transformed line by line on all threads. Smaller ones are usually many, each transformed
-// by one thread.
+// Arrays of at least this size are transformed line by line on all threads. Smaller arrays usually come in large
+// numbers, each on one thread.
 constexpr std::size_t large_array = std::size_t{1} << 16;
-// Up to this size one thread is fastest, if ColumnFft supports the columns.
+// Maximum size at which ColumnFft on one thread is fastest, if it supports the columns.
 constexpr std::size_t max_by_columns = std::size_t{1} << 18;
 
-// Calls transform(first, count) for blocks of neighbouring lines, on all threads. A thread takes several blocks of
-// short lines at once.
+// Calls transform(first, count) for blocks of adjacent lines, on all threads. A task covers several blocks of short
+// lines.
 template <class Transform>
 void for_blocks(std::size_t lines, std::size_t length, const Transform& transform) {
-    constexpr std::size_t together = LineEngine::together, values_at_once = 16384;
-    const std::size_t at_once = std::max<std::size_t>(1, values_at_once / (together * length)) * together;
-    work::parallel_for((lines + at_once - 1) / at_once, [&](std::size_t task) {
-        const std::size_t end = std::min(lines, (task + 1) * at_once);
-        for (std::size_t first = task * at_once; first < end; first += together)
-            transform(first, std::min(together, end - first));
+    constexpr std::size_t batch_lines = LineEngine::batch_lines, task_values = 16384;
+    const std::size_t task_lines = std::max<std::size_t>(1, task_values / (batch_lines * length)) * batch_lines;
+    work::parallel_for((lines + task_lines - 1) / task_lines, [&](std::size_t task) {
+        const std::size_t end = std::min(lines, (task + 1) * task_lines);
+        for (std::size_t first = task * task_lines; first < end; first += batch_lines)
+            transform(first, std::min(batch_lines, end - first));
     });
 }
 
@@ -84,21 +84,21 @@ void transform_columns(View<std::complex<float>, 2> values, const Fft1& fft, boo
 struct Fft2::Plans {
     Plans(std::size_t h, std::size_t w) : height(h), width(w) {
         if (h * w <= max_by_columns && ColumnFft::can(h, w)) {
-            whole.emplace(h, w, SmallArrayEngine::Axes::rows);
+            small_array.emplace(h, w, SmallArrayEngine::Axes::rows);
             column_fft.emplace(h);
         } else if (h * w >= large_array) {
             if (w > 1) rows.emplace(w);
             if (h > 1) columns.emplace(h);
         } else {
-            whole.emplace(h, w, SmallArrayEngine::Axes::both);
+            small_array.emplace(h, w, SmallArrayEngine::Axes::both);
         }
     }
     void run(bool forward, View<std::complex<float>, 2> values, std::complex<float>* to, std::size_t to_row) const {
         if (values.extent(0) != height || values.extent(1) != width)
             throw Error(ErrorCode::internal, fmt::format("FFT of {}x{} values with a plan for {}x{}", values.extent(0),
                                                          values.extent(1), height, width));
-        if (whole) {
-            whole->run(forward, values.data());
+        if (small_array) {
+            small_array->run(forward, values.data());
             if (column_fft) return column_fft->transform(forward, values.data(), width, to, to_row, width);
         } else {
             if (rows) transform_rows(values, *rows, forward);
@@ -109,9 +109,9 @@ struct Fft2::Plans {
     }
 
     std::size_t height, width;
-    std::optional<SmallArrayEngine> whole;    // for a small array, or only its rows
-    std::optional<ColumnFft> column_fft;      // for the columns, if `whole` transforms only rows
-    std::optional<LineEngine> rows, columns;  // for a large array
+    std::optional<SmallArrayEngine> small_array;  // for a small array, or only its rows
+    std::optional<ColumnFft> column_fft;          // for the columns, if `small_array` transforms only rows
+    std::optional<LineEngine> rows, columns;      // for a large array
 };
 
 Fft2::Fft2(std::size_t height, std::size_t width) {

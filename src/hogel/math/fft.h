@@ -9,11 +9,11 @@
 
 namespace hogel::math {
 
-/// Discrete Fourier transforms of one size, planned once and used from any number of threads. Neither direction is
-/// normalised: forward sums with e^{-2πi jm/n}, backward with e^{+2πi jm/n}. A plan depends on the size alone and never
-/// on timings, so that equal input gives equal bytes in every run and for any number of threads.
+/// Discrete Fourier transforms with a plan per size. Thread-safe. Not normalised: forward sums with e^{-2πi jm/n},
+/// backward with e^{+2πi jm/n}. A plan depends only on the size, never on timings: equal input gives equal bytes in
+/// every run and for any number of threads.
 
-/// A transform of one line.
+/// Transform of one line.
 class Fft1 {
   public:
     /// Throws Error(usage) for an empty size.
@@ -23,7 +23,7 @@ class Fft1 {
     Fft1& operator=(Fft1&&) noexcept;
 
     std::size_t size() const;
-    /// Transforms size() values in place; fastest if they are aligned to a cache line.
+    /// Transform size() values in place; fastest if aligned to a cache line.
     void forward(std::complex<float>* line) const;
     void backward(std::complex<float>* line) const;
 
@@ -34,7 +34,7 @@ class Fft1 {
     std::unique_ptr<Plans> plans_;
 };
 
-/// A transform along both axes of an array. Large arrays are transformed by all threads together.
+/// Transform along both axes of an array. Large arrays use all threads.
 class Fft2 {
   public:
     /// Throws Error(usage) for an empty size.
@@ -43,10 +43,10 @@ class Fft2 {
     Fft2(Fft2&&) noexcept;
     Fft2& operator=(Fft2&&) noexcept;
 
-    /// Transforms in place; the shape is that of the plan.
+    /// Transform in place. The shape must be that of the plan.
     void forward(View<std::complex<float>, 2> values) const;
     void backward(View<std::complex<float>, 2> values) const;
-    /// As above, but writes row r of the result to to + r·to_row; `values` is overwritten.
+    /// Writes row r of the result at to + r·to_row. Overwrites `values`.
     void backward(View<std::complex<float>, 2> values, std::complex<float>* to, std::size_t to_row) const;
 
     std::size_t height() const;
@@ -57,12 +57,11 @@ class Fft2 {
     std::unique_ptr<Plans> plans_;
 };
 
-/// Transforms all rows, or all columns, of an array, on all threads. Throws Error(internal) if the plan has another
-/// size.
+/// Transform all rows, or all columns, of an array, on all threads. Throw Error(internal) if the plan has another size.
 void transform_rows(View<std::complex<float>, 2> values, const Fft1& fft, bool forward);
 void transform_columns(View<std::complex<float>, 2> values, const Fft1& fft, bool forward);
 
-/// The smallest size from n on without a prime factor above 7; such sizes transform fast.
+/// Returns the smallest size not below n without a prime factor above 7, for fast transforms.
 std::size_t good_fft_size(std::size_t n);
 
 }  // namespace hogel::math

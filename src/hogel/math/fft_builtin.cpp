@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// hogel's own Fourier transforms. Which method transforms a line depends on its length alone, never on how many lines
-// are given at once.
+// hogel's own Fourier transforms. The method for a line depends only on its length, never on the number of lines.
 #ifndef HOGEL_FFTW
 #include <algorithm>
 #include <mutex>
@@ -15,11 +14,11 @@
 namespace hogel::math {
 namespace {
 
-// Up to this length sixteen rows are transformed side by side, since as many positions fit into the second-level cache.
+// Maximum length at which sixteen rows are transformed as a batch: sixteen lines fit into the second-level cache.
 constexpr std::size_t max_batch_rows = 4096;
-// Rows of a multiple of this length begin in the same cache sets and are transformed one after the other.
+// Rows whose length is a multiple of this begin in the same cache sets and are transformed one after the other.
 constexpr std::size_t same_cache_sets = 512;
-// From this length on a single line is transformed as an array.
+// Minimum length of a single line that is transformed as an array.
 constexpr std::size_t min_split = 24;
 
 float* floats(std::complex<float>* p) { return reinterpret_cast<float*>(p); }
@@ -45,10 +44,11 @@ struct LineEngine::Plans {
         for (std::size_t i = 0; i < size; ++i) line[i * stride] = exchanged(copy[i]);
     }
 
-    // A line in memory, rather than in a near cache, is first copied: reading it in order is faster than by columns.
+    // Copies a line in memory (not in a near cache) first: sequential reads are faster than reads by columns.
     void line(bool forward, std::complex<float>* values, bool in_memory) const {
         if (!fourier::has_vectors()) return plain(forward, values, 1);
-        if (!split) return fourier::transform_lines(together(), chirp_or_none(), !forward, floats(values), 0, 1, size);
+        if (!split)
+            return fourier::transform_lines(batch_plan(), chirp_or_none(), !forward, floats(values), 0, 1, size);
         const core::ThreadBuffer<std::complex<float>> buffer(in_memory || chirp ? convolved : 0);
         std::complex<float>* const copy = in_memory || chirp ? buffer.data() : values;
         if (!chirp) {
@@ -63,20 +63,20 @@ struct LineEngine::Plans {
         fourier::multiply(floats(copy), chirp->chirp.data(), floats(values), size, true, !forward);
     }
 
-    // For lines side by side; planned when it is first needed.
-    const fourier::Plan& together() const {
-        std::call_once(planned_, [&] { together_.emplace(convolved); });
-        return *together_;
+    // Plan for batches of lines; created when first needed.
+    const fourier::Plan& batch_plan() const {
+        std::call_once(planned_, [&] { batch_plan_.emplace(convolved); });
+        return *batch_plan_;
     }
     const fourier::Chirp* chirp_or_none() const { return chirp ? &*chirp : nullptr; }
 
-    std::size_t size, convolved;  // the length of the lines, and of the transforms that they need
+    std::size_t size, convolved;  // length of the lines, and of their convolution if they need one
     std::optional<fourier::Chirp> chirp;
     std::optional<fourier::Split> split;
 
   private:
     mutable std::once_flag planned_;
-    mutable std::optional<fourier::Plan> together_;
+    mutable std::optional<fourier::Plan> batch_plan_;
 };
 
 LineEngine::LineEngine(std::size_t size) : plans_(std::make_unique<Plans>(size)) {}
@@ -89,9 +89,9 @@ void LineEngine::line(bool forward, std::complex<float>* line) const { plans_->l
 
 void LineEngine::rows(bool forward, std::complex<float>* lines, std::size_t stride, std::size_t count) const {
     const Plans& plans = *plans_;
-    const bool side_by_side = plans.convolved <= max_batch_rows && plans.size % same_cache_sets != 0;
-    if (side_by_side && fourier::has_vectors())
-        return fourier::transform_lines(plans.together(), plans.chirp_or_none(), !forward, floats(lines), 2 * stride,
+    const bool in_batches = plans.convolved <= max_batch_rows && plans.size % same_cache_sets != 0;
+    if (in_batches && fourier::has_vectors())
+        return fourier::transform_lines(plans.batch_plan(), plans.chirp_or_none(), !forward, floats(lines), 2 * stride,
                                         count, plans.size);
     for (std::size_t i = 0; i < count; ++i) plans.line(forward, lines + i * stride, true);
 }
@@ -102,7 +102,7 @@ void LineEngine::columns(bool forward, std::complex<float>* columns, std::size_t
     if (!fourier::has_vectors()) {
         for (std::size_t i = 0; i < count; ++i) plans.plain(forward, columns + i, row);
     } else {
-        fourier::transform_columns(plans.together(), plans.chirp_or_none(), !forward, floats(columns), 2 * row,
+        fourier::transform_columns(plans.batch_plan(), plans.chirp_or_none(), !forward, floats(columns), 2 * row,
                                    floats(columns), 2 * row, count, size);
     }
 }
@@ -126,11 +126,11 @@ void SmallArrayEngine::run(bool forward, std::complex<float>* values) const {
     const Plans& plans = *plans_;
     const std::size_t height = plans.height, width = plans.width;
     if (height == 1) return plans.rows.line(forward, values);
-    for (std::size_t y = 0; y < height; y += LineEngine::together)
-        plans.rows.rows(forward, values + y * width, width, std::min(LineEngine::together, height - y));
+    for (std::size_t y = 0; y < height; y += LineEngine::batch_lines)
+        plans.rows.rows(forward, values + y * width, width, std::min(LineEngine::batch_lines, height - y));
     if (!plans.columns) return;
-    for (std::size_t x = 0; x < width; x += LineEngine::together)
-        plans.columns->columns(forward, values + x, width, std::min(LineEngine::together, width - x));
+    for (std::size_t x = 0; x < width; x += LineEngine::batch_lines)
+        plans.columns->columns(forward, values + x, width, std::min(LineEngine::batch_lines, width - x));
 }
 
 }  // namespace hogel::math

@@ -7,12 +7,12 @@
 
 namespace hogel::math {
 
-/// What fft.cpp needs of a library of Fourier transforms: those of the lines of an array, by one thread. Either hogel's
-/// own (fft_builtin.cpp) or FFTW's (fft_fftw.cpp), chosen by HOGEL_FFT when hogel is built.
+/// Single-threaded transforms of the lines of an array, the interface between fft.cpp and an FFT library: hogel's own
+/// (fft_builtin.cpp) or FFTW (fft_fftw.cpp), selected by HOGEL_FFT at build time.
 class LineEngine {
   public:
-    /// Lines that rows() and columns() take at most.
-    static constexpr std::size_t together = 16;
+    /// Maximum number of lines of rows() and columns().
+    static constexpr std::size_t batch_lines = 16;
 
     explicit LineEngine(std::size_t size);
     ~LineEngine();
@@ -20,11 +20,10 @@ class LineEngine {
     LineEngine& operator=(LineEngine&&) noexcept;
 
     std::size_t size() const;
-    /// Transforms size() values in place.
     void line(bool forward, std::complex<float>* line) const;
-    /// Transforms lines in place that begin `stride` values apart.
+    /// Transforms lines in place. `stride`: number of values between the starts of lines.
     void rows(bool forward, std::complex<float>* lines, std::size_t stride, std::size_t count) const;
-    /// Transforms neighbouring columns in place, whose rows begin `row` values apart.
+    /// Transforms adjacent columns in place. `row`: number of values between the starts of rows.
     void columns(bool forward, std::complex<float>* columns, std::size_t row, std::size_t count) const;
 
   private:
@@ -32,7 +31,7 @@ class LineEngine {
     std::unique_ptr<Plans> plans_;
 };
 
-/// Transforms of a small array as a whole, by one thread: along both axes, or along its rows alone.
+/// Single-threaded transforms of a small array, along both axes or along rows only.
 class SmallArrayEngine {
   public:
     enum class Axes { both, rows };

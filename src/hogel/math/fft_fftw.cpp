@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fourier transforms by FFTW or any library with its single-precision interface. The only file that depends on it.
+// Fourier transforms by FFTW or a library with its single-precision interface. The only source that depends on FFTW.
 #ifdef HOGEL_FFTW
 #include <fftw3.h>
 
@@ -12,7 +12,7 @@
 namespace hogel::math {
 namespace {
 
-// FFTW's planner keeps global tables; only execution is thread-safe.
+// FFTW's planner has global state; only execution is thread-safe.
 std::mutex& planner() {
     static std::mutex mutex;
     return mutex;
@@ -20,10 +20,10 @@ std::mutex& planner() {
 
 fftwf_complex* fftw(std::complex<float>* p) { return reinterpret_cast<fftwf_complex*>(p); }
 
-// Plans for both directions, for aligned and for unaligned data.
+// Plans for both directions, for aligned and unaligned data.
 class Directions {
   public:
-    // make(scratch, sign, flags) plans an in-place transform of that many values.
+    // make(scratch, sign, flags) plans an in-place transform of `values` values.
     template <class Make>
     Directions(std::size_t values, Make make) {
         Array<std::complex<float>, 1> scratch({values});
@@ -46,8 +46,8 @@ class Directions {
     Directions& operator=(const Directions&) = delete;
 
     void run(bool forward, std::complex<float>* values) const {
-        const bool fits = fftwf_alignment_of(reinterpret_cast<float*>(values)) == alignment_;
-        fftwf_execute_dft((fits ? aligned_ : unaligned_)[forward ? 0 : 1], fftw(values), fftw(values));
+        const bool is_aligned = fftwf_alignment_of(reinterpret_cast<float*>(values)) == alignment_;
+        fftwf_execute_dft((is_aligned ? aligned_ : unaligned_)[forward ? 0 : 1], fftw(values), fftw(values));
     }
 
   private:
@@ -84,7 +84,7 @@ void LineEngine::rows(bool forward, std::complex<float>* lines, std::size_t stri
 }
 
 void LineEngine::columns(bool forward, std::complex<float>* columns, std::size_t row, std::size_t count) const {
-    // Padding, so that the lines do not all begin in the same cache sets.
+    // Padded lines, to avoid cache set conflicts.
     const std::size_t height = size(), stride = (height + 15) / 8 * 8;
     Array<std::complex<float>, 2> lines({count, stride});
     for (std::size_t y = 0; y < height; ++y)

@@ -67,7 +67,7 @@ TEST(Fft2, large_arrays_give_the_same_sum) {
 // Columns whose length is a power of two, which ColumnFft transforms, are compared with sums along columns.
 TEST_P(ColumnFftKernels, give_the_sum_of_waves_for_every_length_and_direction) {
     for (std::size_t length = ColumnFft::shortest; length <= 512; length *= 2) {
-        const std::size_t columns = 2 * ColumnFft::together, row = columns + 3;
+        const std::size_t columns = 2 * ColumnFft::batch_columns, row = columns + 3;
         if (!ColumnFft::can(length, columns)) return;  // targets without vectors have none
         const Array<Complex, 2> from = noise(length, row);
         for (const bool forward : {false, true}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vectors of complex numbers and their layouts in memory, for the SIMD target that is being compiled.
+// Vectors of complex numbers and their memory layouts, for the SIMD target that is being compiled.
 #if defined(HOGEL_MATH_NUMBERS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef HOGEL_MATH_NUMBERS_INL_H
 #undef HOGEL_MATH_NUMBERS_INL_H
@@ -18,10 +18,10 @@ namespace hogel::math::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET != HWY_SCALAR
-using D = hn::CappedTag<float, ColumnFft::together>;
+using D = hn::CappedTag<float, ColumnFft::batch_columns>;
 using V = hn::Vec<D>;
 
-// A vector of complex numbers, as separate real and imaginary parts.
+// A vector of complex numbers with separate real and imaginary parts.
 struct Numbers {
     V re, im;
 };
@@ -37,7 +37,7 @@ HWY_INLINE Numbers MinusTurned(const Numbers& a, const Numbers& b) {
 }
 HWY_INLINE Numbers PlusTurned(const Numbers& a, const Numbers& b) { return {hn::Sub(a.re, b.im), hn::Add(a.im, b.re)}; }
 
-// Layouts of a row in memory: real and imaginary parts interleaved, or sixteen real parts and then sixteen imaginary.
+// Row layouts: Interleaved alternates real and imaginary parts; InSplit has sixteen real parts, then sixteen imaginary.
 struct Interleaved {
     static HWY_INLINE Numbers Load(D d, const float* row, std::size_t i) {
         Numbers x;
@@ -50,11 +50,11 @@ struct Interleaved {
 };
 struct InSplit {
     static HWY_INLINE Numbers Load(D d, const float* row, std::size_t i) {
-        return {hn::Load(d, row + i), hn::Load(d, row + ColumnFft::together + i)};
+        return {hn::Load(d, row + i), hn::Load(d, row + ColumnFft::batch_columns + i)};
     }
     static HWY_INLINE void Store(D d, const Numbers& x, float* row, std::size_t i) {
         hn::Store(x.re, d, row + i);
-        hn::Store(x.im, d, row + ColumnFft::together + i);
+        hn::Store(x.im, d, row + ColumnFft::batch_columns + i);
     }
 };
 #endif

@@ -9,21 +9,21 @@
 
 namespace hogel::math {
 
-/// A finite complex number in 32 bits: two integers of 12 bits, signed, times a power of two that both share. Each part
-/// is as near as 1/2047 of the larger one, so that no number is too large; below 2^-116 it is zero.
+/// A finite complex number in 32 bits: two signed 12-bit integers times a shared power of two. The rounding error of
+/// each part is at most 1/2047 of the larger part, and no number is too large. Numbers below 2^-116 become zero.
 struct PackedComplex {
     std::uint32_t bits = 0;  ///< [real part : 12][imaginary part : 12][biased exponent : 8]
 
     friend bool operator==(const PackedComplex&, const PackedComplex&) = default;
 };
 
-/// The exponent of a float, biased as in its bits, that packed parts are scaled by; the larger part gets eleven bits.
+/// Biased float exponent of the unit of packed parts; the larger part gets eleven bits.
 inline constexpr std::uint32_t packed_shift = 10;
 
-/// The packed number nearest to a complex one: each part to nearest, ties to even.
+/// Returns the nearest packed number: rounds each part to nearest, ties to even.
 inline PackedComplex pack(std::complex<float> value) {
     const float larger = std::fmax(std::fabs(value.real()), std::fabs(value.imag()));
-    // A part that would be rounded up to 2048 belongs to the next exponent.
+    // A part that rounds up to 2048 needs the next exponent.
     std::uint32_t exponent = (std::bit_cast<std::uint32_t>(larger) + (1u << 12)) >> 23;
     if (exponent < packed_shift) exponent = packed_shift;
     const auto scale = std::bit_cast<float>((2 * 127 + packed_shift - exponent) << 23);
@@ -31,7 +31,7 @@ inline PackedComplex pack(std::complex<float> value) {
     return {part(value.real()) << 20 | (part(value.imag()) & 0xfff) << 8 | (exponent - packed_shift)};
 }
 
-/// The value of a packed number, exactly.
+/// Returns the exact value of a packed number.
 inline std::complex<float> unpacked(PackedComplex packed) {
     const auto scale = std::bit_cast<float>((packed.bits & 0xff) << 23);
     const auto part = [&](std::uint32_t bits) {
@@ -40,7 +40,7 @@ inline std::complex<float> unpacked(PackedComplex packed) {
     return {part(packed.bits), part(packed.bits << 12)};
 }
 
-/// pack() of n numbers of an array.
+/// Packs n numbers.
 void pack(const std::complex<float>* from, PackedComplex* to, std::size_t n);
 
 }  // namespace hogel::math

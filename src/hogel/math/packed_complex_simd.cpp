@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled for every SIMD target and chosen when first called.
 #include "hogel/core/simd_targets-inl.h"
 #include "hogel/math/packed_complex-inl.h"
 #include "hogel/math/packed_complex.h"

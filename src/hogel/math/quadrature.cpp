@@ -12,14 +12,14 @@ Quadrature gauss_legendre(std::size_t count, double half) {
     for (std::size_t i = 0; i < count; ++i) {
         double x = -std::cos(std::numbers::pi * (static_cast<double>(i) + 0.75) / (n + 0.5)), slope = 0;
         for (int step = 0; step < 100; ++step) {
-            double p = 1, before = 0;
+            double p = 1, previous = 0;
             for (std::size_t k = 1; k <= count; ++k) {
                 const auto degree = static_cast<double>(k);
-                const double next = ((2 * degree - 1) * x * p - (degree - 1) * before) / degree;
-                before = p;
+                const double next = ((2 * degree - 1) * x * p - (degree - 1) * previous) / degree;
+                previous = p;
                 p = next;
             }
-            slope = n * (x * p - before) / (x * x - 1);
+            slope = n * (x * p - previous) / (x * x - 1);
             const double change = p / slope;
             x -= change;
             if (std::abs(change) < 1e-15) break;

@@ -12,7 +12,7 @@
 
 namespace hogel::math {
 
-static_assert(SplitFft::together == fourier::together);
+static_assert(SplitFft::together == fourier::batch_lines);
 
 struct SplitFft::Plans {
     fourier::Plan plan;
@@ -20,7 +20,7 @@ struct SplitFft::Plans {
 
 SplitFft::SplitFft(std::size_t size) {
     if (size == 0 || !fourier::is_smooth(size))
-        throw Error(ErrorCode::internal, fmt::format("a transform of lines side by side cannot have {} samples", size));
+        throw Error(ErrorCode::internal, fmt::format("a batch of lines cannot have transforms of {} samples", size));
     plans_ = std::make_unique<Plans>(fourier::Plan(size));
 }
 SplitFft::~SplitFft() = default;
@@ -28,7 +28,7 @@ SplitFft::SplitFft(SplitFft&&) noexcept = default;
 SplitFft& SplitFft::operator=(SplitFft&&) noexcept = default;
 
 std::size_t SplitFft::size() const { return plans_->plan.length; }
-std::uint32_t SplitFft::place(std::size_t frequency) const { return plans_->plan.place[frequency]; }
+std::uint32_t SplitFft::place(std::size_t frequency) const { return plans_->plan.position[frequency]; }
 
 void SplitFft::transform(float* lines) const {
     if (fourier::has_vectors()) return fourier::transform_in_place(plans_->plan, lines);

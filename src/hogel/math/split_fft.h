@@ -7,12 +7,12 @@
 
 namespace hogel::math {
 
-/// Discrete Fourier transforms of sixteen lines side by side, for code that keeps them so: [position][part][line], the
-/// parts real and imaginary. In place and without sorting. By hogel's own transforms, whatever HOGEL_FFT says.
+/// Discrete Fourier transforms of sixteen adjacent lines, [position][part][line], part = real, imaginary. In place and
+/// without reordering. Uses hogel's own transforms, independently of HOGEL_FFT.
 class SplitFft {
   public:
     static constexpr std::size_t together = 16;
-    /// Floats from one position to the next.
+    /// Number of floats between positions.
     static constexpr std::size_t row = 2 * together;
 
     /// Throws Error(internal) for a size with a prime factor above 13.
@@ -22,11 +22,11 @@ class SplitFft {
     SplitFft& operator=(SplitFft&&) noexcept;
 
     std::size_t size() const;
-    /// Sums with e^{-2πi jm/n}. If the parts are exchanged, imaginary before real, so are those of the result, and the
-    /// sums are those with e^{+2πi jm/n}.
+    /// Sums with e^{-2πi jm/n}. With exchanged parts (imaginary before real) in input and output, sums with e^{+2πi
+    /// jm/n}.
     /// @param lines  aligned to a cache line
     void transform(float* lines) const;
-    /// The position of a frequency in the result.
+    /// Returns the position of a frequency in the result.
     std::uint32_t place(std::size_t frequency) const;
 
   private:

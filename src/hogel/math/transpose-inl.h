@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The transpose of sixteen rows of sixteen numbers, for files that are compiled once for every SIMD target. To be
-// included after hwy/highway.h.
+// Transpose of 16 × 16 numbers, for files that are compiled once per SIMD target. Include it after hwy/highway.h.
 #if defined(HOGEL_MATH_TRANSPOSE) == defined(HWY_TARGET_TOGGLE)
 #ifdef HOGEL_MATH_TRANSPOSE
 #undef HOGEL_MATH_TRANSPOSE
@@ -22,7 +21,7 @@ void transpose_sixteen(const From& from, std::size_t columns, const To& to) {
         for (std::size_t i = 0; i < 16; ++i) to(j)[i] = from(i)[j];
 }
 #else
-// Transposes four numbers of each of four rows.
+// Transposes 4 × 4 numbers.
 HWY_INLINE void transpose_four(const float* a, const float* b, const float* c, const float* e, float* out0, float* out1,
                                float* out2, float* out3) {
     namespace hn = hwy::HWY_NAMESPACE;
@@ -36,7 +35,7 @@ HWY_INLINE void transpose_four(const float* a, const float* b, const float* c, c
     hn::StoreU(hn::InterleaveUpper(d, ac_upper, be_upper), d, out3);
 }
 
-// Transposes sixteen rows: from(i) is the beginning of row i, to(j) the destination of column j, for j < columns.
+// Transposes sixteen rows. from(i): address of row i. to(j): destination of column j, j < columns.
 template <class From, class To>
 HWY_INLINE void transpose_sixteen(const From& from, std::size_t columns, const To& to) {
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Transforms of a few numbers in registers, for the SIMD target that is being compiled.
+// Small transforms in registers, for the SIMD target that is being compiled.
 #if defined(HOGEL_MATH_FOURIER_BUTTERFLIES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef HOGEL_MATH_FOURIER_BUTTERFLIES_INL_H
 #undef HOGEL_MATH_FOURIER_BUTTERFLIES_INL_H
@@ -28,7 +28,7 @@ using math::HWY_NAMESPACE::Numbers;
 using math::HWY_NAMESPACE::PlusTurned;
 using math::HWY_NAMESPACE::Times;
 using math::HWY_NAMESPACE::V;
-static_assert(together == ColumnFft::together);
+static_assert(batch_lines == ColumnFft::batch_columns);
 
 // cos and sin of 2πk/radix for k from 1 to (radix − 1)/2.
 template <std::size_t radix>
@@ -82,9 +82,9 @@ struct Butterfly {
             Numbers even = x[0], odd;
 #pragma GCC unroll 16
             for (std::size_t i = 0; i < half; ++i) {
-                const std::size_t turn = k * (i + 1) % radix;
-                const bool mirrored = turn > half;
-                const std::size_t root = (mirrored ? radix - turn : turn) - 1;
+                const std::size_t multiple = k * (i + 1) % radix;
+                const bool mirrored = multiple > half;
+                const std::size_t root = (mirrored ? radix - multiple : multiple) - 1;
                 const V cosine = hn::Set(d, Roots<radix>::cosines[root]);
                 const V sine = hn::Set(d, mirrored ? -Roots<radix>::sines[root] : Roots<radix>::sines[root]);
                 even = {hn::MulAdd(sums[i].re, cosine, even.re), hn::MulAdd(sums[i].im, cosine, even.im)};
@@ -139,7 +139,7 @@ struct Butterfly<8> {
     }
 };
 
-// As Interleaved, with exchanged parts.
+// Interleaved layout with real and imaginary parts exchanged.
 struct Exchanged {
     static HWY_INLINE Numbers Load(D d, const float* row, std::size_t i) {
         Numbers x;
@@ -151,36 +151,36 @@ struct Exchanged {
     }
 };
 
-// Parts of 128 bits from `at` on of every fourth line: of lines[0], lines[4], ...
-template <class Some>
-HWY_INLINE hn::Vec<Some> LoadParts(Some d, const float* const* lines, std::size_t at) {
+// Loads 128 bits at `offset` from every fourth line: lines[0], lines[4], …
+template <class Tag>
+HWY_INLINE hn::Vec<Tag> LoadParts(Tag d, const float* const* lines, std::size_t offset) {
     if constexpr (hn::MaxLanes(d) == 4) {
-        return hn::LoadU(d, lines[0] + at);
+        return hn::LoadU(d, lines[0] + offset);
     } else {
-        const hn::Half<Some> half;
-        return hn::Combine(d, LoadParts(half, lines + hn::MaxLanes(half), at), LoadParts(half, lines, at));
+        const hn::Half<Tag> half;
+        return hn::Combine(d, LoadParts(half, lines + hn::MaxLanes(half), offset), LoadParts(half, lines, offset));
     }
 }
-template <class Some>
-HWY_INLINE void StoreParts(Some d, hn::Vec<Some> x, float* const* lines, std::size_t at) {
+template <class Tag>
+HWY_INLINE void StoreParts(Tag d, hn::Vec<Tag> x, float* const* lines, std::size_t offset) {
     if constexpr (hn::MaxLanes(d) == 4) {
-        hn::StoreU(x, d, lines[0] + at);
+        hn::StoreU(x, d, lines[0] + offset);
     } else {
-        const hn::Half<Some> half;
-        StoreParts(half, hn::LowerHalf(half, x), lines, at);
-        StoreParts(half, hn::UpperHalf(half, x), lines + hn::MaxLanes(half), at);
+        const hn::Half<Tag> half;
+        StoreParts(half, hn::LowerHalf(half, x), lines, offset);
+        StoreParts(half, hn::UpperHalf(half, x), lines + hn::MaxLanes(half), offset);
     }
 }
-// Two complex numbers of as many lines as a vector has lanes become two vectors of complex numbers, and back.
-HWY_INLINE void TransposePair(D d, const float* const* lines, std::size_t at, Numbers& first, Numbers& second) {
-    const V a = LoadParts(d, lines, at), b = LoadParts(d, lines + 1, at), c = LoadParts(d, lines + 2, at),
-            e = LoadParts(d, lines + 3, at);
+// Transposes two complex numbers from as many lines as a vector has lanes to two vectors of complex numbers.
+HWY_INLINE void TransposePair(D d, const float* const* lines, std::size_t offset, Numbers& first, Numbers& second) {
+    const V a = LoadParts(d, lines, offset), b = LoadParts(d, lines + 1, offset), c = LoadParts(d, lines + 2, offset),
+            e = LoadParts(d, lines + 3, offset);
     const V ac0 = hn::InterleaveLower(d, a, c), be0 = hn::InterleaveLower(d, b, e), ac1 = hn::InterleaveUpper(d, a, c),
             be1 = hn::InterleaveUpper(d, b, e);
     first = {hn::InterleaveLower(d, ac0, be0), hn::InterleaveUpper(d, ac0, be0)};
     second = {hn::InterleaveLower(d, ac1, be1), hn::InterleaveUpper(d, ac1, be1)};
 }
-// The lower halves of parts of 128 bits of a and b, one after the other in each part; and their upper halves.
+// Interleave the lower, or upper, 64 bits of each 128-bit part of a and b.
 HWY_INLINE V LowerPairs(D d, V a, V b) {
     const hn::Repartition<double, D> pairs;
     return hn::BitCast(d, hn::InterleaveLower(pairs, hn::BitCast(pairs, a), hn::BitCast(pairs, b)));
@@ -189,21 +189,22 @@ HWY_INLINE V UpperPairs(D d, V a, V b) {
     const hn::Repartition<double, D> pairs;
     return hn::BitCast(d, hn::InterleaveUpper(pairs, hn::BitCast(pairs, a), hn::BitCast(pairs, b)));
 }
+// Inverse of TransposePair().
 HWY_INLINE void TransposePairBack(D d, const Numbers& first, const Numbers& second, float* const* lines,
-                                  std::size_t at) {
+                                  std::size_t offset) {
     const V ab0 = hn::InterleaveLower(d, first.re, first.im), ab1 = hn::InterleaveLower(d, second.re, second.im),
             ce0 = hn::InterleaveUpper(d, first.re, first.im), ce1 = hn::InterleaveUpper(d, second.re, second.im);
-    StoreParts(d, LowerPairs(d, ab0, ab1), lines, at);
-    StoreParts(d, UpperPairs(d, ab0, ab1), lines + 1, at);
-    StoreParts(d, LowerPairs(d, ce0, ce1), lines + 2, at);
-    StoreParts(d, UpperPairs(d, ce0, ce1), lines + 3, at);
+    StoreParts(d, LowerPairs(d, ab0, ab1), lines, offset);
+    StoreParts(d, UpperPairs(d, ab0, ab1), lines + 1, offset);
+    StoreParts(d, LowerPairs(d, ce0, ce1), lines + 2, offset);
+    StoreParts(d, UpperPairs(d, ce0, ce1), lines + 3, offset);
 }
 HWY_INLINE Numbers ExchangedIf(bool exchange, const Numbers& x) { return exchange ? Numbers{x.im, x.re} : x; }
-// Four rows of four floats become their columns.
-HWY_INLINE void TransposeFour(const float* const* rows, std::size_t at, float* out, std::size_t out_row) {
+// Transposes four rows of four floats.
+HWY_INLINE void TransposeFour(const float* const* rows, std::size_t offset, float* out, std::size_t out_row) {
     const hn::FixedTag<float, 4> d;
-    const auto a = hn::Load(d, rows[0] + at), b = hn::Load(d, rows[1] + at), c = hn::Load(d, rows[2] + at),
-               e = hn::Load(d, rows[3] + at);
+    const auto a = hn::Load(d, rows[0] + offset), b = hn::Load(d, rows[1] + offset), c = hn::Load(d, rows[2] + offset),
+               e = hn::Load(d, rows[3] + offset);
     const auto ac0 = hn::InterleaveLower(d, a, c), be0 = hn::InterleaveLower(d, b, e),
                ac1 = hn::InterleaveUpper(d, a, c), be1 = hn::InterleaveUpper(d, b, e);
     hn::Store(hn::InterleaveLower(d, ac0, be0), d, out);

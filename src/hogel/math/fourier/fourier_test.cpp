@@ -48,13 +48,13 @@ Line backward(Line x) {
     return x;
 }
 
-// Lengths of every method: with each radix, by convolutions, together and as long lines.
+// Lengths of every method: each radix, convolutions, batches of lines, and long lines.
 const std::size_t some_lengths[] = {1,   2,   3,   4,    5,    7,    8,    11,   13,   16,   17,   23,   24,
                                     25,  30,  31,  49,   60,   64,   97,   100,  121,  127,  169,  256,  343,
                                     480, 512, 600, 1000, 1024, 1031, 1080, 1287, 2187, 4096, 4099, 5000, 10007};
 
-// Copies of the line as rows of one array and columns of another, more than are transformed together; others around it
-// are noise. Returns the larger error of both.
+// Transforms the line as a row of one array and a column of another, among lines of noise that fill more than a batch.
+// Returns the larger error.
 double error_of_many(const Line& x, const ExactLine& expected, bool is_forward) {
     constexpr std::size_t count = 21;
     const std::size_t length = x.size();

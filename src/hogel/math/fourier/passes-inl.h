@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All passes of a transform of sixteen lines side by side, for the SIMD target that is being compiled.
+// All passes of a transform of sixteen adjacent lines, for the SIMD target that is being compiled.
 #if defined(HOGEL_MATH_FOURIER_PASSES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef HOGEL_MATH_FOURIER_PASSES_INL_H
 #undef HOGEL_MATH_FOURIER_PASSES_INL_H
@@ -20,19 +20,19 @@ HWY_BEFORE_NAMESPACE();
 namespace hogel::math::fourier::HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
-// Rows in memory, the first of them and the number of floats from one to the next.
+// Rows in memory. `row`: number of floats between the starts of rows.
 struct Source {
     const float* data;
     std::size_t row;
 };
-// Rows of a result. With an order, row i of it is written to row order[i].
+// Rows of a result. With an order, writes row i to row order[i].
 struct Sink {
     float* data;
     std::size_t row;
     const std::uint32_t* order;
 };
 
-// One pass over `groups` groups of rows. The last pass has one butterfly and no factors in each.
+// One pass over `groups` groups of rows. In the last pass each group is one butterfly without factors.
 template <std::size_t radix, class From>
 HWY_NOINLINE void PassOver(std::size_t groups, std::size_t part, const float* factors, Source from, float* out,
                            std::size_t lanes) {
@@ -74,7 +74,6 @@ HWY_NOINLINE void LastPass(std::size_t groups, const float* in, Sink to, std::si
         }
 }
 
-// Calls run.operator()<radix>().
 template <class Run>
 HWY_INLINE void WithRadix(std::size_t radix, const Run& run) {
     switch (radix) {
@@ -97,7 +96,7 @@ HWY_INLINE void WithRadix(std::size_t radix, const Run& run) {
     }
 }
 
-// Rows from which on groups are transformed one after the other rather than pass by pass, so that they stay in the
+// Maximum number of rows for which passes run over all rows. Above it groups run one after the other, to stay in the
 // first-level cache.
 constexpr std::size_t max_rows_by_pass = 192;
 
@@ -116,12 +115,12 @@ void Passes(const Plan& plan, std::size_t index, std::size_t rows, Source from, 
     const std::size_t step = rows > max_rows_by_pass ? part : rows;
     for (std::size_t row = 0; row < rows; row += step) {
         const Sink result{to.order ? to.data : to.data + row * to.row, to.row, to.order ? to.order + row : nullptr};
-        float* part_of_scratch = scratch + row * split_row;
-        Passes<InSplit, To>(plan, index + 1, step, {part_of_scratch, split_row}, part_of_scratch, result, lanes);
+        float* group_scratch = scratch + row * split_row;
+        Passes<InSplit, To>(plan, index + 1, step, {group_scratch, split_row}, group_scratch, result, lanes);
     }
 }
 
-// Transforms all rows; `scratch` may be the source if that has split layout.
+// Transforms all rows. `scratch` may be the source if the source has split layout.
 template <class From, class To>
 void TransformRows(const Plan& plan, Source from, float* scratch, Sink to, std::size_t columns) {
     const D d;
@@ -133,18 +132,18 @@ void TransformRows(const Plan& plan, Source from, float* scratch, Sink to, std::
     if (plan.passes.size() == 1) return Passes<InSplit, To>(plan, 0, plan.length, {}, scratch, to, lanes);
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) To::Store(d, InSplit::Load(d, scratch, i), to.data, i);
 }
-// In place, without sorting: frequency f lies in row plan.place[f].
+// Transforms in place, without reordering: frequency f is in row plan.position[f].
 HWY_INLINE void TransformInPlace(const Plan& plan, float* rows, std::size_t columns) {
     TransformRows<InSplit, InSplit>(plan, {rows, split_row}, rows, {rows, split_row, nullptr}, columns);
 }
 
-// Bluestein's convolution of rows in split layout. Frequency f of the result lies in row plan.place[f] of `other`.
-HWY_INLINE void Convolve(const Plan& plan, const Chirp& chirp, std::size_t length, float* rows, float* other,
+// Bluestein's convolution of rows in split layout. Frequency f of the result is in row plan.position[f] of `result`.
+HWY_INLINE void Convolve(const Plan& plan, const Chirp& chirp, std::size_t length, float* rows, float* result,
                          std::size_t columns) {
     const D d;
     const auto times = [&](const float* x, const float* factor, float* out, bool exchange_x, bool exchange_out) {
         const V re = hn::Set(d, factor[0]), im = hn::Set(d, factor[1]);
-        for (std::size_t i = 0; i < together; i += hn::Lanes(d)) {
+        for (std::size_t i = 0; i < batch_lines; i += hn::Lanes(d)) {
             Numbers value = InSplit::Load(d, x, i);
             if (exchange_x) std::swap(value.re, value.im);
             value = Times(value, re, im);
@@ -157,10 +156,10 @@ HWY_INLINE void Convolve(const Plan& plan, const Chirp& chirp, std::size_t lengt
     std::fill(rows + length * split_row, rows + plan.length * split_row, 0.0f);
     TransformInPlace(plan, rows, columns);
     for (std::size_t f = 0; f < plan.length; ++f)
-        times(rows + plan.place[f] * split_row, chirp.spectrum.data() + 2 * f, other + f * split_row, false, true);
-    TransformInPlace(plan, other, columns);
+        times(rows + plan.position[f] * split_row, chirp.spectrum.data() + 2 * f, result + f * split_row, false, true);
+    TransformInPlace(plan, result, columns);
     for (std::size_t k = 0; k < length; ++k) {
-        float* row = other + plan.place[k] * split_row;
+        float* row = result + plan.position[k] * split_row;
         times(row, chirp.chirp.data() + 2 * k, row, true, false);
     }
 }

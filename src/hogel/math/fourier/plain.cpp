@@ -29,8 +29,8 @@ template <class Real>
 Line<Real> transformed(const Line<Real>& x);
 
 // Bluestein: jk = (j² + k² − (k−j)²)/2, so with c_j = e^{-πi j²/n}
-//   X_k = c_k Σ_j (x_j c_j) conj(c_{k−j}),
-// a convolution, which transforms of a power of two m ≥ 2n − 1 turn into products.
+//   X_k = c_k Σ_j (x_j c_j) conj(c_{k−j}).
+// Transforms of a power of two m ≥ 2n − 1 compute this convolution.
 template <class Real>
 Line<Real> by_convolution(const Line<Real>& x) {
     const std::size_t n = x.size(), m = std::bit_ceil(2 * n - 1);

@@ -8,11 +8,10 @@
 
 namespace hogel::math::fourier {
 
-/// The textbook transform of any length, Σ_j x_j e^{-2πi jk/n}: mixed radix while there are prime factors up to 13, and
-/// Bluestein's convolution for what is left. The fast transforms are tested against it, and machines without vectors
-/// use it.
+/// Reference transform of any length, Σ_j x_j e^{-2πi jk/n}: mixed radix for prime factors up to 13, Bluestein's
+/// convolution for the rest. Used in tests of the fast transforms, and on targets without vectors.
 void transform_plain(std::span<std::complex<float>> values);
-/// The same in double precision, for tables.
+/// Double-precision version, for tables.
 void transform_plain_double(std::span<std::complex<double>> values);
 
 }  // namespace hogel::math::fourier

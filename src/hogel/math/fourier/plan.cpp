@@ -11,12 +11,12 @@
 namespace hogel::math::fourier {
 namespace {
 
-// The radices of a length, those of the first passes first. Large ones save passes.
+// Returns the radices of a length in the order of the passes. Large radices save passes.
 std::vector<std::size_t> radices_of(std::size_t length) {
     std::vector<std::size_t> result;
     for (const std::size_t prime : {13, 11, 7, 5, 3})
         for (; length % prime == 0; length /= prime) result.push_back(prime);
-    // 16 and 2 are better as 4·4 and, with another factor of 8, as 4·4.
+    // 16 and 2 (beside another factor of 8) are faster as 4·4.
     std::size_t twos = 0;
     for (; length % 2 == 0; length /= 2) ++twos;
     std::size_t fours = twos % 3 == 2 ? 1 : twos % 3 == 1 && twos >= 4 ? 2 : 0;
@@ -50,7 +50,7 @@ std::complex<float> root_of_unity(std::size_t numerator, std::size_t denominator
     return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
 }
 
-Plan::Plan(std::size_t n) : length(n), frequency{0}, place(n) {
+Plan::Plan(std::size_t n) : length(n), frequency{0}, position(n) {
     const std::vector<std::size_t> radices = radices_of(n);
     std::size_t rest = n;
     for (const std::size_t radix : radices) {
@@ -63,21 +63,21 @@ Plan::Plan(std::size_t n) : length(n), frequency{0}, place(n) {
             }
         rest /= radix;
     }
-    // A pass sorts frequencies by their remainder modulo its radix. From the last pass backwards: frequency f of part k
-    // is frequency k + radix · f of the whole.
+    // A pass orders frequencies by their remainder modulo its radix. Backwards from the last pass: frequency f of part
+    // k is frequency k + radix · f of all parts.
     for (auto radix = radices.rbegin(); radix != radices.rend(); ++radix) {
         std::vector<std::uint32_t> order;
         for (std::size_t k = 0; k < *radix; ++k)
             for (const std::uint32_t f : frequency) order.push_back(static_cast<std::uint32_t>(k + *radix * f));
         frequency = std::move(order);
     }
-    for (std::size_t i = 0; i < n; ++i) place[frequency[i]] = static_cast<std::uint32_t>(i);
+    for (std::size_t i = 0; i < n; ++i) position[frequency[i]] = static_cast<std::uint32_t>(i);
 }
 
 Chirp::Chirp(std::size_t n, std::size_t m) : chirp(2 * n), spectrum(2 * m) {
     std::vector<std::complex<double>> conjugate(m);
     for (std::size_t j = 0; j < n; ++j) {
-        // j² modulo the period 2n, so that the angle stays exact.
+        // j² modulo the period 2n keeps the angle exact.
         const double angle = std::numbers::pi * static_cast<double>(j * j % (2 * n)) / static_cast<double>(n);
         const std::complex<double> c = std::polar(1.0, angle);
         chirp[2 * j] = static_cast<float>(c.real());
@@ -94,7 +94,7 @@ Chirp::Chirp(std::size_t n, std::size_t m) : chirp(2 * n), spectrum(2 * m) {
 
 namespace {
 
-// The factor of a smooth length whose transforms, and those of the other factor, waste the fewest lanes.
+// Returns the factor of a smooth length for which the transforms of both factors waste the fewest lanes.
 std::size_t rows_of(std::size_t length) {
     std::size_t best = 1;
     double best_cost = std::numeric_limits<double>::max();
@@ -102,8 +102,8 @@ std::size_t rows_of(std::size_t length) {
         if (length % down != 0) continue;
         const std::size_t across = length / down;
         const auto waste = [](std::size_t lanes) {
-            const std::size_t groups = (lanes + together - 1) / together;
-            return static_cast<double>(groups * together) / static_cast<double>(lanes);
+            const std::size_t groups = (lanes + batch_lines - 1) / batch_lines;
+            return static_cast<double>(groups * batch_lines) / static_cast<double>(lanes);
         };
         const double longest = static_cast<double>(std::max(down, across));
         const double uneven = longest * longest / static_cast<double>(length);
@@ -120,9 +120,9 @@ Split::Split(std::size_t length) : down(rows_of(length)), across(length / down.l
     for (std::size_t p = 0; p < down.length; ++p)
         for (std::size_t b = 0; b < across.length; ++b) {
             const std::complex<float> w = root_of_unity(p * b, length);
-            float* at = twiddles.data() + (p * blocks_across() + b / together) * split_row + b % together;
-            at[0] = w.real();
-            at[together] = w.imag();
+            float* twiddle = twiddles.data() + (p * blocks_across() + b / batch_lines) * split_row + b % batch_lines;
+            twiddle[0] = w.real();
+            twiddle[batch_lines] = w.imag();
         }
 }
 

@@ -9,31 +9,31 @@
 
 #include "hogel/array.h"
 
-// hogel's own Fourier transforms, forward sums with e^{-2πi jm/n}. Backward transforms are forward ones of numbers
-// whose real and imaginary parts are exchanged, and so are their results.
+// hogel's own Fourier transforms. Forward sums with e^{-2πi jm/n}. Backward transforms exchange the real and imaginary
+// parts of inputs and outputs of forward transforms.
 namespace hogel::math::fourier {
 
-/// The number of lines that are transformed side by side. In the split layout, [position][part][line], this number of
-/// real parts is followed by as many imaginary parts.
-constexpr std::size_t together = 16;
-/// Floats from one position to the next in the split layout.
-constexpr std::size_t split_row = 2 * together;
+/// Number of adjacent lines in a batch. In the split layout [position][part][line] the real parts of a batch precede
+/// its imaginary parts.
+constexpr std::size_t batch_lines = 16;
+/// Number of floats between positions in the split layout.
+constexpr std::size_t split_row = 2 * batch_lines;
 
-/// The largest prime factor of lengths that are transformed without a convolution.
+/// Largest prime factor of lengths that are transformed without a convolution.
 constexpr std::size_t max_radix = 13;
 bool is_smooth(std::size_t length);
-/// The smallest length from n on whose transform as a part of a convolution is fast.
+/// Returns the smallest length not below n that is fast for convolutions.
 std::size_t convolution_length(std::size_t n);
 
-/// e^{-2πi numerator/denominator}, rounded from double precision.
+/// Returns e^{-2πi numerator/denominator}, rounded from double precision.
 std::complex<float> root_of_unity(std::size_t numerator, std::size_t denominator);
 
-/// A transform of one smooth length by decimation in frequency, in place: a pass of radix r and group length L replaces
-/// the values x_i, i < r, at distance L/r in each group by the values Σ_i x_i w_r^{ik}, times w_L^{jk} for the values
-/// at offset j. Then the r parts of a group are transforms of their own.
+/// In-place transform of a smooth length by decimation in frequency. A pass of radix r and group length L replaces
+/// values x_i, i < r, at distance L/r in each group by Σ_i x_i w_r^{ik}, times w_L^{jk} at offset j. The r parts of a
+/// group are then transformed independently.
 struct Plan {
     struct Pass {
-        std::size_t radix, length, factors;  // factors: where w_L^{jk} begin, [j][k-1][part]
+        std::size_t radix, length, factors;  // factors: offset of w_L^{jk} as [j][k-1][part]
     };
 
     explicit Plan(std::size_t length);
@@ -41,50 +41,51 @@ struct Plan {
     std::size_t length;
     std::vector<Pass> passes;
     std::vector<float> factors;
-    std::vector<std::uint32_t> frequency;  // [place after all passes]
-    std::vector<std::uint32_t> place;      // [frequency]
+    std::vector<std::uint32_t> frequency;  // [position after all passes]
+    std::vector<std::uint32_t> position;   // [frequency]
 };
 
-/// A transform of any length as a convolution of a smooth length m ≥ 2n − 1 (Bluestein): with c_j = e^{-πi j²/n},
-/// X_k = c_k Σ_j (x_j c_j) conj(c_{k−j}).
+/// Transform of any length n as a convolution of a smooth length m ≥ 2n − 1 (Bluestein): with c_j = e^{-πi j²/n}, X_k =
+/// c_k Σ_j (x_j c_j) conj(c_{k−j}).
 struct Chirp {
     Chirp(std::size_t length, std::size_t convolved);
 
     std::vector<float> chirp;  // [j][part]: c_j
-    /// [frequency][part]: the transform of conj(c), over m.
+    /// [frequency][part]: transform of conj(c), over m.
     std::vector<float, CacheLineAllocator<float>> spectrum;
 };
 
-/// A long line as an array of `down` rows and `across` columns: transforms of its columns, whose frequency p is then
-/// multiplied by w_n^{pb} in column b, and transforms of the rows, which give frequencies p + down·q.
+/// Transform of a long line as an array of `down` rows and `across` columns: transforms the columns, multiplies
+/// frequency p of column b by w_n^{pb}, and transforms the rows, which gives frequencies p + down·q.
 struct Split {
     explicit Split(std::size_t length);
 
     Plan down, across;
     /// [p][b/16][part][b mod 16]
     std::vector<float, CacheLineAllocator<float>> twiddles;
-    std::size_t blocks_across() const { return (across.length + together - 1) / together; }
-    std::size_t blocks_down() const { return (down.length + together - 1) / together; }
+    std::size_t blocks_across() const { return (across.length + batch_lines - 1) / batch_lines; }
+    std::size_t blocks_down() const { return (down.length + batch_lines - 1) / batch_lines; }
 };
 
-// The functions below work on interleaved complex numbers, compiled for every SIMD target and dispatched at run time.
-// `backward` exchanges the parts. Strides are in floats.
+// The functions below process interleaved complex numbers. They are compiled for every SIMD target and dispatched at
+// run time. `backward` exchanges real and imaginary parts. Strides are in floats.
 
-/// Whether the SIMD target in use has vectors of at least four numbers. If not, use the plain transforms.
+/// Returns whether the SIMD target in use has vectors of at least four numbers. If not, use the plain transforms.
 extern bool (&has_vectors)();
 
-/// Transforms up to `together` columns; row r of the result is at to + r·to_row.
+/// Transforms up to `batch_lines` columns. Writes row r of the result at to + r·to_row.
 extern void (&transform_columns)(const Plan& plan, const Chirp* chirp, bool backward, const float* from,
                                  std::size_t from_row, float* to, std::size_t to_row, std::size_t columns,
                                  std::size_t length);
-/// Transforms up to `together` lines in place.
+/// Transforms up to `batch_lines` lines in place.
 extern void (&transform_lines)(const Plan& plan, const Chirp* chirp, bool backward, float* lines, std::size_t stride,
                                std::size_t count, std::size_t length);
-/// Transforms a long line; `to` may be `from`.
+/// Transforms a long line. `to` may equal `from`.
 extern void (&transform_split)(const Split& split, bool backward, const float* from, float* to);
-/// Transforms sixteen lines in split layout in place, without sorting: frequency f lies in row plan.place[f].
+/// Transforms sixteen lines in split layout in place, without reordering: frequency f is in row plan.position[f].
 extern void (&transform_in_place)(const Plan& plan, float* rows);
-/// x_i y_i for n complex numbers; the parts of x, or of the result, are exchanged if asked for.
+/// Multiplies n complex numbers, out_i = x_i y_i. Optionally exchanges the real and imaginary parts of x, or of the
+/// result.
 extern void (&multiply)(const float* x, const float* y, float* out, std::size_t n, bool exchange_x, bool exchange_out);
 
 }  // namespace hogel::math::fourier

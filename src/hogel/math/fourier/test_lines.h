@@ -11,7 +11,7 @@
 #include "hogel/array.h"
 #include "hogel/math/fourier/plan.h"
 
-/// What the tests of Fourier transforms share.
+/// Helpers for tests of Fourier transforms.
 namespace hogel::math::fourier {
 
 using Line = std::vector<std::complex<float>>;
@@ -27,7 +27,7 @@ inline Line noise(std::size_t length, std::uint32_t seed = 1) {
 
 inline ExactLine exact(const Line& line) { return {line.begin(), line.end()}; }
 
-/// The root of the mean squared error, relative to that of the values.
+/// Returns the root mean square error, relative to the root mean square of the expected values.
 inline double relative_error(const std::complex<float>* values, const ExactLine& expected, std::size_t stride = 1) {
     double error = 0, power = 0;
     for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -37,7 +37,7 @@ inline double relative_error(const std::complex<float>* values, const ExactLine&
     return power > 0 ? std::sqrt(error / power) : std::sqrt(error);
 }
 
-/// The error that a length may have: a convolution has two transforms of its own.
+/// Returns the allowed error for a length. A convolution contains two transforms.
 inline double allowed_error(std::size_t length) { return is_smooth(length) ? 5e-7 : 2e-6; }
 
 }  // namespace hogel::math::fourier

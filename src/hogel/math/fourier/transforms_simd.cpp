@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled for every SIMD target and dispatched at run time. The plain twin is plain.cpp.
+// Compiled for every SIMD target and dispatched at run time. The reference version is plain.cpp.
 #include <algorithm>
 
 #include "hogel/array.h"
@@ -22,13 +22,13 @@ void InPlace(const Plan&, float*) {}
 #else
 bool HasVectors() { return true; }
 
-// Memory for rows in split layout. Up to 8 MB this thread keeps for its next transform.
+// Memory for rows in split layout. The thread keeps up to 8 MB for its next transform.
 template <int which>
 class Scratch {
   public:
     explicit Scratch(std::size_t rows) {
         thread_local Array<float, 1> kept;
-        Array<float, 1>& memory = rows <= max_kept ? kept : own_;
+        Array<float, 1>& memory = rows <= max_kept ? kept : large_;
         if (memory.size() < rows * split_row) memory = Array<float, 1>({rows * split_row});
         data_ = memory.data();
     }
@@ -36,11 +36,11 @@ class Scratch {
 
   private:
     static constexpr std::size_t max_kept = std::size_t{1} << 16;
-    Array<float, 1> own_;
+    Array<float, 1> large_;
     float* data_;
 };
 
-// Copies `columns` complex numbers of each row into rows of `together`, or back.
+// Copies `columns` complex numbers of each row to or from rows of `batch_lines`.
 void CopyRows(const float* from, std::size_t from_row, float* to, std::size_t to_row, std::size_t rows,
               std::size_t columns) {
     for (std::size_t row = 0; row < rows; ++row) std::copy_n(from + row * from_row, 2 * columns, to + row * to_row);
@@ -52,9 +52,9 @@ void ColumnsAs(const Plan& plan, const Chirp* chirp, const float* from, std::siz
     const D d;
     Source source{from, from_row};
     Sink sink{to, to_row, plan.frequency.data()};
-    const bool part = columns < together;
-    Scratch<0> padded(part ? length : 0);
-    if (part) {
+    const bool is_partial = columns < batch_lines;
+    Scratch<0> padded(is_partial ? length : 0);
+    if (is_partial) {
         CopyRows(from, from_row, padded.data(), split_row, length, columns);
         source = {padded.data(), split_row};
         sink.data = padded.data(), sink.row = split_row;
@@ -65,17 +65,17 @@ void ColumnsAs(const Plan& plan, const Chirp* chirp, const float* from, std::siz
         TransformRows<Layout, Layout>(plan, source, scratch, sink, columns);
     } else {
         for (std::size_t row = 0; row < length; ++row)
-            for (std::size_t i = 0; i < together; i += hn::Lanes(d))
+            for (std::size_t i = 0; i < batch_lines; i += hn::Lanes(d))
                 InSplit::Store(d, Layout::Load(d, source.data + row * source.row, i), scratch + row * split_row, i);
-        Scratch<2> more(plan.length);
-        float* other = more.data();
-        Convolve(plan, *chirp, length, scratch, other, columns);
+        Scratch<2> second_memory(plan.length);
+        float* result = second_memory.data();
+        Convolve(plan, *chirp, length, scratch, result, columns);
         for (std::size_t row = 0; row < length; ++row)
-            for (std::size_t i = 0; i < together; i += hn::Lanes(d))
-                Layout::Store(d, InSplit::Load(d, other + plan.place[row] * split_row, i), sink.data + row * sink.row,
-                              i);
+            for (std::size_t i = 0; i < batch_lines; i += hn::Lanes(d))
+                Layout::Store(d, InSplit::Load(d, result + plan.position[row] * split_row, i),
+                              sink.data + row * sink.row, i);
     }
-    if (part) CopyRows(sink.data, split_row, to, to_row, length, columns);
+    if (is_partial) CopyRows(sink.data, split_row, to, to_row, length, columns);
 }
 
 void Columns(const Plan& plan, const Chirp* chirp, bool backward, const float* from, std::size_t from_row, float* to,
@@ -86,13 +86,13 @@ void Columns(const Plan& plan, const Chirp* chirp, bool backward, const float* f
         ColumnsAs<Interleaved>(plan, chirp, from, from_row, to, to_row, columns, length);
 }
 
-// Moves lines between memory and the split layout, in which position j is row j, or row place[j].
+// Copy lines between memory and the split layout. Position j is row j, or row position[j].
 template <bool exchange>
 void LinesToRows(const float* const* lines, std::size_t length, float* rows, std::size_t lanes) {
     const D d;
-    alignas(16) float ends[together][4] = {};
-    const float* last[together];
-    for (std::size_t l = 0; l < together; ++l) {
+    alignas(16) float ends[batch_lines][4] = {};
+    const float* last[batch_lines];
+    for (std::size_t l = 0; l < batch_lines; ++l) {
         std::copy_n(lines[l] + 2 * (length - 1), 2, ends[l]);
         last[l] = ends[l];
     }
@@ -110,15 +110,15 @@ void LinesToRows(const float* const* lines, std::size_t length, float* rows, std
     }
 }
 template <bool exchange>
-void LinesFromRows(const float* rows, const std::uint32_t* place, std::size_t length, float* const* lines,
+void LinesFromRows(const float* rows, const std::uint32_t* position, std::size_t length, float* const* lines,
                    std::size_t lanes, std::size_t count) {
     const D d;
     const auto row = [&](std::size_t j, std::size_t i) {
-        return ExchangedIf(exchange, InSplit::Load(d, rows + place[j] * split_row, i));
+        return ExchangedIf(exchange, InSplit::Load(d, rows + position[j] * split_row, i));
     };
-    alignas(16) float ends[together][4] = {};
-    float* last[together];
-    for (std::size_t l = 0; l < together; ++l) last[l] = ends[l];
+    alignas(16) float ends[batch_lines][4] = {};
+    float* last[batch_lines];
+    for (std::size_t l = 0; l < batch_lines; ++l) last[l] = ends[l];
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
         for (std::size_t j = 0; j + 1 < length; j += 2)
             TransposePairBack(d, row(j, i), row(j + 1, i), lines + i, 2 * j);
@@ -128,7 +128,7 @@ void LinesFromRows(const float* rows, const std::uint32_t* place, std::size_t le
         for (std::size_t l = 0; l < count; ++l) std::copy_n(ends[l], 2, lines[l] + 2 * (length - 1));
 }
 
-// A single short line, in all lanes.
+// Copy a single short line between memory and all lanes.
 template <bool exchange>
 void OneLineToRows(const float* line, std::size_t length, float* rows, std::size_t lanes) {
     const D d;
@@ -139,11 +139,11 @@ void OneLineToRows(const float* line, std::size_t length, float* rows, std::size
         }
 }
 template <bool exchange>
-void OneLineFromRows(const float* rows, const std::uint32_t* place, std::size_t length, float* line) {
-    constexpr std::size_t re = exchange ? together : 0, im = exchange ? 0 : together;
+void OneLineFromRows(const float* rows, const std::uint32_t* position, std::size_t length, float* line) {
+    constexpr std::size_t re = exchange ? batch_lines : 0, im = exchange ? 0 : batch_lines;
     for (std::size_t j = 0; j < length; ++j) {
-        line[2 * j] = rows[place[j] * split_row + re];
-        line[2 * j + 1] = rows[place[j] * split_row + im];
+        line[2 * j] = rows[position[j] * split_row + re];
+        line[2 * j + 1] = rows[position[j] * split_row + im];
     }
 }
 
@@ -152,16 +152,16 @@ void LinesAs(const Plan& plan, const Chirp* chirp, float* lines, std::size_t str
              std::size_t length) {
     const D d;
     const std::size_t lanes = (count + hn::Lanes(d) - 1) / hn::Lanes(d) * hn::Lanes(d);
-    // Lanes beyond `count` repeat the first line; their results are not wanted.
-    const float* from[together];
-    float* to[together];
-    Scratch<0> unwanted(length / together + 1);
-    for (std::size_t l = 0; l < together; ++l) {
+    // Lanes beyond `count` repeat the first line; their results are discarded.
+    const float* from[batch_lines];
+    float* to[batch_lines];
+    Scratch<0> discarded(length / batch_lines + 1);
+    for (std::size_t l = 0; l < batch_lines; ++l) {
         from[l] = lines + (l < count ? l : 0) * stride;
-        to[l] = l < count ? lines + l * stride : unwanted.data();
+        to[l] = l < count ? lines + l * stride : discarded.data();
     }
     Scratch<1> memory(plan.length);
-    Scratch<2> more(chirp ? plan.length : 0);
+    Scratch<2> second_memory(chirp ? plan.length : 0);
     float* scratch = memory.data();
     if (count == 1)
         OneLineToRows<exchange>(lines, length, scratch, lanes);
@@ -169,15 +169,15 @@ void LinesAs(const Plan& plan, const Chirp* chirp, float* lines, std::size_t str
         LinesToRows<exchange>(from, length, scratch, lanes);
     const float* result = scratch;
     if (chirp) {
-        Convolve(plan, *chirp, length, scratch, more.data(), count);
-        result = more.data();
+        Convolve(plan, *chirp, length, scratch, second_memory.data(), count);
+        result = second_memory.data();
     } else {
         TransformInPlace(plan, scratch, count);
     }
     if (count == 1)
-        OneLineFromRows<exchange>(result, plan.place.data(), length, lines);
+        OneLineFromRows<exchange>(result, plan.position.data(), length, lines);
     else
-        LinesFromRows<exchange>(result, plan.place.data(), length, to, lanes, count);
+        LinesFromRows<exchange>(result, plan.position.data(), length, to, lanes, count);
 }
 
 void Lines(const Plan& plan, const Chirp* chirp, bool backward, float* lines, std::size_t stride, std::size_t count,
@@ -188,31 +188,31 @@ void Lines(const Plan& plan, const Chirp* chirp, bool backward, float* lines, st
         LinesAs<false>(plan, chirp, lines, stride, count, length);
 }
 
-// Multiplies transformed columns by their twiddle factors and turns them into rows: from frequency f of column b, at
-// row place[f], to [f/16][b][part][f mod 16].
+// Multiplies transformed columns by their twiddle factors and transposes them: frequency f of column b goes from row
+// position[f] to [f/16][b][part][f mod 16].
 void TwiddleAndTranspose(const Split& split, const float* columns, std::size_t block, std::size_t count, float* rows) {
     const D d;
     const std::size_t across = split.across.length, down = split.down.length;
     alignas(64) float products[4][split_row] = {};
     const float* const pointers[] = {products[0], products[1], products[2], products[3]};
-    alignas(16) float turned[16];
+    alignas(16) float transposed[16];
     for (std::size_t p = 0; p < down; p += 4) {
         for (std::size_t k = 0; k < std::min<std::size_t>(4, down - p); ++k) {
-            const float* x = columns + split.down.place[p + k] * split_row;
+            const float* x = columns + split.down.position[p + k] * split_row;
             const float* w = split.twiddles.data() + ((p + k) * split.blocks_across() + block) * split_row;
-            for (std::size_t i = 0; i < together; i += hn::Lanes(d))
-                InSplit::Store(d, Times(InSplit::Load(d, x, i), hn::Load(d, w + i), hn::Load(d, w + together + i)),
+            for (std::size_t i = 0; i < batch_lines; i += hn::Lanes(d))
+                InSplit::Store(d, Times(InSplit::Load(d, x, i), hn::Load(d, w + i), hn::Load(d, w + batch_lines + i)),
                                products[k], i);
         }
-        float* to = rows + (p / together * across + block * together) * split_row + p % together;
+        float* to = rows + (p / batch_lines * across + block * batch_lines) * split_row + p % batch_lines;
         for (std::size_t b = 0; b < count; b += 4)
-            for (const std::size_t part : {std::size_t{0}, together}) {
+            for (const std::size_t part : {std::size_t{0}, batch_lines}) {
                 if (b + 4 <= count) {
                     TransposeFour(pointers, b + part, to + b * split_row + part, split_row);
                 } else {
-                    TransposeFour(pointers, b + part, turned, 4);
+                    TransposeFour(pointers, b + part, transposed, 4);
                     for (std::size_t i = b; i < count; ++i)
-                        std::copy_n(turned + 4 * (i - b), 4, to + i * split_row + part);
+                        std::copy_n(transposed + 4 * (i - b), 4, to + i * split_row + part);
                 }
             }
     }
@@ -226,9 +226,9 @@ void LongLineAs(const Split& split, const float* from, float* to) {
     Scratch<2> memory_rows(split.blocks_down() * across);
     float *padded = memory_padded.data(), *columns = memory_columns.data(), *rows = memory_rows.data();
     for (std::size_t block = 0; block < split.blocks_across(); ++block) {
-        const std::size_t count = std::min(together, across - block * together);
+        const std::size_t count = std::min(batch_lines, across - block * batch_lines);
         Source source{from + block * split_row, 2 * across};
-        if (count < together) {
+        if (count < batch_lines) {
             CopyRows(source.data, source.row, padded, split_row, down, count);
             source = {padded, split_row};
         }
@@ -236,16 +236,16 @@ void LongLineAs(const Split& split, const float* from, float* to) {
         TwiddleAndTranspose(split, columns, block, count, rows);
     }
     for (std::size_t block = 0; block < split.blocks_down(); ++block) {
-        const std::size_t count = std::min(together, down - block * together);
+        const std::size_t count = std::min(batch_lines, down - block * batch_lines);
         float* in = rows + block * across * split_row;
         Sink sink{to + block * split_row, 2 * down, split.across.frequency.data()};
-        if (count < together) sink.data = padded, sink.row = split_row;
+        if (count < batch_lines) sink.data = padded, sink.row = split_row;
         TransformRows<InSplit, Layout>(split.across, {in, split_row}, in, sink, count);
-        if (count < together) CopyRows(padded, split_row, to + block * split_row, 2 * down, across, count);
+        if (count < batch_lines) CopyRows(padded, split_row, to + block * split_row, 2 * down, across, count);
     }
 }
 
-void InPlace(const Plan& plan, float* rows) { TransformInPlace(plan, rows, together); }
+void InPlace(const Plan& plan, float* rows) { TransformInPlace(plan, rows, batch_lines); }
 
 void LongLine(const Split& split, bool backward, const float* from, float* to) {
     if (backward)
@@ -256,7 +256,7 @@ void LongLine(const Split& split, bool backward, const float* from, float* to) {
 
 void Multiply(const float* x, const float* y, float* out, std::size_t n, bool exchange_x, bool exchange_out) {
     const D d;
-    const auto some = [&](const float* a, const float* b, float* to) {
+    const auto multiply_vectors = [&](const float* a, const float* b, float* to) {
         Numbers value, factor;
         hn::LoadInterleaved2(d, a, value.re, value.im);
         hn::LoadInterleaved2(d, b, factor.re, factor.im);
@@ -266,12 +266,12 @@ void Multiply(const float* x, const float* y, float* out, std::size_t n, bool ex
         hn::StoreInterleaved2(value.re, value.im, d, to);
     };
     std::size_t i = 0;
-    for (; i + hn::Lanes(d) <= n; i += hn::Lanes(d)) some(x + 2 * i, y + 2 * i, out + 2 * i);
+    for (; i + hn::Lanes(d) <= n; i += hn::Lanes(d)) multiply_vectors(x + 2 * i, y + 2 * i, out + 2 * i);
     if (i == n) return;
     float a[split_row] = {}, b[split_row] = {};
     std::copy_n(x + 2 * i, 2 * (n - i), a);
     std::copy_n(y + 2 * i, 2 * (n - i), b);
-    some(a, b, a);
+    multiply_vectors(a, b, a);
     std::copy_n(a, 2 * (n - i), out + 2 * i);
 }
 #endif
