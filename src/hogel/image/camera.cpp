@@ -39,7 +39,7 @@ void validate(const Camera& camera) {
         fail("pupil", fmt::format("the pupil is {} m, but must be positive and finite", camera.pupil));
     const Grid& picture = camera.picture;
     if (picture.width == 0 || picture.height == 0)
-        fail("resolution", fmt::format("a picture of {}x{} pixels was asked for", picture.width, picture.height));
+        fail("resolution", fmt::format("a picture of {}x{} pixels has no pixels", picture.width, picture.height));
     constexpr std::size_t max_pixels = std::numeric_limits<std::size_t>::max() / (8 * sizeof(double));
     if (picture.width > max_pixels / picture.height)
         fail("resolution",

@@ -15,10 +15,10 @@
 namespace hogel {
 namespace {
 
-// One value per pixel, [y][x], for instance the luma of display values (Rec. 709 weights, those of the sRGB primaries).
+// One value per pixel, [y][x], e.g. the luma of display values (Rec. 709 weights, as for the sRGB primaries).
 using Plane = Array<double, 2>;
 
-constexpr std::size_t values_between_checks = 1 << 18;  // for a stop, in loops on one thread
+constexpr std::size_t values_between_checks = 1 << 18;  // loops on one thread check for a stop request at this interval
 
 float display(float linear, double exposure) { return srgb_encode(static_cast<float>(linear * exposure)); }
 
@@ -33,7 +33,7 @@ Plane display_luma(const Image& image, double exposure) {
     return luma;
 }
 
-// The window of Wang et al., 11 taps, or the largest odd number of taps that fits into the picture.
+// Returns the window of Wang et al., with 11 taps, or the largest odd number of taps that fits into the picture.
 std::vector<double> gaussian_window(std::size_t extent) {
     const std::size_t taps = std::min<std::size_t>(11, extent % 2 == 1 ? extent : extent - 1);
     std::vector<double> window(taps);
@@ -46,7 +46,7 @@ std::vector<double> gaussian_window(std::size_t extent) {
     return window;
 }
 
-// Weighted means of f(y, x) over every window that is completely inside the picture.
+// Returns weighted means of f(y, x) over all windows that are completely inside the picture.
 template <class F>
 Plane local_mean(std::size_t height, std::size_t width, const F& f) {
     const std::vector<double> across = gaussian_window(width), down = gaussian_window(height);

@@ -11,27 +11,27 @@
 namespace hogel::image {
 namespace {
 
-constexpr unsigned shift = 16;      // 7 of the 23 bits of a mantissa stay
-constexpr float lowest = 0x1p-13f;  // 255·12.92 times this is 0.40, so 0
+constexpr unsigned shift = 16;      // keeps 7 of the 23 mantissa bits
+constexpr float lowest = 0x1p-13f;  // 255·12.92 times this is 0.40, which rounds to 0
 constexpr std::uint32_t first = std::bit_cast<std::uint32_t>(lowest) >> shift;
 constexpr std::size_t count = (std::bit_cast<std::uint32_t>(1.0f) >> shift) - first;
 
-// Numbers that share their upper bits have the value `low` below `step` and the next from there on. No two steps share
-// them: a bucket from x on is at most x/128 wide, and 255 d(srgb)/dx · x/128 is at most 0.66, at x = 1/2.
+// Numbers with equal upper bits have the value `low` below `step`, and low + 1 from `step`. A bucket contains at most
+// one step: its width is at most x/128 at x, and 255 d(srgb)/dx · x/128 is at most 0.66, at x = 1/2.
 struct Bucket {
     float step = 0;
     std::uint8_t low = 0;
 };
 
-// The first number of a bucket from which on the value is more than `low`, or that of the next bucket.
+// Finds the first number of a bucket with a value above `low` by bisection, or the end of the bucket.
 Bucket bucket(std::uint32_t upper) {
-    std::uint32_t below = upper << shift, from = (upper + 1) << shift;
+    std::uint32_t below = upper << shift, above = (upper + 1) << shift;
     const std::uint8_t low = plain_display_value(std::bit_cast<float>(below));
-    while (from - below > 1) {
-        const std::uint32_t middle = below + (from - below) / 2;
-        (plain_display_value(std::bit_cast<float>(middle)) > low ? from : below) = middle;
+    while (above - below > 1) {
+        const std::uint32_t middle = below + (above - below) / 2;
+        (plain_display_value(std::bit_cast<float>(middle)) > low ? above : below) = middle;
     }
-    return {std::bit_cast<float>(from), low};
+    return {std::bit_cast<float>(above), low};
 }
 
 std::array<Bucket, count> make_buckets() {

@@ -5,11 +5,11 @@
 
 namespace hogel::image {
 
-/// The 8-bit sRGB value of linear light: 255 srgb_encode(linear), rounded; 0 for what is not a number.
+/// Returns the 8-bit sRGB value of linear light: 255 srgb_encode(linear), rounded; 0 for NaN.
 std::uint8_t plain_display_value(float linear);
 
-/// The same, from a table: with its sign, exponent and seven bits of its mantissa a number is one of two values, and a
-/// comparison says which.
+/// Table-based version of plain_display_value(). The sign, the exponent and seven mantissa bits leave two possible
+/// values; one comparison selects between them.
 std::uint8_t display_value(float linear);
 
 }  // namespace hogel::image

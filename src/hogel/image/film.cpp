@@ -11,15 +11,15 @@ namespace hogel::image {
 
 void require_a_picture_for_each(std::span<const Camera> cameras, std::span<const Image> pictures) {
     if (cameras.size() != pictures.size())
-        throw Error(ErrorCode::usage,
-                    fmt::format("{} pictures were given for {} cameras", pictures.size(), cameras.size()));
+        throw Error(ErrorCode::usage, fmt::format("{} pictures for {} cameras; expected one per camera",
+                                                  pictures.size(), cameras.size()));
 }
 
-void load_film(std::span<const Camera> cameras, std::size_t channels, const Provenance& subject,
+void load_film(std::span<const Camera> cameras, std::size_t channels, const Provenance& source,
                std::span<Image> pictures) {
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         pictures[i].reset(cameras[i].picture.width, cameras[i].picture.height, channels);
-        pictures[i].provenance = {to_metadata(subject), cameras[i]};
+        pictures[i].provenance = {to_metadata(source), cameras[i]};
     }
 }
 

@@ -9,15 +9,14 @@
 
 namespace hogel::image {
 
-/// Throws Error(usage) unless there is one picture for each camera.
+/// Throws Error(usage) unless there is one picture per camera.
 void require_a_picture_for_each(std::span<const Camera> cameras, std::span<const Image> pictures);
 
-/// Makes the pictures black with the cameras' shapes, and sets their provenance: the camera and the origin of the
-/// object.
-void load_film(std::span<const Camera> cameras, std::size_t channels, const Provenance& subject,
+/// Makes the pictures black with the shapes of the cameras. Sets their provenance: the camera and the source.
+void load_film(std::span<const Camera> cameras, std::size_t channels, const Provenance& source,
                std::span<Image> pictures);
 
-/// How pictures travel between processes, and are kept.
+/// Returns the serialisation of pictures between ranks and in checkpoints.
 work::Sent<std::vector<Image>> sent_pictures();
 
 }  // namespace hogel::image

@@ -11,7 +11,7 @@
 
 namespace hogel {
 
-// IEC 61966-2-1, with the constants as published there.
+// IEC 61966-2-1, with its published constants.
 float srgb_encode(float linear) {
     if (!(linear > 0)) return 0;  // NaN too
     if (linear >= 1) return 1;
@@ -26,23 +26,24 @@ float srgb_decode(float display) {
 
 namespace {
 
-// The median of the values above a limit; 0 if hardly any are.
-double median_of_lit(std::vector<float> values, float limit) {
-    const std::size_t all = values.size();
+// Returns the median of the values above a limit; 0 if fewer than 1 % are above it.
+double median_above(std::vector<float> values, float limit) {
+    const std::size_t count = values.size();
     std::erase_if(values, [&](float value) { return !(value > limit); });
-    if (values.size() < all / 100 + 1) return 0;
+    if (values.size() < count / 100 + 1) return 0;
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
 }
 
-// Whether a pixel has that radiance, up to what packing takes from it. Black is no background.
-bool shows(const Image& image, std::size_t x, std::size_t y, Rgb background) {
+// Returns whether a pixel has the radiance of the background, within the compression error. A black background does not
+// count.
+bool is_background(const Image& image, std::size_t x, std::size_t y, Rgb background) {
     const std::array<float, 3> expected{background.r, background.g, background.b};
-    const float near = 0.02f * std::max({background.r, background.g, background.b});
-    if (!(near > 0) || image.channels() != 3) return false;
+    const float tolerance = 0.02f * std::max({background.r, background.g, background.b});
+    if (!(tolerance > 0) || image.channels() != 3) return false;
     for (std::size_t c = 0; c < 3; ++c)
-        if (!(std::abs(image.pixels(y, x, c) - expected[c]) <= near)) return false;
+        if (!(std::abs(image.pixels(y, x, c) - expected[c]) <= tolerance)) return false;
     return true;
 }
 
@@ -58,7 +59,7 @@ double automatic_exposure(const Image& image) {
                 const float sample = image.pixels(y, x, c);
                 if (std::isfinite(sample)) value = std::max(value, sample);
             }
-            largest[y * image.width() + x] = shows(image, x, y, background) ? 0 : value;
+            largest[y * image.width() + x] = is_background(image, x, y, background) ? 0 : value;
         }
     });
     if (largest.empty()) return 1;
@@ -66,11 +67,11 @@ double automatic_exposure(const Image& image) {
     std::nth_element(largest.begin(), largest.begin() + rank, largest.end());
     core::throw_if_stopped();
     float white = largest[static_cast<std::size_t>(rank)];
-    // If fewer than half a per cent of the pixels are not black, uses the maximum.
+    // Uses the maximum if fewer than 0.5 % of the pixels are not black.
     if (!(white > 0)) white = *std::max_element(largest.begin(), largest.end());
     if (!(white > 0)) return 1;
     constexpr double brightest_median = 0.55;
-    const double median = median_of_lit(std::move(largest), 1e-3f * white);
+    const double median = median_above(std::move(largest), 1e-3f * white);
     const double brightest = 1 / static_cast<double>(white);
     return median > 0 ? std::min(brightest, brightest_median / median) : brightest;
 }

@@ -21,8 +21,8 @@ using namespace image;
 
 namespace image {
 
-// The largest ratio of a picture's bytes to those of its file (deflate reaches 1032). Beyond it a file is refused as
-// damaged, so that a few bytes cannot make the library allocate gigabytes. Pictures below the second limit are exempt.
+// Maximum ratio of a picture's size in memory to its file size; deflate reaches 1032. It prevents a few bytes from
+// allocating gigabytes. Pictures up to the second limit, bytes, are exempt.
 constexpr std::uint64_t max_expansion = 4096;
 constexpr std::uint64_t always_allowed = std::uint64_t{16} << 20;
 
@@ -52,7 +52,7 @@ constexpr std::size_t pixels_between_checks = 1 << 20;
 constexpr const char* unknown_format =
     "its first bytes are not those of a PNG, JPEG, EXR, TIFF, WebP, GIF, BMP, HDR, PNM, PFM or TGA file";
 
-// Linear light of each 16-bit display value; 8-bit values are the multiples of 257 among them.
+// Returns the linear light of each 16-bit display value; 8-bit values correspond to multiples of 257.
 const std::vector<float>& linear_of_display() {
     static const std::vector<float> table = [] {
         std::vector<float> values(65536);
@@ -74,7 +74,7 @@ Image linear_image(Samples&& samples, bool numbers = false) {
             constexpr std::size_t step = std::is_same_v<T, std::uint8_t> ? 257 : 1;
             const std::vector<float>& table = linear_of_display();
             image.pixels = Array<float, 3>(values.shape());
-            // Alpha, and what is no light, has no transfer curve.
+            // Alpha and data other than light have no transfer curve.
             const std::size_t channels = values.extent(2), first = numbers ? 0 : channels == 4 ? 3 : channels;
             constexpr float largest = std::is_same_v<T, std::uint8_t> ? 255.0f : 65535.0f;
             work::parallel_for(values.extent(0), [&](std::size_t y) {
@@ -91,7 +91,7 @@ Image linear_image(Samples&& samples, bool numbers = false) {
     return image;
 }
 
-// One channel where three are equal.
+// Converts samples to floats; returns one channel if three are equal.
 template <class T>
 RawChannels raw_channels(const Array<T, 3>& samples, std::uint32_t max_code) {
     RawChannels raw;
@@ -119,7 +119,7 @@ Picture read_bytes(const PictureBytes& file) {
         const PictureReader read = picture_reader(file.bytes);
         if (read == nullptr) file.fail(unknown_format);
         Picture picture = read(file);
-        // Names with a colon are properties that programs note for themselves, such as "oiio:ColorSpace".
+        // Drops names with a colon: they are internal properties of programs, such as "oiio:ColorSpace".
         std::erase_if(picture.texts, [](const auto& entry) { return entry.first.find(':') != std::string::npos; });
         return picture;
     });
@@ -137,9 +137,9 @@ Picture read_file(const std::filesystem::path& path, std::size_t max_pixels, boo
 
 std::vector<unsigned char> image::bytes_of_file(const std::filesystem::path& path, const PictureBytes& file) {
     std::error_code status;
-    const std::filesystem::file_status there = std::filesystem::status(path, status);
-    if (!std::filesystem::exists(there)) file.fail("no such file");
-    if (!std::filesystem::is_regular_file(there)) file.fail("it is not a plain file");
+    const std::filesystem::file_status file_status = std::filesystem::status(path, status);
+    if (!std::filesystem::exists(file_status)) file.fail("no such file");
+    if (!std::filesystem::is_regular_file(file_status)) file.fail("it is not a plain file");
     std::ifstream stream(path, std::ios::binary);
     if (!stream) file.fail("it cannot be opened");
     std::vector<unsigned char> bytes(beginning);

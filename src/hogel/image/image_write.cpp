@@ -32,7 +32,7 @@ void check_writable(const Image& image, double exposure, const std::string& name
                     fmt::format("the exposure is {}, but must be positive and finite", exposure));
 }
 
-// The 8-bit display values of a picture.
+// Returns the 8-bit display values of a picture.
 Array<std::uint8_t, 3> display_values(const Image& image, double exposure) {
     Array<std::uint8_t, 3> display(image.pixels.shape());
     work::parallel_for(image.height(), [&](std::size_t y) {
@@ -78,13 +78,13 @@ std::vector<unsigned char> encode_png(const Image& image, double exposure) {
 }
 
 std::vector<unsigned char> encode_jpeg(const Image& image, double exposure, int quality) {
-    constexpr std::size_t widest = 65500;  // of the format
+    constexpr std::size_t widest = 65500;  // limit of the format
     check_writable(image, exposure, "JPEG");
     if (quality < 1 || quality > 100)
         throw Error(ErrorCode::usage, fmt::format("the quality of a JPEG picture is 1 to 100, not {}", quality));
     if (image.width() > widest || image.height() > widest)
         fail_write(picture_named("JPEG"),
-                   fmt::format("{}x{} pixels; at most {} fit", image.width(), image.height(), widest));
+                   fmt::format("{}x{} pixels; expected at most {} per side", image.width(), image.height(), widest));
     return guarded_write(picture_named("JPEG"), [&] { return jpeg_file(display_values(image, exposure), quality); });
 }
 

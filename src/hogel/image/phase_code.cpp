@@ -15,16 +15,16 @@
 namespace hogel {
 namespace {
 
-constexpr double pi = std::numbers::pi, turn = 2 * pi;
+constexpr double pi = std::numbers::pi, full_turn = 2 * pi;
 
-// Phase codes as their makers' programs compute them (docs/holograms.md names the functions).
+// Phase codes of other programs (docs/holograms.md names the functions).
 std::vector<PhaseCodeInfo> known_codes() {
     return {
-        {"hogel", "256 to a turn, 0 is black", {turn, 0, false, false}},
-        {"neural-holography", "255 to a turn, -pi is white and pi black", {turn, -pi, true, true}},
-        {"slmsuite", "256 to a turn, 0 is white and larger phases are darker", {turn, 0, true, false}},
-        {"odak", "255 to a turn, 0 is black", {turn, 0, false, true}},
-        {"tensorholo", "-pi is 0, pi is 1 (or white)", {turn, -pi, false, true}},
+        {"hogel", "256 to a turn, 0 is black", {full_turn, 0, false, false}},
+        {"neural-holography", "255 to a turn, -pi is white and pi black", {full_turn, -pi, true, true}},
+        {"slmsuite", "256 to a turn, 0 is white and larger phases are darker", {full_turn, 0, true, false}},
+        {"odak", "255 to a turn, 0 is black", {full_turn, 0, false, true}},
+        {"tensorholo", "-pi is 0, pi is 1 (or white)", {full_turn, -pi, false, true}},
     };
 }
 
@@ -59,16 +59,16 @@ double PhaseCode::phase(double number, double largest) const {
 
 unsigned PhaseCode::level(double phase, unsigned largest) const {
     const double count = closed ? largest : largest + 1.0;
-    double above = std::fmod(phase - offset, turn);
-    if (above < 0) above += turn;
+    double above = std::fmod(phase - offset, full_turn);
+    if (above < 0) above += full_turn;
     double level = std::round(above / range * count);
     if (level > largest) {
-        // The nearer of the two ends, around the turn.
+        // Uses the nearer end of the range, modulo a full turn.
         const double highest = range * largest / count;
-        level = above - highest <= turn - above ? largest : 0;
+        level = above - highest <= full_turn - above ? largest : 0;
     }
-    const auto whole = static_cast<unsigned>(level);
-    return inverted ? largest - whole : whole;
+    const auto code_level = static_cast<unsigned>(level);
+    return inverted ? largest - code_level : code_level;
 }
 
 Table<PhaseCodeInfo>& phase_codes() {
@@ -79,7 +79,7 @@ Table<PhaseCodeInfo>& phase_codes() {
 PhaseCode parse_phase_code(const std::string& text) {
     if (const PhaseCodeInfo* known = phase_codes().look_up(text)) return known->code;
     if (text.find('=') == std::string::npos && text != "invert") return phase_codes().find(text).code;
-    PhaseCode code{turn, 0, false, true};
+    PhaseCode code{full_turn, 0, false, true};
     for (std::string_view rest = text; !rest.empty();) {
         const std::size_t comma = rest.find(',');
         const std::string_view part = rest.substr(0, comma);
@@ -94,7 +94,7 @@ PhaseCode parse_phase_code(const std::string& text) {
         if ((name != "range" && name != "offset") || equals == std::string_view::npos)
             fail(text, fmt::format("holds '{}'", part));
         const std::optional<double> angle = parse_angle_of_code(part.substr(equals + 1));
-        if (!angle) fail(text, fmt::format("holds '{}', which is no angle", part));
+        if (!angle) fail(text, fmt::format("holds '{}', which is not an angle", part));
         (name == "range" ? code.range : code.offset) = *angle;
     }
     if (!(code.range > 0)) fail(text, "has no range above 0");

@@ -25,7 +25,7 @@ constexpr std::array signatures{Signature{"\x89PNG\r\n\x1a\n"sv, read_png},
                                 Signature{"GIF8"sv, read_with_stb},
                                 Signature{"BM"sv, read_with_stb},
                                 Signature{"#?"sv, read_with_stb},
-                                Signature{"P1"sv, read_pnm},  // refuses these four by name
+                                Signature{"P1"sv, read_pnm},  // read_pnm() refuses P1 to P4 by name
                                 Signature{"P2"sv, read_pnm},
                                 Signature{"P3"sv, read_pnm},
                                 Signature{"P4"sv, read_pnm},
@@ -44,8 +44,7 @@ std::uint32_t little_endian(std::span<const unsigned char> b) {
 
 }  // namespace
 
-// Targa (version 2.0 of its specification): an identifier's length, whether there is a palette, and the type of the
-// picture; the bits of a pixel are at byte 16.
+// Targa 2.0: length of the identifier, palette flag, and picture type; bits per pixel at byte 16.
 bool begins_like_tga(std::span<const unsigned char> bytes) {
     if (bytes.size() < 18) return false;
     const unsigned palette = bytes[1], type = bytes[2] & ~8u, depth = bytes[16];
@@ -55,45 +54,46 @@ bool begins_like_tga(std::span<const unsigned char> bytes) {
 
 // PNG (ISO 15948): a signature of 8 bytes, then chunks of length, name, data and checksum.
 std::string png_structure_error(std::span<const unsigned char> bytes) {
-    for (std::size_t at = 8; bytes.size() - at >= 12;) {
-        const std::uint32_t length = big_endian(bytes.subspan(at, 4));
-        if (length > bytes.size() - at - 12)
-            return fmt::format("the chunk at byte {} claims {} bytes, which is beyond the end of the file", at, length);
-        if (std::ranges::equal(bytes.subspan(at + 4, 4), "IEND"sv)) return "";
-        at += std::size_t{12} + length;
+    for (std::size_t offset = 8; bytes.size() - offset >= 12;) {
+        const std::uint32_t length = big_endian(bytes.subspan(offset, 4));
+        if (length > bytes.size() - offset - 12)
+            return fmt::format("the chunk at byte {} claims {} bytes, which is beyond the end of the file", offset,
+                               length);
+        if (std::ranges::equal(bytes.subspan(offset + 4, 4), "IEND"sv)) return "";
+        offset += std::size_t{12} + length;
     }
     return "it ends before its last chunk";
 }
 
-// OpenEXR file layout: after 8 bytes one header, or several and an empty one; a header is a list of attributes (name,
-// type, size, value) that ends with an empty name.
+// OpenEXR layout: after 8 bytes one header, or several headers and an empty one. A header is a list of attributes
+// (name, type, size, value) that ends with an empty name.
 std::string exr_structure_error(std::span<const unsigned char> bytes) {
     if (bytes.size() < 8) return "it ends inside its header";
     const bool several = (little_endian(bytes.subspan(4, 4)) & 0x1000) != 0;
-    std::size_t at = 8;
+    std::size_t offset = 8;
     bool empty_header = true;
     const auto skip_text = [&] {
-        const auto end = std::ranges::find(bytes.subspan(at), 0);
-        const auto length = static_cast<std::size_t>(end - bytes.begin()) - at;
-        at += length + 1;
+        const auto end = std::ranges::find(bytes.subspan(offset), 0);
+        const auto length = static_cast<std::size_t>(end - bytes.begin()) - offset;
+        offset += length + 1;
         return length;
     };
-    while (at < bytes.size()) {
-        const std::size_t attribute = at;
+    while (offset < bytes.size()) {
+        const std::size_t attribute = offset;
         if (skip_text() == 0) {
             if (!several || empty_header) return "";
             empty_header = true;
             continue;
         }
         empty_header = false;
-        if (at < bytes.size()) skip_text();
-        if (at >= bytes.size() || bytes.size() - at < 4) break;
-        const std::uint32_t length = little_endian(bytes.subspan(at, 4));
-        at += 4;
-        if (length > bytes.size() - at)
+        if (offset < bytes.size()) skip_text();
+        if (offset >= bytes.size() || bytes.size() - offset < 4) break;
+        const std::uint32_t length = little_endian(bytes.subspan(offset, 4));
+        offset += 4;
+        if (length > bytes.size() - offset)
             return fmt::format("the attribute at byte {} claims {} bytes, which is beyond the end of the file",
                                attribute, length);
-        at += length;
+        offset += length;
     }
     return "it ends inside its header";
 }

@@ -15,17 +15,17 @@
 
 namespace hogel::image {
 
-/// Puts an error message of a library on one line.
+/// Joins the lines of a library's error message.
 std::string one_line(std::string text);
 
-/// How many of a file's first bytes picture_reader() looks at.
+/// Number of bytes at the beginning of a file that picture_reader() examines.
 constexpr std::size_t beginning = 18;
 
 using PictureReader = Picture (*)(const PictureBytes&);
-/// The reader of the format that a picture file begins with; null for an unknown one.
+/// Returns the reader for the format of a picture file, or null if the format is unknown.
 PictureReader picture_reader(std::span<const unsigned char> bytes);
 
-/// Turns what the libraries throw into Error(bad_input).
+/// Converts exceptions of the libraries to Error(bad_input).
 template <class Body>
 auto guarded(const PictureBytes& file, const Body& body) {
     try {
@@ -33,16 +33,16 @@ auto guarded(const PictureBytes& file, const Body& body) {
     } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {
-        file.fail("it needs more memory than there is");
+        file.fail("it needs more memory than is available");
     } catch (const std::exception& error) {
         file.fail(error.what());
     }
 }
 
-/// Throws Error(cannot_write). @param what  for the message: "the picture 'x.png'"
+/// Throws Error(cannot_write). @param what  object of the message: "the picture 'x.png'"
 [[noreturn]] void fail_write(const std::string& what, const std::string& why);
 
-/// Turns what the libraries throw while they encode `what` into Error(cannot_write); std::bad_alloc passes.
+/// Converts exceptions of the encoders to Error(cannot_write); std::bad_alloc passes.
 template <class Body>
 auto guarded_write(const std::string& what, const Body& body) {
     try {
@@ -56,16 +56,15 @@ auto guarded_write(const std::string& what, const Body& body) {
     }
 }
 
-/// The bytes of a picture file of `file`, whose own bytes are not looked at. Throws Error(bad_input) for a file that is
-/// missing, is no plain file, or begins as no picture does; the rest of such a file is not read.
+/// Returns the bytes of a picture file; ignores file.bytes. Throws Error(bad_input) for a missing file, a file that is
+/// not regular, and an unknown format, without reading the rest.
 std::vector<unsigned char> bytes_of_file(const std::filesystem::path& path, const PictureBytes& file);
 
-/// Reads a picture file as it is stored. Throws as read_image() does.
+/// Reads a picture file as stored. Throws as read_image() does.
 Picture read_picture(const std::filesystem::path& path, std::size_t max_pixels);
 
-/// Describe what is wrong with the outer structure of a PNG or EXR file; "" if nothing is. The check is needed because
-/// the libraries that read these files allocate the length that a chunk or an attribute claims before they know whether
-/// the file is that long.
+/// Return an error in the outer structure of a PNG or EXR file, or "". Needed because the libraries allocate the
+/// claimed length of a chunk or attribute before they check the length of the file.
 std::string png_structure_error(std::span<const unsigned char> bytes);
 std::string exr_structure_error(std::span<const unsigned char> bytes);
 

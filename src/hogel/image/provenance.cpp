@@ -21,8 +21,7 @@ auto find_key(auto& metadata, const std::string& key) {
     return std::ranges::find(metadata, key, [](const auto& entry) { return entry.first; });
 }
 
-// Whether an entry belongs to a command that made something now or earlier: its name, its options, the program's
-// version.
+// Returns whether an entry describes the command that made the file or an earlier one: name, options, program version.
 bool is_of_command(std::string_view key) {
     while (key.starts_with("source ")) key.remove_prefix(7);
     return key == "software" || key == "command" || key.starts_with("option ");
@@ -32,14 +31,14 @@ bool is_of_command(std::string_view key) {
 
 Metadata with_history(Metadata now, const Metadata& before) {
     const bool two_commands = find_key(now, "command") != now.end() && find_key(before, "command") != before.end();
-    std::map<std::string, std::string> known(now.begin(), now.end());  // the first text of each key
+    std::map<std::string, std::string> known(now.begin(), now.end());  // first text of each key
     for (const auto& [key, text] : before) {
-        std::string free = two_commands && is_of_command(key) && key != "software" ? "source " + key : key;
-        auto same = known.find(free);
-        while (same != known.end() && same->second != text) same = known.find(free.insert(0, "source "));
+        std::string free_key = two_commands && is_of_command(key) && key != "software" ? "source " + key : key;
+        auto same = known.find(free_key);
+        while (same != known.end() && same->second != text) same = known.find(free_key.insert(0, "source "));
         if (same != known.end()) continue;
-        known.emplace(free, text);
-        now.emplace_back(std::move(free), text);
+        known.emplace(free_key, text);
+        now.emplace_back(std::move(free_key), text);
     }
     return now;
 }
@@ -69,8 +68,8 @@ Rgb background_of(const Provenance& provenance) {
     if (found == provenance.entries.end()) return background;
     std::istringstream text(found->second);
     Rgb read;
-    const bool whole = text >> read.r >> read.g >> read.b && (text >> std::ws).eof();
-    return whole && std::isfinite(read.r + read.g + read.b) ? read : background;
+    const bool is_valid = text >> read.r >> read.g >> read.b && (text >> std::ws).eof();
+    return is_valid && std::isfinite(read.r + read.g + read.b) ? read : background;
 }
 
 std::string describe(const Camera& camera) {

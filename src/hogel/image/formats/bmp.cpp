@@ -3,8 +3,8 @@
 
 namespace hogel::image {
 
-// An uncompressed Windows bitmap: a file header, BITMAPINFOHEADER, a palette of 256 greys for one channel, and rows
-// from the bottom up, padded to four bytes, with colours as blue, green, red.
+// Uncompressed Windows bitmap: file header, BITMAPINFOHEADER, a palette of 256 greys for one channel, and rows from the
+// bottom up, padded to four bytes. Colours are in the order blue, green, red.
 std::vector<unsigned char> bmp_file(View<const std::uint8_t, 3> pixels) {
     const std::size_t height = pixels.extent(0), width = pixels.extent(1), channels = pixels.extent(2);
     const std::size_t palette = channels == 1 ? 1024 : 0, stride = (width * channels + 3) / 4 * 4;

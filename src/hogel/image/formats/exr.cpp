@@ -25,16 +25,16 @@
 namespace hogel::image {
 namespace {
 
-constexpr int threads = 0;  // OpenEXR starts none of its own
+constexpr int threads = 0;  // number of threads that OpenEXR starts
 
-// OpenEXR's names of some texts and those that other formats and programs use.
+// OpenEXR's names of texts and the names in other formats and programs.
 struct AttributeName {
     std::string_view exr, common;
 };
 constexpr std::array attribute_names{AttributeName{"comments", "ImageDescription"}, AttributeName{"owner", "Copyright"},
                                      AttributeName{"capDate", "DateTime"}};
 
-// Attributes with a meaning of their own for OpenEXR, which are no texts of a picture.
+// Attributes with a meaning for OpenEXR, which are not texts.
 constexpr std::array<std::string_view, 8> reserved{"type",    "name",       "view",  "version",
                                                    "preview", "chunkCount", "tiles", "maxSamplesPerPixel"};
 
@@ -80,7 +80,7 @@ Size checked_size(const Imf::Header& header, const PictureBytes& file) {
 
 struct Channel {
     std::string name, layer, suffix;
-    bool whole;  // stored as 32-bit whole numbers
+    bool is_integer;  // stored as 32-bit integers
 };
 
 std::string lower_case(std::string text) {
@@ -88,17 +88,17 @@ std::string lower_case(std::string text) {
     return text;
 }
 
-// The order of channels in a layer: colours, vectors and others, then alpha and depth.
+// Returns the sort key of a channel in its layer: colours, vectors and others, then alpha and depth.
 int rank(const std::string& suffix) {
     constexpr std::array<std::string_view, 6> first{"r", "red", "g", "green", "b", "blue"}, last{"a", "alpha"};
-    if (const auto* at = std::ranges::find(first, suffix); at != first.end())
-        return static_cast<int>(at - first.begin());
+    if (const auto* colour = std::ranges::find(first, suffix); colour != first.end())
+        return static_cast<int>(colour - first.begin());
     if (suffix.empty()) return 10;
     return std::ranges::count(last, suffix) > 0 ? 20 : 10;
 }
 
-// The channels with a sample for each pixel: layer by layer, the one without a name first.
-std::vector<Channel> whole_channels(const Imf::ChannelList& list) {
+// Returns the full-resolution channels by layer; the unnamed layer comes first.
+std::vector<Channel> full_channels(const Imf::ChannelList& list) {
     std::vector<Channel> channels;
     for (auto i = list.begin(); i != list.end(); ++i) {
         if (i.channel().xSampling != 1 || i.channel().ySampling != 1) continue;
@@ -112,46 +112,47 @@ std::vector<Channel> whole_channels(const Imf::ChannelList& list) {
     return channels;
 }
 
-// The three colours of the first layer that has them, else the luminance of the first layer that has it, else the first
-// three channels or, of fewer, the first.
+// Returns the three colours of the first layer with colours; else the luminance of the first layer with luminance; else
+// the first three channels, or the first channel if there are fewer.
 std::vector<Channel> chosen_channels(const Imf::ChannelList& list) {
-    const std::vector<Channel> all = whole_channels(list);
+    const std::vector<Channel> candidates = full_channels(list);
     const auto in_layer = [&](const std::string& layer, std::string_view suffix, std::string_view other) {
-        return std::ranges::find_if(
-            all, [&](const Channel& c) { return c.layer == layer && (c.suffix == suffix || c.suffix == other); });
+        return std::ranges::find_if(candidates, [&](const Channel& c) {
+            return c.layer == layer && (c.suffix == suffix || c.suffix == other);
+        });
     };
-    for (const Channel& channel : all) {
+    for (const Channel& channel : candidates) {
         const auto r = in_layer(channel.layer, "r", "red"), g = in_layer(channel.layer, "g", "green"),
                    b = in_layer(channel.layer, "b", "blue");
-        if (r != all.end() && g != all.end() && b != all.end()) return {*r, *g, *b};
+        if (r != candidates.end() && g != candidates.end() && b != candidates.end()) return {*r, *g, *b};
     }
-    for (const Channel& channel : all)
-        if (channel.suffix == "y" && in_layer(channel.layer, "x", "x") == all.end()) return {channel};
-    return {all.begin(), all.begin() + (all.size() >= 3 ? 3 : all.empty() ? 0 : 1)};
+    for (const Channel& channel : candidates)
+        if (channel.suffix == "y" && in_layer(channel.layer, "x", "x") == candidates.end()) return {channel};
+    return {candidates.begin(), candidates.begin() + (candidates.size() >= 3 ? 3 : candidates.empty() ? 0 : 1)};
 }
 
 Array<float, 3> read_channels(Imf::InputFile& in, const std::vector<Channel>& channels, const Size& size) {
     const Imath::Box2i& window = in.header().dataWindow();
     const std::size_t count = channels.size();
     Array<float, 3> samples({size.height, size.width, count});
-    std::vector<std::vector<std::uint32_t>> wholes(count);
+    std::vector<std::vector<std::uint32_t>> integers(count);
     Imf::FrameBuffer buffer;
     for (std::size_t c = 0; c < count; ++c) {
         const auto slice = [&](Imf::PixelType type, void* first, std::size_t step) {
             const std::size_t bytes = step * sizeof(float);
             return Imf::Slice::Make(type, first, window, bytes, bytes * size.width);
         };
-        if (channels[c].whole) wholes[c].resize(size.width * size.height);
-        buffer.insert(channels[c].name, channels[c].whole ? slice(Imf::UINT, wholes[c].data(), 1)
-                                                          : slice(Imf::FLOAT, samples.data() + c, count));
+        if (channels[c].is_integer) integers[c].resize(size.width * size.height);
+        buffer.insert(channels[c].name, channels[c].is_integer ? slice(Imf::UINT, integers[c].data(), 1)
+                                                               : slice(Imf::FLOAT, samples.data() + c, count));
     }
     in.setFrameBuffer(buffer);
     for_row_blocks(size.height, size.width * count, [&](std::size_t first, std::size_t last) {
         in.readPixels(window.min.y + static_cast<int>(first), window.min.y + static_cast<int>(last) - 1);
-        // Whole numbers become fractions of the largest one.
+        // Integers become fractions of the largest integer.
         for (std::size_t c = 0; c < count; ++c)
-            for (std::size_t i = first * size.width; channels[c].whole && i < last * size.width; ++i)
-                samples.data()[i * count + c] = static_cast<float>(wholes[c][i] / 4294967295.0);
+            for (std::size_t i = first * size.width; channels[c].is_integer && i < last * size.width; ++i)
+                samples.data()[i * count + c] = static_cast<float>(integers[c][i] / 4294967295.0);
     });
     return samples;
 }
@@ -174,7 +175,8 @@ void add_texts(Imf::Header& header, const Metadata& texts) {
         std::string name = key;
         for (const AttributeName& known : attribute_names)
             if (name == known.common) name = known.exr;
-        // Those that OpenEXR has already are properties of the file that is being written, such as "compression".
+        // Skips attributes that OpenEXR sets itself, such as "compression": they describe the file that is being
+        // written.
         if (name.empty() || std::ranges::count(reserved, name) > 0 || header.find(name) != header.end()) continue;
         header.insert(name, Imf::StringAttribute(text));
     }
@@ -203,8 +205,8 @@ ExrChannels read_exr_channels(const PictureBytes& file) {
     const Imf::Header header = first_header(file);
     ExrChannels picture{{}, texts_of(header)};
     std::vector<Channel> channels;
-    for (const Channel& channel : whole_channels(header.channels()))
-        if (!channel.whole) channels.push_back(channel);
+    for (const Channel& channel : full_channels(header.channels()))
+        if (!channel.is_integer) channels.push_back(channel);
     for (const Channel& channel : channels) picture.channels.emplace_back(channel.name, Array<float, 2>());
     if (file.only_texts || channels.empty()) return picture;
     const Size size = checked_size(header, file);
@@ -228,7 +230,7 @@ std::vector<unsigned char> exr_channels_file(const ExrChannels& picture) {
     Imf::FrameBuffer buffer;
     for (const auto& [name, plane] : picture.channels) {
         header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-        auto* samples = reinterpret_cast<char*>(const_cast<float*>(plane.data()));  // they are only read
+        auto* samples = reinterpret_cast<char*>(const_cast<float*>(plane.data()));  // not modified
         buffer.insert(name, Imf::Slice(Imf::FLOAT, samples, sizeof(float), width * sizeof(float)));
     }
     add_texts(header, picture.texts);
@@ -242,8 +244,7 @@ std::vector<unsigned char> exr_channels_file(const ExrChannels& picture) {
     return std::move(sink.bytes);
 }
 
-// Whether half floats hold a picture: it has no finite value beyond their largest, and is not so dark that all of its
-// values would have fewer than eleven bits.
+// Returns whether half floats suffice: no finite value exceeds their range, and the largest value has full precision.
 bool halves_hold(View<const float, 3> pixels) {
     float largest = 0;
     const std::size_t row = pixels.extent(1) * pixels.extent(2);
@@ -263,7 +264,7 @@ std::vector<unsigned char> exr_file(View<const float, 3> pixels, const Metadata&
         for (std::size_t c = 0; c < channels; ++c) {
             const std::string name = channels == 1 ? "Y" : std::string(1, "RGB"[c]);
             header.channels().insert(name, Imf::Channel(type));
-            auto* samples = const_cast<char*>(static_cast<const char*>(first)) + c * bytes;  // they are only read
+            auto* samples = const_cast<char*>(static_cast<const char*>(first)) + c * bytes;  // not modified
             buffer.insert(name, Imf::Slice(type, samples, channels * bytes, channels * width * bytes));
         }
     };
@@ -285,7 +286,7 @@ std::vector<unsigned char> exr_file(View<const float, 3> pixels, const Metadata&
                 halves[i] = half(pixels.data()[i]);
             out.writePixels(static_cast<int>(last - first));
         });
-    }  // the table of rows is written at the end
+    }  // the destructor writes the table of rows
     return std::move(sink.bytes);
 }
 

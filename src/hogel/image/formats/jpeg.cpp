@@ -17,13 +17,13 @@
 namespace hogel::image {
 namespace {
 
-// A progressive file may repeat its scans thousands of times to keep a reader busy; more than these are refused.
+// Limits the number of scans: a malicious progressive file can have thousands of them.
 constexpr int max_scans = 500;
 
-// libjpeg reports an error by calling fail_by_jump(), which may not return. As with libpng, a step that calls it owns
-// nothing that has a destructor.
+// libjpeg reports an error by calling fail_by_jump(), which must not return. As with libpng, a step that calls libjpeg
+// must not own objects with destructors.
 struct Errors {
-    jpeg_error_mgr base;  // first, because libjpeg knows this alone
+    jpeg_error_mgr base;  // first, because libjpeg casts to it
     std::jmp_buf back;
     std::array<char, JMSG_LENGTH_MAX> text;
 };
@@ -34,7 +34,7 @@ struct Errors {
     std::longjmp(errors->back, 1);
 }
 
-// Warnings are about damage that libjpeg conceals. Where the file has ended, it would make up what is missing.
+// Treats the end of the file as an error. Other warnings report damage that libjpeg conceals.
 void refuse_early_end(j_common_ptr jpeg, int level) {
     if (level < 0 && jpeg->err->msg_code == JWRN_JPEG_EOF) fail_by_jump(jpeg);
 }
@@ -117,7 +117,7 @@ class JpegReader {
         return true;
     }
 
-    // JPEG files store one minus the amount of each ink.
+    // JPEG files store inverted ink amounts.
     static void to_rgb(const JSAMPLE* inks, JSAMPLE* colours, std::size_t count) {
         for (std::size_t i = 0; i < count; ++i)
             for (std::size_t c = 0; c < 3; ++c)
@@ -142,7 +142,7 @@ class Writer {
     }
     ~Writer() {
         jpeg_destroy_compress(&jpeg_);
-        std::free(file_);  // libjpeg's, by malloc()
+        std::free(file_);  // allocated by libjpeg with malloc()
     }
     Writer(const Writer&) = delete;
     Writer& operator=(const Writer&) = delete;
@@ -166,7 +166,7 @@ class Writer {
         for_row_blocks(pixels.extent(0), row, [&](std::size_t, std::size_t last) {
             run([&] {
                 while (jpeg_.next_scanline < last) {
-                    // libjpeg does not write to it.
+                    // libjpeg does not modify the line.
                     auto* line = const_cast<JSAMPLE*>(pixels.data() + jpeg_.next_scanline * row);
                     jpeg_write_scanlines(&jpeg_, &line, 1);
                 }
@@ -177,7 +177,7 @@ class Writer {
     }
 
   private:
-    static constexpr int full_colours = 90;  // the quality from which colours keep their resolution
+    static constexpr int full_colours = 90;  // minimum quality for colours at full resolution
 
     template <class Step>
     void run(const Step& step) {

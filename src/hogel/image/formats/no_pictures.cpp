@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of png.cpp, jpeg.cpp, exr.cpp and stb.cpp in a build without their libraries.
+// Replaces png.cpp, jpeg.cpp, exr.cpp and stb.cpp in a build without their libraries.
 #include <string>
 
 #include "hogel/image/formats/formats.h"

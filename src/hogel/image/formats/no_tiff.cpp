@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of tiff.cpp in a build without libtiff.
+// Replaces tiff.cpp in a build without libtiff.
 #include "hogel/image/formats/formats.h"
 #include "hogel/image/picture_formats.h"
 

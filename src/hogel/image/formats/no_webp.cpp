@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of webp.cpp in a build without libwebp.
+// Replaces webp.cpp in a build without libwebp.
 #include "hogel/image/formats/formats.h"
 #include "hogel/image/picture_formats.h"
 

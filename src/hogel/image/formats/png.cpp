@@ -18,15 +18,15 @@
 namespace hogel::image {
 namespace {
 
-// PNG's names of some texts and those that other formats and programs use.
+// PNG's names of texts and the names in other formats and programs.
 struct Keyword {
     std::string_view png, common;
 };
 constexpr std::array keywords{Keyword{"Description", "ImageDescription"}, Keyword{"Author", "Artist"},
                               Keyword{"Title", "DocumentName"}};
 
-// libpng reports an error by a long jump to where attempt() set it up, which skips destructors; therefore a step that
-// calls libpng owns nothing. The message is kept here, as libpng's own is in the frame that is left.
+// libpng reports an error by a long jump to attempt(), which skips destructors: a step that calls libpng must own no
+// objects with destructors. This struct keeps the message, because libpng's message is in the abandoned stack frame.
 struct Failure {
     std::array<char, 200> text{};
 };
@@ -47,16 +47,16 @@ bool attempt(png_structp png, const Step& step) {
 }
 
 struct PngSource {
-    const unsigned char* at;
-    std::size_t left;
+    const unsigned char* data;
+    std::size_t remaining;
 };
 
 void take(png_structp png, png_bytep into, std::size_t size) {
     auto* source = static_cast<PngSource*>(png_get_io_ptr(png));
-    if (size > source->left) png_error(png, "it ends before its last chunk");
-    std::memcpy(into, source->at, size);
-    source->at += size;
-    source->left -= size;
+    if (size > source->remaining) png_error(png, "it ends before its last chunk");
+    std::memcpy(into, source->data, size);
+    source->data += size;
+    source->remaining -= size;
 }
 
 class PngReader {
@@ -76,7 +76,7 @@ class PngReader {
     void read_header() {
         run([&] {
             png_set_read_fn(png_, &source_, take);
-            png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // check_size() knows better ones
+            png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // check_size() applies stricter limits
             png_read_info(png_, info_);
         });
     }
@@ -90,7 +90,7 @@ class PngReader {
             std::string key = list[i].key;
             for (const Keyword& keyword : keywords)
                 if (key == keyword.png) key = keyword.common;
-            // Profiles are bytes of other formats, written as hexadecimal digits.
+            // Profiles are binary data of other formats, as hexadecimal digits.
             if (list[i].text != nullptr && !key.starts_with("Raw profile type")) texts.emplace_back(key, list[i].text);
         }
         return texts;
@@ -122,7 +122,7 @@ class PngReader {
     }
 
   private:
-    // A palette or one colour whose alpha a chunk states.
+    // Returns whether a tRNS chunk gives alpha to a palette or to one colour.
     bool has_transparent_colors() const { return png_get_valid(png_, info_, PNG_INFO_tRNS) != 0; }
 
     template <class Step>
@@ -133,7 +133,7 @@ class PngReader {
     template <class T>
     Samples rows(Array<T, 3> samples) {
         const std::size_t row = samples.extent(1) * samples.extent(2);
-        if (png_get_rowbytes(png_, info_) != row * sizeof(T)) file_.fail("its rows are not of the size they should be");
+        if (png_get_rowbytes(png_, info_) != row * sizeof(T)) file_.fail("its rows have an unexpected size");
         T* const first = samples.data();
         const std::size_t height = samples.extent(0);
         for (int pass = 0; pass < passes_; ++pass)
@@ -154,7 +154,7 @@ class PngReader {
     int passes_ = 1;
 };
 
-// Where a writer puts its bytes. What is thrown while memory is taken may not pass through libpng.
+// Output buffer of a writer. Exceptions of allocations must not pass through libpng.
 struct Sink {
     std::vector<unsigned char>* bytes;
     bool full = false;
@@ -170,7 +170,7 @@ void put(png_structp png, png_bytep from, std::size_t size) {
     if (sink->full) png_error(png, "there is not enough memory");
 }
 
-// The texts as libpng takes them. It keeps its own copy.
+// Converts the texts to libpng's structures. libpng copies them.
 std::vector<png_text> png_texts(Metadata& texts) {
     std::vector<png_text> list;
     for (auto& [key, text] : texts) {
@@ -187,7 +187,7 @@ std::vector<png_text> png_texts(Metadata& texts) {
     return list;
 }
 
-// libpng's structures of a file that is written.
+// libpng's structures for writing a file.
 struct PngWriting {
     explicit PngWriting(Failure& failure)
         : png(png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, note_failure, ignore_warning)),
@@ -221,7 +221,7 @@ std::vector<unsigned char> encode(View<const T, 3> pixels, const Metadata& texts
         png_set_write_fn(png, &sink, put, nullptr);
         png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
         png_set_compression_level(png, 6);
-        png_set_compression_strategy(png, Z_DEFAULT_STRATEGY);  // the bytes of earlier versions
+        png_set_compression_strategy(png, Z_DEFAULT_STRATEGY);  // keeps the output of earlier versions
         png_set_IHDR(png, info, width, height, 8 * sizeof(T), type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                      PNG_FILTER_TYPE_DEFAULT);
         if (curve == Curve::srgb) png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Portable pixmaps and float maps. A text header of a magic number and three numbers (columns, rows, and the largest
-// code or a scale), which end with one character of white space; then the samples without any padding.
-//   P5, P6  grey and colour (pgm(5), ppm(5)): codes 0 to a maximum of 65535, two bytes each, big-endian, beyond 255
-//   Pf, PF  grey and colour floats (Debevec's Portable Float Map): rows from the bottom up; a negative scale says
-//           little-endian; its size has no agreed meaning and is left alone
+// Portable pixmaps and float maps. The text header has a magic number and three numbers (columns, rows, and the largest
+// code or a scale), and ends with one white-space character. The samples follow without padding.
+//   P5, P6  grey and colour (pgm(5), ppm(5)): codes 0 to at most 65535; above 255 two bytes each, big-endian Pf, PF
+//   grey and colour floats (Debevec's Portable Float Map): rows from the bottom up; a negative scale means
+//           little-endian; the magnitude of the scale has no agreed meaning and is ignored
 #include <fmt/format.h>
 
 #include <bit>
@@ -19,31 +19,32 @@ namespace {
 
 struct Header {
     std::size_t width = 0, height = 0, channels = 1;
-    double last = 0;        // the largest code, or the scale
+    double last = 0;        // largest code, or scale
     std::size_t begin = 0;  // offset of the samples
 };
 
 bool is_space(unsigned char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-// The next word of a header, after white space and comments from '#' to the end of the line.
-std::string_view take_word(const PictureBytes& file, std::size_t& at) {
+// Returns the next word of a header, after white space and comments from '#' to the end of the line.
+std::string_view take_word(const PictureBytes& file, std::size_t& position) {
     constexpr std::size_t max_word = 32;
     const std::span<const unsigned char> bytes = file.bytes;
-    while (at < bytes.size() && (is_space(bytes[at]) || bytes[at] == '#')) {
-        if (bytes[at] == '#')
-            while (at < bytes.size() && bytes[at] != '\n' && bytes[at] != '\r') ++at;
+    while (position < bytes.size() && (is_space(bytes[position]) || bytes[position] == '#')) {
+        if (bytes[position] == '#')
+            while (position < bytes.size() && bytes[position] != '\n' && bytes[position] != '\r') ++position;
         else
-            ++at;
+            ++position;
     }
-    const std::size_t first = at;
-    while (at < bytes.size() && !is_space(bytes[at]) && at - first <= max_word) ++at;
-    if (at == first || at == bytes.size() || at - first > max_word) file.fail("it ends inside its header");
-    return {reinterpret_cast<const char*>(bytes.data()) + first, at - first};
+    const std::size_t first = position;
+    while (position < bytes.size() && !is_space(bytes[position]) && position - first <= max_word) ++position;
+    if (position == first || position == bytes.size() || position - first > max_word)
+        file.fail("it ends inside its header");
+    return {reinterpret_cast<const char*>(bytes.data()) + first, position - first};
 }
 
 template <class T>
-T take_number(const PictureBytes& file, std::size_t& at) {
-    const std::string_view word = take_word(file, at);
+T take_number(const PictureBytes& file, std::size_t& position) {
+    const std::string_view word = take_word(file, position);
     T value{};
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc() || end != word.data() + word.size())
@@ -53,23 +54,23 @@ T take_number(const PictureBytes& file, std::size_t& at) {
 
 Header read_header(const PictureBytes& file, char grey) {
     Header header;
-    std::size_t at = 2;
+    std::size_t position = 2;
     header.channels = file.bytes[1] == grey ? 1 : 3;
-    header.width = take_number<std::uint32_t>(file, at);
-    header.height = take_number<std::uint32_t>(file, at);
-    header.last = take_number<double>(file, at);
-    header.begin = at + 1;
+    header.width = take_number<std::uint32_t>(file, position);
+    header.height = take_number<std::uint32_t>(file, position);
+    header.last = take_number<double>(file, position);
+    header.begin = position + 1;
     return header;
 }
 
 void require_samples(const PictureBytes& file, const Header& header, std::size_t sample_bytes) {
     file.check_size(header.width, header.height, header.channels, sample_bytes);
     const std::size_t wanted = header.width * header.height * header.channels * sample_bytes;
-    const std::size_t held = file.bytes.size() - std::min(header.begin, file.bytes.size());
-    if (held < wanted) file.fail(fmt::format("it is truncated: {} bytes of samples instead of {}", held, wanted));
+    const std::size_t present = file.bytes.size() - std::min(header.begin, file.bytes.size());
+    if (present < wanted) file.fail(fmt::format("it is truncated: {} bytes of samples instead of {}", present, wanted));
 }
 
-// Codes 0 to `max` become 0 to that of the type, to the nearest; no two codes become the same.
+// Scales codes 0 … max to the range of T, rounded to nearest. Different codes stay different.
 template <class T>
 Array<T, 3> read_codes(const PictureBytes& file, const Header& header, std::uint32_t max) {
     require_samples(file, header, sizeof(T));

@@ -8,9 +8,9 @@
 
 namespace hogel::image {
 
-/// Calls body(first, last) for blocks of rows [first, last) in their order: about a million samples each, in multiples
-/// of the rows that files keep together where that many fit. Checks for a stop before each block, because nothing may
-/// be thrown through the libraries that read and write pictures. Throws Error(cancelled).
+/// Calls body(first, last) for blocks of rows [first, last) in order. A block has about a million samples, in multiples
+/// of the rows per strip of a file if possible. Checks for a stop request before each block, because exceptions must
+/// not pass through the picture libraries. Throws Error(cancelled).
 template <class Body>
 void for_row_blocks(std::size_t rows, std::size_t samples_in_row, const Body& body) {
     constexpr std::size_t samples_between_checks = 1 << 20, rows_in_file = 32;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one file that compiles stb_image, with nothing but the formats that have no library of their own here.
+// The only source that compiles stb_image, restricted to the formats without a library of their own.
 #include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
@@ -7,31 +7,31 @@
 
 namespace {
 
-// The blocks of memory that stb_image holds on this thread. An exception that passes through it would lose them.
-thread_local std::vector<void*> held;
+// Memory blocks of stb_image on this thread. An exception that passes through stb_image would leak them.
+thread_local std::vector<void*> blocks;
 
-void* hold(void* block) {
-    if (block != nullptr) held.push_back(block);
+void* track(void* block) {
+    if (block != nullptr) blocks.push_back(block);
     return block;
 }
 
-void let_go(void* block) {
-    const auto at = std::find(held.begin(), held.end(), block);
-    if (at != held.end()) held.erase(at);
+void untrack(void* block) {
+    const auto found = std::find(blocks.begin(), blocks.end(), block);
+    if (found != blocks.end()) blocks.erase(found);
 }
 
 struct ReleaseAll {
     ~ReleaseAll() {
-        for (void* block : held) std::free(block);
-        held.clear();
+        for (void* block : blocks) std::free(block);
+        blocks.clear();
     }
 };
 
 }  // namespace
 
-#define STBI_MALLOC(size) hold(std::malloc(size))
-#define STBI_REALLOC(block, size) (let_go(block), hold(std::realloc(block, size)))
-#define STBI_FREE(block) (let_go(block), std::free(block))
+#define STBI_MALLOC(size) track(std::malloc(size))
+#define STBI_REALLOC(block, size) (untrack(block), track(std::realloc(block, size)))
+#define STBI_FREE(block) (untrack(block), std::free(block))
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_BMP
@@ -39,7 +39,7 @@ struct ReleaseAll {
 #define STBI_ONLY_HDR
 #define STBI_ONLY_TGA
 #define STBI_NO_STDIO
-// A damaged file must not end the program.
+// A damaged file must not abort the program.
 #define STBI_ASSERT(condition) \
     if (!(condition)) throw std::runtime_error("it is damaged")
 #include <stb/stb_image.h>
@@ -53,32 +53,32 @@ struct ReleaseAll {
 namespace hogel::image {
 namespace {
 
-// Where stb_image reads. It takes what is missing at the end of a file as zeros, by which it may run for ever, so the
-// end is an exception here.
+// Input of stb_image. The end of the file is an exception: stb_image would read zeros after it and might never return.
 struct StbSource {
     std::span<const unsigned char> bytes;
-    std::size_t at = 0;
+    std::size_t offset = 0;
 };
 
 int take(void* user, char* into, int size) {
     auto& source = *static_cast<StbSource*>(user);
-    const std::size_t count = std::min(static_cast<std::size_t>(std::max(size, 0)), source.bytes.size() - source.at);
+    const std::size_t count =
+        std::min(static_cast<std::size_t>(std::max(size, 0)), source.bytes.size() - source.offset);
     if (count == 0 && size > 0) throw std::runtime_error("it ends too early");
-    if (count > 0) std::memcpy(into, source.bytes.data() + source.at, count);
-    source.at += count;
+    if (count > 0) std::memcpy(into, source.bytes.data() + source.offset, count);
+    source.offset += count;
     return static_cast<int>(count);
 }
 
-void skip(void* user, int count) {  // a negative number goes back
+void skip(void* user, int count) {  // a negative count moves backwards
     auto& source = *static_cast<StbSource*>(user);
-    const std::int64_t to = static_cast<std::int64_t>(source.at) + count;
-    source.at =
+    const std::int64_t to = static_cast<std::int64_t>(source.offset) + count;
+    source.offset =
         static_cast<std::size_t>(std::clamp<std::int64_t>(to, 0, static_cast<std::int64_t>(source.bytes.size())));
 }
 
 int at_end(void* user) {
     const auto& source = *static_cast<StbSource*>(user);
-    return source.at >= source.bytes.size() ? 1 : 0;
+    return source.offset >= source.bytes.size() ? 1 : 0;
 }
 
 constexpr stbi_io_callbacks callbacks{take, skip, at_end};
@@ -92,22 +92,23 @@ struct Free {
     void operator()(void* memory) const { stbi_image_free(memory); }
 };
 
-// Whether a file is a bitmap with a palette of greys: after the file header of 14 bytes, one that begins with its
-// length and has the bits of a pixel at byte 14, comes the palette, four bytes a colour, up to the pixels.
+// Returns whether a file is a bitmap with a grey palette. The file header has 14 bytes. The second header begins with
+// its length and has the bits per pixel at byte 14. The palette follows, four bytes per colour, and extends to the
+// pixels.
 bool has_grey_palette(std::span<const unsigned char> bytes) {
-    const auto number = [&](std::size_t at) {
-        return bytes[at] | std::size_t{bytes[at + 1]} << 8 | std::size_t{bytes[at + 2]} << 16 |
-               std::size_t{bytes[at + 3]} << 24;
+    const auto number = [&](std::size_t offset) {
+        return bytes[offset] | std::size_t{bytes[offset + 1]} << 8 | std::size_t{bytes[offset + 2]} << 16 |
+               std::size_t{bytes[offset + 3]} << 24;
     };
     if (bytes.size() < 54 || bytes[0] != 'B' || bytes[1] != 'M' || bytes[28] > 8 || bytes[29] != 0) return false;
     const std::size_t pixels = number(10), palette = 14 + number(14);
     if (number(14) < 40 || palette + 4 > pixels || pixels > bytes.size()) return false;
-    for (std::size_t at = palette; at + 4 <= pixels; at += 4)
-        if (bytes[at] != bytes[at + 1] || bytes[at] != bytes[at + 2]) return false;
+    for (std::size_t offset = palette; offset + 4 <= pixels; offset += 4)
+        if (bytes[offset] != bytes[offset + 1] || bytes[offset] != bytes[offset + 2]) return false;
     return true;
 }
 
-// `load` is stb_image's function for the type of the samples.
+// `load` is the function of stb_image for this sample type.
 template <class T, class Load>
 Samples load_samples(const PictureBytes& file, int channels, const Load& load) {
     StbSource source{file.bytes};
@@ -124,7 +125,7 @@ Samples load_samples(const PictureBytes& file, int channels, const Load& load) {
 
 Picture read_with_stb(const PictureBytes& file) {
     if (file.only_texts) return {};
-    const ReleaseAll at_the_end;
+    const ReleaseAll release;
     StbSource source{file.bytes};
     int width = 0, height = 0, stored = 0;
     if (stbi_info_from_callbacks(&callbacks, &source, &width, &height, &stored) == 0) fail(file);

@@ -18,10 +18,10 @@ namespace {
 
 // A file in memory and the first error that libtiff reports for it.
 struct Memory {
-    const unsigned char* data = nullptr;  // what is read, or null
+    const unsigned char* data = nullptr;  // input, or null when writing
     std::size_t size = 0;
     std::vector<unsigned char> written;
-    std::size_t at = 0;
+    std::size_t offset = 0;
     std::string error;
 
     std::size_t end() const { return data != nullptr ? size : written.size(); }
@@ -31,35 +31,35 @@ Memory& memory_of(thandle_t handle) { return *static_cast<Memory*>(handle); }
 
 tmsize_t take(thandle_t handle, void* into, tmsize_t size) {
     Memory& memory = memory_of(handle);
-    const std::size_t begin = std::min(memory.at, memory.end());
+    const std::size_t begin = std::min(memory.offset, memory.end());
     const std::size_t count = std::min(static_cast<std::size_t>(std::max<tmsize_t>(size, 0)), memory.end() - begin);
     const unsigned char* from = memory.data != nullptr ? memory.data : memory.written.data();
     if (count > 0) std::memcpy(into, from + begin, count);
-    memory.at = begin + count;
+    memory.offset = begin + count;
     return static_cast<tmsize_t>(count);
 }
 
 tmsize_t put(thandle_t handle, void* from, tmsize_t size) {
     Memory& memory = memory_of(handle);
     if (memory.data != nullptr || size < 0) return -1;
-    const std::size_t end = memory.at + static_cast<std::size_t>(size);
+    const std::size_t end = memory.offset + static_cast<std::size_t>(size);
     if (end > memory.written.size()) memory.written.resize(end);
-    if (size > 0) std::memcpy(memory.written.data() + memory.at, from, static_cast<std::size_t>(size));
-    memory.at = end;
+    if (size > 0) std::memcpy(memory.written.data() + memory.offset, from, static_cast<std::size_t>(size));
+    memory.offset = end;
     return size;
 }
 
 toff_t seek(thandle_t handle, toff_t to, int from) {
     Memory& memory = memory_of(handle);
-    const std::size_t base = from == SEEK_CUR ? memory.at : from == SEEK_END ? memory.end() : 0;
-    memory.at = base + static_cast<std::size_t>(to);
-    return memory.at;
+    const std::size_t base = from == SEEK_CUR ? memory.offset : from == SEEK_END ? memory.end() : 0;
+    memory.offset = base + static_cast<std::size_t>(to);
+    return memory.offset;
 }
 
 int close(thandle_t) { return 0; }
 toff_t end(thandle_t handle) { return memory_of(handle).end(); }
 
-// libtiff's handlers are global; those with a handle can tell which file is meant, null where none is.
+// libtiff's handlers are global. The handle identifies the file; it is null if there is none.
 void note_error(thandle_t handle, const char*, const char* format, va_list values) {
     if (handle == nullptr || !memory_of(handle).error.empty()) return;
     std::array<char, 200> text;
@@ -81,7 +81,7 @@ File open(Memory& memory, const char* mode) {
         return true;
     }();
     static_cast<void>(silent);
-    // "m": no mapping of the file into memory.
+    // "m" disables memory mapping.
     return File(TIFFClientOpen("picture", mode, &memory, take, put, seek, close, end, nullptr, nullptr));
 }
 
@@ -99,7 +99,7 @@ struct Layout {
         TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &light);
         TIFFGetFieldDefaulted(tiff, TIFFTAG_PLANARCONFIG, &planes);
     }
-    // Whether rows can be taken as they are; libtiff converts others to 8 bits.
+    // Returns whether rows can be read unchanged; libtiff converts other layouts to 8 bits.
     bool plain(TIFF* tiff) const {
         const bool known =
             (format == SAMPLEFORMAT_UINT && (bits == 8 || bits == 16)) || (format == SAMPLEFORMAT_IEEEFP && bits == 32);
@@ -140,7 +140,7 @@ Samples read_converted(TIFF* tiff, const Layout& layout, const PictureBytes& fil
     return samples;
 }
 
-// TIFF has no free text fields: hogel's texts are lines "key: text" of the description.
+// TIFF has no text fields with free names: hogel stores texts as lines "key: text" in the description.
 Metadata texts_of(TIFF* tiff) {
     constexpr std::array<std::pair<std::uint32_t, const char*>, 4> tags{{{TIFFTAG_IMAGEDESCRIPTION, "ImageDescription"},
                                                                          {TIFFTAG_SOFTWARE, "Software"},
@@ -208,7 +208,7 @@ std::vector<unsigned char> tiff_file(View<const std::uint8_t, 3> pixels, const M
         done = true;
         for_row_blocks(height, row, [&](std::size_t first, std::size_t last) {
             for (std::size_t y = first; y < last && done; ++y) {
-                std::copy_n(pixels.data() + y * row, row, line.data());  // libtiff changes what it is given
+                std::copy_n(pixels.data() + y * row, row, line.data());  // libtiff modifies its input
                 done = TIFFWriteScanline(tiff.get(), line.data(), static_cast<std::uint32_t>(y), 0) == 1;
             }
         });
