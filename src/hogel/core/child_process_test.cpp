@@ -25,7 +25,7 @@ int read_int(ChildProcess& child) {
 
 void write_int(int pipe, int value) { ChildProcess::write(pipe, &value, sizeof value); }
 
-// How a child that does this work fails.
+// Returns the kind of failure of a child with this work.
 ChildFailure::Kind failure_of(const std::function<void(int)>& work, const ChildLimits& of_child = limits) {
     try {
         with_child(of_child, work, read_int);
@@ -93,7 +93,7 @@ TEST(ChildProcess, one_that_serves_answers_requests_of_any_thread_until_the_pipe
                 write_int(pipe, 2 * number);
             }
         });
-    }).join();  // a child ends with the thread that made it, unless it serves
+    }).join();  // a child ends with the thread that started it, unless `serves`
     for (const int number : {1, 20, 300}) {
         child->send(&number, sizeof number);
         EXPECT_EQ(read_int(*child), 2 * number);

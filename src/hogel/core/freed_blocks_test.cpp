@@ -89,7 +89,7 @@ TEST(FreedBlocks, kept_and_used_are_no_more_than_was_used_before) {
     const std::size_t peak = blocks.in_use();
     blocks.free(first);
     blocks.free(second);
-    // The kept block does not suit it; as many pages have to go.
+    // The kept block is too small: its size in pages is released.
     void* third = blocks.allocate(mega);
     EXPECT_LE(blocks.in_use() + blocks.kept(), peak);
     EXPECT_GE(blocks.kept(), 30 * mega);
@@ -99,14 +99,14 @@ TEST(FreedBlocks, kept_and_used_are_no_more_than_was_used_before) {
     blocks.free(fourth);
 }
 
-// Whether each page of a block has the bytes that were written into one.
+// Returns whether each page of a block holds the mark.
 bool has_marks(const std::byte* block, std::size_t bytes, int mark) {
     for (std::size_t i = 0; i < bytes; i += 4096)
         if (block[i] != static_cast<std::byte>(mark)) return false;
     return true;
 }
 
-// Where the sizes of each round fit no block of the last one.
+// The sizes of each round match no block of the previous round.
 TEST(FreedBlocks, pages_are_cut_and_joined_and_no_new_ones_are_taken) {
     FreedBlocks blocks(1000 * mega);
     std::vector<std::vector<std::size_t>> rounds = {{40, 40}};
@@ -148,7 +148,7 @@ TEST(FreedBlocks, pages_in_use_stay_where_they_are_and_as_they_are) {
     EXPECT_EQ(blocks.kept(), 34 * mega);
 }
 
-// Films are of one to four MiB, and follow work with larger arrays.
+// Films have 1 to 4 MiB and follow work with larger arrays.
 TEST(FreedBlocks, those_of_megabytes_are_of_kept_pages) {
     FreedBlocks blocks(1000 * mega);
     void* large = blocks.allocate(40 * mega);
@@ -163,7 +163,7 @@ TEST(FreedBlocks, those_of_megabytes_are_of_kept_pages) {
     EXPECT_EQ(blocks.new_pages(), 40 * mega);
     for (void* block : used) blocks.free(block);
     EXPECT_EQ(blocks.kept(), 40 * mega);
-    // Most of a page would be idle.
+    // Most of the page would be unused.
     void* small = blocks.allocate(900 << 10);
     EXPECT_LT(blocks.in_use(), mega);
     blocks.free(small);
@@ -188,7 +188,7 @@ TEST(FreedBlocks, threads_get_blocks_of_their_own) {
     EXPECT_LE(blocks.kept(), 200 * mega);
 }
 
-// malloc may give more than was asked for: what was not counted then must not be counted when it is freed.
+// malloc may return more than requested: a block that was not counted at allocation must not be counted when freed.
 TEST(FreedBlocks, all_sizes_about_the_smallest_that_is_kept_are_counted_alike) {
     FreedBlocks blocks(64 * mega);
     std::vector<void*> used;
@@ -257,7 +257,7 @@ TEST(FreedBlocks, spare_arrays_the_faults_of_fresh_pages) {
     EXPECT_EQ(blocks.new_pages(), 32 * mega);
 }
 
-// Blocks are handed out with any content, arrays are of zeros.
+// Blocks have unspecified content; arrays are zero.
 TEST(FreedBlocks, are_cleared_for_arrays) {
     for (int i = 0; i < 3; ++i) {
         Array<float, 2> array({1024, 1024});
@@ -266,7 +266,7 @@ TEST(FreedBlocks, are_cleared_for_arrays) {
     }
 }
 
-// With a sanitizer every array has memory of its own, so that it sees the array begin and end.
+// With a sanitizer every array has its own memory, so that the sanitizer sees its lifetime.
 TEST(FreedBlocks, are_the_memory_of_arrays) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     GTEST_SKIP() << "arrays of a sanitized program do not use them";

@@ -54,7 +54,7 @@ TEST(ParseJson, names_the_fault) {
     EXPECT_EQ(fault_of(std::string(200000, '[')), "its JSON nests deeper than 100");
 }
 
-// By the parser's callbacks this took half an hour: each element searched all that were before it.
+// With the parser's callbacks this took half an hour: each element searched all earlier ones.
 TEST(ParseJson, takes_linear_time) {
     constexpr std::size_t count = max_json_values / 2;
     EXPECT_EQ(parsed(repeated(count, "{}")).size(), count);

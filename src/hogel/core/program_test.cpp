@@ -30,7 +30,7 @@ TEST(Program, IsFoundByPathAndSaysHowItEnded) {
     EXPECT_FALSE(run_program({"/no/such/program"}));
 }
 
-// The number of the process that has written it into a file; 0 as long as it has not.
+// Returns the process id that a process has written into a file; 0 before that.
 pid_t process_in(const std::filesystem::path& file) {
     pid_t process = 0;
     std::ifstream(file) >> process;
@@ -47,7 +47,7 @@ TEST(Program, EndsWhenTheWorkIsStopped) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         stop.request_stop();
     });
-    // The program that follows has the process of the shell.
+    // `exec` keeps the process id of the shell.
     const std::string line = fmt::format("echo $$ > '{}'; exec sleep 60", begun.string());
     EXPECT_TRUE(is_cancelled([&] { run_program({find_program("sh"), "-c", line}); }));
     other.request_stop();

@@ -19,7 +19,7 @@ TEST(ThreadBuffer, has_memory_of_its_own_while_others_exist) {
         inner_memory = inner.data();
     }
     EXPECT_EQ(std::ranges::count(outer, 1.0f), 1000);
-    const ThreadBuffer<float> next(1500);  // no more than the inner one
+    const ThreadBuffer<float> next(1500);  // not larger than the inner one
     EXPECT_EQ(next.data(), inner_memory);
     EXPECT_EQ(next.size(), 1500u);
 }

@@ -28,7 +28,7 @@ class ImageFile : public testing::Test {
     fs::path directory_ = fs::path(testing::TempDir()) / ("hogel_image_" + std::to_string(::getpid()));
 };
 
-// The names of a picture in each format of 8 bits that write_image() writes, and in each that it writes.
+// Returns file names of a picture, in each 8-bit format, and in each format that write_image() writes.
 std::vector<std::string> names_of_8_bits() {
     if (format_by_extension("a.tif")->built_in) return {"a.png", "a.tif"};
     return {"a.png"};
@@ -272,7 +272,7 @@ TEST(AutomaticExposure, brings_the_brightest_half_percent_to_white) {
 }
 
 TEST(AutomaticExposure, leaves_a_white_body_on_black_its_shades) {
-    // A body that fills a third of the picture, most of it nearly as bright as its brightest part.
+    // A body on a third of the picture; most of it is nearly as bright as its maximum.
     Image image(100, 90, 3);
     for (std::size_t i = 0; i < 3000; ++i)
         for (std::size_t c = 0; c < 3; ++c) image.pixels(i / 100, i % 100, c) = i < 300 ? 0.3f : i < 2900 ? 1.8f : 2.0f;
@@ -284,7 +284,7 @@ TEST(AutomaticExposure, leaves_a_white_body_on_black_its_shades) {
 }
 
 TEST(AutomaticExposure, passes_a_background_over) {
-    // A body on a third of the picture, before black and before brighter and darker backgrounds.
+    // A body on a third of the picture, in front of black, brighter and darker backgrounds.
     const auto picture = [](Rgb background, bool says_so) {
         Image image(100, 90, 3);
         for (std::size_t i = 0; i < 9000; ++i) {

@@ -14,7 +14,7 @@ using std::numbers::pi;
 
 double around(double phase) { return std::remainder(phase, 2 * pi); }
 
-// The makers' formulas, written as they stand in their programs.
+// Formulas as in the programs of the makers.
 TEST(PhaseCode, decodes_what_its_maker_encodes) {
     for (int i = 0; i < 256; ++i) {
         const double v = i;
@@ -34,7 +34,7 @@ TEST(PhaseCode, encodes_each_level_as_itself_where_no_two_are_one_phase) {
             for (unsigned v = 0; v <= largest; v += 1 + largest / 500)
                 ASSERT_EQ(code.level(code.phase(v, largest), largest), v) << text << " " << largest;
         }
-    // Both ends of a closed turn are one phase.
+    // Both ends of a closed range are the same phase.
     for (const char* text : {"odak", "neural-holography", "tensorholo"}) {
         const PhaseCode code = parse_phase_code(text);
         for (unsigned v = 1; v < 255; ++v) ASSERT_EQ(code.level(code.phase(v, 255), 255), v) << text;

@@ -44,7 +44,7 @@ TEST(Provenance, an_unreadable_camera_stays_an_entry) {
     const Provenance read = to_provenance(metadata);
     EXPECT_FALSE(read.camera);
     EXPECT_EQ(read.entries, metadata);
-    // It is kept when hogel adds a camera to the picture.
+    // An invalid camera entry is kept when hogel adds a camera.
     EXPECT_EQ(to_metadata({metadata, a_camera()}).size(), 3u);
 }
 

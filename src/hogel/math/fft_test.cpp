@@ -64,7 +64,7 @@ TEST(Fft2, large_arrays_give_the_same_sum) {
         ASSERT_LT(std::abs(values.data()[i] / float(height * width) - spectrum.data()[i]), 1e-5f);
 }
 
-// Columns whose length is a power of two, which ColumnFft transforms, are compared with sums along columns.
+// Compares ColumnFft, for power-of-two lengths, with sums along columns.
 TEST_P(ColumnFftKernels, give_the_sum_of_waves_for_every_length_and_direction) {
     for (std::size_t length = ColumnFft::shortest; length <= 512; length *= 2) {
         const std::size_t columns = 2 * ColumnFft::batch_columns, row = columns + 3;

@@ -15,7 +15,7 @@ HOGEL_TEST_ON_EVERY_TARGET(PackedNumbers);
 
 using Complex = std::complex<float>;
 
-// Numbers of all sizes, in all directions, and some of which a part is at the edge of being rounded up.
+// Numbers of all magnitudes and directions; some have a part that nearly rounds up to the next exponent.
 std::vector<Complex> numbers() {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> part(-1, 1), exponent(-110, 120);

@@ -63,7 +63,7 @@ TEST(Field, regions_read_and_write_their_slices) {
                 }
 }
 
-// A source whose alignment does not divide the default region, which checks that regions are aligned.
+// A source whose alignment does not divide the default region. Checks that regions are aligned.
 class Aligned final : public FieldSource {
   public:
     Aligned(const Field& field, std::size_t alignment) : field_(field), alignment_(alignment) {}
@@ -80,7 +80,7 @@ class Aligned final : public FieldSource {
     std::size_t alignment_;
 };
 
-// A sink without in_memory(), to which regions are written.
+// A sink without in_memory().
 class Written final : public FieldSink {
   public:
     explicit Written(Field& field) : field_(field) {}
@@ -111,7 +111,7 @@ TEST(Field, copy_carries_every_sample_in_aligned_regions) {
     }
 }
 
-// Whose windows overlap by so many samples.
+// A source with overlapping windows.
 class Overlapping final : public FieldSource {
   public:
     Overlapping(const Field& field, std::size_t overlap) : field_(field), overlap_(overlap) {}

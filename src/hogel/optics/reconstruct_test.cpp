@@ -77,7 +77,7 @@ TEST(Reconstruction, behind_a_lens_is_the_fourier_transform) {
     EXPECT_THROW(fourier_image(in, -focal), Error);
 }
 
-// One transform is the angular spectrum where both are accurate, forwards and backwards.
+// A single transform agrees with the angular spectrum where both are accurate, forwards and backwards.
 TEST(Reconstruction, by_one_fresnel_transform_is_propagation) {
     const double wavelength = 532_nm, pitch = 8_um;
     const Field in = made({256, 256, pitch, pitch, 0, 0}, wavelength, [&](double x, double y) {
@@ -189,7 +189,7 @@ TEST(Focus, finds_the_planes_of_points) {
     EXPECT_THROW(find_focus(two, range), Error);
 }
 
-// A plane wave is alike everywhere.
+// A plane wave is uniform at every depth.
 TEST(Focus, finds_nothing_where_nothing_is) {
     const Field field = made({128, 128, 5_um, 5_um, 0, 0}, 532_nm, [](double, double) { return 1.0; });
     EXPECT_TRUE(find_focus(field).planes.empty());

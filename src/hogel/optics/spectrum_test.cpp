@@ -33,7 +33,7 @@ Field sampled(const Grid& plane, const Value& value) {
     return field;
 }
 
-// The largest difference from a closed form over the samples selected by `where`.
+// Returns the largest difference from a closed form over the samples selected by `where`.
 template <class Source, class Value, class Where>
 double worst(const Source& field, const Value& value, const Where& where) {
     const Grid& plane = field.grid().plane;
@@ -111,8 +111,8 @@ TEST(Spectrum, a_spherical_wave_stays_spherical) {
     }
 }
 
-// Propagation in two steps equals that in one, back equals the original, and the energy is kept, for all propagating
-// frequencies that the samples represent.
+// Two steps equal one step, backward propagation restores the original, and the energy is conserved, for all
+// propagating frequencies of the samples.
 TEST(Spectrum, distances_add_and_energy_stays) {
     const Grid plane{240, 200, 0.8_um, 0.8_um, 0, 0};
     const Field field = noise(plane);

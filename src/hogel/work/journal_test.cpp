@@ -117,7 +117,7 @@ TEST_F(JournalTest, damage_never_makes_a_part_count_as_done) {
         }
 }
 
-// The records of a process that does not have the journal reach it, after that process's own results.
+// A rank without the journal sends its records after its results.
 TEST_F(JournalTest, keeps_the_records_of_another_process) {
     {
         Journal kept = open({"work"});

@@ -22,13 +22,13 @@ std::shared_ptr<const int> unwanted() {
     return of(-1);
 }
 
-// Work that never ends unless it is stopped.
+// Work that only a stop request ends.
 std::shared_ptr<const int> endless() {
     parallel_for(1000000, [](std::size_t) { std::this_thread::sleep_for(milliseconds(1)); });
     return of(-2);
 }
 
-// A thread that has begun to make the result of key 1 and does so until it is stopped.
+// Returns a thread that computes the result of key 1 until it is stopped, and has begun.
 std::jthread endless_maker(Cache& cache, std::stop_token stop) {
     auto begun = std::make_shared<std::latch>(1);
     std::jthread maker([&cache, stop, begun] {

@@ -40,7 +40,7 @@ class ResultLogs : public testing::Test {
         std::size_t computed = 0;
     };
 
-    // Two loops, of which the second is of n results, interrupted by an error at the merge of one of these.
+    // Runs two loops, the second with n results; fails at the merge of one result of the second loop.
     Run squares(std::size_t n, std::size_t interrupted_at = SIZE_MAX) {
         Run run;
         std::atomic<std::size_t> computed = 0;

@@ -10,7 +10,7 @@
 namespace hogel::work {
 namespace {
 
-// Gives this process two tiles of each six, as if two others had the rest.
+// Gives this rank two of every six tiles, as if two other ranks had the rest.
 class ThirdOfThreeRanks final : public Communicator, public SharedSink {
   public:
     std::size_t rank() const override { return 0; }

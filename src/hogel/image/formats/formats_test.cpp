@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the readers make of files of other programs, and of damaged ones.
+// Reads files of other programs and damaged files.
 #include "hogel/image/formats/formats.h"
 
 #include <gtest/gtest.h>
@@ -284,7 +284,7 @@ std::vector<Sample> samples() {
             {"gif", small_gif()}};
 }
 
-// Whether a file was read. Anything but a success or one line of bad_input fails the test.
+// Returns whether a file was read. Any result but success or one line of bad_input fails the test.
 bool is_read(std::span<const unsigned char> bytes) {
     try {
         decode_image(bytes, "the file", 1 << 20);
@@ -304,7 +304,7 @@ TEST(DamagedPictures, cut_at_any_length_are_refused_in_one_line) {
         ASSERT_TRUE(is_read(sample.bytes)) << sample.name;
         for (std::size_t length = 0; length < sample.bytes.size(); ++length) {
             const bool read = is_read({sample.bytes.data(), length});
-            // The last bytes may be padding, or a mark of the end without which all pixels are there.
+            // The last bytes may be padding, or an end mark after complete pixels.
             if (length + 4 < sample.bytes.size()) {
                 EXPECT_FALSE(read) << sample.name << " of " << length << " bytes";
             }

@@ -20,7 +20,7 @@ class WithoutPictures : public testing::Test {
     WithoutPictures() { fs::create_directories(directory_); }
     ~WithoutPictures() override { fs::remove_all(directory_); }
 
-    /// The message of what must be refused as not built in.
+    /// Returns the message of a call that must throw not_built_in.
     static std::string refusal(const std::function<void()>& work) {
         try {
             work();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that hogel writes, read by OpenImageIO's oiiotool, and the reverse; skipped where it is not installed.
+// Exchanges files with OpenImageIO's oiiotool in both directions; skipped if it is not installed.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -87,7 +87,7 @@ TEST_F(OiioTool, reads_the_pixels_and_texts_that_hogel_writes) {
 }
 
 TEST_F(OiioTool, writes_exr_files_that_are_read_exactly) {
-    // Floats that no half float equals, in scanlines and tiles, by every lossless compression and a data window that
+    // Floats that are no half floats, in scanlines and tiles, with every lossless compression and a data window that
     // does not begin at 0.
     write_image(file("a.exr"), display_ramp(3));
     run(file("a.exr") + " --mulc 0.3333333 -d float -o " + file("b.exr"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Portable pixmaps and float maps: the bytes of their specifications, every truncated length, and both ways round.
+// Portable pixmaps and float maps: the bytes of their specifications, every truncated length, and round trips.
 #include <gtest/gtest.h>
 
 #include <string>

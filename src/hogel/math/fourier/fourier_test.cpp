@@ -18,7 +18,7 @@ HOGEL_TEST_ON_EVERY_TARGET(FourierTransforms);
 
 using Complex = std::complex<float>;
 
-// Σ_j x_j e^{-2πi jk/n}, as it is written.
+// Returns Σ_j x_j e^{-2πi jk/n} by its definition.
 ExactLine direct_sums(const ExactLine& x) {
     const std::size_t n = x.size();
     ExactLine roots(n), result(n);
@@ -202,7 +202,7 @@ TEST_P(FourierTransforms, turn_convolutions_into_products) {
 }
 
 #ifndef HOGEL_FFTW  // which has other plans for data that is not aligned
-// The same bytes, whether a line is transformed with others or not, and however it lies in memory.
+// A line gives the same bytes alone and in a batch, and at any alignment.
 TEST_P(FourierTransforms, do_not_depend_on_other_lines_or_on_alignment) {
     for (const std::size_t n : {1, 2, 17, 30, 60, 97, 256, 480, 512, 1031, 1080, 4096, 5000}) {
         const Fft1 fft(n);

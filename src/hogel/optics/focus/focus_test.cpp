@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Objects of many kinds at known depths, whose holograms are computed here by plane waves in double precision.
+// Objects of many kinds at known depths. Their holograms are computed by plane waves in double precision.
 #include "hogel/focus.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ using namespace literals;
 using Complex = std::complex<float>;
 using std::numbers::pi;
 
-// Goes through the frequencies of a field, cycles a sample.
+// Multiplies each frequency of a field, cycles per sample, by a factor.
 void filter(Field& field, const std::function<std::complex<double>(double fx, double fy)>& factor) {
     const std::size_t width = field.grid().plane.width, height = field.grid().plane.height;
     const math::Fft2 fft(height, width);
@@ -41,16 +41,16 @@ enum class Surface { smooth, rough };
 
 struct Case {
     FieldGrid grid;
-    double depths = 0;  // of the object, in depths of focus of the samples
+    double depths = 0;  // depth of the object, in depths of focus of the samples
     Surface surface = Surface::smooth;
-    double band = 1;  // the part of the samples' frequencies that the object's light has
+    double band = 1;  // bandwidth of the object's light, relative to the samples
     unsigned seed = 1;
 
     double depth_of_focus() const { return 2 * grid.plane.pitch_x * grid.plane.pitch_x / grid.wavelength; }
     double depth() const { return depths * depth_of_focus(); }
 };
 
-// Discs of unlike brightness in the middle of the hologram, with a phase that is even or random.
+// Discs of different brightness in the middle of the hologram, with a constant or random phase.
 Field object_of(const Case& of) {
     Field field(of.grid);
     const Grid& plane = of.grid.plane;
@@ -74,7 +74,7 @@ Field object_of(const Case& of) {
     return field;
 }
 
-// Light of an object behind a hologram goes forward to it.
+// Propagates the object's light forward to the hologram.
 Field hologram_of(const Case& of) {
     Field field = object_of(of);
     filter(field, [&](double fx, double fy) {
@@ -96,13 +96,13 @@ FocusSearch search_near(const Fields& fields, const Case& of, double around = 60
     return find_focus(fields, options);
 }
 
-// The error of the clearest plane, in depths of focus of the object's light.
+// Returns the error of the clearest plane, in depths of focus of the object's light.
 double error_of(const FocusSearch& search, const Case& of) {
     if (search.planes.empty()) return std::numeric_limits<double>::infinity();
     return (search.planes.front().depth - of.depth()) / of.depth_of_focus() * of.band * of.band;
 }
 
-// Which case of every kind was taken is not what the measures were chosen by.
+// The combinations of cases differ from those with which the thresholds were tuned.
 TEST(Planes, of_smooth_and_rough_objects_are_found_within_a_depth_of_focus) {
     const FieldGrid grids[] = {grid_of(180, 224, 5_um, 450_nm), grid_of(240, 192, 10.8_um, 1064_nm),
                                grid_of(144, 150, 2_um, 633_nm)};
@@ -118,13 +118,13 @@ TEST(Planes, of_smooth_and_rough_objects_are_found_within_a_depth_of_focus) {
                 EXPECT_LT(std::abs(error_of(search, of)), 1)
                     << (surface == Surface::smooth ? "smooth" : "rough") << " at " << of.depth() << ", band " << band
                     << ", seed " << of.seed;
-                // Nine tenths of the amplitudes are within less than the band, and no light is outside of it.
+                // Nine tenths of the amplitudes are in less than the band, and there is no light outside the band.
                 EXPECT_GT(search.light_depth_of_focus * band * band, search.depth_of_focus);
                 EXPECT_LT(search.light_depth_of_focus * band * band, 2.5 * search.depth_of_focus);
             }
 }
 
-// Without a range as far as the samples and the size of a field resolve alike, through depth 0.
+// Without a range, searches up to the depths at which pitch and size limit the resolution equally, on both sides.
 TEST(Planes, of_unknown_depth_are_found) {
     for (const Surface surface : {Surface::smooth, Surface::rough})
         for (const double depths : {23.6, -31.1}) {
@@ -133,13 +133,13 @@ TEST(Planes, of_unknown_depth_are_found) {
         }
 }
 
-// Beyond that the depth of focus grows; nothing in the first range stands out as the object does.
+// Beyond this range the depth of focus grows. No plane in the first range is as clear as the object.
 TEST(Planes, beyond_the_first_range_are_found) {
     const Grid window{128, 128, 4_um, 4_um, 0, 0};
     const double first = 128 * 4e-6 * 4e-6 / 532e-9;
     for (const Surface surface : {Surface::smooth, Surface::rough})
         for (const double depth : {1.6 * first, -3.1 * first}) {
-            // The light of a wide plane, of which the hologram has the middle.
+            // A wide plane; the hologram records the central part of its light.
             Case of{grid_of(256, 256, 4_um, 532_nm), 0, surface, 0.4, 6};
             of.depths = depth / of.depth_of_focus();
             const Field wide = hologram_of(of);
@@ -148,13 +148,13 @@ TEST(Planes, beyond_the_first_range_are_found) {
             const FocusSearch search = find_focus(field);
             ASSERT_FALSE(search.planes.empty()) << depth;
             EXPECT_GT(search.planes.front().prominence, 1) << depth;
-            // What the hologram has of the object's light is in focus over a tenth of the depth.
+            // The recorded part of the light is in focus over a tenth of the depth.
             EXPECT_NEAR(search.planes.front().depth, depth, 0.15 * std::abs(depth));
             EXPECT_GT(search.depths.back(), std::abs(depth));
         }
 }
 
-// The order of an off-axis recording is cut out; its light has few frequencies.
+// The selected order of an off-axis recording has few frequencies.
 TEST(Planes, of_off_axis_recordings_are_found) {
     const double frequency = 0.31;
     for (const Surface surface : {Surface::smooth, Surface::rough})
@@ -175,7 +175,7 @@ TEST(Planes, of_off_axis_recordings_are_found) {
         }
 }
 
-// The twin of an in-line recording is as far on the other side.
+// The twin image of an in-line recording is at the same distance on the other side.
 TEST(Planes, of_in_line_recordings_are_found_on_either_side) {
     const Case of{grid_of(224, 224, 3.45_um, 532_nm), 33.3, Surface::smooth, 1, 9};
     Field field = hologram_of(of);
@@ -190,7 +190,7 @@ TEST(Planes, of_in_line_recordings_are_found_on_either_side) {
     EXPECT_NEAR(std::abs(search.planes.front().depth), of.depth(), of.depth_of_focus());
 }
 
-// The colours of one object, each on samples of its own, say together where it is; one that shows nothing does no harm.
+// Combines the colours of one object, each with its own sampling. A colour without content does no harm.
 TEST(Planes, of_several_colours_are_those_of_one_object) {
     for (const Surface surface : {Surface::smooth, Surface::rough}) {
         const double depth = 2.1_mm;
@@ -211,7 +211,7 @@ TEST(Planes, of_several_colours_are_those_of_one_object) {
     EXPECT_THROW(find_focus(Fields{}), Error);
 }
 
-// What is wider than max_side is looked at in parts, all of the region and nothing else.
+// A region wider than max_side is searched in parts that cover exactly the region.
 TEST(Planes, are_found_in_parts_of_a_field) {
     const Case of{grid_of(300, 260, 4_um, 532_nm), 9.4, Surface::smooth, 1, 2};
     const Field field = hologram_of(of);
@@ -225,7 +225,7 @@ TEST(Planes, are_found_in_parts_of_a_field) {
     EXPECT_EQ(focus_region(field.grid(), options), (Region{0, 0, 300, 260}));
     const FocusSearch parts = find_focus(field, options);
     EXPECT_LT(std::abs(error_of(parts, of)), 1);
-    // Squares of one sample of a plane wave's worth: the contrast at depth 0 is that of the field itself.
+    // At depth 0 the contrast of one-sample squares is that of the field itself.
     options.from = 0;
     options.to = 1_um;
     options.planes = 8;

@@ -41,8 +41,8 @@ Field noise(const Grid& plane, double wavelength, unsigned seed = 3) {
     });
 }
 
-// Wave packets with random places and directions. Their width of six samples leaves nothing at the edges of the field
-// or of the band.
+// Wave packets with random positions and directions. With a width of six samples they vanish at the borders of field
+// and band.
 Field packets(const Grid& plane, double wavelength, unsigned seed = 5) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> uniform(-1, 1);
@@ -93,7 +93,7 @@ double difference(const Field& a, const Field& b) {
     });
 }
 
-// The relative error at some samples of the output, the corners among them.
+// Returns the relative error at some output samples, including the corners.
 template <class Sum>
 double error_against(const Sum& sum, const Field& field, double distance, const Field& there) {
     const Grid& plane = there.grid().plane;
@@ -121,13 +121,13 @@ Field at(const Field& field, double distance, const Grid& output) {
     return hogel::propagate(field, distance, options);
 }
 
-// At a distance where light at the edge of the band travels so many widths of the field sideways.
+// Returns the distance at which light at the band edge has a sideways path of this number of field widths.
 double distance_of(double widths, const Grid& plane, double wavelength) {
     const double sine = std::min(0.9, 0.5 * wavelength / plane.pitch_x);
     return widths * plane.size_x() * std::sqrt(1 - sine * sine) / sine;
 }
 
-// White noise has as much light at the edge of the band as anywhere, which is the hardest field.
+// White noise, with full amplitude at the band edge, is the hardest field.
 TEST(PropagateNear, noise_equals_the_sum_of_its_plane_waves) {
     for (const auto& [wavelength, pitch] :
          {std::pair(450_nm, 1_um), std::pair(650_nm, 4_um), std::pair(650_nm, 0.5_um)})
@@ -143,7 +143,7 @@ TEST(PropagateNear, noise_equals_the_sum_of_its_plane_waves) {
         }
 }
 
-// Where the edge of the band has passed the output by, its light is as little there as that of spherical waves.
+// Beyond the sideways path of the band edge the light is as weak as that of spherical waves.
 TEST(PropagateNear, noise_equals_the_sum_of_spherical_waves_beyond_the_edge_of_its_band) {
     for (const double pitch : {1_um, 4_um})
         for (const double widths : {2.5, -4.0, 20.0}) {
@@ -155,7 +155,7 @@ TEST(PropagateNear, noise_equals_the_sum_of_spherical_waves_beyond_the_edge_of_i
         }
 }
 
-// With samples finer than half a wavelength the band has evanescent waves and grazing ones.
+// Samples finer than half a wavelength give evanescent and grazing waves.
 TEST(PropagateNear, fine_samples_equal_the_sum_of_their_plane_waves) {
     for (const double pitch : {0.25_um})
         for (const double z : {0_um, 0.4_um, 3_um, -12_um}) {
@@ -168,18 +168,18 @@ TEST(PropagateNear, fine_samples_equal_the_sum_of_their_plane_waves) {
         }
 }
 
-// Every distance with every wavelength, every size with every distance.
+// Combines every distance with every wavelength and every size.
 TEST(PropagateFar, every_size_distance_and_wavelength_equals_the_sum_of_spherical_waves) {
     const std::array wavelengths{450_nm, 532_nm, 650_nm};
     std::size_t n = 0;
     for (const double size : {0.1_mm, 0.5_mm, 2_mm, 20_mm}) {
-        ++n;  // six distances are a multiple of the wavelengths
+        ++n;  // so that distances cycle through all wavelengths
         for (const double z : {0_mm, 1_mm, 20_mm, -200_mm, 1_m, 10_m}) {
             const double wavelength = wavelengths[n++ % wavelengths.size()];
             const Grid plane{60, 54, size / 60, size / 60, 0, 0};
             const Field field = packets(plane, wavelength);
             const double aside = 0.5 * wavelength / plane.pitch_x * std::abs(z);
-            // The copies, whose packets begin 1.4 times the band's path from the axis, are outside.
+            // The aliases begin at 1.4 times the sideways path of the band edge, outside the output.
             if (aside > 2 * size) {
                 EXPECT_LT(error_against(sum_of_spherical_waves, field, z, hogel::propagate(field, z)), 1e-3)
                     << size << ' ' << z << ' ' << wavelength;
@@ -292,7 +292,7 @@ TEST(PropagateFar, a_round_opening_makes_airys_pattern) {
               1.5e-3);
 }
 
-// Energy is kept where the output holds all light; back again is the field, there and back in any windows.
+// The energy is conserved if the output contains all light; propagation back restores the field, for any windows.
 TEST(Propagate, there_and_back_through_a_window_that_holds_all_light) {
     const Grid plane{128, 120, 2_um, 2_um, 0, 0};
     const double wavelength = 532_nm;
@@ -316,7 +316,7 @@ TEST(Propagate, there_and_back_through_a_window_that_holds_all_light) {
     }
 }
 
-// The light that a sample a sends to b is what b sends to a.
+// The light from sample a to b equals that from b to a.
 TEST(Propagate, is_reciprocal) {
     const Grid plane{90, 70, 1_um, 1.5_um, 0, 0}, other{60, 64, 2_um, 1_um, 25_um, -40_um};
     for (const double z : {5_mm, 30_mm, 2_m}) {
@@ -357,7 +357,7 @@ TEST(Propagate, tiles_equal_single_points) {
     EXPECT_LT(error_against(sum_of_spherical_waves, field, 1_m, at(field, 1_m, output)), 1e-3);
 }
 
-// The cone of light from 64 samples of 1 um is 0.6 mm wide there; the output, of 4 mm, is dark beside it.
+// The light cone of 64 samples of 1 um is 0.6 mm wide; the output of 4 mm is dark outside.
 TEST(Propagate, a_window_wider_than_the_cone_of_light_is_dark_beside_it) {
     const Field field = packets({64, 60, 1_um, 1_um, 0, 0}, 532_nm);
     const Grid output{500, 400, 8_um, 8_um, 10_um, 0};
@@ -372,7 +372,7 @@ TEST(Propagate, a_window_wider_than_the_cone_of_light_is_dark_beside_it) {
     EXPECT_LT(difference(at(field, 1_mm, part(output, {200, 150, 100, 100})), there), 1e-3);
     // Samples of 8 um are finer than the interference of light of a field of 64 um.
     EXPECT_NEAR(energy(there) / energy(field), 1, 1e-2);
-    // Outside of it on one side alone, and so far that tiles are dark.
+    // The output is outside the cone on one side, and so far away that whole tiles are dark.
     Grid aside = output;
     aside.center_x = 2_mm;
     EXPECT_LT(difference(at(field, 1_mm, part(aside, {0, 150, 40, 100})), at(field, 1_mm, aside)), 1e-3);
@@ -405,7 +405,7 @@ TEST(Propagate, is_the_same_for_any_number_of_threads_and_in_a_file) {
     EXPECT_TRUE(std::ranges::equal(all.samples.elements(), in_file.samples.elements()));
 }
 
-// A sink that was interrupted after some writes, and had some of them before.
+// A sink that fails after some writes, and already has some regions.
 class Interrupted final : public FieldSink {
   public:
     Interrupted(Field& field, std::vector<Region>& had, std::size_t writes)
@@ -447,7 +447,7 @@ TEST(Propagate, goes_on_where_a_sink_was_interrupted) {
     }
     run(field, SIZE_MAX);
     EXPECT_TRUE(std::ranges::equal(result.samples.elements(), whole.samples.elements()));
-    // What is complete is not computed again: of a field that cannot be read.
+    // Complete regions are not computed again: the field cannot be read.
     class Unreadable final : public FieldSource {
       public:
         explicit Unreadable(const FieldGrid& grid) : grid_(grid) {}
@@ -516,7 +516,7 @@ TEST(Propagate, refuses_what_it_cannot_do) {
     PropagateOptions small;
     small.scratch = {100, {}};
     EXPECT_THROW(hogel::propagate(field, 1_mm, small), Error);
-    // Samples much finer than the wavelength, of noise: light along the plane.
+    // Noise on samples much finer than the wavelength: light nearly parallel to the plane.
     const Field fine = noise({64, 64, 0.1_um, 0.1_um, 0, 0}, 532_nm);
     EXPECT_THROW(hogel::propagate(fine, 0.05_um), Error);
     PropagateOptions any;
