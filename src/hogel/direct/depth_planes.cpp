@@ -20,14 +20,13 @@ std::vector<Slice> slices_of(const ShadedScene& scene, std::size_t count) {
             near = std::min(near, -scene.positions[vertex].z);
             far = std::max(far, -scene.positions[vertex].z);
         }
-    // A flat scene becomes one plane at its own depth.
     const double margin = 1e-6 * std::max(std::abs(near), std::abs(far)) + 1e-9;
     if (far - near < margin) return {{near - margin, far + margin}};
     std::vector<Slice> slices;
     const double step = (far - near) / static_cast<double>(count);
     for (std::size_t i = 0; i < count; ++i)
         slices.push_back({near + step * static_cast<double>(i), near + step * static_cast<double>(i + 1)});
-    // Rounding must not exclude surfaces exactly at the ends.
+    // The margin keeps surfaces at the ends despite rounding.
     slices.front().near -= margin;
     slices.back().far += margin;
     return slices;
@@ -38,7 +37,7 @@ SliceDrawing::Drawn SliceDrawing::draw(const Slice& slice, const Grid& plane, do
     Drawn drawn{Array<std::complex<float>, 2>({plane.height, plane.width}),
                 Array<float, 2>({plane.height, plane.width})};
     const double scale = wavelength / std::sqrt(plane.pitch_x * plane.pitch_y);
-    const auto number = static_cast<std::uint32_t>(std::lround(1e9 * std::abs(slice.depth())));
+    const auto slice_key = static_cast<std::uint32_t>(std::lround(1e9 * std::abs(slice.depth())));
     std::atomic<bool> empty = true;
     work::parallel_for(plane.height, [&](std::size_t row) {
         bool row_is_empty = true;
@@ -50,7 +49,7 @@ SliceDrawing::Drawn SliceDrawing::draw(const Slice& slice, const Grid& plane, do
                 radiance_at(scene_, hit.triangle, 1 - hit.b1 - hit.b2, hit.b1, hit.b2, {{0, 0, 1}, plane.pitch_x});
             const float radiance = options.channel == 0 ? colour.r : options.channel == 1 ? colour.g : colour.b;
             const double cycles =
-                random_cycles(options, static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row), number);
+                random_cycles(options, static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row), slice_key);
             row_is_empty = false;
             drawn.solid(row, column) = 1;
             drawn.light(row, column) = std::complex<float>(

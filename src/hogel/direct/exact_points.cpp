@@ -43,28 +43,28 @@ void ExactSums::add_visible(const ScenePoint& point, const Visibility& visibilit
     std::array<Vec3, tile_side> directions;
     std::array<bool, tile_side> hidden;
     for (std::size_t row = 0; row < region_.height; ++row) {
-        const SampleRow places = row_of(row);
+        const SampleRow samples = row_of(row);
         bool active = false;
         for (std::size_t i = 0; i < tile_side; ++i) {
             const Passage ray =
-                unlimited_passage(point.position, {places.x + static_cast<double>(i) * places.pitch, places.y, 0});
+                unlimited_passage(point.position, {samples.x + static_cast<double>(i) * samples.pitch, samples.y, 0});
             directions[i] = ray.direction;
             active = active || !too_steep(ray, grid_);
         }
         if (!active) continue;
         visibility.hide(point.surface, directions, hidden);
-        add_wave(point, grid_, places, hidden.data(), real_[row].data(), imaginary_[row].data());
+        add_wave(point, grid_, samples, hidden.data(), real_[row].data(), imaginary_[row].data());
     }
 }
 
-// [K] (3.5): no occlusion.
+// Without occlusion, [K] (3.5).
 Field exact_points(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                    const Progress& progress) {
     const core::StopScope scope(progress);
     return sum_exactly(surface_points(scene, grid, options), grid, progress, add_all);
 }
 
-// [K] (3.6): visibility by one ray for each point and sample.
+// With occlusion by one ray for each point and sample, [K] (3.6).
 Field exact_visible_points(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                            const Progress& progress) {
     const core::StopScope scope(progress);
@@ -73,7 +73,7 @@ Field exact_visible_points(const ShadedScene& scene, const FieldGrid& grid, cons
                        [&](ExactSums& sums, const ScenePoint& point) { sums.add_visible(point, visibility); });
 }
 
-// Surfaces are replaced by points along their edges, without occlusion. Source: Waters 1966.
+// Replaces surfaces by points along their edges, without occlusion. Source: Waters 1966.
 Field points_along_edges(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                          const Progress& progress) {
     const core::StopScope scope(progress);

@@ -20,7 +20,7 @@ struct Entry {
 };
 
 const std::array<Entry, entries>& table() {
-    static const auto made = [] {
+    static const auto entries_by_step = [] {
         std::array<Entry, entries> all;
         for (int i = 0; i < entries; ++i) {
             const double w = static_cast<double>(i) / steps_per_unit;
@@ -29,7 +29,7 @@ const std::array<Entry, entries>& table() {
         }
         return all;
     }();
-    return made;
+    return entries_by_step;
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ std::complex<double> fresnel_integral(double w) {
     const double x = std::abs(w);
     DoubleComplex value;
     if (x < table_end - 1.0 / steps_per_unit) {
-        const double at = x * steps_per_unit, floor = std::floor(at), t = at - floor;
+        const double position = x * steps_per_unit, floor = std::floor(position), t = position - floor;
         const Entry* const entry = &table()[static_cast<std::size_t>(floor)];
         const DoubleComplex rise = entry[1].value - entry[0].value;
         // Cubic Hermite interpolation from two values and slopes.

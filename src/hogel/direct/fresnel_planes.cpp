@@ -19,18 +19,18 @@ using Complex = std::complex<float>;
 
 Complex unit(double cycles) { return Complex(std::polar(1.0, 2 * std::numbers::pi * (cycles - std::round(cycles)))); }
 
-// [K] (3.13): propagates the field of a plane at depth R to the hologram by one Fourier transform, which fixes the
-// plane's pitch δ = λ|R|/(nΔ). If `far`, [K] (3.10), which omits the quadratic phase over the object.
+// Propagates the field of a plane at depth R to the hologram by one Fourier transform, [K] (3.13). The transform fixes
+// the plane's pitch, δ = λ|R|/(nΔ). `far` omits the quadratic phase over the object, [K] (3.10).
 class PlaneTransform {
   public:
     PlaneTransform(const FieldGrid& hologram, double depth, bool far)
         : hologram_(hologram), depth_(depth), far_(far), fft_(hologram.plane.height, hologram.plane.width) {
         const Grid& plane = hologram.plane;
-        const double reach = hologram.wavelength * std::abs(depth);
+        const double lambda_r = hologram.wavelength * std::abs(depth);
         object_ = {plane.width,
                    plane.height,
-                   reach / (static_cast<double>(plane.width) * plane.pitch_x),
-                   reach / (static_cast<double>(plane.height) * plane.pitch_y),
+                   lambda_r / (static_cast<double>(plane.width) * plane.pitch_x),
+                   lambda_r / (static_cast<double>(plane.height) * plane.pitch_y),
                    plane.center_x,
                    plane.center_y};
     }
@@ -39,8 +39,7 @@ class PlaneTransform {
     void add(View<Complex, 2> light, View<Complex, 2> field) const {
         const Grid& plane = hologram_.plane;
         const double sign = depth_ > 0 ? 1 : -1, k = 1 / hologram_.wavelength;
-        // x_s x_h/λ|R| = (m − c)(n − c)/N with c = (N−1)/2, so these phases are needed in addition to the m n/N of the
-        // transform.
+        // x_s x_h/λ|R| = (m − c)(n − c)/N with c = (N−1)/2. These phases come on top of the transform's m n/N.
         const auto shift = [](double index, std::size_t count) {
             const double n = static_cast<double>(count), c = 0.5 * (n - 1);
             return (c * index - 0.5 * c * c) / n;
@@ -76,31 +75,31 @@ class PlaneTransform {
     math::Fft2 fft_;
 };
 
-// The largest distances of a scene's vertices from the hologram's middle: in x, in y, and radially.
-struct Reach {
+// Largest distances of a slice's vertices from the hologram's middle, metres: in x, in y, and radially.
+struct SliceExtent {
     double x = 0, y = 0, corner = 0;
 };
-Reach reach_of(const ShadedScene& scene, const Grid& plane, const Slice& slice) {
-    Reach reach;
+SliceExtent extent_of(const ShadedScene& scene, const Grid& plane, const Slice& slice) {
+    SliceExtent extent;
     for (const ShadedScene::Triangle& triangle : scene.triangles)
         for (const std::uint32_t vertex : triangle.vertices) {
             const Vec3& p = scene.positions[vertex];
             if (-p.z < slice.near || -p.z > slice.far) continue;
             const double x = std::abs(p.x - plane.center_x), y = std::abs(p.y - plane.center_y);
-            reach = {std::max(reach.x, x), std::max(reach.y, y), std::max(reach.corner, std::hypot(x, y))};
+            extent = {std::max(extent.x, x), std::max(extent.y, y), std::max(extent.corner, std::hypot(x, y))};
         }
-    return reach;
+    return extent;
 }
 
-// The transform's plane is periodic with λR/Δ, so a wider scene would overlap its copies.
-void require_fit(const Reach& reach, const Grid& object, double depth) {
-    const double wider = std::max(2 * reach.x / object.size_x(), 2 * reach.y / object.size_y());
+// The transform's plane is periodic with λR/Δ: a wider scene would overlap its copies.
+void require_fit(const SliceExtent& extent, const Grid& object, double depth) {
+    const double wider = std::max(2 * extent.x / object.size_x(), 2 * extent.y / object.size_y());
     if (wider <= 1) return;
     throw Error(ErrorCode::usage, "method",
-                fmt::format("a plane at a depth of {} has room for {}x{}, and the scene is {}x{} there; expected a "
-                            "depth of {} or more, or a pitch {:.2g} times finer",
+                fmt::format("a plane at a depth of {} covers at most {}x{}, but the scene there covers {}x{}; "
+                            "expected a depth of {} or more, or a pitch {:.2g} times finer",
                             format_length(std::abs(depth)), format_length(object.size_x()),
-                            format_length(object.size_y()), format_length(2 * reach.x), format_length(2 * reach.y),
+                            format_length(object.size_y()), format_length(2 * extent.x), format_length(2 * extent.y),
                             format_length(std::abs(depth) * wider), wider));
 }
 
@@ -111,14 +110,13 @@ Field add_planes(const ShadedScene& scene, const FieldGrid& grid, const std::vec
     const SliceDrawing drawing(scene);
     for (std::size_t i = 0; i < slices.size(); ++i) {
         progress.report(static_cast<double>(i) / static_cast<double>(slices.size()));
-        // The method needs a distance over which to propagate.
         const double depth = slices[i].depth();
         if (std::abs(depth) < nearest_depth(grid))
             throw Error(ErrorCode::usage, "method",
-                        fmt::format("a plane of the scene lies on the hologram; expected at least {} between them",
+                        fmt::format("a plane of the scene lies on the hologram; expected a distance of at least {}",
                                     format_length(nearest_depth(grid))));
         const PlaneTransform transform(grid, depth, far);
-        require_fit(reach_of(scene, grid.plane, slices[i]), transform.object(), depth);
+        require_fit(extent_of(scene, grid.plane, slices[i]), transform.object(), depth);
         SliceDrawing::Drawn drawn = drawing.draw(slices[i], transform.object(), grid.wavelength, options);
         if (!drawn.empty) transform.add(drawn.light, field.samples);
     }
@@ -128,20 +126,19 @@ Field add_planes(const ShadedScene& scene, const FieldGrid& grid, const std::vec
 
 }  // namespace
 
-// The sum of depth planes without occlusion ([K] fig. 3.7).
+// Adds depth planes without occlusion, [K] fig. 3.7.
 Field fresnel_planes(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                      const Progress& progress) {
     const core::StopScope scope(progress);
     return add_planes(scene, grid, slices_of(scene, options.planes), false, options, progress);
 }
 
-// One plane, so far away or so small that the quadratic phase over it is negligible, here below an eighth of a
-// wavelength: [K] (3.7).
+// One plane, far or small enough to neglect the quadratic phase over it (below λ/8): [K] (3.7).
 Field fraunhofer_plane(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                        const Progress& progress) {
     const core::StopScope scope(progress);
     const std::vector<Slice> slices = slices_of(scene, 1);
-    const double corner = reach_of(scene, grid.plane, slices[0]).corner;
+    const double corner = extent_of(scene, grid.plane, slices[0]).corner;
     const double needed = 4 * corner * corner / grid.wavelength;
     if (std::abs(slices[0].depth()) < needed)
         throw Error(ErrorCode::usage, "method",

@@ -10,10 +10,10 @@
 
 namespace hogel::direct {
 
-// Horizontal parallax only, [K] 3.5: the hologram is cut into lines as high as the points' spacing, and each gets the
-// light of the slice of the scene at its own height alone. A line is the same along its
-// height Ξ, so its light fans out vertically over about λ/Ξ, as sinc². In the middle, a point of width w shows its
-// radiance L if its wave in the line has a² = L λ w/Ξ at unit distance and falls off as 1/√r.
+// Horizontal parallax only, [K] 3.5. The hologram is cut into lines as high as the points' spacing; each receives only
+// the light of points at its height. A line is constant over its height Ξ, so its light spreads vertically over about
+// λ/Ξ, as sinc². At its middle a point of width w has radiance L if its wave has a² = L λ w/Ξ at unit distance and
+// decays as 1/√r.
 Field horizontal_lines(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                        const Progress& progress) {
     const core::StopScope scope(progress);
@@ -35,8 +35,8 @@ Field horizontal_lines(const ShadedScene& scene, const FieldGrid& grid, const Sc
             core::throw_if_stopped();
             std::complex<double> sum = 0;
             for (const ScenePoint& point : slices[line]) {
-                const Vec3 place{grid.plane.x(static_cast<double>(column)), point.position.y, 0};
-                const auto ray = passage(point.position, place, grid);
+                const Vec3 sample{grid.plane.x(static_cast<double>(column)), point.position.y, 0};
+                const auto ray = passage(point.position, sample, grid);
                 if (!ray || !visibility.is_visible(point.surface, ray->direction)) continue;
                 const double cycles = ray->path / grid.wavelength + point.cycles;
                 sum += std::polar(modulus(point, *ray) * std::sqrt(grid.wavelength * std::abs(ray->path)) / height,

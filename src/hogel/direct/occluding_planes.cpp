@@ -9,11 +9,10 @@
 
 namespace hogel::direct {
 
-// Processes depth planes from the farthest to the nearest: the light of those behind is propagated to each plane by the
-// angular spectrum, blocked where the plane is solid, and the light of the plane is added. Source: Ichioka, Izumi and
-// Suzuki, "Scanning halftone plotter and computer-generated continuous-tone hologram", Applied Optics 10, 1971, as
-// described in [K] 3.4.2; with the angular spectrum in place of (3.13) it holds at any distance, also in front of the
-// hologram.
+// Back to front: propagates the light of the planes behind by the angular spectrum, blocks it where a plane is solid,
+// and adds the plane's light. Source: Ichioka, Izumi and Suzuki, "Scanning halftone plotter and computer-generated
+// continuous-tone hologram", Applied Optics 10, 1971, as described in [K] 3.4.2. In place of (3.13), the angular
+// spectrum is valid at any distance, also in front of the hologram.
 Field occluding_planes(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                        const Progress& progress) {
     const core::StopScope scope(progress);

@@ -7,8 +7,8 @@
 
 namespace hogel::direct {
 
-/// The field on a plane `distance` farther on, whatever light it has at grazing directions: holograms from scenes are
-/// made of surfaces with random phases, which shine into all directions that their samples have.
+/// Propagates a field by `distance` metres without a limit on the light at grazing directions: scene surfaces with
+/// random phases emit into all directions that their samples resolve.
 inline Field onward(const Field& field, double distance) {
     PropagateOptions options;
     options.max_error = std::numeric_limits<double>::infinity();

@@ -14,7 +14,7 @@
 namespace hogel::direct {
 namespace {
 
-// A polygon seen from closer to its plane than this cosine counts as seen edge-on.
+// Polygons with a smaller cosine between normal and axis count as edge-on and are invisible.
 constexpr double min_cosine = 0.02;
 
 // The triangles of one mesh that lie in one plane.
@@ -27,7 +27,7 @@ struct Polygon {
 std::vector<Polygon> polygons_of(const ShadedScene& scene) {
     double size = 0;
     for (const Vec3& p : scene.positions) size = std::max(size, length(p));
-    std::map<std::tuple<std::uint32_t, long, long, long>, Polygon> found;
+    std::map<std::tuple<std::uint32_t, long, long, long>, Polygon> by_plane;
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         const ShadedScene::Triangle& triangle = scene.triangles[i];
         const Vec3 a = scene.positions[triangle.vertices[0]], b = scene.positions[triangle.vertices[1]],
@@ -35,25 +35,23 @@ std::vector<Polygon> polygons_of(const ShadedScene& scene) {
         const Vec3 across = cross(b - a, c - a);
         if (!(length(across) > 0)) continue;
         const Vec3 normal = std::copysign(1 / length(across), across.z) * across;
-        // A polygon seen edge-on is invisible.
         if (normal.z < min_cosine) continue;
         const auto step = [](double x) { return std::lround(1e4 * x); };
-        Polygon& polygon = found[{triangle.mesh, step(normal.x), step(normal.y), step(dot(normal, a) / size)}];
+        Polygon& polygon = by_plane[{triangle.mesh, step(normal.x), step(normal.y), step(dot(normal, a) / size)}];
         polygon.triangles.push_back(i);
         polygon.normal = normal;
         polygon.middle += (a + b + c) / 3;
     }
     std::vector<Polygon> polygons;
-    for (auto& [key, polygon] : found) {
+    for (auto& [key, polygon] : by_plane) {
         polygon.middle = polygon.middle / static_cast<double>(polygon.triangles.size());
         polygons.push_back(std::move(polygon));
     }
-    // The farthest first.
-    std::ranges::stable_sort(polygons, {}, [](const Polygon& polygon) { return polygon.middle.z; });
+    std::ranges::stable_sort(polygons, {}, [](const Polygon& polygon) { return polygon.middle.z; });  // farthest first
     return polygons;
 }
 
-// Calls paint(column, row, b0, b1, b2) for the samples of a grid that lie in a triangle of that plane.
+// Calls paint(column, row, b0, b1, b2) for the grid samples inside a triangle, with barycentric coordinates b.
 void for_samples_inside(const std::array<Vec3, 3>& p, const Grid& grid,
                         const std::function<void(std::size_t, std::size_t, float, float, float)>& paint) {
     const double area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
@@ -79,8 +77,8 @@ void for_samples_inside(const std::array<Vec3, 3>& p, const Grid& grid,
         }
 }
 
-// Gives the waves of random samples, which have the same spectral density in all directions, that of a diffuse surface:
-// Lλ²/cos θ, with θ to the normal of its own plane (docs/notation.md, section 3).
+// Turns the waves of random samples, of equal spectral density in all directions, into those of a diffuse surface:
+// Lλ²/cos θ, θ to the plane's normal (docs/notation.md, section 3).
 void weigh_as_diffuse(optics::Spectrum& waves) {
     work::parallel_for(waves.height(), [&](std::size_t row) {
         const double sine_y = waves.wavelength * waves.frequency_y(static_cast<double>(row));
@@ -92,8 +90,8 @@ void weigh_as_diffuse(optics::Spectrum& waves) {
     });
 }
 
-// The light of a polygon on planes parallel to the hologram. Its surface, with random phases, is sampled on its own
-// plane; its plane waves are rotated to the hologram's axes and propagated to the requested plane. Sources: Leseberg
+// Field of a polygon on planes parallel to the hologram. The surface, with random phases, is sampled on the polygon's
+// plane. Its plane waves are rotated to the hologram's axes and propagated to the requested plane. Sources: Leseberg
 // and Frère, "Computer-generated holograms of 3-D objects composed of tilted planar segments", Applied Optics 27, 1988;
 // for any distance Tommasi and Bianco, JOSA A 10, 1993; [K] 6.1.
 class PolygonLight {
@@ -107,7 +105,7 @@ class PolygonLight {
         const double size_x = plane.size_x() + 2 * std::abs(polygon.middle.x - plane.center_x),
                      size_y = plane.size_y() + 2 * std::abs(polygon.middle.y - plane.center_y);
         Grid window = optics::padded(plane, 2.5 * size_x - plane.size_x(), 2.5 * size_y - plane.size_y());
-        // Aligns coordinates on the polygon's plane with samples of the field.
+        // Aligns the polygon's origin with the samples of the field.
         const auto aligned = [](double from, double to, double pitch, std::size_t a, std::size_t b) {
             const double half = (a + b) % 2 == 0 ? 0 : 0.5;
             return from + pitch * (std::round((to - from) / pitch - half) + half);
@@ -119,17 +117,18 @@ class PolygonLight {
         window.center_x = origin.x;
         window.center_y = origin.y;
 
-        // The polygon's frame, with x as horizontal as possible.
+        // Axes of the polygon's plane, with x as horizontal as possible.
         const Vec3 x = normalize(Vec3{1, 0, 0} - n.x * n), y = cross(n, x);
         const optics::Wave surface = paint(polygon, origin, x, y);
-        const Grid& own = surface.grid().plane;
-        const optics::Band around{surface.carrier_x - 0.5 / own.pitch_x, surface.carrier_x + 0.5 / own.pitch_x,
-                                  surface.carrier_y - 0.5 / own.pitch_y, surface.carrier_y + 0.5 / own.pitch_y};
-        optics::Spectrum own_waves =
-            optics::spectrum_of(surface, optics::padded(own, own.size_x(), own.size_y()), around, in_memory_);
-        weigh_as_diffuse(own_waves);
-        optics::Spectrum waves =
-            optics::tilt(own_waves, {{x.x, y.x, n.x}, {x.y, y.y, n.y}}, window, optics::Band::of(plane), in_memory_);
+        const Grid& surface_plane = surface.grid().plane;
+        const optics::Band band{
+            surface.carrier_x - 0.5 / surface_plane.pitch_x, surface.carrier_x + 0.5 / surface_plane.pitch_x,
+            surface.carrier_y - 0.5 / surface_plane.pitch_y, surface.carrier_y + 0.5 / surface_plane.pitch_y};
+        optics::Spectrum surface_waves = optics::spectrum_of(
+            surface, optics::padded(surface_plane, surface_plane.size_x(), surface_plane.size_y()), band, in_memory_);
+        weigh_as_diffuse(surface_waves);
+        optics::Spectrum waves = optics::tilt(surface_waves, {{x.x, y.x, n.x}, {x.y, y.y, n.y}}, window,
+                                              optics::Band::of(plane), in_memory_);
         waves.window.center_x = origin.x;
         waves.window.center_y = origin.y;
         optics::propagate(waves, {-depth - origin.z, 0, 0, size_x, size_y, 0.5 * size_x, 0.5 * size_y});
@@ -158,35 +157,38 @@ class PolygonLight {
 
     optics::Wave paint(const Polygon& polygon, Vec3 origin, Vec3 x, Vec3 y) const {
         const auto local = [&](Vec3 p) { return Vec3{dot(p - origin, x), dot(p - origin, y), 0}; };
-        double reach_x = 0, reach_y = 0;
+        double half_x = 0, half_y = 0;
         for (const std::size_t triangle : polygon.triangles)
             for (const Vec3& p : corners(triangle)) {
-                reach_x = std::max(reach_x, std::abs(local(p).x));
-                reach_y = std::max(reach_y, std::abs(local(p).y));
+                half_x = std::max(half_x, std::abs(local(p).x));
+                half_y = std::max(half_y, std::abs(local(p).y));
             }
         const double pitch_x = grid_.plane.pitch_x, pitch_y = grid_.plane.pitch_y;
-        const auto samples = [](double reach, double pitch) {
-            return 2 * static_cast<std::size_t>(std::ceil(reach / pitch)) + 2;
+        const auto samples = [](double half, double pitch) {
+            return 2 * static_cast<std::size_t>(std::ceil(half / pitch)) + 2;
         };
-        const FieldGrid own{{samples(reach_x, pitch_x), samples(reach_y, pitch_y), pitch_x, pitch_y, 0, 0},
-                            grid_.wavelength};
-        optics::Wave surface(own, in_memory_);
-        // Only waves that travel towards the viewer are kept.
+        const FieldGrid surface_grid{{samples(half_x, pitch_x), samples(half_y, pitch_y), pitch_x, pitch_y, 0, 0},
+                                     grid_.wavelength};
+        optics::Wave surface(surface_grid, in_memory_);
+        // The carrier selects waves that travel towards the viewer.
         surface.carrier_x = x.z / grid_.wavelength;
         surface.carrier_y = y.z / grid_.wavelength;
         const double scale = grid_.wavelength / std::sqrt(pitch_x * pitch_y);
-        const auto number = static_cast<std::uint32_t>(polygon.triangles.front());
+        const auto polygon_key = static_cast<std::uint32_t>(polygon.triangles.front());
         for (const std::size_t triangle : polygon.triangles) {
             std::array<Vec3, 3> p = corners(triangle);
             for (Vec3& corner : p) corner = local(corner);
-            for_samples_inside(p, own.plane, [&](std::size_t column, std::size_t row, float b0, float b1, float b2) {
-                const Rgb colour = radiance_at(scene_, triangle, b0, b1, b2, {{0, 0, 1}, pitch_x});
-                const float radiance = options_.channel == 0 ? colour.r : options_.channel == 1 ? colour.g : colour.b;
-                const double cycles = random_cycles(options_, static_cast<std::uint32_t>(column),
-                                                    static_cast<std::uint32_t>(row), number ^ 0x80000000);
-                surface.samples.view()(row, column) = std::complex<float>(
-                    std::polar(scale * std::sqrt(std::max(radiance, 0.0f)), 2 * std::numbers::pi * cycles));
-            });
+            for_samples_inside(
+                p, surface_grid.plane, [&](std::size_t column, std::size_t row, float b0, float b1, float b2) {
+                    const Rgb colour = radiance_at(scene_, triangle, b0, b1, b2, {{0, 0, 1}, pitch_x});
+                    const float radiance = options_.channel == 0   ? colour.r
+                                           : options_.channel == 1 ? colour.g
+                                                                   : colour.b;
+                    const double cycles = random_cycles(options_, static_cast<std::uint32_t>(column),
+                                                        static_cast<std::uint32_t>(row), polygon_key ^ 0x80000000);
+                    surface.samples.view()(row, column) = std::complex<float>(
+                        std::polar(scale * std::sqrt(std::max(radiance, 0.0f)), 2 * std::numbers::pi * cycles));
+                });
         }
         return surface;
     }
@@ -214,7 +216,7 @@ Field tilted_polygons(const ShadedScene& scene, const FieldGrid& grid, const Sce
     return field;
 }
 
-// Each polygon blocks the light of those behind it within its silhouette, drawn on a plane through its middle.
+// Back to front: each polygon, drawn on a plane through its middle, blocks the light of those behind it.
 Field occluding_polygons(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                          const Progress& progress) {
     const core::StopScope scope(progress);
@@ -225,9 +227,9 @@ Field occluding_polygons(const ShadedScene& scene, const FieldGrid& grid, const 
     double depth = 0;
     for (std::size_t i = 0; i < polygons.size(); ++i) {
         progress.report(static_cast<double>(i) / static_cast<double>(polygons.size()));
-        const double here = -polygons[i].middle.z;
-        if (i > 0 && here != depth) field = onward(field, depth - here);
-        depth = here;
+        const double polygon_depth = -polygons[i].middle.z;
+        if (i > 0 && polygon_depth != depth) field = onward(field, depth - polygon_depth);
+        depth = polygon_depth;
         light.hide(polygons[i], field);
         light.add(polygons[i], depth, field);
     }

@@ -10,7 +10,7 @@ using namespace direct;
 
 namespace {
 
-// These methods know surfaces that are there or not, and no rays that pass.
+// Restricts methods to opaque scenes: they support neither masks nor blended surfaces.
 std::vector<SceneHologramMethod> of_opaque_scenes(std::vector<SceneHologramMethod> methods) {
     for (SceneHologramMethod& method : methods)
         method.make = [make = method.make, name = method.name](const ShadedScene& scene, const FieldGrid& grid,
@@ -37,15 +37,15 @@ Table<SceneHologramMethod>& scene_hologram_methods() {
             {"points-visible", "spherical waves of points, with occlusion by a ray for each point and sample",
              exact_visible_points, true},
             {"points-tiled", "points with occlusion, by tiles and a table", tiled_points, true},
-            {"points-hpo", "horizontal parallax only: lines of the hologram, each of its own height", horizontal_lines,
-             true},
+            {"points-hpo", "horizontal parallax only: each line of the hologram shows the points at its height",
+             horizontal_lines, true},
             {"edges", "points along edges, without occlusion", points_along_edges, true},
             {"segments", "edges as line segments, in closed form, without occlusion", line_sources, true},
-            {"fraunhofer", "one far plane, one transform", fraunhofer_plane},
+            {"fraunhofer", "one plane in the far field, one transform", fraunhofer_plane},
             {"fresnel", "depth planes, one transform each, without occlusion", fresnel_planes, false, true},
-            {"planes", "depth planes from back to front, each hiding those behind it", occluding_planes, false, true},
+            {"planes", "depth planes from back to front, with occlusion", occluding_planes, false, true},
             {"polygons", "tilted polygons, rotated in frequency space, without occlusion", tilted_polygons},
-            {"polygons-visible", "tilted polygons from back to front, each hiding those behind it", occluding_polygons},
+            {"polygons-visible", "tilted polygons from back to front, with occlusion", occluding_polygons},
         }),
         "method");
     return methods;

@@ -34,20 +34,18 @@ std::array<Vec3, 3> corners(const ShadedScene& scene, const ShadedScene::Triangl
             scene.positions[triangle.vertices[2]]};
 }
 
-// Each takes 88 bytes.
-constexpr double max_points = 1e8;
+constexpr double max_points = 1e8;  // of 88 bytes each
 
-[[noreturn]] void throw_too_many(double points, double spacing, double wider) {
+[[noreturn]] void throw_too_many(double points, double spacing, double sufficient) {
     throw Error(ErrorCode::usage, "spacing",
-                fmt::format("a spacing of {} makes {:.2g} points; expected at most {:.2g}, which a "
-                            "spacing of {} makes",
-                            format_length(spacing), points, max_points, format_length(wider)));
+                fmt::format("a spacing of {} makes {:.2g} points; expected at most {:.2g}, "
+                            "that is a spacing of at least {}",
+                            format_length(spacing), points, max_points, format_length(sufficient)));
 }
 
-// The parts into which an edge is cut.
 double parts_of(double length, double spacing) { return std::max(1.0, std::ceil(length / spacing)); }
 
-// Throws Error(usage) if surface_points() would be more than max_points.
+// Throws Error(usage) if surface_points() would make more than max_points.
 void require_few_points(const ShadedScene& scene, double spacing) {
     double count = 0;
     for (const ShadedScene::Triangle& triangle : scene.triangles) {
@@ -80,14 +78,14 @@ std::vector<ScenePoint> surface_points(const ShadedScene& scene, const FieldGrid
         const Vec3 across = cross(b - a, c - a);
         const double area = 0.5 * length(across);
         if (!(area > 0)) continue;
-        // The triangle is cut into n² triangles of the same shape, each with a point in its middle.
+        // Cuts the triangle into n² triangles of the same shape, each with a point in its middle.
         const double longest = std::max({length(b - a), length(c - b), length(a - c)});
         const auto n = static_cast<std::uint32_t>(parts_of(longest, options.spacing));
         const double cut = n;
         for (std::uint32_t row = 0; row < n; ++row) {
             core::throw_if_stopped();
             for (std::uint32_t column = 0; column < 2 * (n - row) - 1; ++column) {
-                // Triangles of even columns stand upright, those of odd columns upside down.
+                // Triangles of even columns stand upright, the others upside down.
                 const double third = column % 2 == 0 ? 1.0 / 3 : 2.0 / 3;
                 const std::uint32_t pair = column / 2;
                 const double u = (pair + third) / cut, v = (row + third) / cut;
@@ -96,8 +94,8 @@ std::vector<ScenePoint> surface_points(const ShadedScene& scene, const FieldGrid
                                            static_cast<float>(v), view_sample),
                                options.channel);
                 if (!(radiance > 0)) continue;
-                const Vec3 at = a + u * (b - a) + v * (c - a);
-                points.push_back({away_from_plane(at, nearest_depth(grid)), at, across / (2 * area),
+                const Vec3 position = a + u * (b - a) + v * (c - a);
+                points.push_back({away_from_plane(position, nearest_depth(grid)), position, across / (2 * area),
                                   static_cast<float>(std::sqrt(radiance * area)) / float(n),
                                   random_cycles(options, static_cast<std::uint32_t>(i), row, column)});
             }
@@ -107,16 +105,16 @@ std::vector<ScenePoint> surface_points(const ShadedScene& scene, const FieldGrid
 }
 
 std::vector<SceneEdge> scene_edges(const ShadedScene& scene, const SceneHologramOptions& options) {
-    // Vertices of different triangles may coincide.
-    std::map<std::tuple<double, double, double>, std::uint32_t> places;
-    const auto place = [&](Vec3 p) {
-        return places.try_emplace({p.x, p.y, p.z}, static_cast<std::uint32_t>(places.size())).first->second;
+    // Vertices of different triangles may coincide: maps each position to one index.
+    std::map<std::tuple<double, double, double>, std::uint32_t> indices;
+    const auto index_of = [&](Vec3 p) {
+        return indices.try_emplace({p.x, p.y, p.z}, static_cast<std::uint32_t>(indices.size())).first->second;
     };
     struct Side {
         std::size_t triangle;
         int edge;
         Vec3 normal;
-        bool plain;
+        bool smooth;
     };
     std::map<std::pair<std::uint32_t, std::uint32_t>, Side> sides;
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
@@ -124,16 +122,17 @@ std::vector<SceneEdge> scene_edges(const ShadedScene& scene, const SceneHologram
         const Vec3 across = cross(p[1] - p[0], p[2] - p[0]);
         if (!(length(across) > 0)) continue;
         for (int k = 0; k < 3; ++k) {
-            const std::uint32_t from = place(p[k]), to = place(p[(k + 1) % 3]);
-            const auto [at, first] = sides.try_emplace(std::minmax(from, to), Side{i, k, normalize(across), false});
-            if (first) continue;
-            at->second.plain = std::abs(dot(at->second.normal, normalize(across))) > crease_cosine &&
-                               scene.triangles[at->second.triangle].mesh == scene.triangles[i].mesh;
+            const std::uint32_t from = index_of(p[k]), to = index_of(p[(k + 1) % 3]);
+            const auto [entry, inserted] =
+                sides.try_emplace(std::minmax(from, to), Side{i, k, normalize(across), false});
+            if (inserted) continue;
+            entry->second.smooth = std::abs(dot(entry->second.normal, normalize(across))) > crease_cosine &&
+                                   scene.triangles[entry->second.triangle].mesh == scene.triangles[i].mesh;
         }
     }
     std::vector<SceneEdge> edges;
     for (const auto& [key, side] : sides) {
-        if (side.plain) continue;
+        if (side.smooth) continue;
         const std::array<Vec3, 3> p = corners(scene, scene.triangles[side.triangle]);
         std::array<float, 3> weights{0.5f, 0.5f, 0.5f};
         weights[static_cast<std::size_t>(side.edge + 2) % 3] = 0;
@@ -146,7 +145,7 @@ std::vector<SceneEdge> scene_edges(const ShadedScene& scene, const SceneHologram
 std::vector<ScenePoint> edge_points(const ShadedScene& scene, const FieldGrid& grid,
                                     const SceneHologramOptions& options) {
     std::vector<ScenePoint> points;
-    std::uint32_t number = 0;
+    std::uint32_t point_index = 0;
     const std::vector<SceneEdge> edges = scene_edges(scene, options);
     double count = 0;
     for (const SceneEdge& edge : edges) count += parts_of(length(edge.b - edge.a), options.spacing);
@@ -155,13 +154,13 @@ std::vector<ScenePoint> edge_points(const ShadedScene& scene, const FieldGrid& g
         core::throw_if_stopped();
         const double along = length(edge.b - edge.a), steps = std::max(1.0, std::round(along / options.spacing));
         for (double i = 0; i < steps; ++i) {
-            const Vec3 at = edge.a + (i + 0.5) / steps * (edge.b - edge.a);
+            const Vec3 position = edge.a + (i + 0.5) / steps * (edge.b - edge.a);
             const double area = along / steps * options.spacing;
-            points.push_back({away_from_plane(at, nearest_depth(grid)),
-                              at,
+            points.push_back({away_from_plane(position, nearest_depth(grid)),
+                              position,
                               {},
                               static_cast<float>(std::sqrt(edge.radiance * area)),
-                              random_cycles(options, number++, 0, 0xffffffff)});
+                              random_cycles(options, point_index++, 0, 0xffffffff)});
         }
     }
     return points;
@@ -173,7 +172,7 @@ double modulus(const ScenePoint& point, const Passage& passage) {
 }
 
 Visibility::Visibility(const ShadedScene& scene) {
-    core::require_part("Embree", "points that hide each other");
+    core::require_part("Embree", "occlusion between points");
     caster_ = shading::all_triangles(scene);
     Vec3 low, high;
     for (const Vec3& p : scene.positions) {
@@ -206,7 +205,7 @@ Field sum_over_tiles(const FieldGrid& grid, const Progress& progress,
 }
 
 Field sum_over_samples(const FieldGrid& grid, const Progress& progress,
-                       const std::function<std::complex<double>(Vec3 place)>& wave) {
+                       const std::function<std::complex<double>(Vec3 position)>& wave) {
     return sum_over_tiles(grid, progress, [&](const Region& region, View<std::complex<float>, 2> values) {
         for (std::size_t row = 0; row < region.height; ++row)
             for (std::size_t column = 0; column < region.width; ++column) {

@@ -11,74 +11,73 @@
 
 namespace hogel::direct {
 
-/// A luminous point of a scene.
 struct ScenePoint {
-    Vec3 position;    ///< the centre of its wave
-    Vec3 surface;     ///< the point of the surface: the same, unless it was moved away from the hologram plane
-    Vec3 normal;      ///< of the surface, whose light falls off with the cosine; zero: equal in all directions
-    float amplitude;  ///< √(L A) for an area A of radiance L
-    double cycles;    ///< its phase, [0, 1)
+    Vec3 position;    ///< centre of its wave
+    Vec3 surface;     ///< the surface point; differs from `position` if that was moved away from the hologram plane
+    Vec3 normal;      ///< of a diffuse surface (intensity ∝ cosine); zero: equal in all directions
+    float amplitude;  ///< √(L A), A the area of radiance L that the point represents
+    double cycles;    ///< phase, [0, 1)
 };
 
-/// Samples the triangles of a scene by points with random phases, at most `spacing` apart and at least one per
-/// triangle. Points nearer to the hologram plane than nearest_depth() are moved to that depth.
+/// Samples the triangles of a scene by points with random phases, at most `spacing` apart, at least one per triangle.
+/// Moves points nearer to the hologram plane than nearest_depth() to that depth.
 std::vector<ScenePoint> surface_points(const ShadedScene& scene, const FieldGrid& grid,
                                        const SceneHologramOptions& options);
 
-/// Lines along which surfaces end, meet at more than 30 degrees, or touch another mesh.
+/// Line along which a surface ends, creases by more than 30 degrees, or meets another mesh.
 struct SceneEdge {
     Vec3 a, b;
     float radiance;
 };
 std::vector<SceneEdge> scene_edges(const ShadedScene& scene, const SceneHologramOptions& options);
 
-/// Points along the edges of a scene, `spacing` apart, each of which represents an area of spacing².
+/// Samples the edges of a scene by points `spacing` apart, each for an area of spacing². Throws Error(usage), as
+/// surface_points() does, for more than 10⁸ points.
 std::vector<ScenePoint> edge_points(const ShadedScene& scene, const FieldGrid& grid,
                                     const SceneHologramOptions& options);
 
-/// The least depth of a point. Nearer points would have wrong brightness, because the zone of the hologram that the
-/// pitch can sample is only a few samples wide.
+/// Returns the minimum depth of a point, metres. The pitch samples a nearer point's wave too coarsely for its
+/// brightness.
 double nearest_depth(const FieldGrid& grid);
 
-/// A random number in [0, 1) that depends only on the arguments.
+/// Returns a random phase in [0, 1) that depends only on the arguments.
 double random_cycles(const SceneHologramOptions& options, std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
-/// The light of a point at a position on the hologram. It travels towards the viewer: away from a point behind the
-/// hologram, towards a point in front of it.
+/// Ray of a point at a position on the hologram, towards the viewer: away from a point behind the hologram, towards a
+/// point in front of it.
 struct Passage {
-    double path;     ///< metres travelled since the point; negative before it reaches the point
+    double path;     ///< signed path from the point, metres; negative before the light reaches the point
     Vec3 direction;  ///< unit length, towards the viewer
 };
 
-inline Passage unlimited_passage(Vec3 point, Vec3 place) {
-    const Vec3 path = point.z < 0 ? place - point : point - place;
+inline Passage unlimited_passage(Vec3 point, Vec3 position) {
+    const Vec3 path = point.z < 0 ? position - point : point - position;
     const double distance = length(path);
     return {point.z < 0 ? distance : -distance, (1 / distance) * path};
 }
 
-/// Whether the light is steeper than the hologram's pitch can sample.
+/// Returns whether the ray is steeper than the hologram's pitch can sample.
 inline bool too_steep(const Passage& passage, const FieldGrid& grid) {
     return std::abs(passage.direction.x) * 2 * grid.plane.pitch_x > grid.wavelength ||
            std::abs(passage.direction.y) * 2 * grid.plane.pitch_y > grid.wavelength;
 }
 
-/// The light of `point` at `place`; nothing if it is too steep.
-inline std::optional<Passage> passage(Vec3 point, Vec3 place, const FieldGrid& grid) {
-    const Passage passage = unlimited_passage(point, place);
+/// Returns the ray of `point` at `position`, or nothing if it is too steep.
+inline std::optional<Passage> passage(Vec3 point, Vec3 position, const FieldGrid& grid) {
+    const Passage passage = unlimited_passage(point, position);
     if (too_steep(passage, grid)) return {};
     return passage;
 }
 
-/// The modulus of a point's wave at that position.
-double modulus(const ScenePoint& point, const Passage& passage);
+double modulus(const ScenePoint& point, const Passage& passage);  ///< of the point's wave along the ray
 
-/// Tests whether a viewer sees points of a scene.
+/// Tests by rays whether a distant viewer sees points of a scene.
 class Visibility {
   public:
     explicit Visibility(const ShadedScene& scene);
-    /// Whether nothing is between the point and a distant viewer in that direction.
+    /// Returns whether no surface lies between the point and a distant viewer in that direction.
     bool is_visible(Vec3 point, Vec3 direction) const { return !caster_.occluded(point, direction, margin_, far_); }
-    /// As is_visible(), for many directions: sets hidden[i] if the point is not visible in direction i.
+    /// As is_visible() for an array of directions: sets hidden[i] if the point is not visible in direction i.
     void hide(Vec3 point, std::span<const Vec3> directions, std::span<bool> hidden) const {
         caster_.occluded(point, directions, margin_, far_, hidden);
     }
@@ -89,18 +88,17 @@ class Visibility {
     double margin_ = 0, far_ = 0;
 };
 
-/// The side of the tiles of sum_over_tiles(), samples.
-inline constexpr std::size_t tile_side = 32;
+inline constexpr std::size_t tile_side = 32;  ///< of sum_over_tiles(), samples
 
 /// Computes a field tile by tile on all threads; add(region, values of the region) fills a tile.
 Field sum_over_tiles(const FieldGrid& grid, const Progress& progress,
                      const std::function<void(const Region&, View<std::complex<float>, 2>)>& add);
 
-/// Computes a field sample by sample on all threads; wave(position) is its value at a position on the hologram.
+/// Computes a field sample by sample on all threads; wave(position) returns its value at a position on the hologram.
 Field sum_over_samples(const FieldGrid& grid, const Progress& progress,
-                       const std::function<std::complex<double>(Vec3 place)>& wave);
+                       const std::function<std::complex<double>(Vec3 position)>& wave);
 
-// The methods, which scene_hologram_methods() lists by name.
+// The methods that scene_hologram_methods() lists by name.
 Field exact_points(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);
 Field exact_visible_points(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);
 Field tiled_points(const ShadedScene&, const FieldGrid&, const SceneHologramOptions&, const Progress&);

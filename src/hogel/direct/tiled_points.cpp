@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t side = tile_side;
 constexpr double max_cycles_wrong = 0.01;  // a mean error of a quarter of a degree
 
-// Whether a point's light reaches none, a part or all of a tile.
+// Whether a point's light reaches no sample, some, or all samples of a tile.
 enum class Zone { dark, edge, active };
 
 // e^{2πi (a t + b t²)} at t = −(n−1)/2 … (n−1)/2 pitches, as real and imaginary parts.
@@ -32,8 +32,8 @@ struct Chirp {
     }
 };
 
-// Computes a point's wave over one tile by expanding its path around the tile's middle to second order without the
-// mixed term. The wave is then a function of the column times one of the row, both from a table of roots of unity.
+// Computes a point's wave over one tile. The path is expanded around the tile's middle to second order without the
+// mixed term, so the wave is a product of a column and a row factor, both from a table of roots of unity.
 class Tile {
   public:
     Tile(const stereogram::UnitRoots& roots, const FieldGrid& grid, const Region& region)
@@ -42,15 +42,15 @@ class Tile {
           region_(region),
           exact_(grid, region),
           middle_(exact_.middle()),
-          reach_x_(exact_.reach_x()),
-          reach_y_(exact_.reach_y()) {}
+          half_x_(exact_.half_x()),
+          half_y_(exact_.half_y()) {}
     Vec3 middle() const { return middle_; }
 
     // Tests the tile's corners and its position nearest to the point.
     Zone zone(Vec3 point) const {
         if (!exact_.reached_from(point)) return Zone::dark;
-        for (const double x : {-reach_x_, reach_x_})
-            for (const double y : {-reach_y_, reach_y_})
+        for (const double x : {-half_x_, half_x_})
+            for (const double y : {-half_y_, half_y_})
                 if (!passage(point, middle_ + Vec3{x, y, 0}, grid_)) return Zone::edge;
         return Zone::active;
     }
@@ -59,19 +59,18 @@ class Tile {
         const double path = ray.path, gx = ray.direction.x, gy = ray.direction.y;
         const double curve_x = (1 - gx * gx) / (2 * path), curve_y = (1 - gy * gy) / (2 * path);
         const double k = 1 / grid_.wavelength;
-        const double mixed = std::abs(gx * gy / path) * reach_x_ * reach_y_;
-        const double third = (std::abs(gx) * std::abs(curve_x) * std::pow(reach_x_, 3) +
-                              std::abs(gy) * std::abs(curve_y) * std::pow(reach_y_, 3)) /
+        const double mixed = std::abs(gx * gy / path) * half_x_ * half_y_;
+        const double third = (std::abs(gx) * std::abs(curve_x) * std::pow(half_x_, 3) +
+                              std::abs(gy) * std::abs(curve_y) * std::pow(half_y_, 3)) /
                              std::abs(path);
-        const double fourth =
-            std::pow(reach_x_ * reach_x_ + reach_y_ * reach_y_, 2) / (8 * std::pow(std::abs(path), 3));
+        const double fourth = std::pow(half_x_ * half_x_ + half_y_ * half_y_, 2) / (8 * std::pow(std::abs(path), 3));
         if (k * (mixed + third + fourth) > max_cycles_wrong) return add_exactly(point);
         const Chirp x(roots_, k * gx, k * curve_x, region_.width, grid_.plane.pitch_x);
         // Row indices increase downwards.
         const Chirp y(roots_, -k * gy, k * curve_y, region_.height, grid_.plane.pitch_y);
-        const std::complex<float> whole = static_cast<float>(modulus(point, ray)) * roots_(k * path + point.cycles);
+        const std::complex<float> factor = static_cast<float>(modulus(point, ray)) * roots_(k * path + point.cycles);
         for (std::size_t row = 0; row < region_.height; ++row) {
-            const std::complex<float> start = whole * std::complex<float>(y.real[row], y.imaginary[row]);
+            const std::complex<float> start = factor * std::complex<float>(y.real[row], y.imaginary[row]);
             const float real = start.real(), imaginary = start.imag();
             for (std::size_t column = 0; column < side; ++column) {
                 real_[row][column] += real * x.real[column] - imaginary * x.imaginary[column];
@@ -87,7 +86,7 @@ class Tile {
                     std::complex<float>(real_[row][column], imaginary_[row][column]) + exact_(row, column);
     }
 
-    // Adds sample by sample a point that is too near for the expansion or that lights only a part of the tile.
+    // Adds a point sample by sample if it is too near for the expansion or reaches only part of the tile.
     void add_exactly(const ScenePoint& point) { exact_.add(point); }
 
   private:
@@ -96,13 +95,13 @@ class Tile {
     Region region_;
     ExactSums exact_;
     Vec3 middle_;
-    double reach_x_, reach_y_;
+    double half_x_, half_y_;
     std::array<std::array<float, side>, side> real_{}, imaginary_{};
 };
 
 }  // namespace
 
-// Points with occlusion, tested by one ray for each point and tile of 32×32 samples.
+// Points with occlusion by one ray for each point and tile of 32×32 samples.
 Field tiled_points(const ShadedScene& scene, const FieldGrid& grid, const SceneHologramOptions& options,
                    const Progress& progress) {
     const core::StopScope scope(progress);

@@ -26,8 +26,8 @@ void write_scene_holograms(const SceneHologramMethod& method, const ShadedScene&
                            std::span<const std::unique_ptr<FieldSink>> sinks, const Progress& progress) {
     const core::StopScope scope(progress);
     if (options.size() != grids.size() || sinks.size() != grids.size())
-        throw Error(ErrorCode::usage, "holograms of a scene need options and a sink for each wavelength");
-    const work::JobScope kept_by_sinks(work::DoneBy::all_ranks);
+        throw Error(ErrorCode::usage, "scene holograms: expected one set of options and one sink for each wavelength");
+    const work::JobScope saved_by_sinks(work::DoneBy::all_ranks);
     work::shared_jobs<std::uint8_t>(
         grids.size(), {},
         [&](std::size_t i) {
