@@ -17,36 +17,36 @@ using Complex = std::complex<float>;
 
 constexpr double share_within_band = 0.95;
 
-// The carrier frequency of components in successive columns: one cycle per group of columns, which cannot be chosen.
-// Orders are at multiples of it, so it must be twice the field's band.
+// Carrier frequency of components in successive columns: fixed at one cycle per group of columns. Orders lie at its
+// multiples, so it must be at least twice the field's band.
 double column_carrier(double band, std::size_t columns, double pitch) {
     const double carrier = 1.0 / static_cast<double>(columns);
     if (2 * band > carrier)
         throw Error(
             ErrorCode::usage, "encoding",
-            fmt::format("at a pitch of {} the light of the hologram reaches {:.3f} cycles a pixel, but groups "
-                        "of {} columns have room for {:.3f}; a pitch of {} would do",
+            fmt::format("at a pitch of {} the hologram has frequencies up to {:.3f} cycles a pixel, but groups "
+                        "of {} columns allow {:.3f}; a pitch of {} would do",
                         format_length(pitch), band, columns, carrier / 2, format_length(pitch * carrier / (2 * band))));
     return carrier;
 }
 
 double degrees(double sine) { return std::asin(std::min(sine, 1.0)) * 180 / std::numbers::pi; }
 
-// The frequency f of the reference wave, cycles per sample. The fringe FR* is at −f and its conjugate at +f, each as
-// wide as F (half width `band`); |F|², which the intensity contains, is around zero and twice as wide. They must not
-// overlap, and all must be sampled: [K] 3.2.
+// Frequency f of the reference wave, cycles per sample. The fringe FR* lies at −f and its conjugate at +f, each as wide
+// as F (half width `band`). |F|², part of an intensity, lies around zero and is twice as wide. They must not overlap
+// and must all be sampled: [K] 3.2.
 double reference_carrier(double band, const PatternOptions& options, double wavelength) {
     const double pitch = options.modulator.pitch, to_sine = wavelength / pitch;
     const double min_carrier = (options.encoding == Encoding::intensity ? 3 : 1) * band;
     const char* const parameter = options.reference_angle == 0 ? "encoding" : "reference";
-    const double asked = std::sin(options.reference_angle) / to_sine;
+    const double requested = std::sin(options.reference_angle) / to_sine;
     const double carrier =
-        options.reference_angle == 0 ? std::max(min_carrier, 0.5 * (min_carrier + 0.5 - band)) : asked;
+        options.reference_angle == 0 ? std::max(min_carrier, 0.5 * (min_carrier + 0.5 - band)) : requested;
     if (carrier < min_carrier * (1 - 1e-9))
         throw Error(ErrorCode::usage, parameter,
                     fmt::format("a reference beam at {:.2f} degrees overlaps the object, whose light reaches {:.2f} "
                                 "degrees; one at {:.2f} degrees would do",
-                                degrees(asked * to_sine), degrees(band * to_sine), degrees(min_carrier * to_sine)));
+                                degrees(requested * to_sine), degrees(band * to_sine), degrees(min_carrier * to_sine)));
     if (carrier + band > 0.5)
         throw Error(ErrorCode::usage, parameter,
                     fmt::format("the fringe of light to {:.2f} degrees with a reference beam at {:.2f} degrees is too "
@@ -56,22 +56,22 @@ double reference_carrier(double band, const PatternOptions& options, double wave
     return carrier;
 }
 
-// From the middle of the useful order at -frequency to the light of others, cycles per sample: to the middle between
-// two orders of columns; to |F|² around zero, which the intensity contains; otherwise to what is not diffracted.
-double room_around(double frequency, double band, Encoding encoding) {
+// Distance from the middle of the useful order at −frequency to the nearest other light, cycles per sample: halfway to
+// the next order of columns; |F|² around zero for an intensity; otherwise the undiffracted light.
+double clearance_around(double frequency, double band, Encoding encoding) {
     if (encoding == Encoding::burckhardt || encoding == Encoding::lee) return frequency / 2;
     return encoding == Encoding::intensity ? frequency - 2 * band : frequency;
 }
 
-// The m-th of the `columns` non-negative real components of a complex number. Only the two adjacent to its phase are
-// not zero. If components are more than a right angle apart they can exceed the modulus, so all are scaled down.
+// Returns component m of the `columns` non-negative real components of a complex number. Only the two adjacent to its
+// phase are nonzero. Components more than a right angle apart can exceed the modulus, so all are scaled down.
 float component(Complex value, std::size_t m, std::size_t columns) {
     const double sector = 2 * std::numbers::pi / static_cast<double>(columns);
-    const double away =
+    const double angle =
         std::abs(std::remainder(std::arg(value) - sector * static_cast<double>(m), 2 * std::numbers::pi));
-    if (away >= sector) return 0;
+    if (angle >= sector) return 0;
     const double largest = columns < 4 ? 1 : std::sin(sector);
-    return static_cast<float>(std::abs(value) * std::sin(sector - away) / largest);
+    return static_cast<float>(std::abs(value) * std::sin(sector - angle) / largest);
 }
 
 }  // namespace
@@ -81,19 +81,19 @@ double band_along_x(View<const Complex, 2> field) {
     const math::Fft2 fft(1, width);
     std::vector<double> power(width / 2 + 1);
     Array<Complex, 2> row({1, width});
-    double all = 0;
+    double total = 0;
     for (std::size_t y = 0; y < field.extent(0); ++y) {
         std::copy_n(&field(y, 0), width, row.data());
         fft.forward(row);
         for (std::size_t j = 0; j < width; ++j) {
             power[std::min(j, width - j)] += std::norm(row.data()[j]);
-            all += std::norm(row.data()[j]);
+            total += std::norm(row.data()[j]);
         }
     }
     double within = 0;
     for (std::size_t j = 0; j < power.size(); ++j) {
         within += power[j];
-        if (within >= share_within_band * all) return (static_cast<double>(j) + 0.5) / static_cast<double>(width);
+        if (within >= share_within_band * total) return (static_cast<double>(j) + 0.5) / static_cast<double>(width);
     }
     return 0.5;
 }
@@ -105,7 +105,7 @@ Array<float, 2> encode_amplitude(View<const Complex, 2> field, const PatternOpti
                                 : options.encoding == Encoding::lee      ? 4
                                                                          : 0;
     order.frequency = columns > 0 ? column_carrier(band, columns, pitch) : reference_carrier(band, options, wavelength);
-    order.room = room_around(order.frequency, band, options.encoding);
+    order.clearance = clearance_around(order.frequency, band, options.encoding);
     order.angle = std::asin(std::min(1.0, order.frequency * wavelength / pitch));
     for (std::size_t x = 0; x < field.extent(1); ++x)
         order.carrier.push_back(

@@ -15,31 +15,31 @@ namespace {
 using Complex = std::complex<float>;
 using Numbers = Array<float, 2>;
 
-constexpr std::size_t max_pairs = 5;  // steps that are remembered
+constexpr std::size_t max_pairs = 5;  // steps and gradient changes in the history
 constexpr double first_step = 0.25;   // root mean square of the first step, radians
-constexpr double sufficient = 1e-4;   // Armijo's share of the descent that the slope promises
-constexpr int max_halvings = 10;      // of a step that does not descend
-// The descent ends when the correlation gains less than this in so many steps.
+constexpr double sufficient = 1e-4;   // Armijo's share of the descent predicted by the slope
+constexpr int max_halvings = 10;      // of a step without descent
+// The descent ends when the correlation rises by less than min_gain in watched_steps steps.
 constexpr double min_gain = 5e-4;
 constexpr std::size_t watched_steps = 5;
 
-// Σ a b, in each row as eight sums, which vectors add.
+// Σ a b, with eight sums per row for vectorisation.
 double dot(const Numbers& a, const Numbers& b) {
     return sum_of_lines(a.extent(0), [&](std::size_t y) {
-        constexpr std::size_t together = 8;
-        const float *one = a.data() + y * a.extent(1), *other = b.data() + y * b.extent(1);
-        double sums[together] = {};
+        constexpr std::size_t lanes = 8;
+        const float *row_a = a.data() + y * a.extent(1), *row_b = b.data() + y * b.extent(1);
+        double sums[lanes] = {};
         std::size_t x = 0;
-        for (; x + together <= a.extent(1); x += together)
-            for (std::size_t i = 0; i < together; ++i)
-                sums[i] += static_cast<double>(one[x + i]) * static_cast<double>(other[x + i]);
-        for (; x < a.extent(1); ++x) sums[0] += static_cast<double>(one[x]) * static_cast<double>(other[x]);
-        for (std::size_t i = 1; i < together; ++i) sums[0] += sums[i];
+        for (; x + lanes <= a.extent(1); x += lanes)
+            for (std::size_t i = 0; i < lanes; ++i)
+                sums[i] += static_cast<double>(row_a[x + i]) * static_cast<double>(row_b[x + i]);
+        for (; x < a.extent(1); ++x) sums[0] += static_cast<double>(row_a[x]) * static_cast<double>(row_b[x]);
+        for (std::size_t i = 1; i < lanes; ++i) sums[0] += sums[i];
         return sums[0];
     });
 }
 
-// result = a + factor · b; any two may be the same array.
+// result = a + factor · b; arguments may be the same array.
 void add(const Numbers& a, double factor, const Numbers& b, Numbers& result) {
     work::parallel_for(a.extent(0), [&](std::size_t y) {
         for (std::size_t x = 0; x < a.extent(1); ++x) result(y, x) = a(y, x) + static_cast<float>(factor) * b(y, x);
@@ -55,32 +55,32 @@ void multiply(const Numbers& a, double factor, Numbers& result) {
     });
 }
 
-// The error of the pattern e^{iφ}, and its gradient ∂ε/∂φ = −Im(conj(g) e^{iφ}) with g the error's derivative by the
-// pattern, whose spectrum is FieldBand::derivative().
+// The error of the pattern e^{iφ} and its gradient ∂ε/∂φ = −Im(conj(g) e^{iφ}), where g = ∂ε/∂pattern has the spectrum
+// FieldBand::derivative().
 class PatternError {
   public:
     PatternError(const FieldBand& band, const Shape<2>& shape)
-        : band_(band), rows_(shape[0]), columns_(shape[1]), along_(columns_), down_(rows_), plane_(shape) {}
+        : band_(band), rows_(shape[0]), columns_(shape[1]), row_fft_(columns_), column_fft_(rows_), plane_(shape) {}
 
-    double find(const Numbers& phases, Numbers& gradient) {
+    double evaluate(const Numbers& phases, Numbers& gradient) {
         for_rows([&](std::size_t y, Complex* line) {
             for (std::size_t x = 0; x < columns_; ++x) line[x] = std::polar(1.0f, phases(y, x));
-            along_.forward(line);
+            row_fft_.forward(line);
         });
         std::vector<FieldBand::Sums> sums(columns_);
         for_columns([&](std::size_t x, Complex* column) {
-            down_.forward(column);
+            column_fft_.forward(column);
             for (std::size_t y = 0; y < rows_; ++y) band_.add(y, x, column[y], sums[x]);
         });
         FieldBand::Sums sum;
-        for (const FieldBand::Sums& of_column : sums) sum += of_column;
+        for (const FieldBand::Sums& column_sums : sums) sum += column_sums;
         const FieldBand::Match match = band_.match(sum);
         for_columns([&](std::size_t x, Complex* column) {
             for (std::size_t y = 0; y < rows_; ++y) column[y] = band_.derivative(match, y, x, column[y]);
-            down_.backward(column);
+            column_fft_.backward(column);
         });
         for_rows([&](std::size_t y, Complex* line) {
-            along_.backward(line);
+            row_fft_.backward(line);
             for (std::size_t x = 0; x < columns_; ++x)
                 gradient(y, x) = -(std::conj(line[x]) * std::polar(1.0f, phases(y, x))).imag();
         });
@@ -90,7 +90,7 @@ class PatternError {
   private:
     static constexpr std::size_t block_lines = optics::block_lines;
 
-    // Calls row(y, samples) for each row, to change it.
+    // Calls row(y, samples) for each row, which it may change.
     template <class Row>
     void for_rows(const Row& row) {
         work::parallel_for(optics::blocks_of(rows_), [&](std::size_t block) {
@@ -99,7 +99,7 @@ class PatternError {
         });
     }
 
-    // Calls column(x, samples) for each column, to change it.
+    // Calls column(x, samples) for each column, which it may change.
     template <class Column>
     void for_columns(const Column& column) {
         work::parallel_for(optics::blocks_of(columns_), [&](std::size_t block) {
@@ -115,15 +115,15 @@ class PatternError {
 
     const FieldBand& band_;
     std::size_t rows_, columns_;
-    math::Fft1 along_, down_;
+    math::Fft1 row_fft_, column_fft_;
     Array<Complex, 2> plane_;
 };
 
-// The last steps s and the changes y of the gradient over them, which stand for the curvature: L-BFGS, Nocedal and
-// Wright, Numerical Optimization, 2nd ed., algorithm 7.4.
+// L-BFGS curvature from the last steps s and gradient changes y: Nocedal and Wright, Numerical Optimization, 2nd ed.,
+// algorithm 7.4.
 class Curvature {
   public:
-    // Takes both, and leaves arrays in their place with any numbers: those of the oldest pair, if it is forgotten.
+    // Stores the pair by swapping. Leaves arrays with undefined values: those of a dropped pair, or new ones.
     void remember(Numbers& step, Numbers& change) {
         const double product = dot(step, change);
         if (!(product > 0)) return;
@@ -140,20 +140,20 @@ class Curvature {
         pairs_.push_back(std::move(pair));
     }
 
-    // The direction of descent that belongs to a gradient.
+    // Computes the direction of descent d for a gradient of `samples` values.
     void find_direction(const Numbers& gradient, double samples, Numbers& d) const {
         multiply(gradient, 1, d);
-        std::vector<double> along(pairs_.size());
+        std::vector<double> alpha(pairs_.size());
         for (std::size_t i = pairs_.size(); i-- > 0;) {
-            along[i] = dot(pairs_[i].step, d) / pairs_[i].product;
-            add(d, -along[i], pairs_[i].change);
+            alpha[i] = dot(pairs_[i].step, d) / pairs_[i].product;
+            add(d, -alpha[i], pairs_[i].change);
         }
         const double scale = pairs_.empty()
                                  ? -first_step / std::max(std::sqrt(dot(gradient, gradient) / samples), 1e-30)
                                  : -pairs_.back().product / dot(pairs_.back().change, pairs_.back().change);
         multiply(d, scale, d);
         for (std::size_t i = 0; i < pairs_.size(); ++i)
-            add(d, -along[i] - dot(pairs_[i].change, d) / pairs_[i].product, pairs_[i].step);
+            add(d, -alpha[i] - dot(pairs_[i].change, d) / pairs_[i].product, pairs_[i].step);
     }
 
   private:
@@ -166,9 +166,9 @@ class Curvature {
 
 }  // namespace
 
-// Descent on the phases φ for ε = 1 − C², with C the correlation of the field and of what an aperture for it lets
-// through of e^{iφ}; the light that the aperture blocks is free. The objective is that of Chakravarthula, Peng, Kollin,
-// Fuchs and Heide, Wirtinger holography, ACM TOG 38(6), 2019, in the field's own plane.
+// Minimises ε = 1 − C² over the phases φ. C is the correlation of the field with the light of e^{iφ} that the field's
+// aperture passes; the blocked light is free. Objective as in Chakravarthula, Peng, Kollin, Fuchs and Heide, Wirtinger
+// holography, ACM TOG 38(6), 2019, in the field's own plane.
 Array<float, 2> descend_phases(View<const Complex, 2> field, const FieldBand& band, const PatternOptions& options,
                                Convergence& convergence, const Progress& progress) {
     PatternError error(band, field.shape());
@@ -178,8 +178,8 @@ Array<float, 2> descend_phases(View<const Complex, 2> field, const FieldBand& ba
         for (std::size_t x = 0; x < field.extent(1); ++x) phases(y, x) = std::arg(field(y, x));
     });
     const std::size_t limit = options.iterations > 0 ? options.iterations : max_descent_steps;
-    double now = error.find(phases, gradient);
-    std::vector<double> correlations{std::sqrt(1 - now)};
+    double current = error.evaluate(phases, gradient);
+    std::vector<double> correlations{std::sqrt(1 - current)};
     Curvature curvature;
     for (std::size_t k = 0; k < limit; ++k) {
         progress.report(static_cast<double>(k) / static_cast<double>(limit));
@@ -187,24 +187,24 @@ Array<float, 2> descend_phases(View<const Complex, 2> field, const FieldBand& ba
         const double slope = dot(gradient, step);
         if (!(slope < 0)) break;
         double length = 1;
-        const auto error_of_next = [&] {
+        const auto trial_error = [&] {
             add(phases, length, step, next);
-            return error.find(next, next_gradient);
+            return error.evaluate(next, next_gradient);
         };
-        double then = error_of_next();
-        for (int i = 0; i < max_halvings && then > now + sufficient * length * slope; ++i) {
+        double trial = trial_error();
+        for (int i = 0; i < max_halvings && trial > current + sufficient * length * slope; ++i) {
             length *= 0.5;
-            then = error_of_next();
+            trial = trial_error();
         }
-        if (!(then < now)) break;
-        // The step as it was rounded, and the change, in the place of what is no longer needed.
+        if (!(trial < current)) break;
+        // The step as rounded, and the change of the gradient, in arrays no longer needed.
         add(next, -1, phases, step);
         add(next_gradient, -1, gradient, gradient);
         curvature.remember(step, gradient);
         std::swap(phases, next);
         std::swap(gradient, next_gradient);
-        now = then;
-        correlations.push_back(std::sqrt(1 - now));
+        current = trial;
+        correlations.push_back(std::sqrt(1 - current));
         if (k + 1 >= watched_steps &&
             correlations.back() - correlations[correlations.size() - 1 - watched_steps] < min_gain)
             break;

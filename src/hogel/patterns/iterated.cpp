@@ -20,11 +20,11 @@ Complex unit(Complex value) {
     return modulus > 0 ? value / modulus : Complex(1);
 }
 
-// The first pixels of squares that cover a side of the modulator. The last square overlaps the one before if the side
-// is not a multiple.
+// First pixels of the squares that cover `length` pixels. If length is no multiple of the side, the last square
+// overlaps its neighbour.
 std::vector<std::size_t> squares_along(std::size_t side, std::size_t length) {
     std::vector<std::size_t> starts;
-    for (std::size_t at = 0; at + side <= length; at += side) starts.push_back(at);
+    for (std::size_t start = 0; start + side <= length; start += side) starts.push_back(start);
     if (starts.back() + side < length) starts.push_back(length - side);
     return starts;
 }
@@ -35,12 +35,12 @@ void require_squares_fit(View<const Complex, 2> field, std::size_t side) {
     const std::size_t max_side = std::min(field.extent(0), field.extent(1));
     if (side < 2 || side > max_side)
         throw Error(ErrorCode::usage, "window",
-                    fmt::format("squares of {} pixels do not fit a modulator of {}x{}; 2 to {} do", side,
+                    fmt::format("squares of {} pixels do not fit a modulator of {}x{}; expected 2 to {}", side,
                                 field.extent(1), field.extent(0), max_side));
 }
 
-// Each square independently alternates between unit modulus and the moduli of the field's spectrum there, which are its
-// light field: Gerchberg and Saxton, Optik 35, 1972.
+// Each square alternates independently between unit modulus and the moduli of the field's local spectrum, its light
+// field: Gerchberg and Saxton, Optik 35, 1972.
 Array<float, 2> iterate_phases(View<const Complex, 2> field, const PatternOptions& options, const Progress& progress) {
     const std::size_t side = options.window, width = field.extent(1), height = field.extent(0);
     require_squares_fit(field, side);
@@ -65,7 +65,7 @@ Array<float, 2> iterate_phases(View<const Complex, 2> field, const PatternOption
                 for (Complex& value : square.elements()) value = unit(value);
                 fft.forward(square);
             }
-            // Where squares overlap, the pixels of the earlier one are kept.
+            // Overlapping pixels keep the values of the earlier square.
             const std::size_t skip_x = i > 0 ? columns[i - 1] + side - x0 : 0;
             const std::size_t skip_y = j > 0 ? rows[j - 1] + side - y0 : 0;
             for (std::size_t y = skip_y; y < side; ++y)

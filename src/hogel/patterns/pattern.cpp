@@ -27,8 +27,8 @@ void require_fitting(const FieldGrid& grid, const PatternOptions& options) {
     if (modulator.width == 0 || modulator.height == 0 || !(modulator.pitch > 0) || modulator.levels < 2 ||
         modulator.levels > 256)
         throw Error(ErrorCode::usage, "pixel_pitch",
-                    fmt::format("a modulator of {}x{} pixels at {} with {} levels cannot be; pixels "
-                                "need a pitch, and 2 to 256 levels",
+                    fmt::format("invalid modulator: {}x{} pixels, pitch {}, {} levels; expected a "
+                                "positive size and pitch, and 2 to 256 levels",
                                 modulator.width, modulator.height, format_length(modulator.pitch), modulator.levels));
     for (double pitch : {grid.plane.pitch_x, grid.plane.pitch_y})
         if (std::abs(pitch - modulator.pitch) > 1e-3 * modulator.pitch)
@@ -38,16 +38,16 @@ void require_fitting(const FieldGrid& grid, const PatternOptions& options) {
                             "hologram with hogels of whole pixels and a pitch of {}",
                             format_length(pitch), format_length(modulator.pitch), format_length(modulator.pitch)));
     if (!(options.clip >= 0 && options.clip < 1))
-        throw Error(ErrorCode::usage, "clip", "the share of samples that may be cut must lie in 0..1");
+        throw Error(ErrorCode::usage, "clip", "the share of clipped samples must be at least 0 and below 1");
 }
 
-// The middle of the field, or the whole field with a dark border, in the size of the modulator.
+// Returns the middle of the field, or the field with a dark border, in the size of the modulator.
 Array<Complex, 2> fit(const FieldSource& source, const Modulator& modulator) {
     const Grid& plane = source.grid().plane;
     Array<Complex, 2> field({modulator.height, modulator.width});
     const std::size_t width = std::min(plane.width, modulator.width), height = std::min(plane.height, modulator.height);
     const std::size_t left = (modulator.width - width) / 2, top = (modulator.height - height) / 2;
-    // Reads bands of rows on all threads, aligned as the source prefers.
+    // Reads bands of rows on all threads, in the source's alignment.
     const std::size_t y0 = (plane.height - height) / 2, rows = std::max<std::size_t>(64, source.alignment());
     const std::size_t first = y0 / rows, bands = (y0 + height + rows - 1) / rows - first;
     work::parallel_for(bands, [&](std::size_t band) {
@@ -70,15 +70,15 @@ void for_rows(const Shape<2>& shape, const Element& element) {
     });
 }
 
-// Scales the field so that |F| <= 1 except for the share `clip` of its samples, whose modulus is clipped to 1. The
-// modulus that became 1.
+// Scales the field to |F| ≤ 1 and clips the moduli of the share `clip` of its samples to 1. Returns the modulus that
+// became 1.
 float normalise(Array<Complex, 2>& field, double clip) {
     std::vector<float, CacheLineAllocator<float>> moduli(field.size());
     for_rows(field.shape(), [&](std::size_t i) { moduli[i] = std::abs(field.data()[i]); });
     std::erase(moduli, 0.0f);
-    if (moduli.empty()) throw Error(ErrorCode::usage, "the hologram is dark where the modulator is");
-    const auto above = static_cast<std::size_t>(clip * static_cast<double>(moduli.size()));
-    const auto largest = moduli.end() - 1 - static_cast<std::ptrdiff_t>(above);
+    if (moduli.empty()) throw Error(ErrorCode::usage, "the hologram is dark on the area of the modulator");
+    const auto clipped = static_cast<std::size_t>(clip * static_cast<double>(moduli.size()));
+    const auto largest = moduli.end() - 1 - static_cast<std::ptrdiff_t>(clipped);
     std::nth_element(moduli.begin(), largest, moduli.end());
     const float scale = 1 / *largest;
     for_rows(field.shape(), [&](std::size_t i) {
@@ -106,9 +106,9 @@ Array<float, 2> encode_phase(View<const Complex, 2> field, const FieldBand& band
         for (std::size_t x = 0; x < field.extent(1); ++x) {
             cycles(y, x) = cycles_of(field(y, x));
             if (options.encoding != Encoding::double_phase) continue;
-            const auto spread =
+            const auto half_angle =
                 static_cast<float>(std::acos(std::min(1.0f, std::abs(field(y, x)))) * (0.5 / std::numbers::pi));
-            cycles(y, x) += (x + y) % 2 == 0 ? spread : -spread;
+            cycles(y, x) += (x + y) % 2 == 0 ? half_angle : -half_angle;
             cycles(y, x) -= std::floor(cycles(y, x));
         }
     });
@@ -124,8 +124,8 @@ Array<std::uint8_t, 2> round_to_levels(View<const float, 2> values, unsigned lev
             double turns = value;
             if (levels < 256) {
                 const auto level = static_cast<unsigned>(std::lround(value * static_cast<float>(levels))) % levels;
-                const unsigned of_256 = level * 256 / levels;
-                turns = of_256 / 256.0;
+                const unsigned level_of_256 = level * 256 / levels;
+                turns = level_of_256 / 256.0;
             }
             rounded.data()[i] = static_cast<std::uint8_t>(code.level(2 * std::numbers::pi * turns, 255));
         } else {
@@ -136,7 +136,7 @@ Array<std::uint8_t, 2> round_to_levels(View<const float, 2> values, unsigned lev
     return rounded;
 }
 
-// The share of the modulator's light that is F times the carrier: |<E, F c>|² / (<F, F> pixels).
+// Share of the modulator's light in F times the carrier: |<E, F c>|² / (<F, F> pixels).
 double efficiency_of(View<const Complex, 2> transmitted, View<const Complex, 2> field, const Carrier& carrier) {
     const FieldBand::Sums sums = sum_of_lines(field.extent(0), [&](std::size_t y) {
         FieldBand::Sums row;
@@ -168,31 +168,31 @@ struct LightShare {
     }
 };
 
-// The share of the modulator's light that reproduces the moduli of the field's local spectra: (Σ|A||B|)²/Σ|B|² of A's
-// energy in each square.
+// Share of the modulator's light that reproduces the moduli of the field's local spectra B: (Σ|A||B|)²/Σ|B|², over the
+// energy Σ|A|², summed over squares.
 double light_field_efficiency_of(View<const Complex, 2> transmitted, View<const Complex, 2> field, std::size_t side) {
     side = std::min({side, field.extent(0), field.extent(1)});
     const math::Fft2 fft(side, side);
     const LightShare share = sum_of_lines(field.extent(0) / side, [&](std::size_t row) {
-        Array<Complex, 2> shown({side, side}), wanted({side, side});
-        LightShare of_row;
+        Array<Complex, 2> pattern_spectrum({side, side}), field_spectrum({side, side});
+        LightShare row_share;
         const std::size_t y0 = row * side;
         for (std::size_t x0 = 0; x0 + side <= field.extent(1); x0 += side) {
             for (std::size_t y = 0; y < side; ++y) {
-                std::copy_n(&transmitted(y0 + y, x0), side, &shown(y, 0));
-                std::copy_n(&field(y0 + y, x0), side, &wanted(y, 0));
+                std::copy_n(&transmitted(y0 + y, x0), side, &pattern_spectrum(y, 0));
+                std::copy_n(&field(y0 + y, x0), side, &field_spectrum(y, 0));
             }
-            fft.forward(shown);
-            fft.forward(wanted);
+            fft.forward(pattern_spectrum);
+            fft.forward(field_spectrum);
             double product = 0, energy = 0;
-            for (std::size_t f = 0; f < shown.size(); ++f) {
-                product += std::abs(shown.data()[f]) * std::abs(wanted.data()[f]);
-                energy += std::norm(wanted.data()[f]);
-                of_row.all += std::norm(shown.data()[f]);
+            for (std::size_t f = 0; f < pattern_spectrum.size(); ++f) {
+                product += std::abs(pattern_spectrum.data()[f]) * std::abs(field_spectrum.data()[f]);
+                energy += std::norm(field_spectrum.data()[f]);
+                row_share.all += std::norm(pattern_spectrum.data()[f]);
             }
-            if (energy > 0) of_row.light += product * product / energy;
+            if (energy > 0) row_share.light += product * product / energy;
         }
-        return of_row;
+        return row_share;
     });
     return share.all > 0 ? share.light / share.all : 0;
 }
@@ -211,15 +211,16 @@ Table<EncodingInfo>& encodings() {
     static Table<EncodingInfo> table(
         "encoding",
         {
-            row("phase", "the field's own phase, its modulus forgotten", Encoding::phase),
+            row("phase", "the field's phase; its modulus is discarded", Encoding::phase),
             row("double-phase", "the modulus as two phases on a checkerboard", Encoding::double_phase),
             row("gerchberg-saxton", "phases by alternating projections", Encoding::gerchberg_saxton),
             row("gradient", "phases by descent towards the field within its band", Encoding::gradient),
-            row("intensity", "amplitudes of the interference with a reference wave", Encoding::intensity),
-            row("bipolar", "amplitudes of the real part with a reference wave, raised", Encoding::bipolar),
+            row("intensity", "amplitudes: the intensity of the interference with a reference wave",
+                Encoding::intensity),
+            row("bipolar", "amplitudes: the real part on a reference wave, plus a constant", Encoding::bipolar),
             row("burckhardt", "amplitudes of three real components in successive columns", Encoding::burckhardt),
             row("lee", "amplitudes of four real components in successive columns", Encoding::lee),
-            row("binary", "amplitudes 0 and 1 by the sign of the real part with a reference wave", Encoding::binary),
+            row("binary", "amplitudes 0 and 1 by the sign of the real part on a reference wave", Encoding::binary),
         },
         "encoding");
     return table;
@@ -262,20 +263,20 @@ Pattern encode_pattern(const FieldSource& source, const PatternOptions& options,
 
 Encoding suitable_encoding(const FieldSource& source, const PatternOptions& options) {
     return find_suitable(options, {},
-                         [&](const PatternOptions& tried, const Progress& progress) {
-                             return std::vector{encode_pattern(source, tried, progress)};
+                         [&](const PatternOptions& candidate, const Progress& progress) {
+                             return std::vector{encode_pattern(source, candidate, progress)};
                          })
         .encoding;
 }
 
 Array<Complex, 2> transmission(const Pattern& pattern, Encoding encoding, const PhaseCode& phase_code) {
     Array<Complex, 2> result(pattern.levels.shape());
-    std::array<Complex, 256> of_level;
-    for (std::size_t level = 0; level < of_level.size(); ++level)
-        of_level[level] = is_phase_only(encoding)
+    std::array<Complex, 256> by_level;
+    for (std::size_t level = 0; level < by_level.size(); ++level)
+        by_level[level] = is_phase_only(encoding)
                               ? Complex(std::polar(1.0, phase_code.phase(static_cast<double>(level), 255)))
                               : Complex(static_cast<float>(static_cast<double>(level) / 255));
-    for_rows(result.shape(), [&](std::size_t i) { result.data()[i] = of_level[pattern.levels.data()[i]]; });
+    for_rows(result.shape(), [&](std::size_t i) { result.data()[i] = by_level[pattern.levels.data()[i]]; });
     return result;
 }
 

@@ -128,8 +128,8 @@ INSTANTIATE_TEST_SUITE_P(Encodings, Order,
                          testing::Values(Encoding::double_phase, Encoding::intensity, Encoding::bipolar,
                                          Encoding::burckhardt, Encoding::lee));
 
-// The error of a pattern's local spectra relative to the field's, in squares that begin at a given pixel, over all
-// frequencies or those up to a limit.
+// Error of a pattern's local spectra relative to the field's, in squares that begin at a given pixel, over frequencies
+// up to a limit, if any.
 double spectral_error(const Pattern& pattern, Encoding encoding, const Field& field, std::size_t first = 0,
                       std::size_t reach = side) {
     constexpr std::size_t window = 24;
@@ -170,7 +170,7 @@ TEST(Pattern, iteration_brings_the_light_field_nearer_than_the_phase_alone) {
     EXPECT_LT(error(Encoding::gerchberg_saxton), 0.25 * error(Encoding::phase));
 }
 
-// A smooth phase under a modulus that varies, with zeros: the light of a picture on a lens.
+// A smooth phase with a varying modulus that has zeros: the light of a picture on a lens.
 Field smooth_phase() {
     Field field = empty_field();
     for (std::size_t y = 0; y < side; ++y)
@@ -196,7 +196,7 @@ TEST(Pattern, descent_converges_to_the_field_within_its_band) {
         EXPECT_GT(pattern.iterations, 5u);
         EXPECT_LT(pattern.iterations, 40u);
         EXPECT_GT(pattern.efficiency, 0.25);
-        // More iterations than it took change nothing; fewer show less.
+        // Iterations beyond convergence change nothing; fewer are less accurate.
         const Pattern limited = encode_pattern(field, descent_options(pattern.iterations));
         EXPECT_TRUE(std::ranges::equal(limited.levels.elements(), pattern.levels.elements()));
         const Pattern fewer = encode_pattern(field, descent_options(3));
@@ -205,8 +205,7 @@ TEST(Pattern, descent_converges_to_the_field_within_its_band) {
     }
 }
 
-// The correlation of what an aperture lets through with all of the wanted light.
-// @param is_inside  whether the aperture passes a frequency, from its column and row in the spectrum
+// Correlation of the light that an aperture passes with the field.
 template <class IsInside>
 double correlation_behind(Array<Complex, 2> shown, Array<Complex, 2> wanted, const IsInside& is_inside) {
     const math::Fft2 fft(side, side);
@@ -225,8 +224,7 @@ double correlation_behind(Array<Complex, 2> shown, Array<Complex, 2> wanted, con
     return std::abs(product) / std::sqrt(energy * all);
 }
 
-// The correlation of a pattern is that of its order and the field behind an aperture with the shape of the field's
-// band.
+// A pattern's correlation is that of its order with the field, behind an aperture of the band's shape.
 TEST(Pattern, its_correlation_is_that_behind_an_aperture) {
     const Field field = speckle(0.1);
     const Pattern pattern = encode_pattern(field, descent_options());
@@ -247,7 +245,7 @@ TEST(Pattern, the_encoding_that_suits_a_field_is_the_first_that_shows_it) {
     EXPECT_LT(encode_pattern(smooth_phase(), options).correlation, 0.95);
 }
 
-// A bright even field with a weak, fine texture: nearly all light is at frequency zero, and the picture is elsewhere.
+// A bright uniform field with a weak, fine texture: nearly all light is at frequency zero, the picture elsewhere.
 Field textured(double band, double strength, double carrier = 0) {
     Field field = speckle(band, 5);
     double mean = 0;
@@ -261,7 +259,7 @@ Field textured(double band, double strength, double carrier = 0) {
     return field;
 }
 
-// What an aperture around frequency zero lets through of a pattern, against the field: PSNR of the intensity, dB.
+// PSNR of the intensity behind an aperture around frequency zero against the field, dB.
 double psnr_behind(double radius, const Pattern& pattern, Encoding encoding, const Field& field) {
     Array<Complex, 2> shown = transmission(pattern, encoding);
     const math::Fft2 fft(side, side);
@@ -305,8 +303,8 @@ TEST(Pattern, the_aperture_is_around_the_light_of_a_field_beside_frequency_zero)
     EXPECT_NEAR(pattern.aperture.radius, 0.06, 0.01);
 }
 
-// The share of the field's order within the aperture of a pattern of amplitudes, a tenth wider, by its likeness to the
-// field: light of other orders makes it less.
+// Share of the field's order in the light behind the aperture of an amplitude pattern, widened by a tenth. Computed
+// from the correlation with the field, which light of other orders lowers.
 double likeness_behind(const Pattern& pattern, Encoding encoding, const Field& field) {
     Array<Complex, 2> wanted = field.samples;
     const double carrier = std::sin(pattern.reference_angle) * 8_um / 633_nm;
@@ -332,7 +330,7 @@ TEST(Pattern, of_amplitudes_has_its_aperture_around_the_order_that_shows_the_fie
         EXPECT_GT(pattern.aperture.radius, 0.05);
         EXPECT_GT(likeness_behind(pattern, encoding, field), 0.95) << int(encoding);
     }
-    // Where the field is as wide as it may be, the aperture keeps out what is not diffracted.
+    // At the maximum bandwidth of the field, the aperture still blocks the undiffracted light.
     const Pattern wide = encode_pattern(speckle(0.2), options_for(Encoding::bipolar));
     EXPECT_LT(1.1 * wide.aperture.radius, -wide.aperture.x + 1e-9);
 }
@@ -343,7 +341,7 @@ TEST(Pattern, a_field_that_fills_the_band_of_the_modulator_correlates_little) {
     EXPECT_LT(pattern.correlation, 0.8);
 }
 
-// With light of the stated power the pattern has the field's amplitudes.
+// Light of the stated power gives the pattern the field's amplitudes.
 TEST(Pattern, shows_the_field_as_bright_as_it_is_with_light_of_its_power) {
     Field field = speckle(0.1);
     for (Complex& value : field.samples.elements()) value *= 0.37f;

@@ -57,8 +57,8 @@ std::vector<Pattern> encode_patterns(std::span<const std::shared_ptr<const Field
 
 SuitablePatterns encode_suitably(std::span<const std::shared_ptr<const FieldSource>> fields,
                                  const PatternOptions& options, const Progress& progress) {
-    return patterns::find_suitable(options, progress, [&](const PatternOptions& tried, const Progress& part) {
-        return encode_patterns(fields, tried, part);
+    return patterns::find_suitable(options, progress, [&](const PatternOptions& candidate, const Progress& part) {
+        return encode_patterns(fields, candidate, part);
     });
 }
 
