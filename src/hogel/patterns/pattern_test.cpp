@@ -26,9 +26,9 @@ Field empty_field(double pitch = 8_um) { return Field(FieldGrid{{side, side, pit
 // Plane waves of all frequencies up to `band` cycles per pixel with random phases, as from a diffuse object.
 Field speckle(double band, std::uint32_t seed = 1) {
     Field field = empty_field();
-    const auto reach = std::ptrdiff_t(band * side);
-    for (std::ptrdiff_t j = -reach; j <= reach; ++j)
-        for (std::ptrdiff_t i = -reach; i <= reach; ++i) {
+    const auto max_index = std::ptrdiff_t(band * side);
+    for (std::ptrdiff_t j = -max_index; j <= max_index; ++j)
+        for (std::ptrdiff_t i = -max_index; i <= max_index; ++i) {
             const auto bits = core::philox({std::uint32_t(i), std::uint32_t(j), 0, 0}, {seed, 0})[0];
             field.samples(std::size_t(j + std::ptrdiff_t(side)) % side, std::size_t(i + std::ptrdiff_t(side)) % side) =
                 Complex(std::polar(1.0, 2 * std::numbers::pi * (bits / 4294967296.0)));
@@ -106,8 +106,8 @@ TEST_P(Order, holds_the_field_alone) {
             order(y, x) *= Complex(std::polar(1.0, 2 * std::numbers::pi * frequency * double(x)));
     const math::Fft2 fft(side, side);
     fft.forward(order);
-    Array<Complex, 2> wanted = field.samples;
-    fft.forward(wanted);
+    Array<Complex, 2> expected = field.samples;
+    fft.forward(expected);
     const auto reach = std::ptrdiff_t(band * side);
     std::complex<double> product = 0;
     double energy = 0, other = 0;
@@ -115,7 +115,7 @@ TEST_P(Order, holds_the_field_alone) {
         for (std::ptrdiff_t i = -reach; i <= reach; ++i) {
             const std::size_t row = std::size_t(j + std::ptrdiff_t(side)) % side,
                               column = std::size_t(i + std::ptrdiff_t(side)) % side;
-            const std::complex<double> a = order(row, column), b = wanted(row, column);
+            const std::complex<double> a = order(row, column), b = expected(row, column);
             product += a * std::conj(b);
             energy += std::norm(a);
             other += std::norm(b);
@@ -133,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(Encodings, Order,
 double spectral_error(const Pattern& pattern, Encoding encoding, const Field& field, std::size_t first = 0,
                       std::size_t reach = side) {
     constexpr std::size_t window = 24;
-    const Array<Complex, 2> shown = transmission(pattern, encoding);
+    const Array<Complex, 2> actual = transmission(pattern, encoding);
     const math::Fft2 fft(window, window);
     double error = 0, all = 0;
     for (std::size_t y0 = first; y0 + window <= side; y0 += window)
@@ -141,7 +141,7 @@ double spectral_error(const Pattern& pattern, Encoding encoding, const Field& fi
             Array<Complex, 2> a({window, window}), b({window, window});
             for (std::size_t y = 0; y < window; ++y)
                 for (std::size_t x = 0; x < window; ++x) {
-                    a(y, x) = shown(y0 + y, x0 + x);
+                    a(y, x) = actual(y0 + y, x0 + x);
                     b(y, x) = field.samples(y0 + y, x0 + x);
                 }
             fft.forward(a);
@@ -207,15 +207,15 @@ TEST(Pattern, descent_converges_to_the_field_within_its_band) {
 
 // Correlation of the light that an aperture passes with the field.
 template <class IsInside>
-double correlation_behind(Array<Complex, 2> shown, Array<Complex, 2> wanted, const IsInside& is_inside) {
+double correlation_behind(Array<Complex, 2> actual, Array<Complex, 2> expected, const IsInside& is_inside) {
     const math::Fft2 fft(side, side);
-    fft.forward(shown);
-    fft.forward(wanted);
+    fft.forward(actual);
+    fft.forward(expected);
     std::complex<double> product = 0;
     double energy = 0, all = 0;
     for (std::size_t y = 0; y < side; ++y)
         for (std::size_t x = 0; x < side; ++x) {
-            const std::complex<double> a = shown(y, x), b = wanted(y, x);
+            const std::complex<double> a = actual(y, x), b = expected(y, x);
             all += std::norm(b);
             if (!is_inside(x, y)) continue;
             product += a * std::conj(b);
@@ -261,24 +261,24 @@ Field textured(double band, double strength, double carrier = 0) {
 
 // PSNR of the intensity behind an aperture around frequency zero against the field, dB.
 double psnr_behind(double radius, const Pattern& pattern, Encoding encoding, const Field& field) {
-    Array<Complex, 2> shown = transmission(pattern, encoding);
+    Array<Complex, 2> actual = transmission(pattern, encoding);
     const math::Fft2 fft(side, side);
-    fft.forward(shown);
+    fft.forward(actual);
     const auto frequency = [](std::size_t k) { return double(std::min(k, side - k)) / side; };
     for (std::size_t y = 0; y < side; ++y)
         for (std::size_t x = 0; x < side; ++x)
-            if (std::hypot(frequency(x), frequency(y)) > radius) shown(y, x) = 0;
-    fft.backward(shown);
+            if (std::hypot(frequency(x), frequency(y)) > radius) actual(y, x) = 0;
+    fft.backward(actual);
     double product = 0, energy = 0, peak = 0, error = 0;
-    for (std::size_t i = 0; i < shown.size(); ++i) {
-        const double a = std::norm(shown.data()[i]), b = std::norm(field.samples.data()[i]);
+    for (std::size_t i = 0; i < actual.size(); ++i) {
+        const double a = std::norm(actual.data()[i]), b = std::norm(field.samples.data()[i]);
         product += a * b;
         energy += a * a;
         peak = std::max(peak, b);
     }
-    for (std::size_t i = 0; i < shown.size(); ++i)
-        error += std::pow(product / energy * std::norm(shown.data()[i]) - std::norm(field.samples.data()[i]), 2);
-    return 10 * std::log10(peak * peak * double(shown.size()) / error);
+    for (std::size_t i = 0; i < actual.size(); ++i)
+        error += std::pow(product / energy * std::norm(actual.data()[i]) - std::norm(field.samples.data()[i]), 2);
+    return 10 * std::log10(peak * peak * double(actual.size()) / error);
 }
 
 TEST(Pattern, what_suits_a_smooth_field_shows_its_picture_behind_the_aperture) {
@@ -306,14 +306,14 @@ TEST(Pattern, the_aperture_is_around_the_light_of_a_field_beside_frequency_zero)
 // Share of the field's order in the light behind the aperture of an amplitude pattern, widened by a tenth. Computed
 // from the correlation with the field, which light of other orders lowers.
 double likeness_behind(const Pattern& pattern, Encoding encoding, const Field& field) {
-    Array<Complex, 2> wanted = field.samples;
+    Array<Complex, 2> expected = field.samples;
     const double carrier = std::sin(pattern.reference_angle) * 8_um / 633_nm;
     for (std::size_t y = 0; y < side; ++y)
         for (std::size_t x = 0; x < side; ++x)
-            wanted(y, x) *= Complex(std::polar(1.0, -2 * std::numbers::pi * std::fmod(carrier * double(x), 1.0)));
+            expected(y, x) *= Complex(std::polar(1.0, -2 * std::numbers::pi * std::fmod(carrier * double(x), 1.0)));
     const Aperture& aperture = pattern.aperture;
     const double correlation =
-        correlation_behind(transmission(pattern, encoding), wanted, [&](std::size_t x, std::size_t y) {
+        correlation_behind(transmission(pattern, encoding), expected, [&](std::size_t x, std::size_t y) {
             const double across = std::remainder(double(x) / side - aperture.x, 1.0),
                          down = std::remainder(double(y) / side - aperture.y, 1.0);
             return std::hypot(across, down) <= 1.1 * aperture.radius;
@@ -348,14 +348,14 @@ TEST(Pattern, shows_the_field_as_bright_as_it_is_with_light_of_its_power) {
     for (const Encoding encoding :
          {Encoding::phase, Encoding::double_phase, Encoding::gradient, Encoding::bipolar, Encoding::lee}) {
         const Pattern pattern = encode_pattern(field, options_for(encoding));
-        const Array<Complex, 2> shown = transmission(pattern, encoding);
+        const Array<Complex, 2> actual = transmission(pattern, encoding);
         const double frequency = std::sin(pattern.reference_angle) * 8_um / 633_nm;
         std::complex<double> product = 0;
         double energy = 0;
         for (std::size_t y = 0; y < side; ++y)
             for (std::size_t x = 0; x < side; ++x) {
                 const Complex back = Complex(std::polar(1.0, 2 * std::numbers::pi * frequency * double(x)));
-                product += std::complex<double>(shown(y, x) * back * std::conj(field.samples(y, x)));
+                product += std::complex<double>(actual(y, x) * back * std::conj(field.samples(y, x)));
                 energy += std::norm(field.samples(y, x));
             }
         EXPECT_NEAR(std::sqrt(pattern.power) * std::abs(product) / energy, 1, 0.01) << int(encoding);
