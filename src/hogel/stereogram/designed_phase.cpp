@@ -6,7 +6,7 @@
 namespace hogel::stereogram {
 namespace {
 
-constexpr int projections = 200;  // more of them do not make the modulus flatter
+constexpr int projections = 200;  // more do not flatten the modulus further
 
 std::complex<float> unit(std::complex<float> value) {
     const float modulus = std::abs(value);

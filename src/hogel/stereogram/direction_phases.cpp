@@ -19,25 +19,25 @@ DirectionPhases direction_phases(const FrequencyGrid& frequencies, const math::F
     Array<float, 2> moduli(shape);
     const std::vector<float> uniform(frequencies.rays(), 1.0f), ones(moduli.size(), 1.0f);
     frequencies.amplitudes(uniform, moduli.elements());
-    DirectionPhases all;
+    DirectionPhases phases_by_look;
     for (std::size_t look = 0; look < options.looks; ++look) {
-        Array<std::complex<float>, 2>& phases = all.emplace_back(shape);
-        // Uses the series of a hogel outside the hologram, so that these phases differ from those of every hogel.
+        Array<std::complex<float>, 2>& phases = phases_by_look.emplace_back(shape);
+        // A hogel index outside the hologram keeps these phases apart from those of every hogel.
         spread_random_phases(phase_series(options, 0xffffffff, 0xffffffff, look), ones, phases.elements());
         if (flat) flatten_fringe(moduli, fft, phases);
     }
-    return all;
+    return phases_by_look;
 }
 
 void write_lines(const HologramOptions& options, const HogelKey& hogel, std::size_t lines,
-                 std::span<const std::complex<float>> line, std::complex<float>* to, std::size_t to_row) {
+                 std::span<const std::complex<float>> line, std::complex<float>* to, std::size_t to_stride) {
     for (std::size_t i = lines; i-- > 0;) {
-        const float one = 1;
+        const float modulus = 1;
         std::complex<float> phase;
-        spread_random_phases(phase_series(options, 0xffffffff, hogel.t * lines + i, hogel.look), {&one, 1},
+        spread_random_phases(phase_series(options, 0xffffffff, hogel.t * lines + i, hogel.look), {&modulus, 1},
                              {&phase, 1});
-        std::ranges::transform(line, to + i * to_row, [phase](std::complex<float> x) {
-            // Without the tests for infinities of a product of std::complex.
+        std::ranges::transform(line, to + i * to_stride, [phase](std::complex<float> x) {
+            // A product of std::complex would test for infinities.
             return std::complex<float>(x.real() * phase.real() - x.imag() * phase.imag(),
                                        x.real() * phase.imag() + x.imag() * phase.real());
         });

@@ -12,19 +12,19 @@
 
 namespace hogel::stereogram {
 
-/// The series of random phases of a hogel.
+/// Returns the series of random phases of hogel (s, t) for one look.
 PhaseSeries phase_series(const HologramOptions& options, std::size_t s, std::size_t t, std::size_t look);
 
-/// Phases that all hogels share: for each look, e^{iφ} for each frequency of a hogel's Fourier transform.
+/// Phases shared by all hogels: for each look, e^{iφ} for each frequency of a hogel's Fourier transform.
 /// @param flat  designed for a flat fringe; otherwise random
 using DirectionPhases = std::vector<Array<std::complex<float>, 2>>;
 DirectionPhases direction_phases(const FrequencyGrid& frequencies, const math::Fft2& fft,
                                  const HologramOptions& options, bool flat);
 
-/// Writes the lines of a hologram with horizontal parallax only whose hogels share phases: line number i of the hogel
-/// is `line` times e^{iφ} with a phase of that line's own, because equal lines would send light only straight ahead.
-/// @param to  the first line; line number i begins at to + i·to_row; `line` may be the first
+/// Writes the lines of a hogel with horizontal parallax only and shared phases: line i is `line` times a random
+/// e^{iφ_i}. Equal lines would send light only straight ahead.
+/// @param to  first line; line i begins at to + i·to_stride; `line` may be the first
 void write_lines(const HologramOptions& options, const HogelKey& hogel, std::size_t lines,
-                 std::span<const std::complex<float>> line, std::complex<float>* to, std::size_t to_row);
+                 std::span<const std::complex<float>> line, std::complex<float>* to, std::size_t to_stride);
 
 }  // namespace hogel::stereogram

@@ -59,8 +59,8 @@ Array<Complex, 2> whole(const FieldSource& source, std::size_t look = 0) {
     return field;
 }
 
-// The intensity of a hologram's light along a line in x through a point, from −reach to +reach in steps of reach/80: a
-// direct sum over samples, averaged over looks. The hologram is a strip whose rows are nearly equal.
+// Intensity of a hologram's light along a line in x through a point, from −reach to +reach in steps of reach/80: a
+// direct sum over samples, averaged over looks. The hologram is a strip with nearly equal rows.
 std::vector<double> focus_of(const FieldSource& source, const Vec3& point, double reach) {
     const Grid& plane = source.grid().plane;
     const double k = 2 * std::numbers::pi / source.grid().wavelength;
@@ -97,7 +97,7 @@ Peak peak_of(const std::vector<double>& intensity) {
     return {double(after - before.base()) / 80, double(peak - intensity.begin()) / 80 - 1};
 }
 
-// The share of the line's energy within the inner half of it.
+// Share of the line's energy in its inner half.
 double inner_half(const std::vector<double>& intensity) {
     double inner = 0, all = 0;
     for (std::size_t i = 0; i < intensity.size(); ++i) {
@@ -122,8 +122,8 @@ double likeness(const FieldSource& source, const Field& exact) {
     return std::norm(product) / (energy * other);
 }
 
-// A small patch of a plane, which every hogel sees by the one ray that meets it. The hologram is a strip; the point is
-// behind or in front of it.
+// A small patch of a plane, which every hogel sees by one ray. The hologram is a strip in front of the point or behind
+// it.
 class PointFocus : public testing::TestWithParam<double> {
   protected:
     const double depth = GetParam() * 1e-6 * std::exp(79 / 8.0), tan_half = 0.1, wavelength = 633_nm;
@@ -153,8 +153,8 @@ TEST_P(PointFocus, with_added_phases_is_as_narrow_as_the_whole_fan_of_rays_allow
     }
 }
 
-// One hogel is a slit of its own width: sinc² with its first zero at λζ/d. In addition the frequency grid spreads the
-// ray over lobes: by the hat function that interpolates rays and by the width of a lobe.
+// One hogel is a slit: sinc² with its first zero at λζ/d. The frequency grid also spreads the ray over lobes: by the
+// hat function of ray interpolation and by the width of a lobe.
 TEST_P(PointFocus, without_added_phases_is_as_wide_as_one_hogel_diffracts) {
     const double zero = wavelength * std::abs(depth) / grid.pitch;
     const double hat = grid.step_u() / (wavelength / grid.pitch);  // in lobes
@@ -171,9 +171,8 @@ TEST_P(PointFocus, without_added_phases_is_as_wide_as_one_hogel_diffracts) {
     EXPECT_GT(inner_half(focus_of(*hologram(PhaseAdded{true}), point, zero)), 0.97);
 }
 
-// With exact frequencies the waves are those of the point, except for a sphere's curvature over one hogel. With the
-// nearest frequencies of the transform they err by up to half a step along x, uniformly distributed; in y all hogels
-// err by the same.
+// With exact frequencies the waves are the point's, but for the sphere's curvature over one hogel. With the nearest
+// frequencies they err by up to half a step along x, uniformly distributed, and in y equally in all hogels.
 TEST_P(PointFocus, with_exact_added_phases_is_the_exact_sum) {
     const auto exactly = hologram(PhaseAdded{true});
     const PointSource source{point};
@@ -192,7 +191,7 @@ class OverlapAddPoint : public testing::TestWithParam<double> {};
 TEST_P(OverlapAddPoint, is_focused_as_narrowly_as_the_fan_of_rays_allows) {
     const double depth = GetParam(), tan_half = 8.5 * 633_nm / (19 * 4_um);
     const LightFieldGrid grid{201, 39, 4_um, 17, 17, Perspective{tan_half, tan_half}, 1};
-    // One point of the surface, the nearest to the middle hogel.
+    // The surface point nearest to the middle hogel.
     const auto beside = [](std::size_t hogels) {
         const double middle = 0.5 * double(hogels - 1);
         return (std::round(middle / windows::point_spacing) * windows::point_spacing - middle) * 4_um;
@@ -225,7 +224,7 @@ TEST_P(EveryMethod, gives_the_same_bytes_in_any_tiling) {
     const LightFieldGrid grid{9, 7, 48_um, 20, 22, Perspective{0.12, 0.13}, 1};
     const Card cards[] = {{3e-3, 0, 1, -1, 1, 0.5f}, {-2e-3, -1, 1, 0, 0.1e-3, 2}};
     LightFieldBuffer light_field = light_field_of(grid, cards);
-    light_field.radiance(0, 2, 2, 3, 3) = 7;  // a ray with radiance that meets nothing
+    light_field.radiance(0, 2, 2, 3, 3) = 7;  // a bright ray without a surface
     const auto source = make_hologram(borrow(light_field), options(2_um));
     const Array<Complex, 2> all = whole(*source);
     double energy = 0;
@@ -251,7 +250,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod,
                                          NamedMethod{"basis fixed", Basis{"cdf97", 0, SharedPhases::fixed}},
                                          NamedMethod{"basis designed", Basis{"cdf97", 0, SharedPhases::designed}}));
 
-// The methods that send light in all directions, as a diffuse surface does.
+// Methods with light in all directions, as from a diffuse surface.
 class DiffuseMethod : public EveryMethod {
   protected:
     const bool overlapping = std::holds_alternative<OverlapAdd>(GetParam().method);
@@ -321,7 +320,7 @@ TEST(OverlapAdd, a_picture_at_infinity_is_told_from_a_background) {
     EXPECT_FALSE(has_picture_at_infinity(LightFieldBuffer(light_field.grid())));
 }
 
-// A fan of directions to one side, as for an off-axis camera, gives the same brightness as a fan straight ahead.
+// A fan of directions to one side, as for an off-axis camera, is as bright as a fan straight ahead.
 TEST(OverlapAdd, an_off_axis_plane_photographs_with_its_own_radiance) {
     for (const double center : {0.5, -0.5}) {
         LightFieldGrid grid{100, 60, 4.8_um, 9, 9, Perspective{0.09, 0.09}, 1};

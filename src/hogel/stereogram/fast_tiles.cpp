@@ -12,10 +12,11 @@ bool FastTiles::can(std::size_t side) { return side >= rows_at_once && math::Col
 
 FastTiles::FastTiles(std::size_t side, const DirectionPhases& phases) : side_(side), fft_(side) {
     for (const Array<std::complex<float>, 2>& look : phases) {
-        Array<float, 1>& own = phases_.emplace_back(Shape<1>{2 * side * side});
+        Array<float, 1>& look_phases = phases_.emplace_back(Shape<1>{2 * side * side});
         for (std::size_t row = 0; row < side; ++row)
             for (std::size_t column = 0; column < side; ++column) {
-                float* to = own.data() + (row / rows_at_once * side + column) * square_column + row % rows_at_once;
+                float* to =
+                    look_phases.data() + (row / rows_at_once * side + column) * square_column + row % rows_at_once;
                 to[0] = look(row, column).real();
                 to[rows_at_once] = look(row, column).imag();
             }
@@ -24,43 +25,42 @@ FastTiles::FastTiles(std::size_t side, const DirectionPhases& phases) : side_(si
 
 void FastTiles::prepare(const FrequencyGrid& frequencies, View<const float, 2> values, bool of_roots,
                         View<float, 2> moduli) const {
-    auto sixteen = sixteens_.take();
-    const std::size_t line = side_ * hogels_at_once, blocks = side_ / rows_at_once;
-    if (sixteen->size() == 0) *sixteen = Array<float, 1>({rows_at_once * line});
+    auto rows = row_buffers_.take();
+    const std::size_t row_size = side_ * hogels_at_once, blocks = side_ / rows_at_once;
+    if (rows->size() == 0) *rows = Array<float, 1>({rows_at_once * row_size});
     for (std::size_t first = 0; first < values.extent(0); first += hogels_at_once) {
         const std::size_t hogels = std::min(hogels_at_once, values.extent(0) - first);
-        // Neighbouring rows arrive one after the other. A block of sixteen rows is transposed when the next block
-        // begins.
+        // Rows of a block arrive consecutively. A block of sixteen rows is transposed when the next one begins.
         std::size_t current = blocks;
         std::vector<bool> active(side_), done(blocks);
         const auto store_block = [&] {
             if (current == blocks) return;
             for (std::size_t row = 0; row < rows_at_once; ++row)
-                if (!active[current * rows_at_once + row]) std::fill_n(sixteen->data() + row * line, line, 0.0f);
-            transpose_hogels(sixteen->data(), side_, hogels, &moduli(first, current * line), side_ * side_);
+                if (!active[current * rows_at_once + row]) std::fill_n(rows->data() + row * row_size, row_size, 0.0f);
+            transpose_hogels(rows->data(), side_, hogels, &moduli(first, current * row_size), side_ * side_);
             done[current] = true;
         };
-        const auto place = [&](std::size_t row) {
+        const auto row_destination = [&](std::size_t row) {
             if (row / rows_at_once != current) store_block();
             current = row / rows_at_once;
             active[row] = true;
-            return sixteen->data() + row % rows_at_once * line;
+            return rows->data() + row % rows_at_once * row_size;
         };
-        frequencies.amplitudes_by_rows({&values(first, 0), {hogels, values.extent(1)}}, of_roots, place);
+        frequencies.amplitudes_by_rows({&values(first, 0), {hogels, values.extent(1)}}, of_roots, row_destination);
         store_block();
         for (std::size_t block = 0; block < blocks; ++block)
             for (std::size_t h = 0; !done[block] && h < hogels; ++h)
-                std::fill_n(&moduli(first + h, block * line), line, 0.0f);
+                std::fill_n(&moduli(first + h, block * row_size), row_size, 0.0f);
     }
 }
 
 void FastTiles::sixteen_rows(std::span<const float> moduli, const PhaseSeries& series, std::size_t look,
                              std::size_t row, float* waves) const {
-    const float* some = moduli.data() + row * side_;
+    const float* block = moduli.data() + row * side_;
     if (phases_.empty())
-        random_waves(series, row, some, side_, waves);
+        random_waves(series, row, block, side_, waves);
     else
-        shared_waves({phases_[look].data() + 2 * row * side_, side_ * square_column}, some, waves);
+        shared_waves({phases_[look].data() + 2 * row * side_, side_ * square_column}, block, waves);
 }
 
 void FastTiles::waves(std::span<const float> moduli, const PhaseSeries& series, std::size_t look,
@@ -85,7 +85,7 @@ void FastTiles::row_of_lanes(const SeriesOfLanes& series, std::size_t row, bool 
 }
 
 void FastTiles::synthesise(std::span<const float> moduli, const PhaseSeries& series, std::size_t look,
-                           std::complex<float>* to, std::size_t to_row) const {
+                           std::complex<float>* to, std::size_t to_stride) const {
     const std::size_t columns = side_ * square_column;                     // floats of sixteen columns, or rows
     const core::ThreadBuffer<float> scratch(columns + 2 * side_ * side_);  // sixteen rows, then the square
     float *waves = scratch.data(), *square = scratch.data() + columns;
@@ -94,7 +94,7 @@ void FastTiles::synthesise(std::span<const float> moduli, const PhaseSeries& ser
         fft_.backward_split(waves);
         transpose_rows(waves, side_, square + row * square_column, columns);
     }
-    fft_.backward_split(square, to, to_row, side_);
+    fft_.backward_split(square, to, to_stride, side_);
 }
 
 }  // namespace hogel::stereogram

@@ -15,31 +15,32 @@
 
 namespace hogel::stereogram {
 
-/// Phases and one FFT for hogels whose sides are powers of two. Sixteen rows of frequencies lie side by side, so that
-/// phases and transforms along rows are those of whole vectors; they are transposed into a square that stays in
-/// the cache, and the transforms of its columns write a hogel's samples to their destination.
+/// Synthesis by one FFT of hogels with sides of powers of two. Sixteen rows of frequencies lie side by side, so phases
+/// and row transforms work on whole vectors. The rows are transposed into a square that stays in cache; its column
+/// transforms write a hogel's samples to their destination. Thread-safe.
 class FastTiles {
   public:
-    /// Whether this side is supported: powers of two from 16 on, if the processor has vectors.
+    /// Returns whether a side is supported: powers of two from 16 up, if the processor has vectors.
     static bool can(std::size_t side);
 
-    /// @param phases  [look], shared by all hogels; empty: every hogel has its own random phases
+    /// @param phases  [look], shared by all hogels; empty: independent random phases for every hogel
     FastTiles(std::size_t side, const DirectionPhases& phases);
 
-    /// Computes the moduli in the layout of synthesise(): [hogel][row/16][column][row mod 16].
+    /// Computes moduli in the layout that synthesise() takes: [hogel][row/16][column][row mod 16].
+    /// @param of_roots  whether `values` are amplitudes √L, not radiances
     void prepare(const FrequencyGrid& frequencies, View<const float, 2> values, bool of_roots,
                  View<float, 2> moduli) const;
 
-    /// @param series  of random phases
-    /// @param look    for phases that all hogels share
+    /// @param series  random phases of the hogel
+    /// @param look    index of shared phases
     void synthesise(std::span<const float> moduli, const PhaseSeries& series, std::size_t look, std::complex<float>* to,
-                    std::size_t to_row) const;
+                    std::size_t to_stride) const;
 
-    /// The waves that synthesise() transforms, as HogelWaves::waves().
+    /// As HogelWaves::waves(): the waves that synthesise() transforms.
     void waves(std::span<const float> moduli, const PhaseSeries& series, std::size_t look, const InBandRows& rows,
                float* waves) const;
 
-    /// Whether row_of_lanes() is supported: random phases of sides up to 128.
+    /// Returns whether row_of_lanes() is supported: random phases, sides up to 128.
     bool has_lanes() const;
     /// See HogelWaves.
     void gather_lanes(std::span<const float* const> moduli, std::size_t row, float* gathered) const;
@@ -47,15 +48,14 @@ class FastTiles {
                       float* waves) const;
 
   private:
-    // Sixteen rows of waves, [column][part][row].
+    // Computes sixteen rows of waves, [column][part][row].
     void sixteen_rows(std::span<const float> moduli, const PhaseSeries& series, std::size_t look, std::size_t row,
                       float* waves) const;
 
     std::size_t side_;
     math::ColumnFft fft_;
-    std::vector<Array<float, 1>> phases_;  // [look]: [row/16][column][part][row mod 16]
-    mutable core::ObjectPool<Array<float, 1>>
-        sixteens_;  // scratch for the rows of sixteen hogels: [row mod 16][column][hogel]
+    std::vector<Array<float, 1>> phases_;                    // [look]: [row/16][column][part][row mod 16]
+    mutable core::ObjectPool<Array<float, 1>> row_buffers_;  // scratch of prepare(): [row mod 16][column][hogel]
 };
 
 }  // namespace hogel::stereogram

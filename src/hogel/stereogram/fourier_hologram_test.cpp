@@ -129,7 +129,7 @@ TEST(FourierHologram, has_the_same_bytes_in_any_tiling_and_other_phases_for_anot
     EXPECT_LT(correlation(*make_hologram(borrow(light_field), options), 0), 0.03);
 }
 
-// Rays computed on demand. Records how many were read at once.
+// Light field that is computed on demand. Records the number of rays per read.
 struct CountingSource final : LightFieldSource {
     LightFieldGrid sampled;
     mutable std::size_t max_bytes = 0, hogels = 0;

@@ -9,7 +9,7 @@
 namespace hogel::stereogram {
 namespace {
 
-// Moduli of sixteen larger hogels side by side would not fit into the second cache.
+// Moduli of sixteen larger hogels side by side exceed the L2 cache.
 constexpr std::size_t max_side_in_lanes = 256;
 
 }  // namespace
@@ -28,7 +28,7 @@ FourierSynthesis::FourierSynthesis(FrequencyGrid frequencies, std::size_t lines,
       fft_(frequencies_.rows(), frequencies_.columns()),
       directions_(std::move(directions)) {
     if (lines > 0) down_.emplace(lines);
-    if (lines > 0 && math::good_fft_size(lines) == lines) sixteen_down_.emplace(lines);
+    if (lines > 0 && math::good_fft_size(lines) == lines) batch_down_.emplace(lines);
     if (lines == 0 && FastTiles::can(frequencies_.columns())) fast_.emplace(frequencies_.columns(), directions_);
     const std::size_t n = frequencies_.columns();
     if (independent() && !has_lanes() && n >= rows_at_once && n <= max_side_in_lanes) middle_ = middle_phases(n);
@@ -50,43 +50,43 @@ void FourierSynthesis::prepare(View<const float, 2> values, bool of_roots, View<
         frequencies_.amplitudes(values, moduli);
 }
 
-void FourierSynthesis::synthesise(std::span<const float> moduli, const HogelKey& place, View<Complex, 2> hogel) const {
-    synthesise_to(moduli, place, hogel, hogel.data(), hogel.extent(1));
+void FourierSynthesis::synthesise(std::span<const float> moduli, const HogelKey& key, View<Complex, 2> hogel) const {
+    synthesise_to(moduli, key, hogel, hogel.data(), hogel.extent(1));
 }
 
-void FourierSynthesis::synthesise_to(std::span<const float> moduli, const HogelKey& place, View<Complex, 2> scratch,
-                                     Complex* to, std::size_t to_row) const {
+void FourierSynthesis::synthesise_to(std::span<const float> moduli, const HogelKey& key, View<Complex, 2> scratch,
+                                     Complex* to, std::size_t to_stride) const {
     if (fast_)
-        return fast_->synthesise(moduli, phase_series(options_, place.s, place.t, place.look), place.look, to, to_row);
-    if (lines_ == 0) return transform(moduli, place, scratch, to, to_row);
+        return fast_->synthesise(moduli, phase_series(options_, key.s, key.t, key.look), key.look, to, to_stride);
+    if (lines_ == 0) return transform(moduli, key, scratch, to, to_stride);
     if (!directions_.empty()) {
-        transform(moduli, place, {scratch.data(), {1, frequencies_.columns()}}, to, to_row);
-        return write_lines(options_, place, lines_, {to, frequencies_.columns()}, to, to_row);
+        transform(moduli, key, {scratch.data(), {1, frequencies_.columns()}}, to, to_stride);
+        return write_lines(options_, key, lines_, {to, frequencies_.columns()}, to, to_stride);
     }
     // Lines are independent.
     for (std::size_t line = 0; line < lines_; ++line)
-        transform(moduli, {place.s, place.t * lines_ + line, place.look},
-                  {&scratch(line, 0), {1, frequencies_.columns()}}, to + line * to_row, to_row);
+        transform(moduli, {key.s, key.t * lines_ + line, key.look}, {&scratch(line, 0), {1, frequencies_.columns()}},
+                  to + line * to_stride, to_stride);
 }
 
-void FourierSynthesis::waves(std::span<const float> moduli, const HogelKey& place, const InBandRows& rows,
+void FourierSynthesis::waves(std::span<const float> moduli, const HogelKey& key, const InBandRows& rows,
                              float* waves) const {
-    const PhaseSeries series = phase_series(options_, place.s, place.t, place.look);
-    if (fast_) return fast_->waves(moduli, series, place.look, rows, waves);
+    const PhaseSeries series = phase_series(options_, key.s, key.t, key.look);
+    if (fast_) return fast_->waves(moduli, series, key.look, rows, waves);
     const std::size_t n = frequencies_.columns();
     const Shape<2> shape{lines_ > 0 ? lines_ : n, n};
     const core::ThreadBuffer<Complex> buffer(shape[0] * shape[1]);
     const View<Complex, 2> plain(buffer.data(), shape);
     if (lines_ > 0)
-        spread_lines(moduli, place, plain);
+        spread_lines(moduli, key, plain);
     else
-        spread_phases(moduli, place, plain);
+        spread_phases(moduli, key, plain);
     store_waves(plain, rows, waves);
 }
 
 void FourierSynthesis::powers(std::span<const float> moduli, float* powers) const {
     const std::size_t n = frequencies_.columns();
-    if (fast_) {  // moduli are in the same order
+    if (fast_) {  // moduli have the same order
         for (std::size_t i = 0; i < moduli.size(); ++i) powers[i] = moduli[i] * moduli[i];
         return;
     }
@@ -98,12 +98,12 @@ void FourierSynthesis::powers(std::span<const float> moduli, float* powers) cons
         }
 }
 
-SeriesOfLanes FourierSynthesis::series_of_lanes(std::span<const HogelKey> places) const {
+SeriesOfLanes FourierSynthesis::series_of_lanes(std::span<const HogelKey> keys) const {
     SeriesOfLanes series{};
-    for (std::size_t lane = 0; lane < places.size(); ++lane) {
-        const PhaseSeries own = phase_series(options_, places[lane].s, places[lane].t, places[lane].look);
-        series.key = own.key;
-        for (std::size_t word = 0; word < 3; ++word) series.position[word][lane] = own.position[word];
+    for (std::size_t lane = 0; lane < keys.size(); ++lane) {
+        const PhaseSeries lane_series = phase_series(options_, keys[lane].s, keys[lane].t, keys[lane].look);
+        series.key = lane_series.key;
+        for (std::size_t word = 0; word < 3; ++word) series.position[word][lane] = lane_series.position[word];
     }
     return series;
 }
@@ -113,8 +113,8 @@ void FourierSynthesis::gather_lanes(std::span<const float* const> moduli, std::s
     const std::size_t n = frequencies_.columns();
     for (std::size_t end = std::min(row + block_rows, n); row < end; ++row)
         for (std::size_t x = 0; x < n && active_rows_[row]; x += rows_at_once) {
-            const std::size_t at = row * n + std::min(x, n - rows_at_once);
-            gather_rows(moduli, at, gathered + at * rows_at_once, rows_at_once);
+            const std::size_t index = row * n + std::min(x, n - rows_at_once);
+            gather_rows(moduli, index, gathered + index * rows_at_once, rows_at_once);
         }
 }
 
@@ -131,41 +131,39 @@ void FourierSynthesis::row_of_lanes(const SeriesOfLanes& series, std::size_t row
     random_row_of_any_side(series, row, shared, moduli, shared && !fast_ ? 1 : rows_at_once, middle_, n, waves);
 }
 
-void FourierSynthesis::transform(std::span<const float> moduli, const HogelKey& place, View<Complex, 2> values,
-                                 Complex* to, std::size_t to_row) const {
-    spread_phases(moduli, place, values);
-    fft_.backward(values, to, to_row);
+void FourierSynthesis::transform(std::span<const float> moduli, const HogelKey& key, View<Complex, 2> values,
+                                 Complex* to, std::size_t to_stride) const {
+    spread_phases(moduli, key, values);
+    fft_.backward(values, to, to_stride);
 }
 
-void FourierSynthesis::spread_phases(std::span<const float> moduli, const HogelKey& place,
+void FourierSynthesis::spread_phases(std::span<const float> moduli, const HogelKey& key,
                                      View<Complex, 2> values) const {
     if (directions_.empty()) {
-        spread_random_phases(phase_series(options_, place.s, place.t, place.look), moduli, values.elements());
+        spread_random_phases(phase_series(options_, key.s, key.t, key.look), moduli, values.elements());
     } else {
-        for (std::size_t i = 0; i < moduli.size(); ++i)
-            values.data()[i] = moduli[i] * directions_[place.look].data()[i];
+        for (std::size_t i = 0; i < moduli.size(); ++i) values.data()[i] = moduli[i] * directions_[key.look].data()[i];
     }
 }
 
-// The waves of a square of lines: those of each line, transformed down the lines.
-void FourierSynthesis::spread_lines(std::span<const float> moduli, const HogelKey& place,
-                                    View<Complex, 2> values) const {
+// Computes the waves of a square of lines: those of each line, transformed over the lines.
+void FourierSynthesis::spread_lines(std::span<const float> moduli, const HogelKey& key, View<Complex, 2> values) const {
     const std::size_t n = frequencies_.columns();
     if (directions_.empty()) {
         for (std::size_t line = 0; line < lines_; ++line)
-            spread_phases(moduli, {place.s, place.t * lines_ + line, place.look}, {&values(line, 0), {1, n}});
+            spread_phases(moduli, {key.s, key.t * lines_ + line, key.look}, {&values(line, 0), {1, n}});
     } else {
-        spread_phases(moduli, place, {values.data(), {1, n}});
-        write_lines(options_, place, lines_, {values.data(), n}, values.data(), n);
+        spread_phases(moduli, key, {values.data(), {1, n}});
+        write_lines(options_, key, lines_, {values.data(), n}, values.data(), n);
     }
     transform_down(values);
 }
 
-// Divided by the number of lines, so that a backward transform gives the lines again.
+// Transforms the waves over the lines. Divides by the number of lines: a backward transform restores them.
 void FourierSynthesis::transform_down(View<Complex, 2> values) const {
     const std::size_t n = values.extent(1);
     const float share = 1 / static_cast<float>(lines_);
-    if (!sixteen_down_) {
+    if (!batch_down_) {
         const core::ThreadBuffer<Complex> column(lines_);
         for (std::size_t x = 0; x < n; ++x) {
             for (std::size_t line = 0; line < lines_; ++line) column[line] = values(line, x);
@@ -174,21 +172,21 @@ void FourierSynthesis::transform_down(View<Complex, 2> values) const {
         }
         return;
     }
-    constexpr std::size_t together = math::SplitFft::together, step = math::SplitFft::row;
-    const core::ThreadBuffer<float> columns(lines_ * step);
-    for (std::size_t x = 0; x < n; x += together) {
-        const std::size_t count = std::min(together, n - x);
+    constexpr std::size_t batch = math::SplitFft::together, stride = math::SplitFft::row;
+    const core::ThreadBuffer<float> columns(lines_ * stride);
+    for (std::size_t x = 0; x < n; x += batch) {
+        const std::size_t count = std::min(batch, n - x);
         for (std::size_t line = 0; line < lines_; ++line) {
-            float* to = columns.data() + line * step;
+            float* to = columns.data() + line * stride;
             for (std::size_t i = 0; i < count; ++i) {
                 to[i] = values(line, x + i).real();
-                to[together + i] = values(line, x + i).imag();
+                to[batch + i] = values(line, x + i).imag();
             }
         }
-        sixteen_down_->transform(columns.data());
+        batch_down_->transform(columns.data());
         for (std::size_t row = 0; row < lines_; ++row) {
-            const float* from = columns.data() + sixteen_down_->place(row) * step;
-            for (std::size_t i = 0; i < count; ++i) values(row, x + i) = {share * from[i], share * from[together + i]};
+            const float* from = columns.data() + batch_down_->place(row) * stride;
+            for (std::size_t i = 0; i < count; ++i) values(row, x + i) = {share * from[i], share * from[batch + i]};
         }
     }
 }

@@ -14,7 +14,7 @@
 namespace hogel::stereogram {
 namespace {
 
-// Maximum number of rays and lobes of a band; for sixteen hogels 128 KiB.
+// Maximum number of rays and lobes of a band: 128 KiB for sixteen hogels.
 constexpr std::size_t max_band_size = 2048;
 
 // Integral from −∞ to x of the hat function max(0, 1 − |x|).
@@ -29,9 +29,9 @@ struct LobeWeights {
     std::vector<float> weights;  // empty: outside the field of view
 };
 
-// The weights of samples 0..count−1 in the mean over [low, high] of the piecewise linear function through them. The end
+// Computes the weights of samples 0..count−1 in the mean over [low, high] of their piecewise linear function. The end
 // samples extend to the ends of their cells; beyond them the function is zero.
-void average_of_lines(double low, double high, std::size_t count, LobeWeights& result) {
+void linear_weights(double low, double high, std::size_t count, LobeWeights& result) {
     const double begin = -0.5, end = static_cast<double>(count) - 0.5;
     const double inside_low = std::max(low, begin), inside_high = std::min(high, end);
     result.weights.clear();
@@ -42,7 +42,7 @@ void average_of_lines(double low, double high, std::size_t count, LobeWeights& r
     result.first = static_cast<std::size_t>(first);
     for (double k = first; k <= final; ++k) {
         double weight = hat_integral(inside_high - k) - hat_integral(inside_low - k);
-        // Beyond an end sample its value stays constant instead of falling along the hat.
+        // Beyond an end sample its value stays constant.
         if (k == 0 && inside_low < 0)
             weight += std::min(inside_high, 0.0) - inside_low -
                       (hat_integral(std::min(inside_high, 0.0)) - hat_integral(inside_low));
@@ -54,8 +54,8 @@ void average_of_lines(double low, double high, std::size_t count, LobeWeights& r
     }
 }
 
-// The weights of samples in the mean over [low, high] of the function that is constant over each sample's cell.
-void average_of_pieces(double low, double high, std::size_t count, LobeWeights& result) {
+// Computes the weights of samples in the mean over [low, high] of the function that is constant over each cell.
+void constant_weights(double low, double high, std::size_t count, LobeWeights& result) {
     const double begin = std::max(low, -0.5), end = std::min(high, static_cast<double>(count) - 0.5);
     result.weights.clear();
     if (!(begin < end)) return;
@@ -67,8 +67,8 @@ void average_of_pieces(double low, double high, std::size_t count, LobeWeights& 
             static_cast<float>((std::min(end, k + 0.5) - std::max(begin, k - 0.5)) / (high - low)));
 }
 
-// Pads with zeros to the same number of weights in every lobe, because processors predict a loop of constant length.
-void widen(LobeWeights& average, std::size_t weights, std::size_t count) {
+// Pads every lobe with zeros to the same number of weights: processors predict loops of constant length.
+void pad_weights(LobeWeights& average, std::size_t weights, std::size_t count) {
     const std::size_t first = std::min(average.first, count - weights);
     average.weights.insert(average.weights.begin(), average.first - first, 0.0f);
     average.weights.resize(weights);
@@ -78,66 +78,66 @@ void widen(LobeWeights& average, std::size_t weights, std::size_t count) {
 }  // namespace
 
 FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t samples, double wavelength,
-                             Interpolation between)
-    : FrequencyGrid(light_field, samples, samples, wavelength / light_field.pitch, wavelength, between) {}
+                             Interpolation interpolation)
+    : FrequencyGrid(light_field, samples, samples, wavelength / light_field.pitch, wavelength, interpolation) {}
 
 FrequencyGrid::FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t samples, double wavelength,
-                             Interpolation between)
-    : FrequencyGrid(faces, samples, samples, wavelength / faces.front().pitch, wavelength, between) {}
+                             Interpolation interpolation)
+    : FrequencyGrid(faces, samples, samples, wavelength / faces.front().pitch, wavelength, interpolation) {}
 
 FrequencyGrid::FrequencyGrid(std::span<const LightFieldGrid> faces, std::size_t rows, std::size_t columns,
-                             double step_up, double wavelength, Interpolation between)
+                             double step_y, double wavelength, Interpolation interpolation)
     : rows_(rows), columns_(columns), rays_(0), row_length_(0) {
     for (const LightFieldGrid& face : faces) rays_ += face.directions();
-    resampling_ = scatter_lobes(faces, columns, step_up, rows == 1, wavelength, between);
+    resampling_ = scatter_lobes(faces, columns, step_y, rows == 1, wavelength, interpolation);
     bands_ = {{0, resampling_.lobes.size(), 0, rays_}};
     list_runs();
 }
 
 FrequencyGrid FrequencyGrid::of_line(std::span<const LightFieldGrid> faces, std::size_t samples, double line_pitch,
-                                     double wavelength, Interpolation between) {
-    if (faces.size() > 1) return {faces, 1, samples, wavelength / line_pitch, wavelength, between};
-    return {faces.front(), 1, samples, wavelength / line_pitch, wavelength, between};
+                                     double wavelength, Interpolation interpolation) {
+    if (faces.size() > 1) return {faces, 1, samples, wavelength / line_pitch, wavelength, interpolation};
+    return {faces.front(), 1, samples, wavelength / line_pitch, wavelength, interpolation};
 }
 
-FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows, std::size_t columns, double step_up,
-                             double wavelength, Interpolation between)
+FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows, std::size_t columns, double step_y,
+                             double wavelength, Interpolation interpolation)
     : rows_(rows), columns_(columns), rays_(light_field.directions()), row_length_(light_field.directions_u) {
     const double step = wavelength / light_field.pitch;  // between frequencies, as a direction sine
     const auto width = static_cast<std::ptrdiff_t>(columns), height = static_cast<std::ptrdiff_t>(rows);
-    const bool sines = light_field.has_frequencies();
-    const auto mean = between == Interpolation::constant || is_frequency_grid(light_field, wavelength)
-                          ? average_of_pieces
-                          : average_of_lines;
+    const bool has_sines = light_field.has_frequencies();
+    const auto mean = interpolation == Interpolation::constant || is_frequency_grid(light_field, wavelength)
+                          ? constant_weights
+                          : linear_weights;
     LobeWeights u, v;
-    // Calls use(coefficient, scale) for each frequency that carries light, with its weights in u and v.
+    // Calls use(coefficient, scale) for each active frequency, with its weights in u and v.
     const auto for_each_lobe = [&](const auto& use) {
-        // The frequency −n/2 of an even grid would be its own mirror image, so it is left out.
-        const std::ptrdiff_t reach_x = (width - 1) / 2, reach_y = (height - 1) / 2;
-        for (std::ptrdiff_t jy = -reach_y; jy <= reach_y; ++jy)
-            for (std::ptrdiff_t jx = -reach_x; jx <= reach_x; ++jx) {
+        // Frequency −n/2 of an even grid would be its own mirror image and is omitted.
+        const std::ptrdiff_t max_x = (width - 1) / 2, max_y = (height - 1) / 2;
+        for (std::ptrdiff_t jy = -max_y; jy <= max_y; ++jy)
+            for (std::ptrdiff_t jx = -max_x; jx <= max_x; ++jx) {
                 const double sx = step * static_cast<double>(jx), sy = step * static_cast<double>(jy);
                 const double cos2 = 1 - sx * sx - sy * sy;
                 if (cos2 <= 0) continue;
                 const double cosine = std::sqrt(cos2);
-                const double U = -sx / (sines ? 1 : cosine), V = -sy / (sines ? 1 : cosine);
+                const double U = -sx / (has_sines ? 1 : cosine), V = -sy / (has_sines ? 1 : cosine);
                 // Width of the lobe in U and V: dU/dsx = (1 + U²)/cos θ.
-                const double wu = 0.5 * step * (sines ? 1 : (1 + U * U) / cosine);
-                const double wv = 0.5 * step * (sines ? 1 : (1 + V * V) / cosine);
+                const double wu = 0.5 * step * (has_sines ? 1 : (1 + U * U) / cosine);
+                const double wv = 0.5 * step * (has_sines ? 1 : (1 + V * V) / cosine);
                 mean(light_field.column(U - wu), light_field.column(U + wu), light_field.directions_u, u);
-                // A line uses the one row of directions for all vertical angles.
+                // The one row of directions of a line stands for all vertical angles.
                 if (rows == 1)
                     v = {0, {1.0f}};
                 else
                     mean(light_field.row(V + wv), light_field.row(V - wv), light_field.directions_v, v);
                 if (u.weights.empty() || v.weights.empty()) continue;
-                // Rows are counted downwards but y upwards, so a row of the DFT is −j_y.
+                // DFT rows run downwards, y upwards: the row is −j_y.
                 const auto row = static_cast<std::size_t>((height - jy) % height),
                            column = static_cast<std::size_t>((width + jx) % width);
-                use(static_cast<std::uint32_t>(row * columns + column), static_cast<float>(step * step_up / cosine));
+                use(static_cast<std::uint32_t>(row * columns + column), static_cast<float>(step * step_y / cosine));
             }
     };
-    // Twice, because a hogel may have a hundred million lobes: their number of weights is known before any is stored.
+    // First pass: counts lobes and weights. A hogel may have 10⁸ lobes, so the second pass stores into reserved arrays.
     std::size_t lobes = 0, max_u = 0, max_v = 0;
     for_each_lobe([&](std::uint32_t, float) {
         ++lobes;
@@ -146,14 +146,14 @@ FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows
     });
     if (lobes > UINT32_MAX / std::max<std::size_t>(max_u + max_v, 1))
         throw Error(ErrorCode::usage,
-                    fmt::format("hogels of {}x{} samples have {} frequencies with light, too many for one transform; "
-                                "smaller hogels would do",
+                    fmt::format("hogels of {}x{} samples have {} active frequencies, too many for one transform; "
+                                "use smaller hogels",
                                 columns, rows, lobes));
     lobes_.reserve(lobes);
     weights_.reserve(lobes * (max_u + max_v));
     for_each_lobe([&](std::uint32_t coefficient, float scale) {
-        widen(u, max_u, light_field.directions_u);
-        widen(v, max_v, rows == 1 ? 1 : light_field.directions_v);
+        pad_weights(u, max_u, light_field.directions_u);
+        pad_weights(v, max_v, rows == 1 ? 1 : light_field.directions_v);
         lobes_.push_back({coefficient, static_cast<std::uint32_t>(u.first), static_cast<std::uint32_t>(v.first),
                           static_cast<std::uint32_t>(max_u), static_cast<std::uint32_t>(max_v),
                           static_cast<std::uint32_t>(weights_.size()), scale});
@@ -164,8 +164,7 @@ FrequencyGrid::FrequencyGrid(const LightFieldGrid& light_field, std::size_t rows
     list_runs();
 }
 
-// Combines consecutive rows of frequencies, whose lobes cover neighbouring rows of directions, into bands of limited
-// size.
+// Combines consecutive rows of frequencies, with lobes in neighbouring rows of directions, into bands of limited size.
 void FrequencyGrid::list_bands() {
     for (std::size_t first = 0, end = 0; first < lobes_.size(); first = end) {
         const std::size_t row = lobes_[first].coefficient / columns_;
@@ -238,55 +237,56 @@ void FrequencyGrid::average(View<const float, 2> values, bool of_roots, View<flo
     Array<float, 2> line({columns_, hogels_at_once});
     for (std::size_t first = 0; first < values.extent(0); first += hogels_at_once) {
         const std::size_t hogels = std::min(hogels_at_once, values.extent(0) - first);
-        std::optional<std::size_t> complete;
+        std::optional<std::size_t> pending_row;
         const auto store_row = [&] {
-            if (complete)
-                transpose(line.data(), hogels_at_once, columns_, hogels, &moduli(first, *complete * columns_),
+            if (pending_row)
+                transpose(line.data(), hogels_at_once, columns_, hogels, &moduli(first, *pending_row * columns_),
                           coefficients());
         };
         amplitudes_by_rows({&values(first, 0), {hogels, values.extent(1)}}, of_roots, [&](std::size_t row) {
             store_row();
-            complete = row;
+            pending_row = row;
             return line.data();
         });
         store_row();
     }
 }
 
-void FrequencyGrid::average_run(std::size_t lobe, std::size_t count, View<const float, 2> beside, bool of_roots,
+void FrequencyGrid::average_run(std::size_t lobe, std::size_t count, View<const float, 2> transposed, bool of_roots,
                                 float* out) const {
     if (lobes_.empty())
-        average_scattered(resampling_, lobe, count, beside, of_roots, out);
+        average_scattered(resampling_, lobe, count, transposed, of_roots, out);
     else
-        average_lobes(std::span(lobes_).subspan(lobe, count), weights_.data(), beside.data(), row_length_, of_roots,
+        average_lobes(std::span(lobes_).subspan(lobe, count), weights_.data(), transposed.data(), row_length_, of_roots,
                       out);
 }
 
-// Processes sixteen hogels side by side, so that the lobes' short and irregular sums become sums of whole vectors.
-void FrequencyGrid::amplitudes_by_rows(View<const float, 2> values, bool of_roots, const PlaceOfRow& place) const {
+// Processes sixteen hogels side by side, which turns the lobes' short, irregular sums into sums of whole vectors.
+void FrequencyGrid::amplitudes_by_rows(View<const float, 2> values, bool of_roots,
+                                       const RowDestination& destination) const {
     std::size_t max_rays = 0;
     for (const Band& band : bands_) max_rays = std::max(max_rays, band.rays);
     const core::ThreadBuffer<float> scratch(max_rays * hogels_at_once);
-    const View<float, 2> beside(scratch.data(), {max_rays, hogels_at_once});
+    const View<float, 2> transposed(scratch.data(), {max_rays, hogels_at_once});
     for (const Band& band : bands_) {
-        transpose(&values(0, band.ray0), rays_, values.extent(0), band.rays, beside.data(), hogels_at_once);
+        transpose(&values(0, band.ray0), rays_, values.extent(0), band.rays, transposed.data(), hogels_at_once);
         const std::span runs = std::span(runs_).subspan(band.run0, band.runs);
         for (std::size_t first = 0, end = 0; first < runs.size(); first = end) {
             std::size_t active = 0;
             for (end = first; end < runs.size() && runs[end].row == runs[first].row; ++end) active += runs[end].count;
-            float* line = place(runs[first].row);
+            float* line = destination(runs[first].row);
             if (active < columns_) std::fill_n(line, columns_ * hogels_at_once, 0.0f);
             for (const Run& run : runs.subspan(first, end - first))
-                average_run(run.lobe, run.count, beside, of_roots, line + run.column * hogels_at_once);
+                average_run(run.lobe, run.count, transposed, of_roots, line + run.column * hogels_at_once);
         }
     }
 }
 
-void transpose_plain(const float* from, std::size_t from_row, std::size_t rows, std::size_t columns, float* to,
-                     std::size_t to_row) {
+void transpose_plain(const float* from, std::size_t from_stride, std::size_t rows, std::size_t columns, float* to,
+                     std::size_t to_stride) {
     for (std::size_t row = 0; row < rows; ++row)
         for (std::size_t column = 0; column < columns; ++column)
-            to[column * to_row + row] = from[row * from_row + column];
+            to[column * to_stride + row] = from[row * from_stride + column];
 }
 
 void average_lobes_plain(std::span<const FrequencyGrid::Lobe> lobes, const float* weights, const float* rays,
@@ -302,7 +302,7 @@ void average_lobes_plain(std::span<const FrequencyGrid::Lobe> lobes, const float
                 for (std::uint32_t k = 0; k < lobe.nu; ++k) line += u[k] * row[k * hogels_at_once];
                 sum += v[l] * line;
             }
-            // A decoded light field may have small negative values, which count as zero.
+            // Small negative values of decoded light fields count as zero.
             *out++ = of_roots ? sum * std::sqrt(lobe.scale) : std::sqrt(std::max(sum, 0.0f) * lobe.scale);
         }
     }

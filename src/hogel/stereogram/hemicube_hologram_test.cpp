@@ -41,7 +41,7 @@ TEST(HemicubeHologram, shows_a_ball_at_55_degrees_where_geometry_says) {
         EXPECT_NEAR(waves.y, rays.y, 15_um);
         // Wider by the diffraction of a hogel, λζ/d, seen from the side.
         EXPECT_LT(waves.wide, 1.5 * rays.wide);
-        // Where the line from the eye to the ball crosses the hologram.
+        // Where the line from the viewpoint to the ball crosses the hologram.
         const double share = camera.eye.z / (camera.eye.z + ball.z);
         EXPECT_NEAR(waves.x, camera.eye.x + share * (ball.x - camera.eye.x), 20_um);
         EXPECT_NEAR(waves.y, camera.eye.y + share * (ball.y - camera.eye.y), 20_um);

@@ -8,34 +8,33 @@
 namespace hogel::stereogram {
 namespace {
 
-// The maximum of points per lobe along each axis. More would only matter for rays close to the hologram plane, which
-// are dense in frequency.
+// Maximum number of points per lobe along each axis. More matter only for rays close to the hologram plane, which are
+// dense in frequency.
 constexpr double max_points = 12;
 
-// The width, in rays of the face, of a cell of direction sines around a direction of unit length, by finite
-// differences.
+// Returns the width, in rays of the face, of a cell of direction sines around a unit direction, by finite differences.
 double width_in_rays(const LightFieldGrid& face, Vec3 direction, double step, bool line) {
-    const auto place = [&](double sx, double sy) {
+    const auto position = [&](double sx, double sy) {
         const Vec3 q = to_face(face.face(), {sx, sy, std::sqrt(std::max(1e-6, 1 - sx * sx - sy * sy))});
         return Vec3{face.column(q.x / q.z), line ? 0 : face.row(q.y / q.z), 0};
     };
-    constexpr double little = 0.05;
-    const Vec3 here = place(direction.x, direction.y);
-    return std::max(length(place(direction.x + little * step, direction.y) - here),
-                    length(place(direction.x, direction.y + little * step) - here)) /
-           little;
+    constexpr double difference = 0.05;
+    const Vec3 center = position(direction.x, direction.y);
+    return std::max(length(position(direction.x + difference * step, direction.y) - center),
+                    length(position(direction.x, direction.y + difference * step) - center)) /
+           difference;
 }
 
-// Adds the four rays around a direction with their bilinear weights, or the nearest one. Rays at the border extend to
-// the face's edge.
-void add_rays(const LightFieldGrid& face, std::size_t first, Vec3 direction, Interpolation between, double weight,
+// Adds the four rays around a direction with bilinear weights, or the nearest one. Border rays extend to the face's
+// edge.
+void add_rays(const LightFieldGrid& face, std::size_t first, Vec3 direction, Interpolation interpolation, double weight,
               std::map<std::uint32_t, double>& sum) {
     const Vec3 q = to_face(face.face(), direction);
-    const auto inside = [](double at, std::size_t count) {
-        return std::clamp(at, 0.0, static_cast<double>(count) - 1);
+    const auto clamped = [](double position, std::size_t count) {
+        return std::clamp(position, 0.0, static_cast<double>(count) - 1);
     };
-    double k = inside(face.column(q.x / q.z), face.directions_u), l = inside(face.row(q.y / q.z), face.directions_v);
-    if (between == Interpolation::constant) {
+    double k = clamped(face.column(q.x / q.z), face.directions_u), l = clamped(face.row(q.y / q.z), face.directions_v);
+    if (interpolation == Interpolation::constant) {
         k = std::round(k);
         l = std::round(l);
     }
@@ -50,15 +49,15 @@ void add_rays(const LightFieldGrid& face, std::size_t first, Vec3 direction, Int
 
 }  // namespace
 
-HemicubeResampling scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t samples, double step_up, bool line,
-                                 double wavelength, Interpolation between) {
+HemicubeResampling scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t samples, double step_y, bool line,
+                                 double wavelength, Interpolation interpolation) {
     const double step = wavelength / faces.front().pitch;
     const auto n = static_cast<std::ptrdiff_t>(samples);
-    const std::ptrdiff_t reach = (n - 1) / 2;
+    const std::ptrdiff_t max_x = (n - 1) / 2;
     HemicubeResampling result;
-    const std::ptrdiff_t reach_up = line ? 0 : reach;
-    for (std::ptrdiff_t jy = -reach_up; jy <= reach_up; ++jy)
-        for (std::ptrdiff_t jx = -reach; jx <= reach; ++jx) {
+    const std::ptrdiff_t max_y = line ? 0 : max_x;
+    for (std::ptrdiff_t jy = -max_y; jy <= max_y; ++jy)
+        for (std::ptrdiff_t jx = -max_x; jx <= max_x; ++jx) {
             const double sx = -step * static_cast<double>(jx), sy = -step * static_cast<double>(jy);
             const double cos2 = 1 - sx * sx - sy * sy;
             if (cos2 <= 0) continue;
@@ -67,9 +66,9 @@ HemicubeResampling scatter_lobes(std::span<const LightFieldGrid> faces, std::siz
             for (const LightFieldGrid& face : faces)
                 if (face.covers(middle)) rays = std::max(rays, width_in_rays(face, middle, step, line));
             const auto points = static_cast<int>(std::min(max_points, std::ceil(2 * rays)));
-            const int all = line ? points : points * points;
+            const int count = line ? points : points * points;
             std::map<std::uint32_t, double> sum;
-            for (int p = 0; p < all; ++p) {
+            for (int p = 0; p < count; ++p) {
                 const int across = p % points, down = p / points;
                 const double x = sx + step * ((across + 0.5) / points - 0.5);
                 const double y = line ? 0 : sy + step * ((down + 0.5) / points - 0.5);
@@ -78,19 +77,19 @@ HemicubeResampling scatter_lobes(std::span<const LightFieldGrid> faces, std::siz
                 std::size_t first = 0;
                 for (const LightFieldGrid& face : faces) {
                     if (face.covers(direction)) {
-                        add_rays(face, first, direction, between, 1.0 / all, sum);
+                        add_rays(face, first, direction, interpolation, 1.0 / count, sum);
                         break;
                     }
                     first += face.directions();
                 }
             }
             if (sum.empty()) continue;
-            // Rows are counted downwards but y upwards, so a row of the DFT is −j_y.
+            // DFT rows run downwards, y upwards: the row is −j_y.
             const auto row = static_cast<std::size_t>(line ? 0 : (n - jy) % n),
                        column = static_cast<std::size_t>((n + jx) % n);
             result.lobes.push_back(
                 {static_cast<std::uint32_t>(row * samples + column), static_cast<std::uint32_t>(result.rays.size()),
-                 static_cast<std::uint32_t>(sum.size()), static_cast<float>(step * step_up / middle.z)});
+                 static_cast<std::uint32_t>(sum.size()), static_cast<float>(step * step_y / middle.z)});
             for (const auto& [ray, weight] : sum) {
                 result.rays.push_back(ray);
                 result.weights.push_back(static_cast<float>(weight));

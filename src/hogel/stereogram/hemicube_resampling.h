@@ -10,15 +10,14 @@
 
 namespace hogel::stereogram {
 
-/// The interpolation of a light field between its samples.
 enum class Interpolation {
-    linear,    ///< linear interpolation
-    constant,  ///< the nearest sample, constant over the sample's cell
+    linear,    ///< linear
+    constant,  ///< nearest sample
 };
 
-/// Resamples the rays of several faces of a hemicube to the lobes of a hogel's frequencies. A lobe is the mean over
-/// points of its cell in frequency, two or more for each ray that it covers; each point is looked up, interpolated, in
-/// the first face that has its direction. Points in no face, and evanescent frequencies, are dark.
+/// Resamples the rays of several hemicube faces to the lobes of a hogel's frequencies. A lobe is the mean over points
+/// of its frequency cell, at least two per covered ray and axis up to a limit. Each point is interpolated in the first
+/// face that contains its direction. Points in no face and evanescent frequencies are dark.
 struct HemicubeResampling {
     struct Lobe {
         std::uint32_t coefficient;   // of the DFT: [j_y mod n][j_x mod n], rows counted downwards
@@ -30,13 +29,13 @@ struct HemicubeResampling {
     std::vector<float> weights;
 };
 
-/// @param step_up  the height of a cell as a direction sine; for a line of frequencies a factor in the scale
-/// @param line     frequencies along x only, from faces with one row of directions
-HemicubeResampling scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t samples, double step_up, bool line,
-                                 double wavelength, Interpolation between);
+/// @param step_y  height of a cell as a direction sine; for a line of frequencies a factor of the scale
+/// @param line    frequencies along x only, from faces with one row of directions
+HemicubeResampling scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t samples, double step_y, bool line,
+                                 double wavelength, Interpolation interpolation);
 
-/// out[lobe][hogel] = √(scale · Σ weight · values[ray][hogel]) for `count` lobes from number `first` on; if the values
-/// are already roots, √scale · Σ.
+/// Computes out[lobe][hogel] = √(scale · Σ weight · values[ray][hogel]) for lobes first … first + count − 1; if
+/// `of_roots`, √scale · Σ weight · values.
 void average_scattered(const HemicubeResampling& lobes, std::size_t first, std::size_t count,
                        View<const float, 2> values, bool of_roots, float* out);
 

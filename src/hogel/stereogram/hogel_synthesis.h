@@ -12,65 +12,63 @@
 
 namespace hogel::stereogram {
 
-/// A hogel and a look.
 struct HogelKey {
     std::size_t s = 0, t = 0;  ///< column and row of the hogel
     std::size_t look = 0;
 };
 
-/// Bytes of the synthesis of a hologram of so many hogels, of which all threads compute parts.
+/// Returns the bytes that the synthesis of a hologram of `hogels` hogels needs on all threads.
 double synthesis_bytes(const FieldGrid& hologram, std::size_t hogels);
 
-/// The step from the rays of a hogel that all looks share.
+/// First step of a synthesis: values per hogel that all looks share.
 class HogelPreparation {
   public:
     virtual ~HogelPreparation() = default;
-    /// The number of values per hogel that prepare() computes.
+    /// Number of values per hogel that prepare() computes.
     virtual std::size_t prepared_size() const = 0;
-    /// Prepares several hogels at once.
+    /// Prepares several hogels at once. Thread-safe.
     /// @param radiances  [hogel][n_V n_U] of this wavelength
-    /// @param depths     [hogel][n_V n_U], or empty if the method needs no depth
+    /// @param depths     [hogel][n_V n_U], metres; empty if the method needs no depth
     /// @param prepared   [hogel][prepared_size()]
     virtual void prepare(View<const float, 2> radiances, View<const float, 2> depths,
                          View<float, 2> prepared) const = 0;
 };
 
-/// Computes the waves, as many as it has samples, of which a hogel is the sum.
+/// Waves of hogels that are the Fourier transform of as many waves as samples.
 class HogelWaves : public virtual HogelPreparation {
   public:
-    /// The waves of a hogel, in blocks of sixteen rows of frequencies: [row / 16][column][part][row mod 16] with
-    /// frequencies 0 … n−1, the parts real and imaginary, zero in rows beyond the last. The hogel's samples, before a
-    /// window, are their backward transform; their phases are counted from the first sample.
+    /// Computes the waves of a hogel in blocks of sixteen rows of frequencies, [row / 16][column][part][row mod 16]:
+    /// frequencies 0 … n−1, parts real and imaginary, zero in rows beyond the last. Their backward transform is the
+    /// hogel's samples without a window. Phases are counted from the first sample.
     /// @param prepared  by prepare()
-    /// @param rows      that are needed; blocks without any of them may be left as they are
+    /// @param rows      needed rows; blocks without any of them may stay unchanged
     /// @param waves     size() values, aligned to a cache line
-    virtual void waves(std::span<const float> prepared, const HogelKey& place, const InBandRows& rows,
+    virtual void waves(std::span<const float> prepared, const HogelKey& key, const InBandRows& rows,
                        float* waves) const = 0;
-    /// |waves|² in blocks of sixteen rows [row / 16][column][row mod 16], zero in rows beyond n: powers_size() values.
-    /// Only if the waves are independent.
+    /// Computes |waves|² in blocks of sixteen rows [row / 16][column][row mod 16], zero in rows beyond n: powers_size()
+    /// values. Requires independent().
     virtual void powers(std::span<const float> /*prepared*/, float* /*powers*/) const {}
-    /// Whether hogels are squares without a window, of which the phases of all waves of all hogels are random and
-    /// independent.
+    /// Returns whether hogels are squares without a window and all waves of all hogels have independent random phases.
     virtual bool independent() const { return false; }
 
-    /// Whether waves of a row may have light, in any hogel.
+    /// Returns whether a row of waves may be nonzero in any hogel.
     virtual bool has_light(std::size_t /*row*/) const { return true; }
 
-    /// The number of hogels or looks that are lanes of vectors.
+    /// Number of hogels or looks in the lanes of a vector.
     static constexpr std::size_t lanes = rows_at_once;
-    /// Whether the functions below compute waves.
+    /// Returns whether the functions below are supported.
     virtual bool has_lanes() const { return false; }
-    /// The phases of some hogels or looks, at most `lanes`.
+    /// Returns the random phases of at most `lanes` hogels or looks.
     virtual SeriesOfLanes series_of_lanes(std::span<const HogelKey>) const { return {}; }
-    /// Stores what hogels have prepared for sixteen rows, at most one hogel for each lane, as row_of_lanes() takes it:
-    /// its part of powers_size() · lanes values. Rows without light may be left as they are.
-    /// @param row       the first one, a multiple of sixteen
+    /// Gathers sixteen rows of the prepared values of at most `lanes` hogels, as row_of_lanes() takes them, into the
+    /// rows' part of powers_size() · lanes values. Rows without light may stay unchanged.
+    /// @param row       index of the first row, a multiple of sixteen
     /// @param gathered  all values
     virtual void gather_lanes(std::span<const float* const>, std::size_t /*row*/, float* /*gathered*/) const {}
-    /// One row of waves of hogels or looks side by side, [column][part][lane], with phases counted from the middle of
-    /// the hogel.
-    /// @param shared    whether all are looks of one hogel
-    /// @param prepared  of that hogel, or from gather_lanes(); aligned to a cache line
+    /// Computes one row of waves of hogels or looks side by side, [column][part][lane]. Phases are counted from the
+    /// middle of the hogel.
+    /// @param shared    whether all lanes are looks of one hogel
+    /// @param prepared  values of that hogel, or of gather_lanes(); aligned to a cache line
     virtual void row_of_lanes(const SeriesOfLanes&, std::size_t /*row*/, bool /*shared*/, const float* /*prepared*/,
                               float* /*waves*/) const {}
     static constexpr std::size_t block_rows = 16;
@@ -80,70 +78,69 @@ class HogelWaves : public virtual HogelPreparation {
     }
 };
 
-/// Stores all waves of a hogel, [row][column], in the layout of HogelWaves::waves(), but for blocks without any of
-/// `needed`.
+/// Stores the waves of a hogel, [row][column], in the layout of HogelWaves::waves(). Skips blocks without needed rows.
 inline void store_waves(View<const std::complex<float>, 2> plain, const InBandRows& needed, float* waves) {
-    constexpr std::size_t together = HogelWaves::block_rows;
+    constexpr std::size_t block_rows = HogelWaves::block_rows;
     const std::size_t rows = plain.extent(0), columns = plain.extent(1);
-    for (std::size_t first = 0; first < rows; first += together) {
-        if (!needed.has_any(first, together, rows)) continue;
+    for (std::size_t first = 0; first < rows; first += block_rows) {
+        if (!needed.has_any(first, block_rows, rows)) continue;
         float* block = waves + 2 * first * columns;
-        const std::size_t end = std::min(rows, first + together);
-        if (end < first + together) std::fill_n(block, 2 * together * columns, 0.0f);
+        const std::size_t end = std::min(rows, first + block_rows);
+        if (end < first + block_rows) std::fill_n(block, 2 * block_rows * columns, 0.0f);
         for (std::size_t row = first; row < end; ++row) {
             float* to = block + row - first;
-            for (std::size_t column = 0; column < columns; ++column, to += 2 * together) {
+            for (std::size_t column = 0; column < columns; ++column, to += 2 * block_rows) {
                 to[0] = plain(row, column).real();
-                to[together] = plain(row, column).imag();
+                to[block_rows] = plain(row, column).imag();
             }
         }
     }
 }
 
-/// Computes the n×n samples of a hogel from its rays in two steps, the first of which is shared by all looks. Each
-/// synthesis defines whether phases are counted from the hogel's centre or from its first sample.
+/// Computes the n×n samples of a hogel from its rays in two steps; the first is shared by all looks. Each synthesis
+/// defines whether phases are counted from the hogel's centre or from its first sample.
 class HogelSynthesis : public virtual HogelPreparation {
   public:
-    virtual void synthesise(std::span<const float> prepared, const HogelKey& place,
+    virtual void synthesise(std::span<const float> prepared, const HogelKey& key,
                             View<std::complex<float>, 2> hogel) const = 0;
-    /// As synthesise(), but writes row y to to + y·to_row; `scratch` is a buffer of the hogel's shape.
-    virtual void synthesise_to(std::span<const float> prepared, const HogelKey& place,
+    /// As synthesise(), but writes row y to to + y·to_stride; `scratch` is a buffer of the hogel's shape.
+    virtual void synthesise_to(std::span<const float> prepared, const HogelKey& key,
                                View<std::complex<float>, 2> scratch, std::complex<float>* to,
-                               std::size_t to_row) const {
-        synthesise(prepared, place, scratch);
+                               std::size_t to_stride) const {
+        synthesise(prepared, key, scratch);
         for (std::size_t y = 0; y < scratch.extent(0); ++y)
-            std::copy_n(&scratch(y, 0), scratch.extent(1), to + y * to_row);
+            std::copy_n(&scratch(y, 0), scratch.extent(1), to + y * to_stride);
     }
-    /// The hogels' waves, if each hogel is the Fourier transform of as many waves as it has samples; otherwise null.
-    /// They may be prepared in another way than samples.
+    /// Returns the hogels' waves, or null if a hogel is not the Fourier transform of as many waves as samples. Waves
+    /// and samples may be prepared differently.
     virtual const HogelWaves* hogel_waves() const { return nullptr; }
 };
 
-/// Amplitudes on the frequency grid j/d with random, fixed or designed phases, then one FFT: [K] (4.2). The rays of a
-/// hogel are those of all faces, face after face.
+/// Makes a synthesis by one FFT per hogel from amplitudes on the frequency grid j/d, with random, fixed or designed
+/// phases: [K] (4.2). A hogel's rays are those of all faces, face after face.
 std::unique_ptr<HogelSynthesis> make_fourier_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
                                                        const HologramOptions& options, const Fourier& method);
 
-/// Horizontal parallax only: one independent FFT for each line of a hogel, [K] (3.23).
+/// Makes a synthesis with horizontal parallax only, by one independent FFT per line of a hogel: [K] (3.23).
 std::unique_ptr<HogelSynthesis> make_line_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
                                                     std::size_t lines, const HologramOptions& options,
                                                     const Lines& method);
 
-/// The meaning of the values of rays that a synthesis receives.
+/// Meaning of the ray values that a synthesis receives.
 enum class RayValues {
     radiance,
     coefficients,  ///< of a transform of √L over the directions of each hogel
 };
 
-/// A sum of basis fringes weighted with coefficients: [K] (3.24). The rays of a hogel, or their coefficients, are those
-/// of all faces, face after face. Throws Error(usage) for a transform that does not exist and for fringes that would
-/// not fit into memory. Defined in thesis/fringes.
+/// Makes a synthesis by sums of basis fringes weighted with coefficients: [K] (3.24). A hogel's rays, or their
+/// coefficients, are those of all faces, face after face. Throws Error(usage) for an unknown transform and for fringes
+/// that do not fit into memory. Defined in thesis/fringes.
 /// @param rows  samples of a hogel from top to bottom; for horizontal parallax only, its lines
 std::unique_ptr<HogelSynthesis> make_basis_synthesis(std::span<const LightFieldGrid> faces, std::size_t samples,
                                                      std::size_t rows, const HologramOptions& options,
                                                      const Basis& method, RayValues values);
 
-/// One plane wave per ray, with the phase of a spherical wave from the point that the ray meets.
+/// Makes a synthesis by one plane wave per ray, with the phase of a spherical wave from the point that the ray meets.
 std::unique_ptr<HogelSynthesis> make_phase_added_synthesis(const LightFieldGrid& light_field, std::size_t samples,
                                                            const HologramOptions& options, bool exact);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twins of the functions of hogel_tiles.h, compiled for every SIMD target and chosen when first called.
+// Vector versions of hogel_tiles.h, compiled for every SIMD target. The first call selects the target.
 #include <type_traits>
 
 #include "hogel/core/simd_targets-inl.h"
@@ -22,20 +22,20 @@ void RandomRow(const SeriesOfLanes& series, std::size_t row, bool shared, const 
     random_row_plain(series, row, shared, moduli, columns, out);
 }
 void RandomRowOfAnySide(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,
-                        std::size_t apart, std::span<const float> middle, std::size_t columns, float* out) {
-    random_row_of_any_side_plain(series, row, shared, moduli, apart, middle, columns, out);
+                        std::size_t column_stride, std::span<const float> middle, std::size_t columns, float* out) {
+    random_row_of_any_side_plain(series, row, shared, moduli, column_stride, middle, columns, out);
 }
 #else
 using D = hn::CappedTag<float, rows_at_once>;
 using V = hn::Vec<D>;
 
-// The root of unity for the byte of each word whose lowest bit is bit `shift`.
+// Returns the root of unity for the byte of each word that begins at bit `shift`.
 template <int shift>
 HWY_INLINE void Root(D d, const PhaseRoots& roots, hn::VFromD<hn::RebindToUnsigned<D> > words, V& re, V& im) {
-    const hn::RebindToUnsigned<D> whole;
+    const hn::RebindToUnsigned<D> integers;
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
-    // The product of the roots of the byte's two halves, from tables as long as a vector.
-    const auto half = hn::Set(whole, 15u);
+    // Product of the roots of the byte's halves, from tables of one vector.
+    const auto half = hn::Set(integers, 15u);
     const auto upper = hn::IndicesFromVec(d, hn::And(hn::ShiftRight<shift + 4>(words), half));
     const auto lower = hn::IndicesFromVec(d, hn::And(hn::ShiftRight<shift>(words), half));
     const V a = hn::TableLookupLanes(hn::Load(d, roots.upper_re), upper),
@@ -46,7 +46,7 @@ HWY_INLINE void Root(D d, const PhaseRoots& roots, hn::VFromD<hn::RebindToUnsign
     im = hn::MulAdd(b, c, hn::Mul(a, e));
 #else
     const hn::RebindToSigned<D> index;
-    const auto byte = hn::BitCast(index, hn::And(hn::ShiftRight<shift>(words), hn::Set(whole, 255u)));
+    const auto byte = hn::BitCast(index, hn::And(hn::ShiftRight<shift>(words), hn::Set(integers, 255u)));
     re = hn::GatherIndex(d, roots.re, byte);
     im = hn::GatherIndex(d, roots.im, byte);
 #endif
@@ -60,7 +60,7 @@ HWY_INLINE void Wave(D d, const PhaseRoots& roots, hn::VFromD<hn::RebindToUnsign
     hn::Store(hn::Mul(r, im), d, out + rows_at_once);
 }
 
-// One draw gives the phases of sixteen columns of a row; lanes are rows.
+// One draw gives the phases of sixteen columns of a row. Lanes are rows.
 void RandomWaves(const PhaseSeries& series, std::size_t first_row, const float* moduli, std::size_t columns,
                  float* out) {
     const PhaseRoots& roots = phase_roots();
@@ -149,10 +149,10 @@ void RandomRow(const SeriesOfLanes& series, std::size_t row, bool shared, const 
         random_row_as<false>(series, phase_roots(), row, moduli, columns, out);
 }
 
-// Draws begin before the row's first column and end after its last one, because all rows together are one sequence.
+// The first draw may begin before the row and the last end after it: all rows share one sequence.
 template <bool shared>
 HWY_INLINE void random_row_of_any_side_as(const SeriesOfLanes& series, const PhaseRoots& roots, std::size_t row,
-                                          const float* moduli, std::size_t apart, const float* middle,
+                                          const float* moduli, std::size_t column_stride, const float* middle,
                                           std::size_t columns, float* out) {
     const D d;
     const hn::RebindToUnsigned<D> words;
@@ -166,26 +166,26 @@ HWY_INLINE void random_row_of_any_side_as(const SeriesOfLanes& series, const Pha
             auto a3 = hn::Load(wide, series.position[2] + i), b3 = hn::Load(wide, series.position[2] + i + half);
             philox_lanes(wide, a0, a1, a2, a3, series.key);
             philox_lanes(wide, b0, b1, b2, b3, series.key);
-            const auto wave = [&](auto shift, auto word, std::size_t at) HWY_ATTR {
-                if (at < first || at > last) return;
-                const std::size_t x = at - first;
+            const auto wave = [&](auto shift, auto word, std::size_t index) HWY_ATTR {
+                if (index < first || index > last) return;
+                const std::size_t x = index - first;
                 V re, im, modulus;
                 Root<shift()>(d, roots, word, re, im);
                 if constexpr (shared)
-                    modulus = hn::Set(d, moduli[x * apart]);
+                    modulus = hn::Set(d, moduli[x * column_stride]);
                 else
-                    modulus = hn::Load(d, moduli + x * apart + i);
+                    modulus = hn::Load(d, moduli + x * column_stride + i);
                 const V c = hn::Set(d, middle[2 * (row + x)]), s = hn::Set(d, middle[2 * (row + x) + 1]);
                 float* to = out + x * square_column + i;
                 hn::Store(hn::Mul(modulus, hn::NegMulAdd(im, s, hn::Mul(re, c))), d, to);
                 hn::Store(hn::Mul(modulus, hn::MulAdd(im, c, hn::Mul(re, s))), d, to + rows_at_once);
             };
-            const auto four = [&](auto lower, auto upper, std::size_t at) HWY_ATTR {
+            const auto four = [&](auto lower, auto upper, std::size_t index) HWY_ATTR {
                 const auto word = hn::ConcatEven(words, hn::BitCast(words, upper), hn::BitCast(words, lower));
-                wave(std::integral_constant<int, 0>(), word, at);
-                wave(std::integral_constant<int, 8>(), word, at + 1);
-                wave(std::integral_constant<int, 16>(), word, at + 2);
-                wave(std::integral_constant<int, 24>(), word, at + 3);
+                wave(std::integral_constant<int, 0>(), word, index);
+                wave(std::integral_constant<int, 8>(), word, index + 1);
+                wave(std::integral_constant<int, 16>(), word, index + 2);
+                wave(std::integral_constant<int, 24>(), word, index + 3);
             };
             four(a0, b0, 16 * draw);
             four(a1, b1, 16 * draw + 4);
@@ -195,31 +195,32 @@ HWY_INLINE void random_row_of_any_side_as(const SeriesOfLanes& series, const Pha
 }
 
 void RandomRowOfAnySide(const SeriesOfLanes& series, std::size_t row, bool shared, const float* moduli,
-                        std::size_t apart, std::span<const float> middle, std::size_t columns, float* out) {
+                        std::size_t column_stride, std::span<const float> middle, std::size_t columns, float* out) {
     if (shared)
-        random_row_of_any_side_as<true>(series, phase_roots(), row, moduli, apart, middle.data(), columns, out);
+        random_row_of_any_side_as<true>(series, phase_roots(), row, moduli, column_stride, middle.data(), columns, out);
     else
-        random_row_of_any_side_as<false>(series, phase_roots(), row, moduli, apart, middle.data(), columns, out);
+        random_row_of_any_side_as<false>(series, phase_roots(), row, moduli, column_stride, middle.data(), columns,
+                                         out);
 }
 #endif
 
-void TransposeRows(const float* from, std::size_t columns, float* to, std::size_t to_sixteen) {
-    for (std::size_t x0 = 0; x0 < columns; x0 += 16, to += to_sixteen)
+void TransposeRows(const float* from, std::size_t columns, float* to, std::size_t block_stride) {
+    for (std::size_t x0 = 0; x0 < columns; x0 += 16, to += block_stride)
         for (const std::size_t part : {std::size_t{0}, rows_at_once})
             transpose_sixteen([&](std::size_t i) { return from + (x0 + i) * square_column + part; }, rows_at_once,
                               [&](std::size_t row) { return to + row * square_column + part; });
 }
 
-void GatherRows(std::span<const float* const> from, std::size_t at, float* to, std::size_t to_row) {
-    alignas(64) static constexpr float none[rows_at_once] = {};
-    transpose_sixteen([&](std::size_t i) { return i < from.size() ? from[i] + at : none; }, rows_at_once,
-                      [&](std::size_t row) { return to + row * to_row; });
+void GatherRows(std::span<const float* const> from, std::size_t offset, float* to, std::size_t to_stride) {
+    alignas(64) static constexpr float zeros[rows_at_once] = {};
+    transpose_sixteen([&](std::size_t i) { return i < from.size() ? from[i] + offset : zeros; }, rows_at_once,
+                      [&](std::size_t row) { return to + row * to_stride; });
 }
 
-void TransposeHogels(const float* from, std::size_t columns, std::size_t hogels, float* to, std::size_t to_hogel) {
+void TransposeHogels(const float* from, std::size_t columns, std::size_t hogels, float* to, std::size_t hogel_stride) {
     for (std::size_t x = 0; x < columns; ++x)
         transpose_sixteen([&](std::size_t row) { return from + (row * columns + x) * 16; }, hogels,
-                          [&](std::size_t h) { return to + h * to_hogel + x * rows_at_once; });
+                          [&](std::size_t h) { return to + h * hogel_stride + x * rows_at_once; });
 }
 
 }  // namespace hogel::stereogram::HWY_NAMESPACE

@@ -23,7 +23,7 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// The prepared values of a range of hogels, [hogel][...], row by row, which all looks share.
+// Prepared values of a range of hogels, [hogel][...], row-major, shared by all looks.
 struct Prepared {
     HogelRange range;
     Array<float, 2> values;
@@ -40,7 +40,6 @@ std::unique_ptr<HogelSynthesis> make_synthesis(std::span<const LightFieldGrid> f
     return make_fourier_synthesis(faces, columns, options, std::get<Fourier>(options.method));
 }
 
-// A stereogram of hogels side by side.
 class HogelsSideBySide final : public Stereogram {
   public:
     HogelsSideBySide(const LightField& light_field, const FieldGrid& grid, const HologramOptions& options,
@@ -71,22 +70,23 @@ class HogelsSideBySide final : public Stereogram {
             write(prepare(hogels)->values, hogels, 0, look, region, scratch->square, out);
             return;
         }
-        const View<const float, 5> whole = rays_in_memory(hogels);
-        // A few hogels at a time, so that their values stay in the processor's cache.
-        const std::size_t values = synthesis_->prepared_size();
-        const std::size_t together = std::min(hogels_per_batch, hogels.hogels());
-        if (scratch->prepared.size() < together * values) scratch->prepared = Array<float, 2>({together, values});
+        const View<const float, 5> rays = rays_in_memory(hogels);
+        // Batches of hogels keep their values in cache.
+        const std::size_t value_count = synthesis_->prepared_size();
+        const std::size_t batch = std::min(hogels_per_batch, hogels.hogels());
+        if (scratch->prepared.size() < batch * value_count) scratch->prepared = Array<float, 2>({batch, value_count});
         for_each_band(hogels, [&](const HogelRange& band) {
-            if (whole.size() == 0) read_rays(band, scratch->rays);
+            if (rays.size() == 0) read_rays(band, scratch->rays);
             for (std::size_t first = 0; first < band.hogels(); first += hogels_per_batch) {
-                const View<float, 2> some(scratch->prepared.data(),
-                                          {std::min(hogels_per_batch, band.hogels() - first), values});
-                if (whole.size() > 0)
+                const View<float, 2> values(scratch->prepared.data(),
+                                            {std::min(hogels_per_batch, band.hogels() - first), value_count});
+                if (rays.size() > 0)
                     synthesis_->prepare(
-                        {&whole(channel_, band.t0, band.s0, 0, 0) + first * rays_, {some.extent(0), rays_}}, {}, some);
+                        {&rays(channel_, band.t0, band.s0, 0, 0) + first * rays_, {values.extent(0), rays_}}, {},
+                        values);
                 else
-                    prepare(*synthesis_, scratch->rays, first, some);
-                write(some, band, first, look, region, scratch->square, out);
+                    prepare(*synthesis_, scratch->rays, first, values);
+                write(values, band, first, look, region, scratch->square, out);
             }
         });
     }
@@ -131,28 +131,27 @@ class HogelsSideBySide final : public Stereogram {
 
   private:
     static constexpr std::size_t hogels_per_batch = 16;
-    // The maximum bytes of rays that are read at a time (but at least one row of hogels), because the rays of a region
-    // may take gigabytes.
+    // Maximum bytes of rays per read (but at least one row of hogels): the rays of a region may take gigabytes.
     static constexpr std::size_t max_ray_bytes = std::size_t{1} << 27;
 
     HogelLayout layout() const { return {grid_, columns_, rows_}; }
     const LightFieldGrid& front() const { return light_field_.grid(); }
     std::span<const LightField::Source> faces() const { return light_field_.faces(); }
 
-    // Buffers for one region.
     struct Scratch {
         std::vector<LightFieldTile> rays;  // one per face
         Array<float, 2> prepared;          // [hogels_per_batch][...]
         Array<Complex, 2> square;          // a hogel
     };
 
-    // A view of the rays if the source has them in memory and those of the hogels are contiguous; otherwise empty.
+    // Returns a view of the rays if the source has them in memory and those of the hogels are contiguous; otherwise
+    // empty.
     View<const float, 5> rays_in_memory(const HogelRange& hogels) const {
         if (faces().size() > 1 || with_depth_ || (hogels.nt > 1 && hogels.ns < front().hogels_s)) return {};
         return light_field_.front().in_memory();
     }
 
-    // Calls use(range) for consecutive bands of rows of hogels whose rays are read at once.
+    // Calls use(range) for consecutive bands of hogel rows, each read at once.
     template <class Use>
     void for_each_band(const HogelRange& hogels, const Use& use) const {
         const std::size_t values = front().channels + (with_depth_ ? 1 : 0);
@@ -163,7 +162,7 @@ class HogelsSideBySide final : public Stereogram {
             use(HogelRange{hogels.s0, hogels.t0 + t, hogels.ns, std::min(rows, hogels.nt - t)});
     }
 
-    // Rays of all channels, or of this one alone where a source has them by themselves.
+    // Reads the rays of all channels, or of this channel only from a ChannelSource.
     void read_rays(const HogelRange& hogels, std::vector<LightFieldTile>& tiles, bool all_channels = false) const {
         tiles.resize(faces().size());
         for (std::size_t i = 0; i < tiles.size(); ++i) {
@@ -183,57 +182,55 @@ class HogelsSideBySide final : public Stereogram {
         }
     }
 
-    // Whether one channel of the rays is read for less than all.
+    // Returns whether one channel can be read at less cost than all.
     bool reads_channels() const {
         return !with_depth_ && std::ranges::all_of(faces(), [](const LightField::Source& face) {
             return dynamic_cast<const ChannelSource*>(face.get()) != nullptr;
         });
     }
 
-    // The rays of this hologram's channel.
-    View<const float, 4> own_rays(const LightFieldTile& tile) const {
+    View<const float, 4> channel_rays(const LightFieldTile& tile) const {
         return tile.radiance.view()[tile.radiance.extent(0) == 1 ? 0 : channel_];
     }
 
-    // Prepares hogels number first, first + 1, … of the tiles, which hold them row by row.
+    // Prepares hogels first, first + 1, … of the tiles.
     void prepare(const HogelPreparation& step, std::span<const LightFieldTile> tiles, std::size_t first,
                  View<float, 2> prepared) const {
         const Shape<2> rays{prepared.extent(0), rays_};
         if (tiles.size() > 1) {
-            Array<float, 2> together(rays);
-            float* to = together.data();
+            Array<float, 2> concatenated(rays);
+            float* to = concatenated.data();
             for (std::size_t hogel = first; hogel < first + rays[0]; ++hogel)
                 for (const LightFieldTile& face : tiles) {
-                    const View<const float, 4> all = own_rays(face);
-                    const std::size_t directions = all.extent(2) * all.extent(3);
-                    to = std::copy_n(all.data() + hogel * directions, directions, to);
+                    const View<const float, 4> face_rays = channel_rays(face);
+                    const std::size_t directions = face_rays.extent(2) * face_rays.extent(3);
+                    to = std::copy_n(face_rays.data() + hogel * directions, directions, to);
                 }
-            return step.prepare(together, {}, prepared);
+            return step.prepare(concatenated, {}, prepared);
         }
         const LightFieldTile& tile = tiles.front();
         const View<const float, 2> depths(tile.depth.data() + first * rays_, rays);
-        step.prepare({own_rays(tile).data() + first * rays_, rays},
+        step.prepare({channel_rays(tile).data() + first * rays_, rays},
                      tile.depth.size() > 0 ? depths : View<const float, 2>(), prepared);
     }
 
-    // Writes the parts of hogels number first, first + 1, … of a range that are inside the region.
+    // Writes the parts inside the region of hogels first, first + 1, … of a range.
     void write(View<const float, 2> prepared, const HogelRange& hogels, std::size_t first, std::size_t look,
                const Region& region, View<Complex, 2> square, View<Complex, 2> out) const {
         for (std::size_t i = 0; i < prepared.extent(0); ++i) {
-            const HogelKey place{hogels.s0 + (first + i) % hogels.ns, hogels.t0 + (first + i) / hogels.ns, look};
-            const std::size_t y0 = std::max(place.t * rows_, region.y0),
-                              y1 = std::min((place.t + 1) * rows_, region.y0 + region.height),
-                              x0 = std::max(place.s * columns_, region.x0),
-                              x1 = std::min((place.s + 1) * columns_, region.x0 + region.width);
+            const HogelKey key{hogels.s0 + (first + i) % hogels.ns, hogels.t0 + (first + i) / hogels.ns, look};
+            const std::size_t y0 = std::max(key.t * rows_, region.y0),
+                              y1 = std::min((key.t + 1) * rows_, region.y0 + region.height),
+                              x0 = std::max(key.s * columns_, region.x0),
+                              x1 = std::min((key.s + 1) * columns_, region.x0 + region.width);
             Complex* to = &out(y0 - region.y0, x0 - region.x0);
             if (y1 - y0 == rows_ && x1 - x0 == columns_) {
-                synthesis_->synthesise_to(prepared[i].elements(), place, square, to, region.width);
+                synthesis_->synthesise_to(prepared[i].elements(), key, square, to, region.width);
                 continue;
             }
-            synthesis_->synthesise(prepared[i].elements(), place, square);
+            synthesis_->synthesise(prepared[i].elements(), key, square);
             for (std::size_t y = y0; y < y1; ++y)
-                std::copy_n(&square(y - place.t * rows_, x0 - place.s * columns_), x1 - x0,
-                            to + (y - y0) * region.width);
+                std::copy_n(&square(y - key.t * rows_, x0 - key.s * columns_), x1 - x0, to + (y - y0) * region.width);
         }
     }
 
@@ -246,9 +243,9 @@ class HogelsSideBySide final : public Stereogram {
             return;
         }
         if (faces().size() == 1 && !with_depth_)
-            if (const View<const float, 5> whole = light_field_.front().in_memory(); whole.size() > 0) {
+            if (const View<const float, 5> all_rays = light_field_.front().in_memory(); all_rays.size() > 0) {
                 for (std::size_t row = 0; row < hogels.nt; ++row)
-                    step.prepare({&whole(channel_, hogels.t0 + row, hogels.s0, 0, 0), {hogels.ns, rays_}}, {},
+                    step.prepare({&all_rays(channel_, hogels.t0 + row, hogels.s0, 0, 0), {hogels.ns, rays_}}, {},
                                  {&prepared(row * hogels.ns, 0), {hogels.ns, prepared.extent(1)}});
                 return;
             }
@@ -276,8 +273,7 @@ class HogelsSideBySide final : public Stereogram {
         return prepared;
     }
 
-    // Regions whose prepared values are kept, because readers read all looks of a region, and several threads read
-    // regions at once.
+    // Number of regions with cached prepared values: readers read all looks of a region, on several threads.
     static constexpr std::size_t max_recent = 64;
 
     LightField light_field_;
@@ -287,7 +283,7 @@ class HogelsSideBySide final : public Stereogram {
     std::size_t columns_, rows_;  // samples of a hogel
     std::size_t rays_ = 0;        // of a hogel, over all faces
     std::unique_ptr<HogelSynthesis> synthesis_;
-    mutable Array<float, 2> kept_;  // amplitudes of all hogels, if they are kept
+    mutable Array<float, 2> kept_;  // amplitudes of all hogels, if stored
     mutable core::ObjectPool<Scratch> scratch_pool_;
     mutable std::mutex recent_mutex_;
     mutable std::list<std::shared_ptr<const Prepared>> recent_;
@@ -296,8 +292,8 @@ class HogelsSideBySide final : public Stereogram {
 }  // namespace
 
 double stereogram::synthesis_bytes(const FieldGrid& hologram, std::size_t hogels) {
-    // Tiles of complex samples that are in progress, with their rays; for each frequency of a hogel its directions and
-    // their weights; and on every thread a hogel's moduli, its transform and its samples.
+    // Tiles in progress with their rays; per frequency of a hogel, its directions and weights; per thread, a hogel's
+    // moduli, transform and samples.
     constexpr double tiles = 4 * double{1 << 24}, table = 52, transform = 28;
     const auto count = static_cast<double>(std::max<std::size_t>(hogels, 1)),
                threads = static_cast<double>(thread_count());
@@ -312,7 +308,8 @@ std::shared_ptr<const FieldSource> make_hologram(const LightField& light_field, 
                     "this hologram needs the depth of every ray, and the light field has none; render it with depth");
     if (const auto* overlap = std::get_if<OverlapAdd>(&options.method))
         return windows::make_overlap_add(light_field, grid, options, overlap->phases);
-    if (const auto* own = std::get_if<OwnMethod>(&options.method)) return own->make(light_field, grid, options);
+    if (const auto* own_method = std::get_if<OwnMethod>(&options.method))
+        return own_method->make(light_field, grid, options);
     return std::make_shared<HogelsSideBySide>(light_field, grid, options, RayValues::radiance);
 }
 
@@ -320,8 +317,7 @@ std::shared_ptr<const FieldSource> make_hologram_of_coefficients(const LightFiel
                                                                  const HologramOptions& options) {
     const FieldGrid grid = hologram_grid(coefficients.grids(), options);
     if (!std::holds_alternative<Basis>(options.method))
-        throw Error(ErrorCode::usage,
-                    "a hologram of coefficients is a sum of basis fringes; expected the method basis");
+        throw Error(ErrorCode::usage, "a hologram of coefficients needs the method basis");
     return std::make_shared<HogelsSideBySide>(coefficients, grid, options, RayValues::coefficients);
 }
 

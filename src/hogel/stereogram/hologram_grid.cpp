@@ -15,12 +15,12 @@ using stereogram::samples_per_hogel;
 
 namespace {
 
-// A hogel of width d sends light of wavelength λ into directions λ/d apart, of which the sines from -1 to 1 must hold
-// two; and it needs a sample.
+// A hogel of width d sends light of wavelength λ into directions with sines λ/d apart: two must lie in −1 … 1. It also
+// needs at least one sample.
 void require_hogels_that_diffract(const LightFieldGrid& light_field, double wavelength, double pitch) {
     if (wavelength > 2 * light_field.pitch)
         throw Error(ErrorCode::usage, "wavelength",
-                    fmt::format("a wavelength of {} has no two directions that a hogel of {} tells apart; expected at "
+                    fmt::format("at a wavelength of {} a hogel of {} does not resolve two directions; expected at "
                                 "most twice the hogel, {}",
                                 format_length(wavelength), format_length(light_field.pitch),
                                 format_length(2 * light_field.pitch)));
@@ -31,7 +31,7 @@ void require_hogels_that_diffract(const LightFieldGrid& light_field, double wave
                                 format_length(pitch), format_length(light_field.pitch)));
 }
 
-// The method gives every ray one wave, so rays farther apart than a hogel's lobes would leave gaps.
+// One wave per ray: rays farther apart than a hogel's lobes would leave gaps.
 void require_enough_directions(const LightFieldGrid& light_field, double wavelength) {
     const double step = wavelength / light_field.pitch;
     if (std::max(light_field.step_u(), light_field.step_v()) <= step) return;
@@ -66,22 +66,21 @@ void require_one_row(std::span<const LightFieldGrid> faces) {
                                     face.directions_v, face.directions_u));
         if (face.face() == Face::top || face.face() == Face::bottom)
             throw Error(ErrorCode::usage, "method",
-                        fmt::format("a hologram with horizontal parallax only has no use for the {} "
-                                    "face; front, left and right would do",
+                        fmt::format("a hologram with horizontal parallax only cannot show the {} "
+                                    "face; expected front, left or right",
                                     face_name(face.face())));
     }
 }
 
-// The number of lines of a hogel that has `samples` along each line.
+// Returns the number of lines of a hogel that has `samples` along each line.
 std::size_t lines_per_hogel(std::span<const LightFieldGrid> faces, double line_pitch, std::size_t samples) {
     if (!(line_pitch >= 0))
-        throw Error(ErrorCode::usage, "line_pitch", "the distance of a hologram's lines must be positive");
+        throw Error(ErrorCode::usage, "line_pitch", "the distance of a hologram's lines must not be negative");
     require_one_row(faces);
     if (line_pitch == 0) return samples;
     return samples_per_hogel(faces.front(), line_pitch);
 }
 
-// Throws if the method cannot make a hologram of these faces.
 void require_supported(std::span<const LightFieldGrid> faces, const HologramOptions& options) {
     const bool sides = std::holds_alternative<Fourier>(options.method) ||
                        std::holds_alternative<Lines>(options.method) || std::holds_alternative<Basis>(options.method);

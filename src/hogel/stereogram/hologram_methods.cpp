@@ -14,7 +14,7 @@ std::optional<double> line_pitch(const HologramMethod& method) {
 }
 
 bool needs_depth(const HologramMethod& method) {
-    if (const auto* own = std::get_if<OwnMethod>(&method)) return own->needs_depth;
+    if (const auto* own_method = std::get_if<OwnMethod>(&method)) return own_method->needs_depth;
     return std::holds_alternative<PhaseAdded>(method) || std::holds_alternative<OverlapAdd>(method);
 }
 
@@ -25,14 +25,16 @@ Table<HologramMethodInfo>& hologram_methods() {
     static Table<HologramMethodInfo> methods(
         "hologram method",
         {
-            row("fourier", "one Fourier transform a hogel, hogels side by side", Fourier{}),
-            row("lines", "horizontal parallax only, one Fourier transform for each line of a hogel", Lines{}),
-            row("basis", "basis fringes, weighted with the coefficients of a transform of each hogel", Basis{}),
-            row("basis-lines", "horizontal parallax only, basis fringes of lines, each weighted for a whole hogel",
+            row("fourier", "one Fourier transform per hogel, hogels side by side", Fourier{}),
+            row("lines", "horizontal parallax only, one Fourier transform per line of a hogel", Lines{}),
+            row("basis", "sum of basis fringes, weighted with the coefficients of a transform of each hogel", Basis{}),
+            row("basis-lines", "horizontal parallax only, basis fringes of lines, weighted once per hogel",
                 Basis{.line_pitch = 0}),
-            row("phase-added", "a wave a ray in the phase of its point, on the nearest frequency", PhaseAdded{false}),
-            row("phase-added-exact", "a wave a ray in the phase of its point, on its own frequency", PhaseAdded{true}),
-            row("olas", "overlapping windows around the hogels, added up", OverlapAdd{}),
+            row("phase-added", "one wave per ray with the phase of its point, at the nearest frequency",
+                PhaseAdded{false}),
+            row("phase-added-exact", "one wave per ray with the phase of its point, at its exact frequency",
+                PhaseAdded{true}),
+            row("olas", "sum of overlapping windows around the hogels", OverlapAdd{}),
         },
         "method");
     return methods;

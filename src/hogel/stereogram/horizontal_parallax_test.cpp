@@ -15,8 +15,8 @@ namespace {
 
 using namespace literals;
 
-// A small square behind the hologram appears at its geometric position when seen from the side, but at its own height
-// when seen from above. x is in focus at the square's depth, y on the hologram.
+// A small square behind the hologram appears at its geometric position seen from the side, at its own height seen from
+// above. x is in focus at the square's depth, y on the hologram.
 TEST(HorizontalParallax, focuses_across_at_the_depth_of_things_and_up_and_down_on_the_hologram) {
     const double depth = 8_mm, half = 64_um;
     const LightFieldGrid grid{24, 24, 64_um, 64, 1, Perspective{0.15, 0.01}, 1};
@@ -57,8 +57,8 @@ TEST(HorizontalParallax, focuses_across_at_the_depth_of_things_and_up_and_down_o
     EXPECT_NEAR(seen(0, above, 0).y, 0, 6_um);
 }
 
-// A ball outside the front, on a side of a hemisquare, appears at its geometric position horizontally, at its own
-// height vertically, and as wide as a hogel diffracts.
+// A ball beside the front, on a side of a hemisquare, appears horizontally at its geometric position, vertically at its
+// height, and as wide as a hogel diffracts.
 TEST(HorizontalParallax, shows_a_ball_at_50_degrees_from_a_hemisquares_side) {
     const LightFieldGrid grid{16, 12, 36_um, 64, 1, Perspective{1, 0.1}, 1};
     for (const double side : {1.0, -1.0}) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twins of average_lobes_plain and transpose_plain, compiled for every SIMD target and chosen when first
-// called.
+// Vector versions of lobes.h, compiled for every SIMD target. The first call selects the target.
 #include <algorithm>
 
 #include "hogel/core/simd_targets-inl.h"
@@ -15,7 +14,7 @@ using math::HWY_NAMESPACE::transpose_four;
 using math::HWY_NAMESPACE::transpose_sixteen;
 #endif
 
-// The mean over one lobe for a vector of hogels; `across` and `down` are the numbers of its directions.
+// Returns the mean over one lobe for a vector of hogels; `across` and `down` are its numbers of directions.
 template <class D>
 HWY_INLINE hn::Vec<D> Mean(D d, std::uint32_t across, std::uint32_t down, const float* u, const float* v,
                            const float* rays, std::size_t row) {
@@ -30,8 +29,7 @@ HWY_INLINE hn::Vec<D> Mean(D d, std::uint32_t across, std::uint32_t down, const 
     return sum;
 }
 
-// Averages lobes that all have the same number of directions, a compile-time constant for the usual small numbers; 0:
-// any number.
+// Averages lobes with equal numbers of directions, a compile-time constant if small; 0: any numbers.
 template <std::uint32_t side>
 void LobeAverage(std::span<const FrequencyGrid::Lobe> lobes, const float* weights, const float* rays,
                  std::size_t row_length, bool of_roots, float* out) {
@@ -65,37 +63,40 @@ void AverageLobes(std::span<const FrequencyGrid::Lobe> lobes, const float* weigh
     average(lobes, weights, rays, row_length, of_roots, out);
 }
 
-void Transpose(const float* from, std::size_t from_row, std::size_t rows, std::size_t columns, float* to,
-               std::size_t to_row) {
+void Transpose(const float* from, std::size_t from_stride, std::size_t rows, std::size_t columns, float* to,
+               std::size_t to_stride) {
 #if HWY_TARGET == HWY_SCALAR
-    transpose_plain(from, from_row, rows, columns, to, to_row);
+    transpose_plain(from, from_stride, rows, columns, to, to_stride);
 #else
     const auto four = [&](const float* in, float* out) {
-        transpose_four(in, in + from_row, in + 2 * from_row, in + 3 * from_row, out, out + to_row, out + 2 * to_row,
-                       out + 3 * to_row);
+        transpose_four(in, in + from_stride, in + 2 * from_stride, in + 3 * from_stride, out, out + to_stride,
+                       out + 2 * to_stride, out + 3 * to_stride);
     };
-    // In squares of sixteen, along the array with the larger row distance: its cache lines are completed at once,
-    // because at distances of powers of two they would be evicted before they are needed again.
+    // In squares of sixteen, along the array with the larger row stride, which completes its cache lines at once: at
+    // strides of powers of two they would be evicted before reuse.
     const std::size_t whole_rows = rows / 4 * 4, whole_columns = columns / 4 * 4;
     for (std::size_t row = 0; row < whole_rows; row += 16)
         for (std::size_t column = 0; column < whole_columns; column += 16) {
             const std::size_t end_row = std::min(row + 16, whole_rows), end = std::min(column + 16, whole_columns);
             if (end_row == row + 16 && end == column + 16) {
-                transpose_sixteen([&](std::size_t i) { return from + (row + i) * from_row + column; }, 16,
-                                  [&](std::size_t j) { return to + (column + j) * to_row + row; });
+                transpose_sixteen([&](std::size_t i) { return from + (row + i) * from_stride + column; }, 16,
+                                  [&](std::size_t j) { return to + (column + j) * to_stride + row; });
                 continue;
             }
-            if (from_row >= to_row) {
+            if (from_stride >= to_stride) {
                 for (std::size_t r = row; r < end_row; r += 4)
-                    for (std::size_t c = column; c < end; c += 4) four(from + r * from_row + c, to + c * to_row + r);
+                    for (std::size_t c = column; c < end; c += 4)
+                        four(from + r * from_stride + c, to + c * to_stride + r);
             } else {
                 for (std::size_t c = column; c < end; c += 4)
-                    for (std::size_t r = row; r < end_row; r += 4) four(from + r * from_row + c, to + c * to_row + r);
+                    for (std::size_t r = row; r < end_row; r += 4)
+                        four(from + r * from_stride + c, to + c * to_stride + r);
             }
         }
-    transpose_plain(from + whole_columns, from_row, whole_rows, columns - whole_columns, to + whole_columns * to_row,
-                    to_row);
-    transpose_plain(from + whole_rows * from_row, from_row, rows - whole_rows, columns, to + whole_rows, to_row);
+    transpose_plain(from + whole_columns, from_stride, whole_rows, columns - whole_columns,
+                    to + whole_columns * to_stride, to_stride);
+    transpose_plain(from + whole_rows * from_stride, from_stride, rows - whole_rows, columns, to + whole_rows,
+                    to_stride);
 #endif
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests make_hologram() for light fields of every kind: tiling, shared ownership, refusals; and the table of methods.
+// Tests make_hologram(): tiling, shared ownership, errors, and the table of methods.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -182,7 +182,7 @@ TEST(MakeHologram, frequencies_need_a_pitch_that_diffracts_them_and_no_added_pha
     expect_refused(exact, options_for(PhaseAdded{}, 1.2_um), "uniform in sines");
 }
 
-// A hogel of width d tells directions apart that differ by λ/d in their sines, which lie between -1 and 1.
+// A hogel of width d resolves directions with sines λ/d apart, between −1 and 1.
 TEST(HologramGrid, refuses_waves_longer_than_two_hogels_and_hogels_without_samples) {
     LightFieldGrid grid;
     grid.hogels_s = grid.hogels_t = 4;

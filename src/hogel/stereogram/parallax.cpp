@@ -8,16 +8,17 @@ namespace hogel::stereogram {
 
 namespace {
 
-// Calls use(tile) for hogels spread over the light field, one at a time.
+// Calls use(tile) for 25 hogels spread over the light field, one at a time.
 template <class Use>
 void for_some_hogels(const LightFieldSource& light_field, const Use& use) {
     const LightFieldGrid& grid = light_field.grid();
-    constexpr std::size_t places = 5;
-    for (std::size_t j = 0; j < places; ++j)
-        for (std::size_t i = 0; i < places; ++i) {
-            LightFieldTile tile(
-                grid, {(2 * i + 1) * grid.hogels_s / (2 * places), (2 * j + 1) * grid.hogels_t / (2 * places), 1, 1},
-                true);
+    constexpr std::size_t hogels_per_axis = 5;
+    for (std::size_t j = 0; j < hogels_per_axis; ++j)
+        for (std::size_t i = 0; i < hogels_per_axis; ++i) {
+            LightFieldTile tile(grid,
+                                {(2 * i + 1) * grid.hogels_s / (2 * hogels_per_axis),
+                                 (2 * j + 1) * grid.hogels_t / (2 * hogels_per_axis), 1, 1},
+                                true);
             light_field.read(tile);
             use(tile);
         }

@@ -14,10 +14,10 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// Each ray becomes a plane wave. If it meets a surface at Q, its phase at the hogel's centre is that of a spherical
-// wave from Q, and its direction is that from Q to the centre. If it meets nothing, it keeps its own direction and has
-// a random phase. The amplitude follows from the ray's solid angle: |a|² = L ΔU ΔV cos³θ, whose sum over rays equals
-// the sum over the lobes of a frequency grid (docs/notation.md, section 3).
+// Each ray becomes a plane wave. If the ray meets a surface at Q, the wave travels along the line from Q to the hogel's
+// centre and has there the phase of a spherical wave from Q. Otherwise it keeps its direction and has a random phase.
+// The amplitude follows from the ray's solid angle, |a|² = L ΔU ΔV cos³θ; the sum over rays equals the sum over the
+// lobes of a frequency grid (docs/notation.md, section 3).
 class PhaseAddedSynthesis final : public HogelSynthesis, public HogelWaves {
   public:
     PhaseAddedSynthesis(const LightFieldGrid& light_field, std::size_t samples, const HologramOptions& options,
@@ -53,26 +53,26 @@ class PhaseAddedSynthesis final : public HogelSynthesis, public HogelWaves {
         }
     }
 
-    void synthesise(std::span<const float> prepared, const HogelKey& place, View<Complex, 2> hogel) const override {
+    void synthesise(std::span<const float> prepared, const HogelKey& key, View<Complex, 2> hogel) const override {
         if (waves_) {
             Array<Complex, 2> spectrum = waves_->make_spectrum();
-            for_each_wave(prepared, place,
+            for_each_wave(prepared, key,
                           [&](float amplitude, const Wave& wave) { add_exactly(amplitude, wave, spectrum); });
             waves_->transform(spectrum, hogel);
             return;
         }
-        spread(prepared, place, hogel);
+        spread(prepared, key, hogel);
         fft_.backward(hogel);
     }
 
-    // With the exact frequencies of rays a hogel is no sum of as many waves as it has samples.
+    // With exact frequencies a hogel is not a sum of as many waves as samples.
     const HogelWaves* hogel_waves() const override { return waves_ ? nullptr : this; }
 
-    void waves(std::span<const float> prepared, const HogelKey& place, const InBandRows& rows,
+    void waves(std::span<const float> prepared, const HogelKey& key, const InBandRows& rows,
                float* waves) const override {
         const core::ThreadBuffer<Complex> buffer(samples_ * samples_);
         const View<Complex, 2> spectrum(buffer.data(), {samples_, samples_});
-        spread(prepared, place, spectrum);
+        spread(prepared, key, spectrum);
         store_waves(spectrum, rows, waves);
     }
 
@@ -83,21 +83,21 @@ class PhaseAddedSynthesis final : public HogelSynthesis, public HogelWaves {
         double share;          // of the ray's amplitude
     };
 
-    // The waves on the frequencies of the hogel's transform.
-    void spread(std::span<const float> prepared, const HogelKey& place, View<Complex, 2> spectrum) const {
+    // Computes the waves on the frequencies of the hogel's transform.
+    void spread(std::span<const float> prepared, const HogelKey& key, View<Complex, 2> spectrum) const {
         std::ranges::fill(spectrum.elements(), Complex(0));
-        for_each_wave(prepared, place, [&](float amplitude, const Wave& wave) { add(amplitude, wave, spectrum); });
+        for_each_wave(prepared, key, [&](float amplitude, const Wave& wave) { add(amplitude, wave, spectrum); });
     }
 
     template <class Use>
-    void for_each_wave(std::span<const float> prepared, const HogelKey& place, const Use& use) const {
+    void for_each_wave(std::span<const float> prepared, const HogelKey& key, const Use& use) const {
         const float* amplitudes = prepared.data();
         const float* depths = amplitudes + light_field_.directions();
-        const double s = light_field_.s(static_cast<double>(place.s)), t = light_field_.t(static_cast<double>(place.t));
+        const double s = light_field_.s(static_cast<double>(key.s)), t = light_field_.t(static_cast<double>(key.t));
         for (std::size_t l = 0; l < light_field_.directions_v; ++l)
             for (std::size_t k = 0; k < light_field_.directions_u; ++k, ++amplitudes, ++depths) {
                 if (*amplitudes == 0) continue;
-                const Wave wave = wave_of(k, l, *depths, s, t, place.look);
+                const Wave wave = wave_of(k, l, *depths, s, t, key.look);
                 use(static_cast<float>(*amplitudes * wave.share), wave);
             }
     }
@@ -106,27 +106,27 @@ class PhaseAddedSynthesis final : public HogelSynthesis, public HogelWaves {
         double U = light_field_.u(static_cast<double>(k)), V = light_field_.v(static_cast<double>(l));
         double cycles = 0, share = 1;
         if (std::isfinite(depth)) {
-            // So near the plane every cell is seen by one hogel only, and its depth makes no difference but that the
-            // rays of the hogel meet different cells.
+            // Below `shallowest_` each cell is seen by one hogel only; the depth only makes the rays of a hogel meet
+            // different cells.
             if (std::abs(depth) < shallowest_) depth = shallowest_;
             const SurfaceCell cell = cells_.find(s + U * depth, t + V * depth, depth, look);
             share = 1 / std::sqrt(cell.crowding);
             U = (cell.x - s) / cell.depth;
             V = (cell.y - t) / cell.depth;
-            // A cell has its phase where it would meet the hologram along the middle of the fan, so the depth in it
-            // makes a difference by its defocus only, and a tilted or an inexact surface shines as an even one does.
+            // The cell's phase refers to the hologram plane along the middle of the fan. Depth then enters by defocus
+            // only, and a tilted or inexact surface shines as an even one.
             cycles = cell.cycles + cell.depth * (std::sqrt(1 + U * U + V * V) - reference_cosine_) / wavelength_;
         } else {
-            // A ray that meets nothing is treated as one to a distant surface, of which neighbouring hogels see
-            // different cells.
+            // Rays that meet no surface are treated as rays to a distant one, with different cells for neighbouring
+            // hogels.
             cycles = cells_.find(s + U, t + V, 1.0, look).cycles;
         }
         const double to_frequency = pitch_ / (wavelength_ * std::sqrt(1 + U * U + V * V));
         return {-U * to_frequency, V * to_frequency, cycles, share};
     }
 
-    // Whether a wave, of a cell at the border of the field of view, is beyond what the pitch can sample.
-    static bool beyond(const Wave& wave) { return std::abs(wave.columns) > 0.5 || std::abs(wave.rows) > 0.5; }
+    // Returns whether the pitch cannot sample a wave (from a cell at the border of the field of view).
+    static bool is_aliased(const Wave& wave) { return std::abs(wave.columns) > 0.5 || std::abs(wave.rows) > 0.5; }
 
     static Complex at_phase(float amplitude, double cycles) {
         const auto angle = static_cast<float>(2 * std::numbers::pi * (cycles - std::round(cycles)));
@@ -134,16 +134,16 @@ class PhaseAddedSynthesis final : public HogelSynthesis, public HogelWaves {
     }
 
     void add_exactly(float amplitude, const Wave& wave, View<Complex, 2> spectrum) const {
-        if (beyond(wave)) return;
+        if (is_aliased(wave)) return;
         waves_->add(at_phase(amplitude, wave.cycles), wave.columns, wave.rows, spectrum);
     }
 
     void add(float amplitude, const Wave& wave, View<Complex, 2> spectrum) const {
         const auto n = static_cast<double>(samples_);
         const double column = std::round(wave.columns * n), row = std::round(wave.rows * n);
-        const double reach = std::floor(0.5 * (n - 1));
-        if (std::abs(column) > reach || std::abs(row) > reach) return;
-        const double first = -0.5 * (n - 1);  // the first sample, counted from the centre
+        const double max_index = std::floor(0.5 * (n - 1));
+        if (std::abs(column) > max_index || std::abs(row) > max_index) return;
+        const double first = -0.5 * (n - 1);  // first sample relative to the centre
         const double cycles = wave.cycles + (column + row) * first / n;
         spectrum(static_cast<std::size_t>(row < 0 ? row + n : row),
                  static_cast<std::size_t>(column < 0 ? column + n : column)) += at_phase(amplitude, cycles);
@@ -157,7 +157,7 @@ class PhaseAddedSynthesis final : public HogelSynthesis, public HogelWaves {
     double reference_cosine_;  // cos θ in the middle of the fan of directions
     double shallowest_;        // metres; smaller depths count as this one
     math::Fft2 fft_;
-    std::optional<PlaneWaveSum> waves_;  // if every ray has its exact frequency
+    std::optional<PlaneWaveSum> waves_;  // with exact frequencies only
     std::vector<float> shares_;          // [direction]: ΔU ΔV cos³θ
 };
 

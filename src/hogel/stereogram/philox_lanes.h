@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Philox (core/random.h) with one draw per lane, for files that are compiled once for every SIMD target. To be included
-// after hwy/highway.h.
+// Philox (core/random.h) with one draw per lane, for files that are compiled for every SIMD target. Include it after
+// hwy/highway.h.
 #if defined(HOGEL_HOLOGRAM_PHILOX_LANES) == defined(HWY_TARGET_TOGGLE)
 #ifdef HOGEL_HOLOGRAM_PHILOX_LANES
 #undef HOGEL_HOLOGRAM_PHILOX_LANES
@@ -17,8 +17,8 @@ HWY_BEFORE_NAMESPACE();
 namespace hogel::stereogram::HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
-// Turns the four words of the counter into those of the draw. Lanes have 64 bits, of which only the lower halves are
-// used; the upper halves are arbitrary before and after, because products use lower halves only.
+// Turns the four counter words into the words of the draw, in the lower halves of 64-bit lanes. The upper halves are
+// arbitrary before and after, because products use lower halves only.
 template <class D, class V>
 HWY_INLINE void philox_lanes(D d, V& c0, V& c1, V& c2, V& c3, const std::array<std::uint32_t, 2>& key) {
     namespace hn = hwy::HWY_NAMESPACE;

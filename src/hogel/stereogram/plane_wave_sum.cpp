@@ -8,7 +8,7 @@ namespace hogel::stereogram {
 namespace {
 
 constexpr double shape = 2.3 * 6;            // parameter of the Kaiser–Bessel kernel, for a grid twice as fine
-constexpr std::size_t steps_per_unit = 512;  // of the kernel's table, which is interpolated linearly
+constexpr std::size_t steps_per_unit = 512;  // of the kernel's table, with linear interpolation
 
 }  // namespace
 
@@ -34,23 +34,24 @@ Array<std::complex<float>, 2> PlaneWaveSum::make_spectrum() const {
 }
 
 PlaneWaveSum::Spread PlaneWaveSum::spread(double frequency) const {
-    const double at = frequency * static_cast<double>(size_);
-    const double first = std::ceil(at - 0.5 * width);
+    const double center = frequency * static_cast<double>(size_);
+    const double first = std::ceil(center - 0.5 * width);
     Spread result;
     const auto size = static_cast<std::ptrdiff_t>(size_);
     result.first = static_cast<std::size_t>(((static_cast<std::ptrdiff_t>(first) % size) + size) % size);
     for (std::size_t i = 0; i < width; ++i) {
-        const double place = std::abs(first + static_cast<double>(i) - at) * steps_per_unit;
-        const auto step = static_cast<std::size_t>(place);
-        const auto rest = static_cast<float>(place - static_cast<double>(step));
-        result.weights[i] = step + 1 < kernel_.size() ? (1 - rest) * kernel_[step] + rest * kernel_[step + 1] : 0;
+        const double position = std::abs(first + static_cast<double>(i) - center) * steps_per_unit;
+        const auto step = static_cast<std::size_t>(position);
+        const auto fraction = static_cast<float>(position - static_cast<double>(step));
+        result.weights[i] =
+            step + 1 < kernel_.size() ? (1 - fraction) * kernel_[step] + fraction * kernel_[step + 1] : 0;
     }
     return result;
 }
 
 void PlaneWaveSum::add(std::complex<float> amplitude, double column_frequency, double row_frequency,
                        View<std::complex<float>, 2> spectrum) const {
-    // If n is even, the middle of the square is half a sample before the origin of the transform.
+    // For even n the middle of the square lies half a sample before the origin of the transform.
     const double offset = samples_ % 2 == 0 ? 0.5 : 0.0;
     const double cycles = offset * (column_frequency + row_frequency);
     amplitude *= std::complex<float>(std::polar(1.0, 2 * std::numbers::pi * cycles));
@@ -64,10 +65,10 @@ void PlaneWaveSum::add(std::complex<float> amplitude, double column_frequency, d
 
 void PlaneWaveSum::transform(View<std::complex<float>, 2> spectrum, View<std::complex<float>, 2> samples) const {
     fft_.backward(spectrum);
-    const std::size_t before = size_ - samples_ / 2;
+    const std::size_t first = size_ - samples_ / 2;
     for (std::size_t q = 0; q < samples_; ++q)
         for (std::size_t p = 0; p < samples_; ++p)
-            samples(q, p) = spectrum((q + before) % size_, (p + before) % size_) * (correction_[q] * correction_[p]);
+            samples(q, p) = spectrum((q + first) % size_, (p + first) % size_) * (correction_[q] * correction_[p]);
 }
 
 }  // namespace hogel::stereogram

@@ -9,17 +9,16 @@
 
 namespace hogel::stereogram {
 
-/// Random phases in cycles, for one look and colour.
+/// Random phases in cycles [0, 1), for one look and channel.
 struct CycleSeries {
     std::array<std::uint32_t, 2> key;  ///< the seed
-    std::uint32_t series;              ///< look and colour
-    /// The phase of the surface point of a column and a row; or, with `direction` counted from one, of a ray of the
-    /// hogel there that meets nothing.
+    std::uint32_t series;              ///< look and channel
+    /// Returns the phase of the surface point at a column and row. With direction ≥ 1: of a ray of the hogel there that
+    /// meets no surface.
     double operator()(std::uint32_t column, std::uint32_t row, std::uint32_t direction = 0) const;
 };
 
-/// The phases of surface points by column and row. Those around a range are precomputed, because many hogels see each
-/// point.
+/// Phases of surface points by column and row. Those around a range are precomputed, because many hogels share a point.
 class PointCycles {
   public:
     PointCycles(const CycleSeries& series, const HogelRange& points);

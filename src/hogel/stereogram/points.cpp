@@ -19,12 +19,12 @@ Field point_hologram(std::span<const PointSource> points, const FieldGrid& grid)
     const double k = 2 * std::numbers::pi / grid.wavelength;
     work::parallel_for(grid.plane.height, [&](std::size_t row) {
         for (std::size_t column = 0; column < grid.plane.width; ++column) {
-            const Vec3 here{grid.plane.x(static_cast<double>(column)), grid.plane.y(static_cast<double>(row)), 0};
+            const Vec3 sample{grid.plane.x(static_cast<double>(column)), grid.plane.y(static_cast<double>(row)), 0};
             std::complex<double> sum = 0;
             for (const PointSource& point : points) {
-                const double r = length(here - point.position);
-                // From a point behind the plane (z < 0) the wave diverges; to a point in front of it the wave converges
-                // and arrives there with the point's phase.
+                const double r = length(sample - point.position);
+                // The wave diverges from a point behind the plane (z < 0). It converges to a point in front of the
+                // plane and arrives there with the point's phase.
                 const double travelled = point.position.z < 0 ? r : -r;
                 sum += std::polar(point.amplitude / r, k * travelled + point.phase);
             }

@@ -14,8 +14,8 @@ struct PointSource {
     double phase = 0;      ///< radians, at the point
 };
 
-/// The exact Huygens sum of spherical waves, a e^{±ikr}/r, on a plane. A point in front of the plane is the focus of a
-/// converging wave. Source: [K] (3.5). Throws Error(usage) for a point on the plane z = 0.
+/// Returns the exact Huygens sum of spherical waves, a e^{±ikr}/r, on a plane. A point in front of the plane is the
+/// focus of a converging wave. Source: [K] (3.5). Throws Error(usage) for a point on the plane z = 0.
 Field point_hologram(std::span<const PointSource> points, const FieldGrid& grid);
 
 }  // namespace hogel::stereogram

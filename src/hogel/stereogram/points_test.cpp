@@ -93,7 +93,7 @@ TEST_P(PointPhotograph, lies_where_geometry_says_and_is_diffraction_limited) {
     const double cell = resolution_cell(cameras[0], wavelength);
     EXPECT_NEAR(sharp.x, x, 0.1 * cell);
     EXPECT_NEAR(sharp.y, y, 0.1 * cell);
-    // Full width at half maximum of Airy's pattern: 1.029 λR/A, for the actual distance and obliquity of the eye.
+    // Full width at half maximum of the Airy pattern: 1.029 λR/A, for the distance and obliquity of the viewpoint.
     const Vec3 seen{x, y, 0};
     const double distance = length(eye - seen), cosine = eye.z / distance, sine = (eye.x - x) / distance;
     const double expected = 1.029 * wavelength * distance / 4_mm / (1 - sine * sine);

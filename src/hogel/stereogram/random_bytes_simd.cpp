@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twin of random_bytes_plain, compiled for every SIMD target and chosen when first called.
+// Vector version of random_bytes_plain, compiled for every SIMD target. The first call selects the target.
 #include "hogel/core/simd_targets-inl.h"
 #include "hogel/stereogram/philox_lanes.h"
 #include "hogel/stereogram/random_bytes.h"
@@ -18,17 +18,17 @@ void RandomBytes(const PhaseSeries& series, std::uint32_t first_draw, std::span<
     const hn::ScalableTag<std::uint64_t> d;
     const std::size_t lanes = hn::Lanes(d), at_once = 16 * lanes;
     const auto low = hn::Set(d, 0xffffffffu);
-    std::size_t done = 0;
-    for (; done + at_once <= bytes.size(); done += at_once) {
-        auto c0 = hn::Iota(d, first_draw + done / 16), c1 = hn::Set(d, series.position[0]);
+    std::size_t offset = 0;
+    for (; offset + at_once <= bytes.size(); offset += at_once) {
+        auto c0 = hn::Iota(d, first_draw + offset / 16), c1 = hn::Set(d, series.position[0]);
         auto c2 = hn::Set(d, series.position[1]), c3 = hn::Set(d, series.position[2]);
         philox_lanes(d, c0, c1, c2, c3, series.key);
         const auto first = hn::Or(hn::And(c0, low), hn::ShiftLeft<32>(c1));
         const auto second = hn::Or(hn::And(c2, low), hn::ShiftLeft<32>(c3));
-        hn::StoreInterleaved2(first, second, d, reinterpret_cast<std::uint64_t*>(bytes.data() + done));
+        hn::StoreInterleaved2(first, second, d, reinterpret_cast<std::uint64_t*>(bytes.data() + offset));
     }
-    if (done < bytes.size())
-        random_bytes_plain(series, first_draw + static_cast<std::uint32_t>(done / 16), bytes.subspan(done));
+    if (offset < bytes.size())
+        random_bytes_plain(series, first_draw + static_cast<std::uint32_t>(offset / 16), bytes.subspan(offset));
 }
 #endif
 

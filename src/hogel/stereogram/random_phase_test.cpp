@@ -53,8 +53,8 @@ TEST(UnitRoots, are_right_to_half_a_step_for_phases_of_either_sign) {
     }
 }
 
-// Uniform over the circle: the moments e^{ikφ}, k = 1..3, average to zero as fast as independent phases do, and phases
-// of neighbouring coefficients, hogels and looks are independent.
+// Phases are uniform over the circle: the moments e^{ikφ}, k = 1..3, average to zero as fast as for independent phases.
+// Phases of neighbouring coefficients, hogels and looks are independent.
 TEST(RandomPhase, is_uniform_and_independent) {
     const std::size_t count = 4096;
     const std::vector<float> ones(count, 1);

@@ -10,10 +10,10 @@ namespace {
 
 constexpr double steps_of_depth = 16;
 
-// The first coordinate of the n-th point of a sequence that covers an interval evenly, n · ratio modulo 1.
+// Returns n · ratio modulo 1: coordinate n of a sequence that covers an interval evenly.
 double fraction(double n, double ratio) { return n * ratio - std::floor(n * ratio); }
 
-std::uint32_t word(double whole) { return static_cast<std::uint32_t>(static_cast<std::int64_t>(whole)); }
+std::uint32_t word(double value) { return static_cast<std::uint32_t>(static_cast<std::int64_t>(value)); }
 
 }  // namespace
 
@@ -28,8 +28,8 @@ SurfaceCell SurfaceCells::find(double x, double y, double depth, std::size_t loo
     const double number = static_cast<double>(look + 1) + static_cast<double>(seed_ % 65536) * 17;
     const double right = fraction(number, 0.7548776662466927), up = fraction(number, 0.5698402909980532);
     const double column = std::floor(x / width - right), row = std::floor(y / height - up);
-    const double wide = distance / std::abs(depth), one_axis = wide > 1 ? 3 - 2 / wide : 1,
-                 crowding = one_axis * one_axis;
+    const double relative_width = distance / std::abs(depth),
+                 one_axis = relative_width > 1 ? 3 - 2 / relative_width : 1, crowding = one_axis * one_axis;
     const bool in_front = depth < 0;
     const auto bits = core::philox({word(column), word(row), word(2 * level + (in_front ? 1 : 0)),
                                     static_cast<std::uint32_t>(look * 4 + channel_)},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether surfaces of one radiance are as bright as their rays at any slope, whatever the method.
+// Tests that every method shows surfaces of one radiance at the brightness of their rays, at any slope.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -20,7 +20,7 @@ using namespace literals;
 
 constexpr float shown = 0.7f;
 
-// The plane ζ = depth + slope_x x + slope_y y, and how inexactly its depth is known.
+// The plane ζ = depth + slope_x x + slope_y y, with an error of its depth.
 struct Plane {
     double depth = 0, slope_x = 0, slope_y = 0, error = 0;
 };
@@ -47,7 +47,7 @@ struct Shown {
     std::string name;
     HologramMethod method;
     LightFieldGrid grid;
-    double pitch, far, wavelength = 633_nm;  // the largest depth, which the hologram is wide enough for
+    double pitch, far, wavelength = 633_nm;  // the largest depth for this width of hologram
 };
 void PrintTo(const Shown& named, std::ostream* out) { *out << named.name; }
 
@@ -58,7 +58,7 @@ const LightFieldGrid stereogram{20, 20, 50_um, 26, 26, Perspective{0.1, 0.1}, 1}
 
 class TiltedSurface : public testing::TestWithParam<Shown> {
   protected:
-    // What remains beside speckle: photographs of bright cells have more of it than those of an even surface.
+    // Tolerance beside speckle, which is stronger for bright cells than for an even surface.
     const double tolerance = std::holds_alternative<PhaseAdded>(GetParam().method) ? 0.08 : 0.05;
 
     // The mean of a photograph of the middle, focused on the plane.
@@ -97,7 +97,7 @@ TEST_P(TiltedSurface, is_as_bright_as_its_rays) {
             }
 }
 
-// As depth is after compression.
+// With depths as after compression.
 TEST_P(TiltedSurface, is_as_bright_with_inexact_depth) {
     for (const double slope : {0.0, 0.3})
         for (const double error : {0.2e-6, 4e-6})

@@ -12,21 +12,21 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// The directions along one axis: the middle and half the width of their range of U or V, and the factor by which the
-// path to the surface is longer because the fan is oblique along the other axis.
+// Directions along one axis: centre and half width of their range of U or V, and the factor by which the path to the
+// surface is longer because the fan is oblique along the other axis.
 struct Fan {
     double center, half, slant;
     friend bool operator==(const Fan&, const Fan&) = default;
 };
 
-// Windows along one axis.
+// Windows along one axis; hop in samples, lengths in metres.
 struct Line {
     std::span<const float> window;
     std::size_t hop;
     double pitch, wavelength;
 };
 
-// Points that are 1 − 1/n hogels apart take n places between hogels, evenly.
+// Points 1 − 1/n hogels apart have n different offsets from the nearest hogel, evenly spaced.
 const int point_offsets = static_cast<int>(std::lround(1 / (1 - point_spacing)));
 
 // A direction of a window's transform along one axis.
@@ -38,9 +38,9 @@ struct Frequency {
 std::vector<Frequency> frequencies_in(const Fan& fan, const Line& line) {
     const std::size_t side = line.window.size();
     const double step = line.wavelength / (static_cast<double>(side) * line.pitch);
-    const auto reach = static_cast<std::ptrdiff_t>((side - 1) / 2);
+    const auto max_index = static_cast<std::ptrdiff_t>((side - 1) / 2);
     std::vector<Frequency> found;
-    for (std::ptrdiff_t j = -reach; j <= reach; ++j) {
+    for (std::ptrdiff_t j = -max_index; j <= max_index; ++j) {
         const double sine = step * static_cast<double>(j);
         if (std::abs(sine) >= 1) continue;
         const double U = -sine * fan.slant / std::sqrt(1 - sine * sine);
@@ -49,11 +49,11 @@ std::vector<Frequency> frequencies_in(const Fan& fan, const Line& line) {
     return found;
 }
 
-// The windows of one point: that of frequency j begins at sample starts[i] of the sum and has the values from i · side.
+// Windows of one point. That of frequencies[i] begins at sample starts[i] of the sum; its values begin at i · side.
 struct PointWindows {
     std::vector<std::ptrdiff_t> frequencies, starts;
     std::vector<Complex> values;
-    std::size_t length = 0;  // of their sum
+    std::size_t length = 0;  // of the sum, samples
 };
 
 // @param offset  of the point from a hogel, in hogels
@@ -62,18 +62,18 @@ PointWindows windows_of_point(const Line& line, const Fan& fan, double depth, do
     const double hop = static_cast<double>(line.hop) * line.pitch;
     PointWindows point;
     for (const auto& [j, sine, U] : frequencies_in(fan, line)) {
-        const double met = offset - U * depth / hop, hops = std::round(met);
-        if (std::abs(hops - met) > 0.5 * point_spacing) continue;  // a ray of no hogel is nearest to this point
+        const double position = offset - U * depth / hop, hops = std::round(position);
+        if (std::abs(hops - position) > 0.5 * point_spacing) continue;  // no hogel has a ray nearest to this point
         const double path = std::hypot(depth * fan.slant, (hops - offset) * hop) - depth;
         point.frequencies.push_back(j);
         point.starts.push_back(static_cast<std::ptrdiff_t>(hops) * static_cast<std::ptrdiff_t>(line.hop));
-        const double a_sample = static_cast<double>(j) / static_cast<double>(side);
-        const double first = path / line.wavelength - 0.5 * static_cast<double>(side - 1) * a_sample;
+        const double cycles_per_sample = static_cast<double>(j) / static_cast<double>(side);
+        const double first = path / line.wavelength - 0.5 * static_cast<double>(side - 1) * cycles_per_sample;
         auto wave = std::polar(1.0, 2 * std::numbers::pi * (first - std::round(first)));
-        const auto turn = std::polar(1.0, 2 * std::numbers::pi * a_sample);
+        const auto rotation = std::polar(1.0, 2 * std::numbers::pi * cycles_per_sample);
         for (const float weight : line.window) {
             point.values.push_back(static_cast<Complex>(wave) * weight);
-            wave *= turn;
+            wave *= rotation;
         }
     }
     if (point.starts.empty()) return point;
@@ -83,20 +83,20 @@ PointWindows windows_of_point(const Line& line, const Fan& fan, double depth, do
     return point;
 }
 
-// The factor of a window that interferes with no other: as one window begins at every hop, it must have the energy of
-// `hop` samples of modulus one.
-float factor_alone(const Line& line) {
+// Returns the factor of a window that interferes with no other. One window begins at every hop and must have the energy
+// of `hop` samples of modulus one.
+float isolated_factor(const Line& line) {
     float energy = 0;
     for (const float weight : line.window) energy += weight * weight;
     return std::sqrt(static_cast<float>(line.hop) / energy);
 }
 
-// The factors b_j by frequency, the same for points of all these offsets: a window has the energy in the mean.
+// Returns the factors b_j by frequency, common to points of all these offsets: each window has the right mean energy.
 std::vector<float> factors_of(const std::vector<PointWindows>& points, const Line& line) {
     const std::size_t side = line.window.size();
-    const auto reach = static_cast<std::ptrdiff_t>((side - 1) / 2);
-    const float alone = factor_alone(line), wanted = static_cast<float>(line.hop);
-    std::vector<float> factors(2 * static_cast<std::size_t>(reach) + 1, alone), shares(factors.size());
+    const auto max_index = static_cast<std::ptrdiff_t>((side - 1) / 2);
+    const float isolated = isolated_factor(line), target = static_cast<float>(line.hop);
+    std::vector<float> factors(2 * static_cast<std::size_t>(max_index) + 1, isolated), shares(factors.size());
     std::vector<int> counts(factors.size());
     std::vector<Complex> sum;
     constexpr int rounds = 8;
@@ -104,7 +104,9 @@ std::vector<float> factors_of(const std::vector<PointWindows>& points, const Lin
         std::ranges::fill(shares, 0.0f);
         std::ranges::fill(counts, 0);
         for (const PointWindows& point : points) {
-            const auto factor = [&](std::size_t i) { return static_cast<std::size_t>(point.frequencies[i] + reach); };
+            const auto factor = [&](std::size_t i) {
+                return static_cast<std::size_t>(point.frequencies[i] + max_index);
+            };
             sum.assign(point.length, Complex(0));
             for (std::size_t i = 0; i < point.starts.size(); ++i)
                 for (std::size_t p = 0; p < side; ++p)
@@ -123,11 +125,11 @@ std::vector<float> factors_of(const std::vector<PointWindows>& points, const Lin
         }
         for (std::size_t j = 0; j < factors.size(); ++j) {
             if (counts[j] == 0) continue;
-            // A window alone has energy as the square of its factor, one among many in proportion to it: 0.7 lies
-            // between both roots. A window that others nearly cancel would need an amplitude without bound.
+            // The energy of an isolated window is quadratic in its factor, that of one among many is linear: exponent
+            // 0.7 lies between both roots. A window nearly cancelled by others would need an unbounded amplitude.
             const float energy = factors[j] * shares[j] / static_cast<float>(counts[j]);
-            factors[j] *= std::pow(wanted / std::max(energy, 0.25f * wanted), 0.7f);
-            factors[j] = std::clamp(factors[j], 0.05f * alone, 2 * alone);
+            factors[j] *= std::pow(target / std::max(energy, 0.25f * target), 0.7f);
+            factors[j] = std::clamp(factors[j], 0.05f * isolated, 2 * isolated);
         }
     }
     return factors;
@@ -140,27 +142,27 @@ std::vector<float> rough_factors(const Line& line, const Fan& fan, double depth)
     return factors_of(points, line);
 }
 
-// A uniform surface whose points have one phase.
+// Uniform surface with one phase for all points.
 class SmoothSurface {
   public:
     SmoothSurface(const Line& line, const Fan& fan) : line_(line), fan_(fan), frequencies_(frequencies_in(fan, line)) {
         const std::size_t side = line.window.size();
         for (const Frequency& frequency : frequencies_) {
             std::vector<std::complex<double>>& wave = waves_.emplace_back(line.hop);
-            const double a_sample = static_cast<double>(frequency.j) / static_cast<double>(side);
+            const double cycles_per_sample = static_cast<double>(frequency.j) / static_cast<double>(side);
             for (std::size_t p = 0; p < side; ++p)
                 wave[p % line.hop] += std::polar(static_cast<double>(line.window[p]),
-                                                 2 * std::numbers::pi * a_sample * static_cast<double>(p));
+                                                 2 * std::numbers::pi * cycles_per_sample * static_cast<double>(p));
         }
     }
 
-    // The factor with which the windows of the surface at a depth add up to the power of the fan's rays. Without a
-    // depth the phases of directions are unrelated.
+    // Returns the factor that gives the windows of the surface at a depth the power of the fan's rays. Without a depth
+    // the phases of directions are unrelated.
     float factor(std::optional<double> depth) const {
         const double sines = sine_of(fan_.center + fan_.half) - sine_of(fan_.center - fan_.half);
         const auto side = static_cast<double>(line_.window.size()), hop = static_cast<double>(line_.hop);
         const double step = line_.wavelength / (side * line_.pitch);
-        // Where windows cancel, or the wave misses the fan, the factor would have no bound.
+        // Bounds the factor where windows cancel or the wave misses the fan.
         const double lower_bound = 0.0625 * (side / hop) * (side / hop);
         return static_cast<float>(std::sqrt(sines / step / std::max(depth ? power(*depth) : power(), lower_bound)));
     }
@@ -172,7 +174,7 @@ class SmoothSurface {
         std::vector<std::complex<double>> sum(line_.hop);
         for (std::size_t i = 0; i < waves_.size(); ++i) {
             const double sine = frequencies_[i].sine, path = (1 / std::sqrt(1 - sine * sine) - 1) * depth;
-            // Waves are counted from the middle of the window.
+            // Phases are counted from the middle of the window.
             const double first = -0.5 * static_cast<double>(frequencies_[i].j) *
                                  static_cast<double>(line_.window.size() - 1) /
                                  static_cast<double>(line_.window.size());
@@ -195,7 +197,7 @@ class SmoothSurface {
     const Line& line_;
     const Fan& fan_;
     std::vector<Frequency> frequencies_;
-    // One period, a hogel wide, of the sum of a direction's waves under the windows of all hogels.
+    // One period (one hop) of the sum of a direction's waves under the windows of all hogels.
     std::vector<std::vector<std::complex<double>>> waves_;
 };
 
@@ -207,10 +209,10 @@ std::vector<float> factors_along(const Line& line, const Fan& fan, double depth_
     if (phases == PointPhases::fixed) smooth.emplace(line, fan);
     for (std::size_t step = 0; step < Table::steps; ++step) {
         core::throw_if_stopped();
-        // The last step stands for all larger depths, where the windows of one point lie apart.
+        // The last step holds all larger depths, where the windows of a point are separate.
         std::optional<double> depth;
         if (step + 1 < Table::steps) depth = depth_step * (static_cast<double>(step) + 0.5);
-        std::vector<float> factors(directions, factor_alone(line));
+        std::vector<float> factors(directions, isolated_factor(line));
         if (smooth)
             std::ranges::fill(factors, smooth->factor(depth));
         else if (depth)
@@ -224,13 +226,13 @@ std::vector<float> factors_along(const Line& line, const Fan& fan, double depth_
 
 WindowBrightness::WindowBrightness(const LightFieldGrid& rays, const FieldGrid& grid, std::size_t hop,
                                    std::span<const float> window, PointPhases phases)
-    : reach_(static_cast<std::ptrdiff_t>((window.size() - 1) / 2)) {
+    : max_frequency_(static_cast<std::ptrdiff_t>((window.size() - 1) / 2)) {
     const double pitch = grid.plane.pitch_x, extent = static_cast<double>(window.size()) * pitch;
     const double depth_step = 1.25 * extent * extent / grid.wavelength / static_cast<double>(steps - 1);
     steps_a_metre_ = static_cast<float>(1 / depth_step);
     const Line line{window, hop, pitch, grid.wavelength};
-    own_share_ = 1 / (factor_alone(line) * factor_alone(line));
-    const auto slant = [](double other) { return std::sqrt(1 + other * other); };
+    isolated_share_ = 1 / (isolated_factor(line) * isolated_factor(line));
+    const auto slant = [](double tangent) { return std::sqrt(1 + tangent * tangent); };
     const Fan across{rays.center_u(), rays.half_u(), slant(rays.center_v())},
         down{rays.center_v(), rays.half_v(), slant(rays.center_u())};
     across_ = factors_along(line, across, depth_step, phases);

@@ -10,15 +10,14 @@
 
 namespace hogel::stereogram::windows {
 
-/// The windows of a hologram of this grid: at least two hogels wide, as large as the spacing of directions allows, a
-/// multiple of the hogel's side so that windows add up to a constant, and such that the window is centred on the hogel.
+/// Returns the window layout of a hologram: windows at least two hogels wide, as large as the spacing of directions
+/// allows, a multiple of the hogel's side (windows add up to a constant), and centred on the hogel.
 HogelLayout window_layout(const LightFieldGrid& light_field, const FieldGrid& grid);
 
 /// Makes a hologram of overlapping windows (OLAS).
-/// @param one_by_one  use the plain version, which is always used for large windows; the fast one computes the windows
-///                    of many hogels at once
+/// @param plain  forces the plain version, which large windows always use; the fast one computes sixteen hogels at once
 std::shared_ptr<const FieldSource> make_overlap_add(const LightField& light_field, const FieldGrid& grid,
                                                     const HologramOptions& options, PointPhases phases,
-                                                    bool one_by_one = false);
+                                                    bool plain = false);
 
 }  // namespace hogel::stereogram::windows

@@ -17,7 +17,7 @@ HOGEL_TEST_ON_EVERY_TARGET(OverlapAddHologram);
 
 using Complex = std::complex<float>;
 
-// A light field with rays that are dark, that meet something on either side of the plane, and that meet nothing.
+// A light field with dark rays, rays to points on either side of the plane, and rays without a surface.
 LightFieldBuffer noise(std::size_t hogels_s, std::size_t hogels_t, std::size_t directions_u, std::size_t directions_v,
                        double pitch) {
     LightFieldBuffer field(
@@ -77,9 +77,8 @@ TEST_P(OverlapAddHologram, a_sample_is_the_same_whatever_the_region) {
     }
 }
 
-// A smooth surface has the power of its rays, mean |F|² = L Δs_x Δs_y, so a white one is white: whatever the
-// wavelength, the number of views, the depth, the slope and the hogels' side in samples, as long as neighbouring views
-// meet within the window.
+// A smooth surface has the power of its rays, mean |F|² = L Δs_x Δs_y, for any wavelength, number of views, depth,
+// slope and hogel side, if neighbouring views meet within the window: white surfaces stay white.
 TEST(SmoothSurfaces, have_the_power_of_their_rays_in_every_wavelength) {
     struct Case {
         std::size_t hogels, hop, views;
