@@ -120,8 +120,7 @@ double mean(const Image& image) {
 
 class SurfaceMethod : public testing::TestWithParam<const char*> {};
 
-// The photograph of a diffuse card shows the card's radiance, behind the hologram and in front of it, upright and
-// tilted.
+// A photograph shows a diffuse card's radiance, behind and in front of the hologram, upright and tilted.
 TEST_P(SurfaceMethod, photographs_a_card_with_its_own_radiance) {
     const std::string method = GetParam();
     const FieldGrid grid{{200, 200, 2_um, 2_um, 0, 0}, 633_nm};

@@ -69,8 +69,7 @@ void AddWave(const ScenePoint& point, const FieldGrid& grid, const SampleRow& ro
         const V angle = hn::Mul(hn::NegMulAdd(quarters, hn::Set(d, 0.25), cycles), hn::Set(d, 2 * std::numbers::pi));
         const V square = hn::Mul(angle, angle);
         const V sine = hn::Mul(modulus, Sine(d, angle, square)), cosine = hn::Mul(modulus, Cosine(d, square));
-        // Rotates by −2 to 2 quarter cycles. An even number changes both signs or none; an odd one also swaps real and
-        // imaginary part.
+        // Rotates by −2 to 2 quarter cycles: an even number changes both signs or none, an odd one swaps the parts.
         const V size = hn::Abs(quarters), even = hn::Sub(hn::Set(d, 1.0), size);
         const auto odd = hn::Eq(size, hn::Set(d, 1.0));
         const V re = hn::IfThenElse(odd, hn::Neg(hn::Mul(quarters, sine)), hn::Mul(even, cosine));

@@ -15,8 +15,7 @@ std::complex<double> line_wave(const LineSource& line, Vec3 position, double wav
     const Vec3 along = line.b - line.a;
     const double size = length(along);
     const Vec3 t = along / size;
-    // The point of the line whose light reaches this position: light leaves at a fixed angle to the line, with the
-    // slope of the phase as its cosine.
+    // Point of the line that lights this position: light leaves at a fixed angle to it, with cosine `slope`.
     const double foot = dot(position - line.a, t), distance = length(position - line.a - foot * t);
     const double slope = line.slope, sine = std::sqrt(1 - slope * slope);
     const bool behind = line.a.z < 0;

@@ -36,15 +36,13 @@ std::vector<SceneEdge> scene_edges(const ShadedScene& scene, const SceneHologram
 std::vector<ScenePoint> edge_points(const ShadedScene& scene, const FieldGrid& grid,
                                     const SceneHologramOptions& options);
 
-/// Returns the minimum depth of a point, metres. The pitch samples a nearer point's wave too coarsely for its
-/// brightness.
+/// Returns the minimum depth of a point, metres. The pitch undersamples the waves of nearer points.
 double nearest_depth(const FieldGrid& grid);
 
 /// Returns a random phase in [0, 1) that depends only on the arguments.
 double random_cycles(const SceneHologramOptions& options, std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
-/// Ray of a point at a position on the hologram, towards the viewer: away from a point behind the hologram, towards a
-/// point in front of it.
+/// Ray between a point and a position on the hologram, towards the viewer: from a point behind it, to a point in front.
 struct Passage {
     double path;     ///< signed path from the point, metres; negative before the light reaches the point
     Vec3 direction;  ///< unit length, towards the viewer

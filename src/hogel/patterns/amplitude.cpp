@@ -32,9 +32,8 @@ double column_carrier(double band, std::size_t columns, double pitch) {
 
 double degrees(double sine) { return std::asin(std::min(sine, 1.0)) * 180 / std::numbers::pi; }
 
-// Frequency f of the reference wave, cycles per sample. The fringe FR* lies at −f and its conjugate at +f, each as wide
-// as F (half width `band`). |F|², part of an intensity, lies around zero and is twice as wide. They must not overlap
-// and must all be sampled: [K] 3.2.
+// Frequency f of the reference wave, cycles per sample. The fringe FR* lies at −f and its conjugate at +f, as wide as F
+// (half width `band`). |F|², part of an intensity, lies around zero, twice as wide. None may overlap or alias: [K] 3.2.
 double reference_carrier(double band, const PatternOptions& options, double wavelength) {
     const double pitch = options.modulator.pitch, to_sine = wavelength / pitch;
     const double min_carrier = (options.encoding == Encoding::intensity ? 3 : 1) * band;

@@ -55,8 +55,7 @@ void multiply(const Numbers& a, double factor, Numbers& result) {
     });
 }
 
-// The error of the pattern e^{iφ} and its gradient ∂ε/∂φ = −Im(conj(g) e^{iφ}), where g = ∂ε/∂pattern has the spectrum
-// FieldBand::derivative().
+// Error ε of the pattern e^{iφ} and its gradient −Im(conj(g) e^{iφ}); g has the spectrum FieldBand::derivative().
 class PatternError {
   public:
     PatternError(const FieldBand& band, const Shape<2>& shape)

@@ -20,8 +20,7 @@ Complex unit(Complex value) {
     return modulus > 0 ? value / modulus : Complex(1);
 }
 
-// First pixels of the squares that cover `length` pixels. If length is no multiple of the side, the last square
-// overlaps its neighbour.
+// First pixels of the squares that cover `length` pixels. The last square may overlap its neighbour.
 std::vector<std::size_t> squares_along(std::size_t side, std::size_t length) {
     std::vector<std::size_t> starts;
     for (std::size_t start = 0; start + side <= length; start += side) starts.push_back(start);

@@ -70,8 +70,7 @@ void for_rows(const Shape<2>& shape, const Element& element) {
     });
 }
 
-// Scales the field to |F| ≤ 1 and clips the moduli of the share `clip` of its samples to 1. Returns the modulus that
-// became 1.
+// Scales the field to |F| ≤ 1, clipping the share `clip` of its samples. Returns the modulus that became 1.
 float normalise(Array<Complex, 2>& field, double clip) {
     std::vector<float, CacheLineAllocator<float>> moduli(field.size());
     for_rows(field.shape(), [&](std::size_t i) { moduli[i] = std::abs(field.data()[i]); });

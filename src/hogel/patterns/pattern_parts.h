@@ -28,8 +28,7 @@ auto sum_of_lines(std::size_t count, const OfLine& of_line) {
 /// Carrier wave e^{2πi f_x·column}, by column. The useful order of a pattern is F times the carrier.
 using Carrier = std::vector<std::complex<float>>;
 
-/// Returns the half bandwidth of a field along x that contains 95 % of its energy, cycles per sample. Hogel edges
-/// scatter the rest widely.
+/// Returns the half bandwidth along x, cycles per sample, of 95 % of a field's energy; hogel edges scatter the rest.
 double band_along_x(View<const std::complex<float>, 2> field);
 
 /// Diffraction order of an amplitude pattern that reproduces F.
@@ -65,8 +64,7 @@ Array<float, 2> descend_phases(View<const std::complex<float>, 2> field, const F
 /// Defaults for PatternOptions::iterations = 0: alternating projections, and the maximum of a descent.
 inline constexpr std::size_t projections = 40, max_descent_steps = 200;
 
-/// Band of a field: the frequencies within 1.1 times the radius of its aperture, at most 0.4 cycles per sample. See
-/// Pattern::aperture.
+/// Band of a field (see Pattern::aperture): 1.1 times the aperture's radius, at most 0.4 cycles per sample.
 class FieldBand {
   public:
     explicit FieldBand(View<const std::complex<float>, 2> field);

@@ -128,8 +128,7 @@ INSTANTIATE_TEST_SUITE_P(Encodings, Order,
                          testing::Values(Encoding::double_phase, Encoding::intensity, Encoding::bipolar,
                                          Encoding::burckhardt, Encoding::lee));
 
-// Error of a pattern's local spectra relative to the field's, in squares that begin at a given pixel, over frequencies
-// up to a limit, if any.
+// Relative error of a pattern's local spectra in squares from a given pixel on, up to a frequency if given.
 double spectral_error(const Pattern& pattern, Encoding encoding, const Field& field, std::size_t first = 0,
                       std::size_t reach = side) {
     constexpr std::size_t window = 24;

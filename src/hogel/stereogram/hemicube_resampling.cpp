@@ -8,8 +8,7 @@
 namespace hogel::stereogram {
 namespace {
 
-// Maximum number of points per lobe along each axis. More matter only for rays close to the hologram plane, which are
-// dense in frequency.
+// Maximum number of points per lobe and axis. More matter only near the hologram plane, where rays are dense.
 constexpr double max_points = 12;
 
 // Returns the width, in rays of the face, of a cell of direction sines around a unit direction, by finite differences.
@@ -25,8 +24,7 @@ double width_in_rays(const LightFieldGrid& face, Vec3 direction, double step, bo
            difference;
 }
 
-// Adds the four rays around a direction with bilinear weights, or the nearest one. Border rays extend to the face's
-// edge.
+// Adds the four rays around a direction with bilinear weights, or the nearest; border rays extend to the edge.
 void add_rays(const LightFieldGrid& face, std::size_t first, Vec3 direction, Interpolation interpolation, double weight,
               std::map<std::uint32_t, double>& sum) {
     const Vec3 q = to_face(face.face(), direction);

@@ -45,8 +45,8 @@ class HogelWaves : public virtual HogelPreparation {
     /// @param waves     size() values, aligned to a cache line
     virtual void waves(std::span<const float> prepared, const HogelKey& key, const InBandRows& rows,
                        float* waves) const = 0;
-    /// Computes |waves|² in blocks of sixteen rows [row / 16][column][row mod 16], zero in rows beyond n: powers_size()
-    /// values. Requires independent().
+    /// Computes |waves|², [row / 16][column][row mod 16], zero in rows beyond n: powers_size() values. Needs
+    /// independent().
     virtual void powers(std::span<const float> /*prepared*/, float* /*powers*/) const {}
     /// Returns whether hogels are squares without a window and all waves of all hogels have independent random phases.
     virtual bool independent() const { return false; }
@@ -111,8 +111,7 @@ class HogelSynthesis : public virtual HogelPreparation {
         for (std::size_t y = 0; y < scratch.extent(0); ++y)
             std::copy_n(&scratch(y, 0), scratch.extent(1), to + y * to_stride);
     }
-    /// Returns the hogels' waves, or null if a hogel is not the Fourier transform of as many waves as samples. Waves
-    /// and samples may be prepared differently.
+    /// Returns the hogels' waves, or null if there are not as many waves as samples. Both may be prepared differently.
     virtual const HogelWaves* hogel_waves() const { return nullptr; }
 };
 

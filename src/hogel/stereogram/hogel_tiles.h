@@ -33,8 +33,7 @@ struct SeriesOfLanes {
 
 PhaseSeries series_of_lane(const SeriesOfLanes& series, std::size_t lane);
 
-/// Returns whether phases from the middle of a hogel of side `columns` are bytes too: (m + m′)(n − 1)/2n is a whole
-/// number of 256ths of a cycle.
+/// Returns whether phases from the middle of a hogel are bytes: (m + m′)(n − 1)/2n in whole 256ths of a cycle.
 constexpr bool middle_is_a_byte(std::size_t columns) { return columns % 16 == 0 && 128 % columns == 0; }
 
 /// Computes one row of the waves of sixteen hogels or looks with the phases of random_waves(), counted from the middle
@@ -68,7 +67,7 @@ extern void (&transpose_rows)(const float* from, std::size_t columns, float* to,
 /// Computes to[row · to_stride + i] = from[i][offset + row] for sixteen rows; zero for i beyond the given arrays.
 extern void (&gather_rows)(std::span<const float* const> from, std::size_t offset, float* to, std::size_t to_stride);
 
-/// Transposes the same rows of sixteen hogels, [row][columns][hogel]: hogel h < hogels becomes [columns][row] at to +
+/// Transposes the same rows of sixteen hogels, [row][columns][hogel]: hogel h goes to [columns][row] at to +
 /// h·hogel_stride.
 extern void (&transpose_hogels)(const float* from, std::size_t columns, std::size_t hogels, float* to,
                                 std::size_t hogel_stride);

@@ -144,8 +144,7 @@ class HogelsSideBySide final : public Stereogram {
         Array<Complex, 2> square;          // a hogel
     };
 
-    // Returns a view of the rays if the source has them in memory and those of the hogels are contiguous; otherwise
-    // empty.
+    // Returns a view of the rays if the source holds them contiguously in memory; otherwise an empty view.
     View<const float, 5> rays_in_memory(const HogelRange& hogels) const {
         if (faces().size() > 1 || with_depth_ || (hogels.nt > 1 && hogels.ns < front().hogels_s)) return {};
         return light_field_.front().in_memory();

@@ -15,8 +15,7 @@ using stereogram::samples_per_hogel;
 
 namespace {
 
-// A hogel of width d sends light of wavelength λ into directions with sines λ/d apart: two must lie in −1 … 1. It also
-// needs at least one sample.
+// A hogel of width d needs a sample, and two directions with sines λ/d apart in −1 … 1.
 void require_hogels_that_diffract(const LightFieldGrid& light_field, double wavelength, double pitch) {
     if (wavelength > 2 * light_field.pitch)
         throw Error(ErrorCode::usage, "wavelength",

@@ -42,8 +42,7 @@ TEST(HorizontalParallax, focuses_across_at_the_depth_of_things_and_up_and_down_o
         return spot_of(photograph(*hologram, std::span(&camera, 1))[0], camera.picture);
     };
     const double sharp = 2 * half / std::sqrt(12.0);
-    // A disc of diameter A has a standard deviation of A/4; out of focus by ζ it measures A ζ/(R + ζ) on the hologram
-    // plane.
+    // A disc of diameter A has a standard deviation of A/4; out of focus by ζ its width is A ζ/(R + ζ).
     const double blurred = std::hypot(sharp, 6_mm / 4 * depth / (100_mm + depth));
     const Spot far = seen(0, 0, depth), near = seen(0, 0, 0);
     EXPECT_NEAR(far.high, blurred, 0.15 * blurred);
@@ -57,8 +56,8 @@ TEST(HorizontalParallax, focuses_across_at_the_depth_of_things_and_up_and_down_o
     EXPECT_NEAR(seen(0, above, 0).y, 0, 6_um);
 }
 
-// A ball beside the front, on a side of a hemisquare, appears horizontally at its geometric position, vertically at its
-// height, and as wide as a hogel diffracts.
+// A ball on a side of a hemisquare: horizontally at its position, vertically at its height, as wide as a hogel
+// diffracts.
 TEST(HorizontalParallax, shows_a_ball_at_50_degrees_from_a_hemisquares_side) {
     const LightFieldGrid grid{16, 12, 36_um, 64, 1, Perspective{1, 0.1}, 1};
     for (const double side : {1.0, -1.0}) {

@@ -106,8 +106,7 @@ class PhaseAddedSynthesis final : public HogelSynthesis, public HogelWaves {
         double U = light_field_.u(static_cast<double>(k)), V = light_field_.v(static_cast<double>(l));
         double cycles = 0, share = 1;
         if (std::isfinite(depth)) {
-            // Below `shallowest_` each cell is seen by one hogel only; the depth only makes the rays of a hogel meet
-            // different cells.
+            // One hogel sees each cell; the depth only separates the cells of its rays.
             if (std::abs(depth) < shallowest_) depth = shallowest_;
             const SurfaceCell cell = cells_.find(s + U * depth, t + V * depth, depth, look);
             share = 1 / std::sqrt(cell.crowding);
@@ -117,8 +116,7 @@ class PhaseAddedSynthesis final : public HogelSynthesis, public HogelWaves {
             // only, and a tilted or inexact surface shines as an even one.
             cycles = cell.cycles + cell.depth * (std::sqrt(1 + U * U + V * V) - reference_cosine_) / wavelength_;
         } else {
-            // Rays that meet no surface are treated as rays to a distant one, with different cells for neighbouring
-            // hogels.
+            // Rays without a surface: as rays to a distant one, with different cells for neighbouring hogels.
             cycles = cells_.find(s + U, t + V, 1.0, look).cycles;
         }
         const double to_frequency = pitch_ / (wavelength_ * std::sqrt(1 + U * U + V * V));

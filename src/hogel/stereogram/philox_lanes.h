@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Philox (core/random.h) with one draw per lane, for files that are compiled for every SIMD target. Include it after
-// hwy/highway.h.
+// Philox (core/random.h) with one draw per lane, for SIMD targets. Include it after hwy/highway.h.
 #if defined(HOGEL_HOLOGRAM_PHILOX_LANES) == defined(HWY_TARGET_TOGGLE)
 #ifdef HOGEL_HOLOGRAM_PHILOX_LANES
 #undef HOGEL_HOLOGRAM_PHILOX_LANES

@@ -13,8 +13,7 @@ namespace hogel::stereogram {
 struct CycleSeries {
     std::array<std::uint32_t, 2> key;  ///< the seed
     std::uint32_t series;              ///< look and channel
-    /// Returns the phase of the surface point at a column and row. With direction ≥ 1: of a ray of the hogel there that
-    /// meets no surface.
+    /// Returns the phase of the surface point; with direction ≥ 1, of a ray without a surface of the hogel there.
     double operator()(std::uint32_t column, std::uint32_t row, std::uint32_t direction = 0) const;
 };
 

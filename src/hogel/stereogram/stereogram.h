@@ -58,8 +58,7 @@ struct Hogels : HogelLayout {
     std::optional<HogelRays> rays = {};
 };
 
-/// Hologram that is computed from hogels on demand. A camera may compute pupil bands directly from the hogels, without
-/// hologram samples.
+/// Hologram computed from hogels on demand. Cameras may compute pupil bands without its samples.
 class Stereogram : public FieldSource {
   public:
     const Stereogram* stereogram() const final { return this; }

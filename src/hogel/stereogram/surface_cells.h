@@ -7,8 +7,7 @@
 
 namespace hogel::stereogram {
 
-/// A cell of a surface, which acts as one luminous point at its centre: all rays that meet the cell share its position
-/// and phase.
+/// Cell of a surface: one luminous point. All rays that meet the cell share its position and phase.
 struct SurfaceCell {
     double x = 0, y = 0, depth = 0;  ///< centre, and the requested depth ζ, metres
     double cycles = 0;               ///< phase, [0, 1)

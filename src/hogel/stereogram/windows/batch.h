@@ -60,8 +60,7 @@ class WindowBatch {
     bool fill(const Start& start, const float* radiance, const float* depth, std::size_t count, std::size_t rays,
               const PointCycles& points);
 
-    /// Samples that windows are added to. Real and imaginary parts are separate; in a row, samples one hop apart are
-    /// adjacent.
+    /// Samples that windows are added to. In a row, samples one hop apart are adjacent.
     struct Sum {
         // Relative to the first sample of the window of the hologram's first hogel.
         std::size_t first_x = 0, first_y = 0;

@@ -21,8 +21,7 @@ using Wide = hn::CappedTag<double, 1>;
 using Wide = hn::Repartition<double, D>;
 #endif
 
-// Computes the phases, in fractions of a cycle, of the points that the rays meet. For random phases also computes the
-// columns and rows of these points.
+// Computes the phases, in fractions of a cycle, and for random phases the columns and rows of points met by rays.
 void PointsAndCycles(const WindowBatch::Shared& shared, const WindowDirection& direction,
                      const WindowBatch::Start& start, const float* depths, bool points, float* cycles,
                      std::int32_t* columns, std::int32_t* rows) {

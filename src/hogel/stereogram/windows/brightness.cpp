@@ -83,8 +83,7 @@ PointWindows windows_of_point(const Line& line, const Fan& fan, double depth, do
     return point;
 }
 
-// Returns the factor of a window that interferes with no other. One window begins at every hop and must have the energy
-// of `hop` samples of modulus one.
+// Returns the factor of an isolated window. One begins at every hop, with the energy of `hop` samples of modulus 1.
 float isolated_factor(const Line& line) {
     float energy = 0;
     for (const float weight : line.window) energy += weight * weight;
