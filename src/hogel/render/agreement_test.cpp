@@ -37,13 +37,12 @@ bool near_silhouette(const LightFieldBuffer& light_field, std::size_t t, std::si
     return false;
 }
 
-// The number of samples that were compared away from silhouettes, and of those that show a triangle.
+// Number of samples compared away from silhouettes, and number of them that show a triangle.
 struct Compared {
     std::size_t samples = 0, hits = 0;
 };
 
-// Compares all samples away from silhouettes, except those closer than `margin` to the border of a hogel's view, whose
-// neighbours are unknown.
+// Compares all samples away from silhouettes, except within `margin` of the border of a hogel's view.
 void expect_agreement(const LightFieldBuffer& first, const LightFieldBuffer& second, std::size_t margin,
                       Compared& compared) {
     const LightFieldGrid& sampled = first.grid();

@@ -59,7 +59,7 @@ class Averaged final : public LightFieldSource {
             }
     }
 
-    // The sums of a channel of hogel (j, i) of the block.
+    // Computes the sums of a channel of hogel (j, i) of the block.
     void sum_up(const LightFieldTile& fine, std::size_t channel, std::size_t j, std::size_t i,
                 View<double, 2> sums) const {
         std::fill_n(sums.data(), grid_.directions(), 0.0);
@@ -92,7 +92,7 @@ class Averaged final : public LightFieldSource {
     LightFieldGrid grid_;
     SamplesPerRay samples_;
     HogelRange block_;
-    // Kept from block to block: all of it is written each time.
+    // Reused for all blocks; each block overwrites all of it.
     mutable core::ObjectPool<LightFieldTile> memory_;
 };
 

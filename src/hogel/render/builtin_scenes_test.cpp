@@ -20,8 +20,7 @@ using namespace literals;
 
 constexpr double size = 20_mm;
 
-// The scene of that name, except that church-radiance, which takes long, is replaced by a church that is baked with few
-// rays and larger triangles.
+// The scene of this name, except a church baked with fewer rays and larger triangles for church-radiance.
 Scene quick_scene(std::string_view name) {
     if (name != "church-radiance") return make_scene(name, size);
     Scene church = make_scene("church", size);

@@ -138,8 +138,7 @@ TEST(CacheSpacing, gives_the_same_bytes_for_any_tiling_and_number_of_threads) {
     }
     EXPECT_TRUE(std::ranges::equal(many.radiance.elements(), tiled.radiance.elements()));
     const LightFieldBuffer traced = render(shaded("direct", 0.5), "raytrace");
-    // Other renderers give nearly the same; only at the edges of shadows epi differs, because it interpolates between
-    // knots.
+    // Other renderers give nearly the same. At shadow edges epi differs, because it interpolates between knots.
     std::size_t off = 0, far_off = 0;
     for (std::size_t i = 0; i < traced.radiance.size(); ++i) {
         const double expected = traced.radiance.data()[i], difference = many.radiance.data()[i] - expected;

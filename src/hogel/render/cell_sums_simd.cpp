@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled for every SIMD target: a lane for each cell. Samples are read in the order of memory, of which they are far
-// more than fits into a cache.
+// One lane per cell. Samples exceed the cache by far and are read in memory order.
 #include "hogel/core/simd_targets-inl.h"
 #include "hogel/render/cell_sums.h"
 
@@ -15,7 +14,6 @@ using Sums = hn::Vec<Doubles>;
 
 HWY_INLINE Sums Add(Sums sums, hn::Vec<Floats> samples) { return hn::Add(sums, hn::PromoteTo(Doubles(), samples)); }
 
-// Adds n samples to each of as many sums as there are lanes.
 template <std::size_t n>
 HWY_INLINE Sums AddGroups(const float* row, Sums sums) {
     const Floats floats;
@@ -41,12 +39,12 @@ void AddRows(View<const float, 2> samples, View<double, 2> sums) {
     for (std::size_t v = 0; v < sums.extent(0); ++v)
         for (std::size_t a = 0; a < n; ++a) {
             const float* row = &samples(n * v + a, 0);
-            double* const to = &sums(v, 0);
+            double* const sum = &sums(v, 0);
             std::size_t u = 0;
             for (; u + lanes <= sums.extent(1); u += lanes)
-                hn::StoreU(AddGroups<n>(row + n * u, hn::LoadU(doubles, to + u)), doubles, to + u);
+                hn::StoreU(AddGroups<n>(row + n * u, hn::LoadU(doubles, sum + u)), doubles, sum + u);
             for (; u < sums.extent(1); ++u)
-                for (std::size_t b = 0; b < n; ++b) to[u] += double{row[n * u + b]};
+                for (std::size_t b = 0; b < n; ++b) sum[u] += double{row[n * u + b]};
         }
 }
 

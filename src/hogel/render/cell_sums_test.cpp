@@ -31,7 +31,7 @@ TEST_P(CellSums, are_the_plain_ones_to_the_bit) {
         }
 }
 
-// Whole numbers have sums that are exact in any order: Σ over the cell of (place in the row + 1000 × row).
+// Integers have sums that are exact in any order: Σ over the cell of (index in the row + 1000 × row).
 TEST_P(CellSums, are_of_the_samples_of_each_cell) {
     for (const std::size_t n : {1, 2, 3, 4, 7}) {
         Array<float, 2> samples({2 * n, 19 * n});

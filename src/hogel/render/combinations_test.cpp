@@ -116,8 +116,8 @@ INSTANTIATE_TEST_SUITE_P(Renderers, Combinations, ::testing::ValuesIn(renderer_n
 
 // Rounding decides for rays along edges. With a radiance cache, epi interpolates between knots where the other
 // renderers read the cache, which makes a difference at the edges of shadows. In the projection of a scene through a
-// fixed focal plane the points of the cache are at other places, and what is interpolated between vertices is shifted
-// by up to a hundredth of a sample.
+// fixed focal plane, the points of the cache are at different positions, and values interpolated between vertices are
+// shifted by up to a hundredth of a sample.
 TEST_P(Combinations, agree_with_ray_casting) {
     std::size_t hits = 0, rays = 0, hemicubes = 0, focal_planes = 0;
     std::size_t number = 0;

@@ -95,7 +95,7 @@ TEST_P(DoubledFaces, are_one_whatever_their_order) {
     }
 }
 
-// Where fronts alone are shown, both faces of a sheet are there, each for its side; and doubled fronts are one.
+// If only fronts are shown, both faces of a sheet are kept, one for each side. Doubled fronts become one.
 TEST_P(DoubledFaces, of_opposite_windings_both_stay_where_fronts_alone_are_seen) {
     std::mt19937 random(2);
     const std::vector<Face> faces = random_faces(random, 6);

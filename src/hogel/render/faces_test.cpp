@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares the sides of a hemicube and off-centre directions with the front view of the scene rotated around each
-// hogel.
+// Compares sides of a hemicube and off-centre directions with the front of the rotated scene.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,8 +44,7 @@ class Faces : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Renderers, Faces, ::testing::ValuesIn(renderer_names()),
                          [](const auto& parameter) { return test_name(parameter.param); });
 
-// A face of a hogel equals the front of a single hogel for the scene rotated around it, except for rays along edges,
-// where rounding decides.
+// A face of a hogel equals the front for the scene rotated around the hogel, except along edges (rounding).
 void compare_with_rotated_scene(const std::string& name, const ShadedScene& scene, const LightFieldGrid& grid) {
     const LightFieldBuffer seen = render(name, scene, grid);
     std::size_t hits = 0, different = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light fields with a fixed focal plane, from every renderer: by itself, or through the projection of the scene.
+// Light fields with a fixed focal plane, from every renderer: directly, or through the projection of the scene.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ LightFieldGrid grid_with(double focal_plane) {
     return {5, 4, 1_mm, 21, 19, FocalPlane{{0.5, 0.4, 0.03, -0.02}, focal_plane}, 3};
 }
 
-// Random triangles whose radiance is their position, so that a sample tells which point it sees.
+// Random triangles with radiance equal to position, so that a sample identifies the visible point.
 ShadedScene triangles_that_show_where_they_are(unsigned seed, bool behind) {
     std::mt19937 random(seed);
     ShadedScene scene = random_scene(random, 24, behind);
@@ -41,14 +41,14 @@ class FocalPlanes : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Renderers, FocalPlanes, ::testing::ValuesIn(renderer_names()),
                          [](const auto& parameter) { return test_name(parameter.param); });
 
-// Wherever a sample sees something, that is the point of its ray at its depth.
+// The visible point of a sample is the point of its ray at its depth.
 TEST_P(FocalPlanes, samples_see_points_of_the_rays_through_the_plane) {
     for (const double focal : {-60_mm, -15_mm, 12_mm, 400_mm}) {
         const LightFieldGrid grid = grid_with(focal);
         const ShadedScene scene = triangles_that_show_where_they_are(3, !crosses_plane(GetParam()));
         const LightFieldBuffer seen = render(GetParam(), scene, grid);
-        // In the projection of small triangles radiance is interpolated as if they were not projected: what is seen is
-        // off by at most a hundredth of what a sample covers.
+        // In the projection of small triangles radiance is interpolated as if they were not projected. The visible
+        // point is off by at most a hundredth of a sample's width.
         const double tolerance = renderers().find(GetParam()).takes_focal_plane ? 2e-8 : 0.01 * grid.pitch;
         std::size_t hits = 0;
         for (std::size_t t = 0; t < grid.hogels_t; ++t)
@@ -70,7 +70,7 @@ TEST_P(FocalPlanes, samples_see_points_of_the_rays_through_the_plane) {
     }
 }
 
-// Each hogel is that of the light field whose hogels all have its directions.
+// Each hogel equals the hogel of a light field with its directions in all hogels.
 TEST_P(FocalPlanes, every_hogel_is_that_of_its_own_directions) {
     const LightFieldGrid grid = grid_with(-25_mm);
     const ShadedScene scene = triangles_that_show_where_they_are(4, !crosses_plane(GetParam()));
@@ -103,7 +103,7 @@ TEST_P(FocalPlanes, far_away_are_a_perspective) {
     }
 }
 
-// Light is found at the points of a cache, or at vertices, as without a focal plane, and not at every ray.
+// Light is evaluated at the points of a cache or at vertices, as without a focal plane, not at every ray.
 TEST(FocalPlane, light_is_evaluated_at_few_points) {
     const LightFieldGrid grid{24, 24, 0.5_mm, 48, 48, FocalPlane{{0.4, 0.4}, -300_mm}, 3};
     Scene ball = make_scene("sphere", 8_mm);
@@ -139,8 +139,8 @@ TEST(FocalPlane, light_is_evaluated_at_few_points) {
     }
 }
 
-// Hogels share the samples on the plane itself. What is there, and only that, looks the same from all hogels. The
-// projection of the plane is nowhere, so that only renderers that follow the rays can show it.
+// Hogels share the samples on the plane itself. Only points on the plane look the same from all hogels. Their
+// projection is at infinity, so that only renderers that follow the rays can show them.
 TEST_P(FocalPlanes, a_picture_on_the_plane_is_the_same_in_all_hogels) {
     const double focal = 8_mm;
     ShadedScene scene;
@@ -175,8 +175,7 @@ TEST_P(FocalPlanes, a_picture_on_the_plane_is_the_same_in_all_hogels) {
     EXPECT_GT(hits, seen.depth.size() / 3);
 }
 
-// Resampled to directions in common, the light field is that rendered in these directions, but for what lies between
-// samples: here the edges of triangles.
+// Resampled to common directions, the light field equals the one rendered in them, except at edges of triangles.
 TEST(FocalPlane, resampled_is_nearly_the_light_field_rendered_in_directions_in_common) {
     ShadedScene scene;
     const auto smooth = [](Vec3 p) {

@@ -15,9 +15,9 @@
 namespace hogel::render {
 namespace {
 
-// A point of a layer that a ray meets in front of all opaque surfaces.
+// Point of a layer that a ray meets in front of all opaque surfaces.
 struct Crossing {
-    std::size_t sample;  // of a row of directions: (t, s, u)
+    std::size_t sample;  // index (t, s, u) in a row of directions
     double depth;
     std::uint32_t triangle;
     std::array<float, 3> weights;
@@ -29,13 +29,12 @@ struct Crossing {
     }
 };
 
-// From here on a surface counts as half opaque: alpha is a sum of products of floats.
+// Minimum opacity that counts as 0.5: alpha is a rounded sum of products of floats.
 constexpr float half_opaque = 0.5f - 1.0f / 1024;
-// What one more surface leaves of the light behind it is no longer worth computing.
+// Transmittance below which further layers are not evaluated.
 constexpr float dark = 1e-4f;
 
-// The layers of a scene, and the geometry in which the rays of one direction are parallel: that of the scene or, with a
-// fixed focal plane, its projection.
+// Layers of a scene, and their geometry with parallel rays in each direction (projected for a focal plane).
 class Layers {
   public:
     Layers(std::shared_ptr<const ShadedScene> layers, const LightFieldGrid& grid) : scene_(std::move(layers)) {
@@ -52,7 +51,7 @@ class Layers {
     const ShadedScene& geometry() const { return *geometry_; }
     const std::vector<std::uint32_t>& triangles() const { return triangles_; }
 
-    // The depth and the weights of a hit in the scene itself: P/w = Σ b′_i P_i/w_i, so that b_i = w b′_i/w_i.
+    // Converts a hit's depth and weights to the scene itself: P/w = Σ b′_i P_i/w_i, so that b_i = w b′_i/w_i.
     Crossing crossing(std::uint32_t triangle, const ObliqueTriangle::Hit& hit) const {
         std::array<double, 3> weights = hit.weights;
         double depth = hit.depth;
@@ -78,7 +77,7 @@ class Layers {
     std::vector<std::uint32_t> triangles_;
 };
 
-// Draws layers over one tile, a row of directions after the other.
+// Draws layers over one tile, one row of directions after the other.
 class LayerTile {
   public:
     LayerTile(const Layers& layers, const LightFieldGrid& grid, LightFieldTile& tile)
@@ -119,13 +118,13 @@ class LayerTile {
         return samples_between((low - left) / grid_.pitch, (high - left) / grid_.pitch, range_.ns);
     }
 
-    // The crossings of one triangle. Where a corner is seen changes monotonically from one end of a row of directions
-    // to the other, so the ends say which rows of hogels see the triangle at all.
+    // Finds the crossings of one triangle. The projection of a corner moves monotonically along a row of directions, so
+    // the two ends of the row bound the rows of hogels that see the triangle.
     void find(std::uint32_t index, std::size_t v) {
         const std::size_t last = grid_.directions_u - 1;
         if (!grid_.has_frequencies()) {
-            const Span all = rows(along(index, v, 0), along(index, v, last));
-            if (all.first == all.end) return;
+            const Span range = rows(along(index, v, 0), along(index, v, last));
+            if (range.first == range.end) return;
         }
         for (std::size_t u = 0; u <= last; ++u) {
             if (!is_ray(parallel_, v, u)) continue;
@@ -156,33 +155,33 @@ class LayerTile {
         return view_sample(grid, grid.u(static_cast<double>(u)), grid.v(static_cast<double>(v)), depth);
     }
 
-    // Blends the crossings of one sample, which begin at `first`, with what is behind them. Returns where the next
-    // sample's begin.
+    // Blends the crossings of one sample, from `first`, over the opaque surface. Returns the next sample's first
+    // crossing.
     std::size_t blend(std::size_t first, std::size_t v) {
         const std::size_t sample = crossings_[first].sample, u = sample % grid_.directions_u,
                           s = sample / grid_.directions_u % range_.ns, t = sample / grid_.directions_u / range_.ns;
-        Rgb seen{0, 0, 0};
-        float passing = 1;
-        bool is_deep = false;
+        Rgb radiance{0, 0, 0};
+        float transmittance = 1;
+        bool has_depth = false;
         std::size_t i = first;
         for (; i < crossings_.size() && crossings_[i].sample == sample; ++i) {
-            if (passing < dark) continue;
-            const Crossing& at = crossings_[i];
-            const auto [b0, b1, b2] = at.weights;
-            seen += passing * at.opacity *
-                    radiance_at(layers_.scene(), at.triangle, b0, b1, b2, view(at.depth, t, s, v, u));
-            passing *= 1 - at.opacity;
-            if (!is_deep && at.opacity >= half_opaque) {
-                tile_.depth(t, s, v, u) = static_cast<float>(at.depth);
-                is_deep = true;
+            if (transmittance < dark) continue;
+            const Crossing& crossing = crossings_[i];
+            const auto [b0, b1, b2] = crossing.weights;
+            radiance += transmittance * crossing.opacity *
+                        radiance_at(layers_.scene(), crossing.triangle, b0, b1, b2, view(crossing.depth, t, s, v, u));
+            transmittance *= 1 - crossing.opacity;
+            if (!has_depth && crossing.opacity >= half_opaque) {
+                tile_.depth(t, s, v, u) = static_cast<float>(crossing.depth);
+                has_depth = true;
             }
         }
-        if (passing < dark) passing = 0;
-        const std::array<float, 3> values{seen.r, seen.g, seen.b};
+        if (transmittance < dark) transmittance = 0;
+        const std::array<float, 3> values{radiance.r, radiance.g, radiance.b};
         const std::size_t channels = tile_.radiance.extent(0);
         for (std::size_t c = 0; c < channels; ++c) {
             float& value = tile_.radiance(c, t, s, v, u);
-            value = (channels == 3 ? values[c] : luminance(seen)) + passing * value;
+            value = (channels == 3 ? values[c] : luminance(radiance)) + transmittance * value;
         }
         return i;
     }

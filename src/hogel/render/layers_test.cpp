@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfaces with masks, and surfaces that blend: every renderer shows them, and alike.
+// Surfaces with masks, and blended surfaces: every renderer shows them in the same way.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -62,7 +62,7 @@ std::shared_ptr<const Image> checkerboard(std::size_t n, float hole = 0) {
 class Layers : public testing::TestWithParam<std::string> {};
 
 TEST_P(Layers, that_are_opaque_everywhere_are_what_opaque_surfaces_are) {
-    // The mask's alpha is never below the cutoff but in one corner that no ray meets, so it stays a layer.
+    // The mask's alpha is below the cutoff only in one corner that no ray meets, so it stays a layer.
     auto corner = std::make_shared<Image>(64, 64, 4);
     std::ranges::fill(corner->pixels.elements(), 1.0f);
     corner->pixels(63, 0, 3) = 0;
@@ -181,7 +181,7 @@ TEST_P(Layers, are_seen_through_a_fixed_focal_plane_and_in_one_channel) {
     const LightFieldBuffer truth = render("raytrace", scene_of({wall, veil}), focal);
     for (std::size_t i = 0; i < seen.radiance.size(); ++i)
         ASSERT_NEAR(seen.radiance.data()[i], truth.radiance.data()[i], 1e-4);
-    // Where a point is on the veil, which is what its pattern shows, says the ray alone.
+    // The position of a point on the veil, shown by its pattern, depends on the ray alone.
     const LightFieldGrid middle = focal.of_hogel(4, 3);
     const double x = focal.s(4) + middle.u(2) * 3e-3, y = focal.t(3) + middle.v(4) * 3e-3;
     const double opacity =

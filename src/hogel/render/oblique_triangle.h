@@ -11,17 +11,16 @@
 
 namespace hogel::render {
 
-/// The positions of a triangle's vertices.
 inline std::array<Vec3, 3> corners_of(const ShadedScene& scene, std::size_t index) {
     const auto& [a, b, c] = scene.triangles[index].vertices;
     return {scene.positions[a], scene.positions[b], scene.positions[c]};
 }
 
-/// A triangle projected along one direction (U, V) onto the hologram plane, in which rays of that direction are points.
+/// Triangle projected along one direction (U, V) onto the hologram plane, in which rays of this direction are points.
 ///
-/// The renderers that collect candidate samples instead of testing every one (`simplex`, `simploid`, `simplex3d`,
-/// `oblique`, `mvr`) all use this class to decide whether and where a ray meets a triangle. The result depends only on
-/// the ray and the triangle, not on how, how often and in which region a sample was found.
+/// The renderers that collect candidate samples instead of testing every sample (`simplex`, `simploid`, `simplex3d`,
+/// `oblique`, `mvr`) use this class to test whether and where a ray meets a triangle. The result depends only on the
+/// ray and the triangle, not on how, how often and in which region a sample was found.
 ///
 /// The edge functions of docs/notation.md, section 2, are evaluated in the ray's frame: E = p_A × p_B with p = (x − Uζ
 /// − s, y − Vζ − t). A rounded difference of two rounded products may be zero but never has the wrong sign, so
@@ -30,7 +29,7 @@ inline std::array<Vec3, 3> corners_of(const ShadedScene& scene, std::size_t inde
 /// upwards.
 class ObliqueTriangle {
   public:
-    /// Along the slopes U = dx/dζ and V = dy/dζ.
+    /// Projects along the slopes U = dx/dζ and V = dy/dζ.
     ObliqueTriangle(const ShadedScene& scene, std::size_t index, double U, double V)
         : ObliqueTriangle(corners_of(scene, index), scene.fronts_only, U, V) {}
     ObliqueTriangle(const std::array<Vec3, 3>& corners, bool fronts_only, double U, double V)
@@ -42,7 +41,7 @@ class ObliqueTriangle {
         }
     }
 
-    /// Along a ray in column u and row v of a light field's directions, on any face.
+    /// Projects along the ray in column u and row v of a light field's directions, on any face.
     ObliqueTriangle(const ShadedScene& scene, std::size_t index, const LightFieldGrid& grid, double u, double v)
         : ObliqueTriangle(scene, index, grid.direction_of(grid.u(u), grid.v(v))) {}
 
@@ -50,13 +49,13 @@ class ObliqueTriangle {
     const std::array<double, 3>& t() const { return t_; }
 
     struct Hit {
-        std::array<double, 3> weights{};  ///< of the vertices; they sum to one
+        std::array<double, 3> weights{};  ///< of the vertices; their sum is 1
         double depth = std::numeric_limits<double>::infinity();
 
         explicit operator bool() const { return depth < std::numeric_limits<double>::infinity(); }
     };
 
-    /// The point where the ray through (s, t) meets the triangle, if it does.
+    /// Returns the point where the ray through (s, t) meets the triangle, or a false Hit.
     Hit at(double s, double t) const {
         std::array<double, 3> x, y, w;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -82,7 +81,7 @@ class ObliqueTriangle {
     ObliqueTriangle(const ShadedScene& scene, std::size_t index, Vec3 direction)
         : ObliqueTriangle(scene, index, direction.x / direction.z, direction.y / direction.z) {}
 
-    // Whether a triangle to the left of the edge A → B (to the right for side = −1) owns the points on the edge.
+    // Returns whether a triangle to the left of edge A → B (right for side = −1) owns the points on the edge.
     static bool owns_edge(double ax, double ay, double bx, double by, double side) {
         const double rise = side * (by - ay), run = side * (bx - ax);
         return rise > 0 || (rise == 0 && run > 0);
@@ -92,8 +91,7 @@ class ObliqueTriangle {
     bool fronts_only_;
 };
 
-/// A sample of a region's depth buffer, 8 bytes. Weights and radiance are computed from the ray and the triangle after
-/// all triangles have been drawn.
+/// Sample of a region's depth buffer, 8 bytes. Weights and radiance are computed after all triangles are drawn.
 struct NearestTriangle {
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
@@ -101,8 +99,8 @@ struct NearestTriangle {
     std::uint32_t triangle = none;
 };
 
-/// Records triangle `index` as the one that the ray through (s, t) sees, if the ray meets it at a depth of at least
-/// `min_depth` and less than the recorded one. Of two triangles at equal depth the first is kept.
+/// Records triangle `index` as the visible one of the ray through (s, t) if the ray meets it at a depth of at least
+/// `min_depth` and less than the recorded depth. Of two triangles at equal depth the first is kept.
 inline void see(NearestTriangle& seen, std::uint32_t index, const ObliqueTriangle& triangle, double s, double t,
                 double min_depth = -std::numeric_limits<double>::infinity()) {
     if (seen.triangle == index) return;
@@ -111,15 +109,14 @@ inline void see(NearestTriangle& seen, std::uint32_t index, const ObliqueTriangl
     if (hit && hit.depth >= min_depth && depth < seen.depth) seen = {depth, index};
 }
 
-/// The point of triangle `index`, projected along the ray's direction, that the ray through (s, t) sees.
+/// Returns the point where the ray through (s, t) meets triangle `index`, projected along the ray's direction.
 inline VisiblePoint visible_point(std::size_t index, const ObliqueTriangle& triangle, double s, double t) {
     const ObliqueTriangle::Hit hit = triangle.at(s, t);
     return {index, static_cast<float>(hit.weights[0]), static_cast<float>(hit.weights[1]),
             static_cast<float>(hit.weights[2]), hit.depth};
 }
 
-/// Shades the triangle that the ray of hogel (t, s) of the tile in direction (v, u) sees, and stores the sample in the
-/// tile.
+/// Shades the visible triangle of the ray of hogel (t, s) in direction (v, u), and stores the sample in the tile.
 inline void store(LightFieldTile& tile, const ShadedScene& scene, const LightFieldGrid& grid,
                   const NearestTriangle& seen, std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
     VisiblePoint point;
@@ -131,8 +128,8 @@ inline void store(LightFieldTile& tile, const ShadedScene& scene, const LightFie
     store(tile, scene, grid, point, t, s, v, u);
 }
 
-/// The triangles with an area. One that is thinner than 1e-12 of its length covers samples only by rounding.
-/// @param list  an earlier list whose memory is reused
+/// Returns the triangles with an area. A triangle thinner than 1e-12 of its length covers samples only by rounding.
+/// @param list  an earlier list, for reusing its memory
 inline std::vector<std::uint32_t> triangles_with_area(const ShadedScene& scene, std::vector<std::uint32_t> list = {}) {
     list.clear();
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {

@@ -17,32 +17,32 @@
 namespace hogel::render {
 namespace {
 
-// Points nearer to the focal plane than this share of its depth would be projected too far away for floats.
+// Minimum w of a point. Points nearer to the focal plane would be projected too far away for floats.
 constexpr double min_w = 1e-6;
 
-// w of a point at depth ζ, and the depth ζ of a point whose projection is at depth ζ/w.
+// Return w of a point at depth ζ, and the depth ζ of a point with its projection at depth ζ/w.
 double w_at(double depth, double focal) { return 1 - depth / focal; }
 double depth_of_projection(double projected, double focal) { return projected / (1 + projected / focal); }
 
-// Where the light of a projected triangle is found. These are the meshes of the projected scene.
+// Source of the light of a projected triangle. These are the meshes of the projected scene.
 enum LightAt : std::uint32_t {
     vertices,  // interpolated between the vertices
     cached,    // in a radiance cache
     samples,   // at every ray
 };
 
-// A point of a triangle and the point of its projection with the same weights lie at most this far apart where light is
-// interpolated between vertices, as a share of what a sample covers.
+// Maximum distance between a point of a triangle and the projected point with the same weights, as a fraction of a
+// sample's width. Applies where light is interpolated between vertices.
 constexpr double max_shift = 0.01;
 
-// How far: on an edge between corners with w and w (1 + d) at most a quarter of d of its length.
+// Returns an upper bound of the distance in metres: d/4 times the length of an edge with w and w (1 + d) at its ends.
 double shift(const ShadedScene& scene, std::size_t index, double focal) {
     const auto [a, b, c] = corners_of(scene, index);
     const auto [low, high] = std::minmax({w_at(-a.z, focal), w_at(-b.z, focal), w_at(-c.z, focal)});
     return 0.25 * (high - low) / low * std::max({length(b - a), length(c - b), length(a - c)});
 }
 
-// The smallest width that a sample has on a triangle, as cache_spacing() knows it.
+// Returns the smallest width of a sample on a triangle in metres, as in cache_spacing().
 double width_of_samples(const ShadedScene& scene, std::size_t index, const LightFieldGrid& grid) {
     const auto [a, b, c] = corners_of(scene, index);
     const auto [low, high] = std::minmax({a.z, b.z, c.z});
@@ -61,13 +61,13 @@ LightAt light_at(const ShadedScene& scene, std::size_t index, const LightFieldGr
                                                                                                               : samples;
 }
 
-// Shades points of the projected scene as those of the scene itself that they are the projections of.
+// Shades each point of the projected scene as the scene's point with this projection.
 class UnprojectedLighting final : public SampleLighting {
   public:
     UnprojectedLighting(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid)
         : scene_(std::move(scene)), grid_(grid), focal_(grid.focal_plane()->depth) {}
 
-    // For samples one number without meaning, because every one is shaded by itself, in radiance().
+    // Samples store one unused number, because each is shaded separately in radiance().
     Size size_of_light(std::size_t mesh) const override {
         return mesh == vertices ? Size{0, 0} : mesh == cached ? Size{3, 0} : Size{0, 1};
     }
@@ -83,15 +83,16 @@ class UnprojectedLighting final : public SampleLighting {
     Rgb radiance(const ShadedScene& projected, std::size_t index, const std::array<float, 3>& weights,
                  std::span<const float> light, Rgb texture, const ViewSample& view) const override {
         if (projected.triangles[index].mesh == cached) return texture * Rgb{light[0], light[1], light[2]};
-        Vec3 seen{};
+        Vec3 projection{};
         for (std::size_t i = 0; i < 3; ++i)
-            seen = seen + static_cast<double>(weights[i]) * projected.positions[scene_->triangles[index].vertices[i]];
+            projection = projection +
+                         static_cast<double>(weights[i]) * projected.positions[scene_->triangles[index].vertices[i]];
         const auto [b0, b1, b2] = unprojected_weights(index, weights);
-        return radiance_at(*scene_, index, b0, b1, b2, view_of(seen, view.to_viewer));
+        return radiance_at(*scene_, index, b0, b1, b2, view_of(projection, view.to_viewer));
     }
 
   private:
-    // P/w = Σ b′_i P_i/w_i, so that P = Σ b_i P_i with b_i = w b′_i/w_i; and Σ b_i = 1.
+    // Converts weights: P/w = Σ b′_i P_i/w_i, so that P = Σ b_i P_i with b_i = w b′_i/w_i, normalised to Σ b_i = 1.
     std::array<float, 3> unprojected_weights(std::size_t index, const std::array<float, 3>& projected) const {
         std::array<double, 3> b;
         double sum = 0;
@@ -102,7 +103,7 @@ class UnprojectedLighting final : public SampleLighting {
         return {static_cast<float>(b[0] / sum), static_cast<float>(b[1] / sum), static_cast<float>(b[2] / sum)};
     }
 
-    // The sample that sees the point through the focal plane; it sees its projection from that direction.
+    // Returns the sample that sees the point through the focal plane, and its projection from this direction.
     ViewSample view_of(Vec3 projection, Vec3 to_viewer) const {
         const double u = -to_viewer.x / to_viewer.z, v = -to_viewer.y / to_viewer.z, depth = -projection.z;
         const double s = projection.x - u * depth, t = projection.y - v * depth;
@@ -114,15 +115,15 @@ class UnprojectedLighting final : public SampleLighting {
     double focal_;
 };
 
-// For each projected triangle with cached light the spacing that gives it as many points as the triangle itself has; 0
-// for others.
+// Returns the spacing that keeps the number of cached points of each triangle; 0 for uncached triangles.
 std::vector<float> spacing_of_points(const ShadedScene& scene, const ShadedScene& projected) {
     std::vector<float> spacing(projected.triangles.size());
     for (std::size_t i = 0; i < spacing.size(); ++i) {
         if (projected.triangles[i].mesh != cached) continue;
         const auto [a, b, c] = projected.triangles[i].vertices;
-        const auto& at = projected.positions;
-        const double longest = std::max({length(at[b] - at[a]), length(at[c] - at[b]), length(at[a] - at[c])});
+        const auto& positions = projected.positions;
+        const double longest = std::max({length(positions[b] - positions[a]), length(positions[c] - positions[b]),
+                                         length(positions[a] - positions[c])});
         const double cells = scene.radiance_cache->grid(i).rows;
         constexpr double rounding = 1e-5;  // so that no row is added
         spacing[i] = static_cast<float>((1 + rounding) * longest /
@@ -169,13 +170,13 @@ std::shared_ptr<const ShadedScene> projected_scene(const std::shared_ptr<const S
     projected->radiance = scene->radiance;
     projected->texture_coordinates = scene->texture_coordinates;
     projected->triangles = scene->triangles;
-    bool lit = false, cache = false;
+    bool needs_lighting = false, needs_cache = false;
     for (std::size_t i = 0; i < projected->triangles.size(); ++i) {
         ShadedScene::Triangle& triangle = projected->triangles[i];
         triangle.texture = ShadedScene::no_texture;
         triangle.mesh = light_at(*scene, i, grid);
-        lit = lit || triangle.mesh != vertices;
-        cache = cache || triangle.mesh == cached;
+        needs_lighting = needs_lighting || triangle.mesh != vertices;
+        needs_cache = needs_cache || triangle.mesh == cached;
         for (const std::uint32_t vertex : triangle.vertices)
             if (!(w_at(-scene->positions[vertex].z, focal) >= min_w))
                 throw Error(ErrorCode::usage, "algorithm, focal_plane",
@@ -183,13 +184,13 @@ std::shared_ptr<const ShadedScene> projected_scene(const std::shared_ptr<const S
                                         "point at a depth of {}, and the plane is at {}",
                                         renderer, format_length(-scene->positions[vertex].z), format_length(focal)));
     }
-    // Points of no triangle may be anywhere and are seen by nobody.
+    // Points outside all triangles may have any position, because no ray sees them.
     for (const Vec3& p : scene->positions) {
         const double w = w_at(-p.z, focal);
         projected->positions.push_back(w >= min_w ? p * (1 / w) : Vec3{});
     }
-    if (lit) projected->lighting = std::make_shared<UnprojectedLighting>(scene, grid);
-    if (cache) shading::add_radiance_cache(*projected, spacing_of_points(*scene, *projected));
+    if (needs_lighting) projected->lighting = std::make_shared<UnprojectedLighting>(scene, grid);
+    if (needs_cache) shading::add_radiance_cache(*projected, spacing_of_points(*scene, *projected));
     return projected;
 }
 

@@ -6,8 +6,7 @@
 
 namespace hogel::render {
 
-/// The size of a depth buffer with one NearestTriangle per sample in bytes, as a floating-point number because a region
-/// may exceed any memory.
+/// Returns the bytes of a depth buffer with one NearestTriangle per sample; double, because it may exceed any memory.
 template <std::size_t rank>
 double buffer_bytes(const Shape<rank>& shape) {
     double product = sizeof(NearestTriangle);

@@ -37,7 +37,7 @@ class RemadeRenderer final : public Renderer {
     std::unique_ptr<LightFieldSource> source_;
 };
 
-// Says that a renderer, but not others that have what it lacks, needs something.
+// Returns text that names a renderer and lists the renderers that have the capability that it lacks.
 std::string only(const RendererInfo& info, bool RendererInfo::*takes) {
     std::vector<std::string> others;
     for (const RendererInfo& other : renderers().rows())

@@ -19,8 +19,7 @@ LightFieldGrid grid_of(Face face) {
     return grid;
 }
 
-// For each ray that a renderer keeps according to docs/renderers.md 8 bytes, or 32 where a picture of one hogel is
-// kept.
+// Memory as in docs/renderers.md: 8 bytes for each ray that a renderer keeps, 32 with a picture per hogel.
 TEST(RendererTable, depth_buffers_take_8_or_32_bytes_a_ray) {
     const LightFieldGrid grid = grid_of(Face::front);
     const HogelRange region{7, 3, 20, 10};

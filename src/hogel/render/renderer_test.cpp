@@ -61,7 +61,7 @@ TEST_P(EveryRenderer, renders_a_tilted_plane_as_its_closed_form) {
     EXPECT_GT(behind, 100u);
 }
 
-// A wall of triangles that share edges and corners, many of which are exactly on rays.
+// A wall of triangles that share edges and corners; many of these are exactly on rays.
 TEST_P(EveryRenderer, leaves_no_gap_between_triangles_that_share_edges) {
     ShadedScene scene;
     scene.background = {0, 0, 0};
@@ -236,8 +236,7 @@ TEST(Renderers, that_do_not_cross_the_plane_refuse_scenes_that_do) {
     EXPECT_TRUE(crosses_plane("raytrace"));
 }
 
-// A tiny triangle in front of a hogel at twice and at half the depth of the near plane, which is a millionth of the
-// scene's size.
+// A tiny triangle in front of a hogel, at twice and half the depth of the near plane (10⁻⁶ of the scene's size).
 TEST(Renderers, that_do_not_cross_the_plane_see_up_to_their_near_plane) {
     const double size = 8e-3, near = 1e-6 * size;
     for (double depth : {2 * near, 0.5 * near}) {

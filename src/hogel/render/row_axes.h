@@ -7,17 +7,16 @@
 
 namespace hogel::render {
 
-/// The axes of epipolar planes, for renderers that process a light field plane by plane. An epipolar plane contains all
-/// rays of one hogel position and one direction along a slow axis; within it hogels and directions vary along a fast
-/// axis. On the front, the top and the bottom the slow axis is t and V, the fast one s and U. On the left and the right
-/// they are transposed, because there the plane of fixed s and U holds all t and V. Source: [K] 5.3.2;
-/// docs/notation.md, section 2.
+/// Axes of epipolar planes, for renderers that process a light field plane by plane. An epipolar plane contains all
+/// rays of one hogel position and one direction along a slow axis; hogels and directions vary along a fast axis. On the
+/// front, the top and the bottom the slow axis is t and V, the fast one s and U. On the left and the right they are
+/// transposed, because the plane of fixed s and U holds all t and V. Source: [K] 5.3.2; docs/notation.md, section 2.
 class RowAxes {
   public:
     explicit RowAxes(const LightFieldGrid& grid)
         : grid_(grid), transposed_(grid.face() == Face::left || grid.face() == Face::right) {}
 
-    /// Whether the slow axis is s and U.
+    /// Returns whether the slow axis is s and U.
     bool transposed() const { return transposed_; }
 
     std::size_t slow_hogels(const HogelRange& range) const { return transposed_ ? range.ns : range.nt; }
@@ -25,14 +24,14 @@ class RowAxes {
     std::size_t slow_directions() const { return transposed_ ? grid_.directions_u : grid_.directions_v; }
     std::size_t fast_directions() const { return transposed_ ? grid_.directions_v : grid_.directions_u; }
 
-    /// The coordinate, s or t, of hogel i of a range along an axis.
+    /// Returns the coordinate, s or t, of hogel i of a range along an axis.
     double slow_hogel(const HogelRange& range, std::size_t i) const {
         return transposed_ ? grid_.s(static_cast<double>(range.s0 + i)) : grid_.t(static_cast<double>(range.t0 + i));
     }
     double fast_hogel(const HogelRange& range, std::size_t i) const {
         return transposed_ ? grid_.t(static_cast<double>(range.t0 + i)) : grid_.s(static_cast<double>(range.s0 + i));
     }
-    /// The coordinate, U or V, of direction i along an axis; and the inverse.
+    /// Returns the coordinate, U or V, of direction i along an axis; and the inverse.
     double slow_direction(std::size_t i) const {
         return transposed_ ? grid_.u(static_cast<double>(i)) : grid_.v(static_cast<double>(i));
     }
@@ -41,10 +40,10 @@ class RowAxes {
     }
     double slow_index(double direction) const { return transposed_ ? grid_.column(direction) : grid_.row(direction); }
     double fast_index(double direction) const { return transposed_ ? grid_.row(direction) : grid_.column(direction); }
-    /// +1 if the indices of fast hogels increase with their coordinate (s), −1 if they decrease (t).
+    /// Returns +1 if the indices of fast hogels increase with their coordinate (s), −1 if they decrease (t).
     double fast_sign() const { return transposed_ ? -1 : 1; }
 
-    /// The light field's indices of hogel (slow, fast) and direction (slow, fast).
+    /// Indices in the light field of hogel (slow, fast) and direction (slow, fast).
     struct Sample {
         std::size_t t, s, v, u;
     };
@@ -52,7 +51,7 @@ class RowAxes {
         return transposed_ ? Sample{fast, slow, fast_dir, slow_dir} : Sample{slow, fast, slow_dir, fast_dir};
     }
 
-    /// A point seen from the hogels at `slow_hogel`: its coordinate along the fast axis (s or t, not relative to a
+    /// Point seen from the hogels at `slow_hogel`: its coordinate along the fast axis (s or t, not relative to a
     /// hogel), along the slow axis relative to the hogels, and forward in the face's frame.
     struct Seen {
         double fast, slow, forward;

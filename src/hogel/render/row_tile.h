@@ -7,8 +7,8 @@
 
 namespace hogel::render {
 
-/// A tile about as large as default_tile(), but as long as possible along s, or along t, for renderers that process
-/// each row of hogels separately, so that the cost depends more on the number of rows than on their length.
+/// Returns a tile about as large as default_tile(), but as long as possible along s or along t. For renderers that
+/// process each row of hogels separately, at a cost that depends more on the number of rows than on their length.
 inline HogelRange row_tile(const LightFieldGrid& grid, bool along_t = false) {
     const std::size_t hogels = default_tile(grid).hogels();
     const std::size_t along = along_t ? grid.hogels_t : grid.hogels_s, across = along_t ? grid.hogels_s : grid.hogels_t;

@@ -10,7 +10,7 @@
 
 namespace hogel::render {
 
-/// The point that a ray sees: a triangle, the weights of its vertices, and the depth.
+/// Visible point of a ray: triangle, weights of its vertices, and depth.
 struct VisiblePoint {
     static constexpr std::size_t nothing = std::numeric_limits<std::size_t>::max();
 
@@ -19,11 +19,11 @@ struct VisiblePoint {
     double depth = std::numeric_limits<double>::infinity();  ///< ζ, metres
 };
 
-/// The value of a light field with one channel: luminance by Rec. ITU-R BT.709.
+/// Returns the value of a light field with one channel: luminance by Rec. ITU-R BT.709.
 inline float luminance(Rgb radiance) { return 0.2126f * radiance.r + 0.7152f * radiance.g + 0.0722f * radiance.b; }
 
-/// The ViewSample of the ray (U, V) of a grid at a surface at depth ζ. Rays of neighbouring hogels meet the surface at
-/// a distance of a hogel's pitch, neighbouring rays of one hogel at ζΔU; a sample covers the larger of the two.
+/// Returns the ViewSample of the ray (U, V) of a grid at a surface at depth ζ. On the surface, rays of neighbouring
+/// hogels are a pitch apart, and neighbouring rays of one hogel ζΔU; a sample covers the larger of the two.
 inline ViewSample view_sample(const LightFieldGrid& grid, double U, double V, double depth) {
     const Vec3 direction = grid.direction_of(U, V);
     const double spread = std::abs(depth / direction.z) * std::max(grid.step_u(), grid.step_v());

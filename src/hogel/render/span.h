@@ -5,19 +5,17 @@
 
 namespace hogel::render {
 
-/// The distance from an edge, in samples, within which samples count as inside while candidates are collected. It
-/// exceeds all rounding errors and is small enough that few samples are found twice. ObliqueTriangle then decides
-/// whether the ray meets the triangle.
+/// Distance from an edge, in samples, within which samples are candidates for ObliqueTriangle's test. It exceeds all
+/// rounding errors and is so small that few samples are found twice.
 constexpr double scan_margin = 1e-6;
 
-/// Consecutive samples: first <= i < end.
-struct Span {
+struct Span {  // samples first <= i < end
     std::size_t first = 0, end = 0;
 
     std::size_t size() const { return end - first; }
 };
 
-/// The whole numbers of [0, n) from `low` to `high`, both widened by the margin.
+/// Returns the integers of [0, n) from `low` to `high`, both widened by the margin.
 inline Span samples_between(double low, double high, std::size_t n) {
     const double from = low - scan_margin, to = high + scan_margin;
     if (!(from <= to) || to < 0 || from > static_cast<double>(n - 1)) return {};

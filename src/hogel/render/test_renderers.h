@@ -13,7 +13,7 @@
 
 namespace hogel::render {
 
-/// The names of the renderers to test, without the one that is the reference.
+/// Returns the names of the renderers to test, except the reference `without`.
 inline std::vector<std::string> renderer_names(std::string_view without = "") {
     std::vector<std::string> names = renderers().names();
     std::erase(names, without);
@@ -22,10 +22,9 @@ inline std::vector<std::string> renderer_names(std::string_view without = "") {
 
 inline bool crosses_plane(std::string_view name) { return renderers().find(name).crosses_plane; }
 
-/// Whether a renderer cuts simplices for every sample, and so is slow where triangles are large.
+/// Returns whether a renderer cuts simplices for every sample; it is slow if triangles are large.
 inline bool cuts_simplices(std::string_view name) { return name == "simplex" || name == "simplex-strips"; }
 
-/// A name in the form that gtest accepts, without hyphens.
 inline std::string test_name(std::string name) {
     std::ranges::replace(name, '-', '_');
     return name;
@@ -43,7 +42,6 @@ inline LightFieldBuffer render(std::string_view name, const ShadedScene& scene, 
     return render(name, std::make_shared<const ShadedScene>(scene), grid, samples);
 }
 
-/// Whether two light fields have the same bytes.
 inline bool same_bytes(const LightFieldBuffer& a, const LightFieldBuffer& b) {
     return std::ranges::equal(a.radiance.elements(), b.radiance.elements()) &&
            std::ranges::equal(a.depth.elements(), b.depth.elements());
@@ -65,9 +63,9 @@ inline void add_triangle(ShadedScene& scene, Vec3 a, Vec3 b, Vec3 c, const std::
 
 inline Rgb white(Vec3) { return {1, 1, 1}; }
 
-/// Random triangles within 4 mm of the hologram plane, or from 1 to 9 mm behind it. Some have no area, some are
-/// extremely thin, and some show their front to some hogels and their back to others; behind the plane some reach as
-/// close to it as any renderer can see.
+/// Returns random triangles within 4 mm of the hologram plane, or 1 to 9 mm behind it. Some have no area, some are
+/// extremely thin, and some show their front to some hogels and their back to others. Behind the plane some come as
+/// close to it as any renderer supports.
 inline ShadedScene random_scene(std::mt19937& random, std::size_t count, bool behind) {
     std::uniform_real_distribution<double> coordinate(-4e-3, 4e-3);
     std::uniform_real_distribution<float> colour(0, 1);

@@ -7,7 +7,7 @@
 
 namespace hogel::render {
 
-/// The rows of renderers() that reproduce [K] chapter 5. Defined in thesis/simplex.
+/// Returns the rows of renderers() that reproduce [K] chapter 5. Defined in thesis/simplex.
 std::vector<RendererInfo> thesis_renderers();
 
 }  // namespace hogel::render

@@ -6,21 +6,21 @@
 
 namespace hogel::render {
 
-/// What a renderer looked at to find the samples that triangles cover.
+/// Work counts of a renderer for finding the samples that triangles cover.
 struct Visits {
-    std::uint64_t pieces = 0;   ///< shapes that were scan converted: simplices, or triangles in some projection
-    std::uint64_t slices = 0;   ///< last slices of these, whose samples are tested one by one
-    std::uint64_t samples = 0;  ///< pairs of a ray and a triangle that were tested
-    std::uint64_t cuts = 0;     ///< of simplices by planes of V and U, whether or not a sample lies in the slice
+    std::uint64_t pieces = 0;   ///< scan-converted shapes: simplices, or projected triangles
+    std::uint64_t slices = 0;   ///< last slices of the pieces, tested sample by sample
+    std::uint64_t samples = 0;  ///< tested pairs of a ray and a triangle
+    std::uint64_t cuts = 0;     ///< of simplices by planes of V and U, also if the slice holds no sample
 
     friend bool operator==(const Visits&, const Visits&) = default;
 };
 
-/// Implemented by renderers that count their visits. Several threads may read at once.
+/// Interface of renderers that count their visits. Several threads may read at once.
 class CountsVisits {
   public:
     virtual ~CountsVisits() = default;
-    /// The sum over all tiles that were read.
+    /// Returns the sum over all tiles read so far.
     Visits visits() const { return {pieces_, slices_, samples_, cuts_}; }
 
   protected:

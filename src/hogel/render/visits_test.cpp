@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much the renderers look at that share one decision of hits.
+// Work counts of the renderers that share one hit test.
 #include "hogel/render/visits.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ Visits visits_of(const std::string& name, const ShadedScene& scene, const LightF
     return dynamic_cast<const CountsVisits&>(without_layers(*renderer)).visits();
 }
 
-// Pairs of a ray and a triangle that meet.
+// Returns the number of pairs of a ray and a triangle that meet.
 std::uint64_t hits_of(const ShadedScene& scene) {
     std::uint64_t hits = 0;
     for (const std::uint32_t index : triangles_with_area(scene))
@@ -63,7 +63,7 @@ TEST_P(VisitingRenderer, tests_the_rays_that_meet_a_triangle_and_few_others) {
     EXPECT_LE(double(samples), 1.01 * double(hits));
 }
 
-// Work that grows with the field of view, not with what a triangle's picture moves from hogel to hogel.
+// Work grows with the field of view, not with the motion of a triangle's picture from hogel to hogel.
 TEST_P(VisitingRenderer, looks_at_no_sample_of_what_is_out_of_view) {
     ShadedScene scene;
     add_triangle(scene, {20e-3, 0, -4e-3}, {30e-3, 0, -4e-3}, {20e-3, 9e-3, -5e-3}, white);
@@ -71,7 +71,7 @@ TEST_P(VisitingRenderer, looks_at_no_sample_of_what_is_out_of_view) {
     EXPECT_EQ(visits.samples, 0u);
 }
 
-// What no hogel of a tile sees in any direction is not made into a volume, on whichever side of the view it is.
+// A triangle that no hogel of a tile sees in any direction is not made into a volume, on either side of the view.
 TEST(Simplices, are_not_made_of_what_is_out_of_view) {
     for (const char* name : {"simplex", "simplex-strips", "simplex3d"})
         for (const Vec3 away : {Vec3{12e-3, 0, 0}, Vec3{-12e-3, 0, 0}, Vec3{0, 12e-3, 0}, Vec3{0, -12e-3, 0}, Vec3{}}) {
@@ -84,8 +84,8 @@ TEST(Simplices, are_not_made_of_what_is_out_of_view) {
         }
 }
 
-// Small triangles just behind the hologram, of which hogels far apart see each in a few of the directions that its
-// volume reaches. Without leaving out the others, simplices were cut 80 times as often.
+// Small triangles just behind the hologram. Each is visible to distant hogels in only a few directions of its volume.
+// Without skipping the other directions, simplices were cut 80 times as often.
 TEST(Simplices, smaller_than_the_hogels_are_apart_are_cut_where_hogels_see_them) {
     ShadedScene scene;
     constexpr int side = 40;
@@ -120,12 +120,12 @@ TEST_P(VisitingRenderer, looks_at_no_more_than_the_field_of_view_of_what_touches
     EXPECT_LE(visits.samples, 2 * rays);
     EXPECT_LE(visits.slices, 60 * grid.directions());
     if (cuts_simplices(GetParam())) {
-        // At most 18 of a triangle, [K] fig. 5.22, wherever it is; the near plane may leave two triangles of one.
+        // At most 18 per triangle, [K] fig. 5.22, at any position; the near plane may split one triangle into two.
         EXPECT_LE(visits.pieces, 36u);
     }
 }
 
-// Strips share slices between simplices; what is found is the same.
+// Strips share slices between simplices and find the same samples.
 TEST(Strips, visit_fewer_slices_than_simplices_do) {
     std::mt19937 random(9);
     const ShadedScene scene = random_scene(random, 24, true);

@@ -24,9 +24,9 @@ struct Interval {
     }
 };
 
-// The part of a triangle that the rays of one t and one V can see. Usually it is a segment between two corners in the
-// plane (x, ζ) of these rays; if the triangle nearly lies in the plane it has more corners. On a side of a hemicube ζ
-// is the distance forward, and on the left and right x, t and V are exchanged with y, s and U.
+// Part of a triangle that the rays of one t and one V can see. Usually it is a segment between two corners in the plane
+// (x, ζ) of these rays; if the triangle nearly lies in the plane it has more corners. On a side of a hemicube ζ is the
+// forward distance, and on the left and right x, t and V are exchanged with y, s and U.
 struct Slice {
     std::uint32_t triangle = 0, corners = 0;
     std::array<double, 5> x{}, depth{};  // at most two crossings of edges and three vertices
@@ -84,14 +84,13 @@ class MvrRenderer final : public Renderer, public CountsVisits {
                 axes_.seen(scene_->positions[c], slow_hogel)};
     }
 
-    // Whether some points are so close to the hologram plane that their direction is undefined or dominated by
-    // rounding.
+    // Returns whether points are too close to the hologram plane for a well-defined direction.
     bool touches_hologram(const Interval& depth) const {
         const double margin = 1e-3 * grid_.pitch;
         return depth.low < margin && depth.high > -margin;
     }
 
-    // The rows of directions in which a row of hogels sees a triangle.
+    // Returns the rows of directions in which a row of hogels sees a triangle.
     Span rows(const std::array<RowAxes::Seen, 3>& triangle) const {
         Interval row, depth;
         for (const RowAxes::Seen& p : triangle) {
@@ -105,9 +104,9 @@ class MvrRenderer final : public Renderer, public CountsVisits {
     void slice_triangle(std::uint32_t index, double slow_hogel, std::vector<std::vector<Slice>>& tables) const {
         const std::array<RowAxes::Seen, 3> triangle = corners(index, slow_hogel);
         const double margin = scan_margin * grid_.pitch;
-        const Span seen_in = rows(triangle);
-        for (std::size_t v = seen_in.first; v < seen_in.end; ++v) {
-            // The heights of the corners above the plane y = t + Vζ of the rays.
+        const Span visible = rows(triangle);
+        for (std::size_t v = visible.first; v < visible.end; ++v) {
+            // Heights of the corners above the plane y = t + Vζ of the rays.
             std::array<double, 3> height;
             for (std::size_t i = 0; i < 3; ++i)
                 height[i] = triangle[i].slow - axes_.slow_direction(v) * triangle[i].forward;
@@ -124,7 +123,7 @@ class MvrRenderer final : public Renderer, public CountsVisits {
         }
     }
 
-    // Draws a slice's track: for each U the slice covers s from the smallest to the largest x − Uζ of its corners.
+    // Draws a slice's track. For each U the slice covers s from the smallest to the largest x − Uζ of its corners.
     void scan_convert(const Slice& slice, std::size_t slow, std::size_t row, const HogelRange& range,
                       Array<NearestTriangle, 2>& picture, Visits& visits) const {
         ++visits.pieces;
@@ -151,7 +150,7 @@ class MvrRenderer final : public Renderer, public CountsVisits {
         }
     }
 
-    // The columns of directions in which hogels between two positions see a slice.
+    // Returns the columns of directions in which hogels between two positions see a slice.
     Span columns_of_directions(const Slice& slice, double first, double last) const {
         Interval column, depth;
         for (std::size_t i = 0; i < slice.corners; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A build without Embree renders what needs no rays, and refuses by name what does.
+// A build without Embree renders everything that needs no rays, and names the refused part otherwise.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ using namespace literals;
 
 const LightFieldGrid grid{5, 4, 1_mm, 33, 31, Perspective{0.5, 0.4}, 3};
 
-// The share of samples in which two light fields have the same depth and radiance. At silhouettes rounding decides.
+// Returns the fraction of samples with equal depth and radiance. At silhouettes rounding decides.
 double share_of_equal_samples(const LightFieldBuffer& a, const LightFieldBuffer& b) {
     std::size_t equal = 0;
     for (std::size_t i = 0; i < a.depth.size(); ++i) {

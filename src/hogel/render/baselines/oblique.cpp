@@ -14,7 +14,7 @@
 namespace hogel::render::baselines {
 namespace {
 
-// The corners of a projected triangle in columns and rows of hogels, relative to the tile's first hogel.
+// Corners of a projected triangle in columns and rows of hogels, relative to the tile's first hogel.
 struct TriangleInHogels {
     std::array<double, 3> s, t;
 
@@ -31,7 +31,7 @@ struct TriangleInHogels {
         return samples_between(*low, *high, nt);
     }
 
-    // The columns between the outermost points at which edges cross the row or end within a margin of it.
+    // Returns the columns between the outermost points at which edges cross the row or end within a margin of it.
     Span columns(std::size_t row, std::size_t ns) const {
         double low = std::numeric_limits<double>::infinity(), high = -low;
         const auto include = [&](double column) {
@@ -49,7 +49,7 @@ struct TriangleInHogels {
     }
 };
 
-// The depth buffer, [t][s]: one direction.
+// Returns the shape of the depth buffer of one direction, [t][s].
 Shape<2> oblique_buffer(const HogelRange& region) { return {region.nt, region.ns}; }
 
 class ObliqueRenderer final : public Renderer, public CountsVisits {
@@ -109,7 +109,7 @@ class ObliqueRenderer final : public Renderer, public CountsVisits {
     std::vector<std::uint32_t> triangles_;
 };
 
-// What drawing a triangle takes, in rays of `epi`: 40 ns (docs/performance.md).
+// Time for drawing one triangle in units of a ray of `epi`: 40 ns (docs/performance.md).
 constexpr double rays_a_drawn_triangle = 21;
 
 }  // namespace
@@ -122,7 +122,7 @@ RendererInfo oblique_renderer() {
                    const LightFieldGrid& grid) { return std::make_unique<ObliqueRenderer>(std::move(scene), grid); },
         .cost =
             [](const LightFieldGrid& grid, const HogelRange& region, std::size_t triangles) {
-                // Each direction draws all triangles, however few hogels there are.
+                // Each direction draws all triangles, even if there are few hogels.
                 const double drawn = static_cast<double>(grid.directions()) * static_cast<double>(triangles);
                 return RenderCost{.bytes = buffer_bytes(oblique_buffer(region)), .rays = rays_a_drawn_triangle * drawn};
             },

@@ -15,8 +15,7 @@
 namespace hogel::render::baselines {
 namespace {
 
-// Side of the square of neighbouring directions that are traced together, because their rays share most of their path
-// through the hierarchy.
+// Side of the square of directions traced as one batch; neighbouring rays share most of their path.
 constexpr std::size_t bundle = 16;
 
 class RaytraceRenderer final : public Renderer {
@@ -53,8 +52,8 @@ class RaytraceRenderer final : public Renderer {
     }
 
   private:
-    // The distances forward at which the rays of a hogel begin and end: slightly before the nearest point of the scene
-    // and slightly behind the farthest.
+    // Returns the forward distances at which the rays of a hogel begin and end: slightly in front of the nearest point
+    // of the scene and slightly behind the farthest.
     std::pair<double, double> ray_interval(Vec3 hogel) const {
         const double a = to_face(grid_.face(), low_ - hogel).z, b = to_face(grid_.face(), high_ - hogel).z;
         const double low = std::min(a, b), high = std::max(a, b), margin = 1e-3 * (high - low) + 1e-9;
@@ -76,7 +75,7 @@ class RaytraceRenderer final : public Renderer {
                 const Vec3 direction =
                     grid.direction_of(grid.u(static_cast<double>(u0 + u)), grid.v(static_cast<double>(v0 + v)));
                 const Vec3 start = hogel + direction * near;
-                // z = −ζ. The direction has a forward component of 1, so the ray parameter is the distance forward.
+                // z = −ζ. The direction has a forward component of 1, so the ray parameter is the forward distance.
                 origins[v * nu + u] = {start.x, start.y, -start.z};
                 directions[v * nu + u] = {direction.x, direction.y, -direction.z};
             }

@@ -5,8 +5,8 @@
 
 namespace hogel::render::baselines {
 
-/// Traces one ray per sample with Embree. Rays begin in front of the whole scene, so scenes on both sides of the
-/// hologram plane need no special treatment.
+/// Returns the renderer that traces one ray per sample with Embree. Rays begin in front of the whole scene, so scenes
+/// on both sides of the hologram plane need no special treatment.
 RendererInfo raytrace_renderer();
 
 }  // namespace hogel::render::baselines

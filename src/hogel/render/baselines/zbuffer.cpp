@@ -12,30 +12,28 @@
 namespace hogel::render::baselines {
 namespace {
 
-// A linear function of the direction: value(U, V) = c + u U + v V.
+// Linear function of the direction: value(U, V) = c + u U + v V.
 struct LinearInDirection {
     double c = 0, u = 0, v = 0;
 
     double operator()(double U, double V) const { return c + (u * U + v * V); }
 };
 
-// A vertex seen from a hogel: its position relative to the hogel's centre, and its position in the hogel's picture.
+// Vertex seen from a hogel: its position relative to the hogel's centre, and its position in the hogel's picture.
 struct SeenVertex {
     double x, y, depth;  // x − s, y − t, ζ; on a side of a hemicube right, up and forward in its picture
-    // Unless ζ is too close to zero, column and row of the picture; on a frequency grid the slopes U and V, between
-    // which sines are no linear functions.
+    // Column and row of the picture, valid unless ζ is close to zero; slopes U and V on a frequency grid.
     double k, l;
 };
 
-// A rectangle of samples of a hogel's picture, ends included.
+// Rectangle of samples of a hogel's picture, ends included.
 struct Rectangle {
     double k0, k1, l0, l1;
 
     bool empty() const { return !(k0 <= k1 && l0 <= l1); }
 };
 
-// The range of the sine U/√(1 + U² + V²) where U and V are in these ranges: it grows with U, and its modulus falls with
-// that of V.
+// Returns the range of U/√(1 + U² + V²) for these ranges. It grows with U; its modulus falls with |V|.
 std::pair<double, double> sines(double low_u, double high_u, double low_v, double high_v) {
     const double high = std::max(std::abs(low_v), std::abs(high_v));
     const double low = low_v <= 0 && high_v >= 0 ? 0 : std::min(std::abs(low_v), std::abs(high_v));
@@ -43,8 +41,8 @@ std::pair<double, double> sines(double low_u, double high_u, double low_v, doubl
     return {sine(low_u, low_u < 0 ? low : high), sine(high_u, high_u < 0 ? high : low)};
 }
 
-// The edge function of docs/notation.md section 2 for a ray through the origin of the hogel's frame:
-// E = U (dζ A_y − dy A_ζ) + V (dx A_ζ − dζ A_x) + dy A_x − dx A_y.
+// Returns the edge function of docs/notation.md, section 2, for a ray through the origin of the hogel's frame: E = U
+// (dζ A_y − dy A_ζ) + V (dx A_ζ − dζ A_x) + dy A_x − dx A_y.
 LinearInDirection edge_from_to(const SeenVertex& a, const SeenVertex& b) {
     const double dx = b.x - a.x, dy = b.y - a.y, dz = b.depth - a.depth;
     return {dy * a.x - dx * a.y, dz * a.y - dy * a.depth, dx * a.depth - dz * a.x};
@@ -55,8 +53,8 @@ struct Edge {
     bool forward;  // whether the edge runs from its smaller to its larger end
 };
 
-// Two triangles that share an edge traverse it in opposite directions. Both compute it from the same end, so that their
-// values are exact negatives of each other and no sample falls between them or into both.
+// Returns an edge computed from its smaller end. Two triangles that share an edge traverse it in opposite directions;
+// both get exact negatives, so that no sample falls between them or into both.
 Edge edge(const SeenVertex& a, const SeenVertex& b) {
     const bool forward = std::tie(a.x, a.y, a.depth) < std::tie(b.x, b.y, b.depth);
     if (forward) return {edge_from_to(a, b), true};
@@ -115,7 +113,7 @@ class ZbufferRenderer final : public Renderer {
         return slopes;
     }
 
-    // Where a hogel, whose directions are those of the grid, sees each vertex.
+    // Computes the position of each vertex as seen from a hogel with the directions of the grid.
     void project(Vec3 hogel, const LightFieldGrid& grid, std::vector<SeenVertex>& vertices) const {
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             const Vec3& p = scene_->positions[i];
@@ -127,7 +125,7 @@ class ZbufferRenderer final : public Renderer {
         }
     }
 
-    // Converts the picture's depth, a distance forward, to ζ in the tile.
+    // Stores a sample after converting the picture's depth, a forward distance, to ζ.
     void store_as_depth(LightFieldTile& tile, const LightFieldGrid& grid, VisiblePoint point, std::size_t t,
                         std::size_t s, std::size_t v, std::size_t u) const {
         if (slopes_.empty())
@@ -154,8 +152,7 @@ class ZbufferRenderer final : public Renderer {
             });
     }
 
-    // The rectangle of samples that a triangle can cover: all samples if it comes close to the hologram plane, where
-    // directions are undefined.
+    // Returns the rectangle of samples that a triangle can cover; all samples if it comes close to ζ = 0.
     Rectangle covered_by(const LightFieldGrid& grid, const SeenVertex& a, const SeenVertex& b,
                          const SeenVertex& c) const {
         Rectangle samples{0, static_cast<double>(grid.directions_u) - 1, 0, static_cast<double>(grid.directions_v) - 1};
@@ -200,19 +197,19 @@ class ZbufferRenderer final : public Renderer {
                 const auto inside = [](double w, const Edge& e) { return w > 0 || (w == 0 && e.forward); };
                 if (!(inside(wa, ea) && inside(wb, eb) && inside(wc, ec))) continue;
                 const double depth = plane / facing;
-                VisiblePoint& seen =
+                VisiblePoint& nearest =
                     picture[static_cast<std::size_t>(l) * grid.directions_u + static_cast<std::size_t>(k)];
-                if (!(depth < seen.depth)) continue;
+                if (!(depth < nearest.depth)) continue;
                 const double sum = wa + wb + wc;
-                seen = {index, static_cast<float>(wa / sum), static_cast<float>(wb / sum), static_cast<float>(wc / sum),
-                        depth};
+                nearest = {index, static_cast<float>(wa / sum), static_cast<float>(wb / sum),
+                           static_cast<float>(wc / sum), depth};
             }
     }
 
     std::shared_ptr<const ShadedScene> scene_;
     LightFieldGrid grid_;
-    double min_depth_ = 0;        // below this distance, projected vertices are not used to bound a triangle
-    std::vector<Slopes> slopes_;  // [v][u] of a frequency grid; of others none
+    double min_depth_ = 0;        // below it, projected vertices do not bound a triangle
+    std::vector<Slopes> slopes_;  // [v][u] of a frequency grid; empty for others
 };
 
 }  // namespace

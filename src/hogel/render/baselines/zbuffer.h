@@ -5,9 +5,9 @@
 
 namespace hogel::render::baselines {
 
-/// An ordinary depth buffer for each hogel: every triangle is projected into the (U, V) picture of the hogel and scan
-/// converted with edge functions. In the homogeneous form of docs/notation.md, section 2, there is no division by ζ
-/// before visibility is decided, so triangles may cross the hologram plane and need no clipping.
+/// Returns the renderer with an ordinary depth buffer for each hogel. Every triangle is projected into the (U, V)
+/// picture of the hogel and scan converted with edge functions. In the homogeneous form of docs/notation.md, section 2,
+/// visibility needs no division by ζ, so triangles may cross the hologram plane and need no clipping.
 RendererInfo zbuffer_renderer();
 
 }  // namespace hogel::render::baselines

@@ -19,16 +19,16 @@ std::uint64_t every_third_bit(std::uint64_t x) {
     return (x | x << 2) & 0x1249249249249249;
 }
 
-// Whether the back of a triangle is visible from straight ahead or, on a side of a hemicube, from the middle of its
-// picture.
+// Returns whether the back of a triangle is visible in the middle direction of a face.
 bool faces_away(const ShadedScene& scene, const EpipolarFrame& frame, std::uint32_t triangle) {
     const auto& [a, b, c] = scene.triangles[triangle].vertices;
-    const Vec3 first = frame.in_samples(scene.positions[a]);
-    const Vec3 to_b = frame.in_samples(scene.positions[b]) - first, to_c = frame.in_samples(scene.positions[c]) - first;
+    const Vec3 corner_a = frame.in_samples(scene.positions[a]);
+    const Vec3 to_b = frame.in_samples(scene.positions[b]) - corner_a,
+               to_c = frame.in_samples(scene.positions[c]) - corner_a;
     return to_b.x * to_c.y - to_b.y * to_c.x < 0;
 }
 
-// Orders triangles along a Morton curve through their middles, which keeps neighbours in space together. Fronts come
+// Orders triangles along a Morton curve through their centroids, which keeps neighbours in space together. Fronts come
 // before backs, so that the two sides of a wall are in different clusters.
 std::vector<std::uint32_t> morton_order(const ShadedScene& scene, const EpipolarFrame& frame) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -59,8 +59,8 @@ std::vector<std::uint32_t> morton_order(const ShadedScene& scene, const Epipolar
     return order;
 }
 
-// Sorts the full clusters of `order`: fronts before backs, and in each group the nearest first. Triangles that do not
-// fill a cluster stay at the end. @return the number of clusters that show fronts
+// Sorts the full clusters of `order`: fronts before backs, each group from front to back. The triangles of the
+// incomplete cluster stay at the end. Returns the number of clusters that show fronts.
 std::size_t sort_clusters(std::vector<std::uint32_t>& order, const ShadedScene& scene, const EpipolarFrame& frame) {
     struct Key {
         bool away;

@@ -12,17 +12,17 @@
 
 namespace hogel::render::epi {
 
-/// The number of triangles in a cluster, equal to the bits of a word.
+/// Number of triangles in a cluster: one per bit of a word.
 constexpr std::size_t cluster_size = 64;
 
-/// The y and z of the corners of a cluster's triangles, quantised between the lower and the upper end of the cluster's
+/// Coordinates y and z of the corners of a cluster's triangles, quantised to 16 bits between the ends of the cluster's
 /// box (ClusterBox). Precise enough to find the few planes that may cross a triangle.
 struct ClusterHeights {
     static constexpr double steps = 65535;
     alignas(64) std::uint16_t y[3][cluster_size], z[3][cluster_size];
 };
 
-/// The data of a triangle that set-up reads, in two cache lines.
+/// Triangle data for span set-up, in two cache lines.
 struct alignas(64) TriangleCorners {
     double y[3], z[3], x[3];
     Rgb radiance[3];
@@ -38,10 +38,10 @@ struct ClusterBox {
     void include(const Vec3& p);
 };
 
-/// The triangles of a scene in the units of an EpipolarFrame, grouped into clusters of neighbours, all full except the
-/// last. Clusters whose triangles show their fronts in the middle direction of the light field come first, because they
-/// are likely to occlude the others; those that show backs follow. In each group the nearest to the viewer is first. A
-/// slot is a triangle's index in this order.
+/// Triangles of a scene in the units of an EpipolarFrame, grouped into clusters of neighbours, all full except the
+/// last. A slot is a triangle's index in this order.
+/// Clusters that show their fronts in the middle direction of the light field come first, because they are likely to
+/// occlude the others. Clusters that show their backs follow. Each group is sorted from front to back.
 struct TriangleClusters {
     std::vector<ClusterHeights, CacheLineAllocator<ClusterHeights>> heights;
     std::vector<TriangleCorners, CacheLineAllocator<TriangleCorners>> corners;  ///< by slot
@@ -49,10 +49,10 @@ struct TriangleClusters {
     std::size_t fronts;                    ///< number of clusters that show fronts
     std::vector<ClusterBox> boxes;
 
-    /// @param channels  of the light field: with one, r of each radiance is its luminance
+    /// @param channels  number of channels of the light field: with one, r of each radiance is its luminance
     TriangleClusters(const ShadedScene& scene, const EpipolarFrame& frame, std::size_t channels);
 
-    /// The slots of a cluster that hold a triangle, as bits.
+    /// Returns the bit mask of the slots of a cluster that hold a triangle.
     std::uint64_t occupied(std::size_t cluster) const {
         return ~std::uint64_t{0} >> (cluster_size - std::min(cluster_size, triangles.size() - cluster * cluster_size));
     }

@@ -58,8 +58,7 @@ TEST(TriangleClusters, come_with_fronts_before_backs) {
         ASSERT_GT(clusters.fronts, 4u);
         ASSERT_LT(clusters.fronts, clusters.boxes.size() - 4);
         std::size_t spans = 0, mixed = 0;
-        // The last cluster of fronts, and the last cluster of all, which is left out, may contain both fronts and
-        // backs.
+        // The last cluster of fronts, and the last cluster of all, may contain both fronts and backs.
         for (std::uint32_t i = 0; i < cluster_size * (clusters.boxes.size() - 1); ++i) {
             const TriangleCorners& own = clusters.corners[i];
             const double middle = (own.y[0] + own.y[1] + own.y[2]) / 3;

@@ -12,14 +12,14 @@ bool may_show(const ClusterBox& box, const RowPlanes& planes) {
     const auto products = [&](double a, double b) {
         return std::minmax({a * z_low, a * z_high, b * z_low, b * z_high});
     };
-    // The planes at the box's depths, and the box, relative to the row.
+    // Heights of the planes at the box's depths, and of the box, relative to the row.
     const double last_slope = planes.slope + planes.step * static_cast<double>(planes.count - 1);
     const auto [min_rise, max_rise] = products(planes.slope, last_slope);
     const double low = box.y_low - planes.row, high = box.y_high - planes.row;
     const double size = std::max(std::abs(low), std::abs(high)) + std::max(std::abs(min_rise), std::abs(max_rise));
-    // With a margin larger than any rounding error.
+    // The margin exceeds the rounding error.
     if (!(low - max_rise <= 1e-9 * size && high - min_rise >= -1e-9 * size)) return false;
-    // The columns n = x − K z that see a point of the box.
+    // Columns n = x − K z that see a point of the box.
     const auto [min_Kz, max_Kz] = products(planes.K_first, planes.K_last);
     const double n_low = (box.x_low + planes.shift) - max_Kz, n_high = (box.x_high + planes.shift) - min_Kz;
     // Spans are drawn in single precision.
@@ -37,8 +37,8 @@ HeightScale::HeightScale(const ClusterBox& box, const RowPlanes& planes)
       per_slope(static_cast<float>(1 / planes.step)),
       first(static_cast<float>(-planes.slope / planes.step)) {
     // Half a quantisation step and some rounding errors.
-    const auto error_of = [](float from, float step) {
-        return 0.51f * step + 4e-7f * (std::abs(from) + static_cast<float>(ClusterHeights::steps) * step);
+    const auto error_of = [](float low, float step) {
+        return 0.51f * step + 4e-7f * (std::abs(low) + static_cast<float>(ClusterHeights::steps) * step);
     };
     const float y_error = error_of(y, y_step), z_error = error_of(z, z_step);
     const double last_slope = planes.slope + planes.step * static_cast<double>(planes.count - 1);
@@ -57,20 +57,20 @@ void find_crossed_plain(const TriangleClusters& clusters, const RowPlanes& plane
         const HeightScale scale(box, planes);
         const ClusterHeights& heights = clusters.heights[cluster];
         std::vector<std::uint64_t> triangles(planes.count);
-        for (std::uint64_t rest = clusters.occupied(cluster); rest != 0; rest &= rest - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-            float y[3], z[3], R[3], at[3];
+        for (std::uint64_t remaining = clusters.occupied(cluster); remaining != 0; remaining &= remaining - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(remaining));
+            float y[3], z[3], R[3], plane_index[3];
             for (std::size_t corner = 0; corner < 3; ++corner) {
                 y[corner] = scale.y + scale.y_step * static_cast<float>(heights.y[corner][i]);
                 z[corner] = scale.z + scale.z_step * static_cast<float>(heights.z[corner][i]);
                 R[corner] = scale.per_slope / z[corner];
-                at[corner] = y[corner] * R[corner] + scale.first;
+                plane_index[corner] = y[corner] * R[corner] + scale.first;
             }
             float begin = 0, end = static_cast<float>(planes.count - 1);
             const auto [R_low, R_high] = std::minmax({R[0], R[1], R[2]});
             const float max_R = std::max(-R_low, R_high);
             if (max_R < scale.max_R && (R_low > 0 || R_high < 0)) {
-                const auto [low, high] = std::minmax({at[0], at[1], at[2]});
+                const auto [low, high] = std::minmax({plane_index[0], plane_index[1], plane_index[2]});
                 const float margin = scale.error * max_R + scale.rounding;
                 begin = std::max(begin, std::ceil(low - margin));
                 end = std::min(end, std::floor(high + margin));

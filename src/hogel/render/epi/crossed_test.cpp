@@ -16,8 +16,7 @@ namespace {
 
 HOGEL_TEST_ON_EVERY_TARGET(CrossedKernels);
 
-// Grids of the front, with off-centre directions, with more directions than RowPlanes has planes, and of sides of a
-// hemicube.
+// Grids of the front, off-centre, with more directions than RowPlanes, and of sides of a hemicube.
 std::vector<LightFieldGrid> grids() {
     const LightFieldGrid front{9, 8, 0.5e-3, 20, 31, Perspective{0.5, 0.4}, 3};
     LightFieldGrid aside = front, tall = front;

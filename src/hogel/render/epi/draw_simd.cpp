@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twin of draw_spans_plain in kernels.cpp, compiled for every SIMD target and chosen when first called.
+// Vector version of draw_spans_plain in kernels.cpp for every SIMD target.
 #include <algorithm>
 
 #include "hogel/core/simd_targets-inl.h"
@@ -11,8 +11,7 @@ HWY_BEFORE_NAMESPACE();
 namespace hogel::render::epi::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// `directions`: an order of directions in the lanes of a vector, such that interleaving writes the words of neighbours
-// side by side. `steps`: 0, 1, 2, …
+// `directions`: order of directions in lanes such that interleaving writes words contiguously. `steps`: 0, 1, 2, …
 struct LaneOrder {
     HWY_ALIGN float directions[max_lanes], steps[max_lanes];
 
@@ -26,7 +25,6 @@ struct LaneOrder {
     }
 };
 
-// A span to draw, with the data that the loops below need.
 struct DrawJob {
     const EpiSpan& span;
     std::uint32_t index, number;
@@ -38,7 +36,7 @@ struct DrawJob {
     std::uint32_t min_depth;  // see SpanBounds
 };
 
-// For each of a vector of rows of cells, the columns that see a span.
+// Computes the columns that see a span, for each of a vector of rows of cells.
 HWY_INLINE void columns_of_rows(const SpanLanes& span, const PlaneExtent& extent, std::size_t first_row, float K_end,
                                 Floats& first, Floats& last) {
     const FloatTag d;
@@ -55,35 +53,34 @@ HWY_INLINE void columns_of_rows(const SpanLanes& span, const PlaneExtent& extent
 }
 
 #if HWY_TARGET != HWY_SCALAR
-// Draws one column at a time, one direction per lane, so that the words of the lanes are contiguous. Lanes without a
-// hit keep their words, even beyond the plane's directions. Vectors are aligned to cells or parts of them, and occluded
-// cells are skipped.
-void draw_along_rows(const DrawJob& on, float K_begin, float K_end) {
+// Draws one column at a time, one direction per lane, so that the words are contiguous. Lanes without a hit keep their
+// words, even beyond the plane's directions. Vectors are aligned to cells or parts of them. Skips occluded cells.
+void draw_along_rows(const DrawJob& job, float K_begin, float K_end) {
     const FloatTag d;
     const IntTag di;
     const NumberTag du;
     const hn::RepartitionToWide<NumberTag> d64;
-    const SpanLanes span = in_all_lanes(on.span);
+    const SpanLanes span = in_all_lanes(job.span);
     const std::size_t lanes = hn::Lanes(d), half = lanes / 2;
-    const std::size_t plane_columns = on.plane.columns, directions = on.plane.directions;
-    std::uint64_t* const plane_words = on.plane.words;
-    const bool fronts_only = on.plane.fronts_only;
-    const std::uint32_t* const max_depths = on.plane.cells->max_depth.data();
-    const auto number = hn::Set(du, on.number), min_depth = hn::Set(du, on.min_depth);
+    const std::size_t plane_columns = job.plane.columns, directions = job.plane.directions;
+    std::uint64_t* const plane_words = job.plane.words;
+    const bool fronts_only = job.plane.fronts_only;
+    const std::uint32_t* const max_depths = job.plane.cells->max_depth.data();
+    const auto number = hn::Set(du, job.number), min_depth = hn::Set(du, job.min_depth);
     const Floats no_hit = hn::BitCast(d, hn::Set(di, -1));
-    const Floats order = hn::Load(d, on.lanes.directions), last = hn::Set(d, K_end);
-    const auto k_begin = static_cast<std::size_t>(K_begin - on.extent.k_first);
-    const auto k_end = static_cast<std::size_t>(K_end - on.extent.k_first);
+    const Floats order = hn::Load(d, job.lanes.directions), last = hn::Set(d, K_end);
+    const auto k_begin = static_cast<std::size_t>(K_begin - job.extent.k_first);
+    const auto k_end = static_cast<std::size_t>(K_end - job.extent.k_first);
     const std::size_t row_end = k_end / directions_per_cell + 1;
     HWY_ALIGN float firsts[max_lanes];
     HWY_ALIGN std::int32_t columns[max_lanes], counts[max_lanes];
     std::size_t writes = 0;
     for (std::size_t group = k_begin / directions_per_cell; group < row_end; group += lanes) {
-        Floats from, to;
-        columns_of_rows(span, on.extent, group, K_end, from, to);
-        hn::Store(from, d, firsts);
-        hn::Store(hn::ConvertTo(di, hn::Sub(from, hn::Set(d, on.extent.n_first))), di, columns);
-        hn::Store(hn::ConvertTo(di, hn::Add(hn::Sub(to, from), hn::Set(d, 1.0f))), di, counts);
+        Floats first_columns, last_columns;
+        columns_of_rows(span, job.extent, group, K_end, first_columns, last_columns);
+        hn::Store(first_columns, d, firsts);
+        hn::Store(hn::ConvertTo(di, hn::Sub(first_columns, hn::Set(d, job.extent.n_first))), di, columns);
+        hn::Store(hn::ConvertTo(di, hn::Add(hn::Sub(last_columns, first_columns), hn::Set(d, 1.0f))), di, counts);
         for (std::size_t row = group; row < std::min(row_end, group + lanes); ++row) {
             float first = firsts[row - group];
             auto column = static_cast<std::size_t>(columns[row - group]);
@@ -96,16 +93,16 @@ void draw_along_rows(const DrawJob& on, float K_begin, float K_end) {
                 writes += static_cast<std::size_t>(std::popcount(open));
                 for (std::size_t k = row * directions_per_cell; k < (row + 1) * directions_per_cell && k <= k_end;
                      k += lanes) {
-                    const Floats K = hn::Add(hn::Set(d, on.extent.k_first + static_cast<float>(k)), order);
+                    const Floats K = hn::Add(hn::Set(d, job.extent.k_first + static_cast<float>(k)), order);
                     const Floats c0 = span.c0(K);
                     const Floats c1 = hn::IfThenElse(hn::Le(K, last), span.c1(K, c0, fronts_only), c0);
                     const Floats slope = span.slope(c0, c1);
-                    for (std::uint64_t rest = open; rest != 0; rest &= rest - 1) {
-                        const auto next = static_cast<std::size_t>(std::countr_zero(rest));
-                        const Floats n = hn::Set(d, first + on.lanes.steps[next]);
+                    for (std::uint64_t remaining = open; remaining != 0; remaining &= remaining - 1) {
+                        const auto step = static_cast<std::size_t>(std::countr_zero(remaining));
+                        const Floats n = hn::Set(d, first + job.lanes.steps[step]);
                         const Floats z = hn::BitCast(d, ordered_bits_of(span.depth(n, c0, slope)));
                         const auto depth = hn::BitCast(du, hn::IfThenElse(SpanLanes::covers(n, c0, c1), z, no_hit));
-                        std::uint64_t* words = plane_words + (column + next) * directions + k;
+                        std::uint64_t* words = plane_words + (column + step) * directions + k;
                         const auto low = hn::BitCast(d64, hn::InterleaveLower(du, number, depth));
                         const auto high = hn::BitCast(d64, hn::InterleaveUpper(du, number, depth));
                         hn::StoreU(hn::Min(low, hn::LoadU(d64, words)), d64, words);
@@ -115,53 +112,54 @@ void draw_along_rows(const DrawJob& on, float K_begin, float K_end) {
             }
         }
     }
-    on.plane.cells->writes += writes;
+    job.plane.cells->writes += writes;
 }
 #endif
 
 // Draws one direction per lane: all columns between c_0 and c_1 are hits.
-void draw_along_directions(const DrawJob& on, float K_begin, float K_end) {
+void draw_along_directions(const DrawJob& job, float K_begin, float K_end) {
     const FloatTag d;
     const IntTag di;
-    const SpanLanes span = in_all_lanes(on.span);
-    const Floats one = hn::Set(d, 1.0f), n_first = hn::Set(d, on.extent.n_first), n_last = hn::Set(d, on.extent.n_last);
-    const Floats none = hn::Set(d, on.extent.n_first - 1), K_last = hn::Set(d, K_end),
-                 k_first = hn::Set(d, on.extent.k_first);
-    const Ints directions = hn::Set(di, static_cast<std::int32_t>(on.plane.directions));
+    const SpanLanes span = in_all_lanes(job.span);
+    const Floats one = hn::Set(d, 1.0f), n_first = hn::Set(d, job.extent.n_first),
+                 n_last = hn::Set(d, job.extent.n_last);
+    const Floats none = hn::Set(d, job.extent.n_first - 1), K_last = hn::Set(d, K_end),
+                 k_first = hn::Set(d, job.extent.k_first);
+    const Ints directions = hn::Set(di, static_cast<std::int32_t>(job.plane.directions));
     for (float begin = K_begin; begin <= K_end; begin += static_cast<float>(hn::Lanes(d))) {
         const Floats K = hn::Iota(d, begin);
-        const Floats c0 = span.c0(K), c1 = span.c1(K, c0, on.plane.fronts_only), slope = span.slope(c0, c1);
+        const Floats c0 = span.c0(K), c1 = span.c1(K, c0, job.plane.fronts_only), slope = span.slope(c0, c1);
         const Floats end = hn::IfThenElse(hn::Le(K, K_last), hn::Min(n_last, hn::Floor(hn::Max(c0, c1))), none);
         const Ints k = hn::ConvertTo(di, hn::Sub(K, k_first));
         Floats n = hn::Max(n_first, hn::Add(hn::Floor(hn::Min(c0, c1)), one));
         for (FloatMask hit = hn::Le(n, end); !hn::AllFalse(d, hit); hit = hn::Le(n, end)) {
             const Ints column = hn::ConvertTo(di, hn::Sub(n, n_first));
-            on.hits.add(hit, span.depth(n, c0, slope), hn::Add(hn::Mul(column, directions), k), on.number);
+            job.hits.add(hit, span.depth(n, c0, slope), hn::Add(hn::Mul(column, directions), k), job.number);
             n = hn::Add(n, one);
         }
     }
 }
 
-// The state from which draw_along_columns() continues: the first column of a vector, and the number of directions done
-// in each of its columns.
+// State for continuing draw_along_columns(): first column of a vector, and number of directions done.
 struct ColumnsDone {
     float begin, directions;
 };
 
-// Draws one column per lane: candidates are the directions between those of the ends, K_0 and K_1, with a margin on
-// either side. Returns false if the queue is full; to be called again after the queue has been drawn.
-bool draw_along_columns(const DrawJob& on, float n_end, float per_z0, float per_z1, float margin, ColumnsDone& at) {
+// Draws one column per lane. Candidates are the directions between those of the ends, K_0 and K_1, with a margin on
+// either side. Returns false if the queue is full; draw the queue and call again to continue.
+bool draw_along_columns(const DrawJob& job, float n_end, float per_z0, float per_z1, float margin,
+                        ColumnsDone& progress) {
     const FloatTag d;
-    Candidates& candidates = on.candidates;
-    const Floats x0 = hn::Set(d, on.span.x0), x1 = hn::Set(d, on.span.x1);
+    Candidates& candidates = job.candidates;
+    const Floats x0 = hn::Set(d, job.span.x0), x1 = hn::Set(d, job.span.x1);
     const Floats inverse0 = hn::Set(d, per_z0), inverse1 = hn::Set(d, per_z1);
-    const Floats low_offset = hn::Set(d, on.extent.k_first + margin),
-                 high_offset = hn::Set(d, on.extent.k_first - margin);
+    const Floats low_offset = hn::Set(d, job.extent.k_first + margin),
+                 high_offset = hn::Set(d, job.extent.k_first - margin);
     const Floats zero = hn::Zero(d), one = hn::Set(d, 1.0f), none = hn::Set(d, -1.0f);
-    const Floats k_last = hn::Set(d, on.extent.k_last - on.extent.k_first), columns_end = hn::Set(d, n_end);
+    const Floats k_last = hn::Set(d, job.extent.k_last - job.extent.k_first), columns_end = hn::Set(d, n_end);
     std::size_t count = candidates.begin();
-    float done = at.directions;
-    for (float begin = at.begin; begin <= n_end; begin += static_cast<float>(hn::Lanes(d)), done = 0) {
+    float done = progress.directions;
+    for (float begin = progress.begin; begin <= n_end; begin += static_cast<float>(hn::Lanes(d)), done = 0) {
         const Floats n = hn::Iota(d, begin);
         const Floats K0 = hn::Mul(hn::Sub(x0, n), inverse0), K1 = hn::Mul(hn::Sub(x1, n), inverse1);
         const Floats low = hn::Sub(hn::Min(K0, K1), low_offset), high = hn::Sub(hn::Max(K0, K1), high_offset);
@@ -169,18 +167,18 @@ bool draw_along_columns(const DrawJob& on, float n_end, float per_z0, float per_
         Floats k = hn::Add(hn::Max(zero, hn::Ceil(low)), hn::Set(d, done));
         // Most columns have one or two candidates.
         count += candidates.add(n, k, end, count);
-        for (std::size_t more = 1; more != 0;) {
+        for (std::size_t added = 1; added != 0;) {
             k = hn::Add(k, one);
             done += 1;
-            more = candidates.add(n, k, end, count);
-            count += more;
+            added = candidates.add(n, k, end, count);
+            count += added;
             if (HWY_LIKELY(!Candidates::is_full(count))) continue;
-            at = {begin, done + 1};
-            candidates.end(on.index, count);
+            progress = {begin, done + 1};
+            candidates.end(job.index, count);
             return false;
         }
     }
-    candidates.end(on.index, count);
+    candidates.end(job.index, count);
     return true;
 }
 
@@ -193,31 +191,31 @@ void DrawSpans(std::span<const EpiSpan> spans, std::size_t first, const Epipolar
     Candidates candidates(plane, spans, first, hits);
     const std::size_t lanes = hn::Lanes(FloatTag());
     SpanBounds bounds;
-    HWY_ALIGN EpiSpan last[max_lanes];
+    HWY_ALIGN EpiSpan padded[max_lanes];
     for (std::size_t begin = 0; begin < spans.size(); begin += lanes) {
         const std::size_t count = std::min(lanes, spans.size() - begin);
-        const EpiSpan* some = spans.data() + begin;
+        const EpiSpan* batch = spans.data() + begin;
         if (count < lanes) {
-            std::fill(last, last + lanes, *some);
-            some = std::copy(some, some + count, last) - count;
+            std::fill(padded, padded + lanes, *batch);
+            batch = std::copy(batch, batch + count, padded) - count;
         }
-        bound_spans(&some->x0, extent, bounds);
+        bound_spans(&batch->x0, extent, bounds);
         for (std::size_t i = 0; i < count; ++i) {
             const auto index = static_cast<std::uint32_t>(begin + i);
-            const DrawJob on{some[i], index, static_cast<std::uint32_t>(first) + index,      plane, hits, candidates,
-                             extent,  order, static_cast<std::uint32_t>(bounds.min_depth[i])};
+            const DrawJob job{batch[i], index, static_cast<std::uint32_t>(first) + index,      plane, hits, candidates,
+                              extent,   order, static_cast<std::uint32_t>(bounds.min_depth[i])};
             switch (bounds.order[i]) {
 #if HWY_TARGET != HWY_SCALAR
                 case SpanBounds::rows:
-                    draw_along_rows(on, bounds.K_begin[i], bounds.K_end[i]);
+                    draw_along_rows(job, bounds.K_begin[i], bounds.K_end[i]);
                     break;
 #endif
                 case SpanBounds::directions:
-                    draw_along_directions(on, bounds.K_begin[i], bounds.K_end[i]);
+                    draw_along_directions(job, bounds.K_begin[i], bounds.K_end[i]);
                     break;
                 case SpanBounds::columns:
-                    for (ColumnsDone at{bounds.n_begin[i], 0}; !draw_along_columns(
-                             on, bounds.n_end[i], bounds.per_z0[i], bounds.per_z1[i], bounds.margin[i], at);)
+                    for (ColumnsDone progress{bounds.n_begin[i], 0}; !draw_along_columns(
+                             job, bounds.n_end[i], bounds.per_z0[i], bounds.per_z1[i], bounds.margin[i], progress);)
                         candidates.draw();
                     break;
                 default:

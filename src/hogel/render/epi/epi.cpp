@@ -18,10 +18,10 @@
 namespace hogel::render::epi {
 namespace {
 
-// Maximum samples of a plane that are drawn at once, so that their words stay in the second-level cache.
+// Maximum number of samples of a plane that are drawn at once, so that their words stay in the second-level cache.
 constexpr std::size_t max_words = std::size_t{96} << 10;
 
-// Maximum size of a tile; each thread that copies a light field holds one.
+// Maximum size of a tile in bytes; each thread that copies a light field holds one.
 constexpr std::size_t max_tile_bytes = std::size_t{384} << 20;
 
 class EpiRenderer final : public LightFieldSource {
@@ -37,7 +37,7 @@ class EpiRenderer final : public LightFieldSource {
     const LightFieldGrid& grid() const override { return grid_; }
     bool has_depth() const override { return true; }
 
-    // Whole rows (several if they are small), or equal parts of a row that is too large.
+    // Returns whole rows (several if they are small), or equal parts of a row that is too large.
     HogelRange preferred_tile() const override {
         const HogelRange all{0, 0, grid_.hogels_s, grid_.hogels_t};
         const std::size_t length = axes_.fast_hogels(all);
@@ -72,8 +72,8 @@ class EpiRenderer final : public LightFieldSource {
                                           frame_.first_column() + static_cast<std::int32_t>(first_column + column),
                                           frame_.first_direction(),
                                           scene_->fronts_only};
-                const EpipolarFrame::Plane any = frame_.plane(row, 0);
-                drawer.begin_row(plane, any.shift, any.z0);
+                const EpipolarFrame::Plane row_plane = frame_.plane(row, 0);
+                drawer.begin_row(plane, row_plane.shift, row_plane.z0);
                 for (std::size_t slow = 0; slow < axes_.slow_directions(); ++slow) {
                     core::throw_if_stopped();
                     const std::size_t i = slow % RowPlanes::max_planes;
@@ -85,7 +85,7 @@ class EpiRenderer final : public LightFieldSource {
     }
 
   private:
-    // The planes of a row from direction `slow` on, with the samples of `plane`.
+    // Returns the planes of a row beginning with direction `slow`, with the samples of `plane`.
     RowPlanes planes_from(const EpipolarPlane& plane, std::size_t row, std::size_t slow) const {
         const EpipolarFrame::Plane first = frame_.plane(row, slow), next = frame_.plane(row, slow + 1);
         const double n_first = plane.first_column, K_first = plane.first_direction;

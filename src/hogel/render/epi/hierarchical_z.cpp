@@ -27,8 +27,7 @@ BoxBounds::BoxBounds(const ClusterBox& box, const EpipolarPlane& plane, double s
       z_low(static_cast<float>(box.z_low - z0)),
       z_high(static_cast<float>(box.z_high - z0)) {
     const double depth = box.z_low - z0;
-    // Depths of spans are rounded to single precision and may be differences of larger numbers; the margin is larger
-    // than any rounding error.
+    // The margin exceeds the rounding error of span depths, which may be differences of larger numbers.
     min_depth = ordered_bits(static_cast<float>(depth - 1e-6 * std::abs(depth) - 1e-12 * std::abs(z0)));
     const double max_K =
         1 + std::abs(static_cast<double>(plane.first_direction)) + static_cast<double>(plane.directions);
@@ -58,18 +57,18 @@ FootprintBounds find_footprint_plain(const ClusterBox& cluster, const EpipolarPl
     const BoxBounds box(cluster, plane, shift, z0);
     std::uint16_t max_columns = 0;
     for (std::size_t row = 0; row < DepthCells::rows(plane.directions); ++row) {
-        // The columns that see the box in some direction of the row.
+        // Columns that see the box in some direction of the row.
         const float Ka = plane.first_direction + static_cast<float>(row * directions_per_cell);
         const float Kb = std::min(K_last, Ka + static_cast<float>(directions_per_cell - 1));
         const auto [min_Kz, max_Kz] = std::minmax({Ka * box.z_low, Ka * box.z_high, Kb * box.z_low, Kb * box.z_high});
         const float begin = std::max(first, std::ceil((box.x_low - max_Kz) - box.margin));
         const float end = std::min(last, std::floor((box.x_high - min_Kz) + box.margin));
         if (!(begin <= end)) continue;
-        CellColumns& to = columns[row / CellColumns::rows];
+        CellColumns& row_columns = columns[row / CellColumns::rows];
         const std::size_t i = row % CellColumns::rows;
-        to.first[i] = static_cast<std::uint16_t>(begin - first);
-        to.count[i] = static_cast<std::uint16_t>(end - begin + 1);
-        max_columns = std::max(max_columns, to.count[i]);
+        row_columns.first[i] = static_cast<std::uint16_t>(begin - first);
+        row_columns.count[i] = static_cast<std::uint16_t>(end - begin + 1);
+        max_columns = std::max(max_columns, row_columns.count[i]);
     }
     return {box.min_depth, max_columns};
 }

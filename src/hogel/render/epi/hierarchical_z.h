@@ -11,46 +11,43 @@
 
 namespace hogel::render::epi {
 
-/// A cluster's box, in single precision, relative to the rays of an epipolar plane.
+/// Bounds of a cluster's box relative to the rays of an epipolar plane, in single precision.
 struct BoxBounds {
     float x_low, x_high, z_low, z_high;
-    float margin;             ///< in columns, larger than any rounding error of the columns that see the box
+    float margin;             ///< in columns; exceeds the rounding error of the columns that see the box
     std::uint32_t min_depth;  ///< ordered bits of a depth in front of everything in the box
 
-    /// The bounds of the box moved by (shift, −z0).
+    /// Computes the bounds of the box moved by (shift, −z0).
     BoxBounds(const ClusterBox& box, const EpipolarPlane& plane, double shift, double z0);
 };
 
-/// For `rows` rows of a plane's cells (DepthCells), the columns whose samples may see a box.
+/// Columns whose samples may see a box, for `rows` rows of a plane's cells (DepthCells).
 struct alignas(64) CellColumns {
     static constexpr std::size_t rows = 16;
     static constexpr std::size_t max_plane_columns = 0xffff;
     std::uint16_t first[rows], count[rows];
 
-    /// The number of CellColumns that cover all rows of cells of a plane.
+    /// Returns the number of CellColumns that cover all rows of cells of a plane.
     static std::size_t needed(std::size_t directions) { return (DepthCells::rows(directions) + rows - 1) / rows; }
 };
 
-/// Bounds of a box's footprint.
 struct FootprintBounds {
     std::uint32_t min_depth;    ///< of BoxBounds
-    std::uint32_t max_columns;  ///< maximum of columns that see the box in one row of cells
+    std::uint32_t max_columns;  ///< largest number of columns that see the box in one row of cells
 };
 
-/// The cells whose samples may see a box.
 struct BoxFootprint {
-    const CellColumns* columns;  ///< CellColumns::needed() of them
+    const CellColumns* columns;  ///< array of CellColumns::needed() elements
     FootprintBounds bounds;
 };
 
-/// Finds the cells whose samples may see a box moved by (shift, −z0). The twins give the same.
+/// Finds the cells whose samples may see a box moved by (shift, −z0). Both versions give the same result.
 /// @param columns  output, CellColumns::needed(plane.directions) elements
 FootprintBounds find_footprint_plain(const ClusterBox& box, const EpipolarPlane& plane, double shift, double z0,
                                      CellColumns* columns);
 extern decltype(find_footprint_plain)& find_footprint;
 
-/// The footprints of all clusters' boxes. They are the same in all planes of a row of hogels, and each is computed when
-/// first needed.
+/// Footprints of all clusters' boxes for one row of hogels, each computed at its first use.
 class BoxFootprints {
   public:
     /// Begins a row of hogels.
@@ -70,7 +67,7 @@ class BoxFootprints {
   private:
     struct Found {
         FootprintBounds bounds;
-        std::uint32_t row;  // the row for which the footprint was computed
+        std::uint32_t row;  // for which the footprint was computed
     };
 
     std::span<const ClusterBox> boxes_;
@@ -82,26 +79,25 @@ class BoxFootprints {
     std::vector<Found> found_;
 };
 
-/// Whether all samples in every cell of a footprint are nearer than the box. The twins give the same.
+/// Returns whether all samples in a footprint's cells are nearer than the box. Both versions give the same result.
 bool cells_occlude_plain(const EpipolarPlane& plane, const BoxFootprint& box);
 extern decltype(cells_occlude_plain)& cells_occlude;
 
-/// The hierarchical z of an epipolar plane: cells with the farthest depth of their samples (DepthCells), behind which
-/// nothing has to be drawn.
+/// Hierarchical z of an epipolar plane (DepthCells). Anything behind it need not be drawn.
 class HierarchicalZ {
   public:
-    /// Begins an empty plane and clears its cells.
+    /// Clears the cells for an empty plane.
     void clear(const EpipolarPlane& plane);
-    /// Updates the plane's cells to everything that has been drawn.
+    /// Updates the plane's cells from everything drawn so far.
     void update(const EpipolarPlane& plane);
-    /// Whether every sample of the plane that may see the box sees something in front of it. Conservative: never true
-    /// if the box contains something visible or as near as what is visible.
+    /// Returns whether the drawn samples occlude the box. Conservative: never true if the box contains something
+    /// visible or something as near as a visible sample.
     bool occludes(BoxFootprints& footprints, std::size_t box, const EpipolarPlane& plane) const {
         return pays_ && cells_occlude(plane, footprints[box]);
     }
 
   private:
-    bool pays_ = false;  // whether enough is covered for tests of boxes to be worthwhile
+    bool pays_ = false;  // whether enough is covered for box tests to save time
 };
 
 }  // namespace hogel::render::epi

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twins of find_max_depths_plain in kernels.cpp and of find_footprint_plain and cells_occlude_plain in
-// hierarchical_z.cpp, compiled for every SIMD target and chosen when first called.
+// Vector versions of find_max_depths_plain, find_footprint_plain and cells_occlude_plain for every SIMD target.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -24,7 +23,7 @@ bool CellsOcclude(const EpipolarPlane& plane, const BoxFootprint& box) { return 
 using Tag = hn::CappedTag<std::uint32_t, directions_per_cell>;
 using Depths = hn::Vec<Tag>;
 
-// The farthest depth of a cell, lane by lane.
+// Returns the farthest depths of a cell, lane by lane.
 HWY_INLINE Depths max_depth_lanes(const std::uint64_t* words) {
     const Tag d;
     const hn::RepartitionToWide<Tag> d64;
@@ -37,21 +36,21 @@ HWY_INLINE Depths max_depth_lanes(const std::uint64_t* words) {
     return max_depth;
 }
 
-// The farthest depths of the cells in four columns that begin at these words.
+// Computes the farthest depths of the cells in four columns that begin at these words.
 HWY_INLINE void find_four(const std::uint64_t* const (&words)[4], std::uint32_t (&max_depths)[4]) {
     const Tag d;
     const hn::RepartitionToWide<Tag> d64;
     const hn::FixedTag<std::uint32_t, 4> d4;
-    // In each block of four lanes, lane i becomes column i.
+    // In each block of four lanes, lane i holds column i.
     const auto pair = [&](std::size_t i) HWY_ATTR {
         const Depths a = max_depth_lanes(words[i]), b = max_depth_lanes(words[i + 1]);
         return hn::BitCast(d64, hn::Max(hn::InterleaveLower(d, a, b), hn::InterleaveUpper(d, a, b)));
     };
     const auto first = pair(0), last = pair(2);
-    const Depths all = hn::Max(hn::BitCast(d, hn::InterleaveLower(d64, first, last)),
-                               hn::BitCast(d, hn::InterleaveUpper(d64, first, last)));
+    const Depths columns = hn::Max(hn::BitCast(d, hn::InterleaveLower(d64, first, last)),
+                                   hn::BitCast(d, hn::InterleaveUpper(d64, first, last)));
     HWY_ALIGN std::uint32_t lanes[HWY_MAX_BYTES / 4];
-    hn::Store(all, d, lanes);
+    hn::Store(columns, d, lanes);
     auto max_depth = hn::Load(d4, lanes);
     for (std::size_t i = 4; i < hn::Lanes(d); i += 4) max_depth = hn::Max(max_depth, hn::Load(d4, lanes + i));
     hn::StoreU(max_depth, d4, max_depths);
@@ -101,26 +100,25 @@ FootprintBounds FindFootprint(const ClusterBox& cluster, const EpipolarPlane& pl
         const auto min_Kz = hn::Min(hn::Min(a, b), hn::Min(c, e)), max_Kz = hn::Max(hn::Max(a, b), hn::Max(c, e));
         const auto begin = hn::Max(first, hn::Ceil(hn::Sub(hn::Sub(x_low, max_Kz), margin)));
         const auto end = hn::Min(last, hn::Floor(hn::Add(hn::Sub(x_high, min_Kz), margin)));
-        // No columns where the box is not visible, even if its bounds are infinite, nor in rows beyond the last.
-        const auto seen = hn::And(hn::Le(begin, end), hn::Le(Ka, K_last));
-        const auto number = hn::ConvertTo(di, hn::IfThenElseZero(seen, hn::Add(hn::Sub(end, begin), one)));
+        // No columns if the box is not visible, even if its bounds are infinite, or in rows after the last.
+        const auto visible = hn::And(hn::Le(begin, end), hn::Le(Ka, K_last));
+        const auto number = hn::ConvertTo(di, hn::IfThenElseZero(visible, hn::Add(hn::Sub(end, begin), one)));
         max_columns = hn::Max(max_columns, number);
-        CellColumns& to = columns[row / CellColumns::rows];
-        const auto from = hn::ConvertTo(di, hn::IfThenElseZero(seen, hn::Sub(begin, first)));
-        hn::StoreU(hn::DemoteTo(d16, from), d16, to.first + row % CellColumns::rows);
-        hn::StoreU(hn::DemoteTo(d16, number), d16, to.count + row % CellColumns::rows);
+        CellColumns& group = columns[row / CellColumns::rows];
+        const auto offset = hn::ConvertTo(di, hn::IfThenElseZero(visible, hn::Sub(begin, first)));
+        hn::StoreU(hn::DemoteTo(d16, offset), d16, group.first + row % CellColumns::rows);
+        hn::StoreU(hn::DemoteTo(d16, number), d16, group.count + row % CellColumns::rows);
     }
     return {box.min_depth, static_cast<std::uint32_t>(hn::GetLane(hn::MaxOfLanes(di, max_columns)))};
 }
 
-// lowest_bits[i]: the lowest i bits are set.
 constexpr auto lowest_bits = [] {
     std::array<std::uint64_t, directions_per_cell + 1> bits{};
     for (std::size_t i = 0; i < bits.size(); ++i) bits[i] = (std::uint64_t{1} << i) - 1;
     return bits;
 }();
 
-// Which of the first `count` cells (at most a vector of them) do not occlude objects from `min_depth` on.
+// Returns the mask of the first `count` cells (at most a vector) that do not occlude objects at `min_depth` or behind.
 HWY_INLINE hn::Mask<Tag> open_cells(const std::uint32_t* cells, std::size_t count, Depths min_depth) {
     const Tag d;
     const auto first = hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&lowest_bits[count]));

@@ -60,8 +60,7 @@ TEST(HierarchicalZ, occludes_only_what_cannot_be_seen) {
 
 HOGEL_TEST_ON_EVERY_TARGET(HierarchicalZKernels);
 
-// Boxes are in front of, on and behind the hologram, near it and far to the side; numbers of directions are multiples
-// of CellColumns and others.
+// Boxes in front of, on and behind the hologram, near and far to the side; various numbers of directions.
 TEST_P(HierarchicalZKernels, vector_and_plain_twins_agree) {
     std::mt19937 random(3);
     const auto uniform = [&](double low, double high) {

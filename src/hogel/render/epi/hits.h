@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Queues of samples that spans cover, or may cover, for draw_simd.cpp. To be included after hwy/highway.h, once for
-// every SIMD target.
+// Queues of samples that spans (may) cover, for draw_simd.cpp. Included after hwy/highway.h for every SIMD target.
 #if defined(HOGEL_RENDER_EPI_HITS) == defined(HWY_TARGET_TOGGLE)
 #ifdef HOGEL_RENDER_EPI_HITS
 #undef HOGEL_RENDER_EPI_HITS
@@ -29,14 +28,14 @@ using Floats = hn::Vec<FloatTag>;
 using Ints = hn::Vec<IntTag>;
 using FloatMask = hn::Mask<FloatTag>;
 
-// One EpiSpan in all lanes, or one span per lane. Computes the columns c0 and c1 that see its ends in direction K, and
-// from them whether column n sees the span, and at which depth.
+// One EpiSpan in all lanes, or one span per lane. c0 and c1 are the columns that see its ends in direction K. They
+// determine whether column n sees the span, and at which depth.
 struct SpanLanes {
     Floats x0, z0, x1, z1;
 
     HWY_INLINE Floats c0(Floats K) const { return hn::Sub(x0, hn::Mul(K, z0)); }
     HWY_INLINE Floats c1(Floats K) const { return hn::Sub(x1, hn::Mul(K, z1)); }
-    // With `fronts_only`, makes the range between the two empty where the back is visible.
+    // With `fronts_only`, returns an empty range where the back is visible.
     HWY_INLINE Floats c1(Floats K, Floats c0, bool fronts_only) const {
         return fronts_only ? hn::Max(c0, c1(K)) : c1(K);
     }
@@ -65,16 +64,15 @@ HWY_INLINE Ints ordered_bits_of(Floats z) {
     return hn::Xor(bits, hn::Or(hn::BroadcastSignBit(bits), hn::Set(di, std::numeric_limits<std::int32_t>::min())));
 }
 
-// The number of hits or candidates that are collected before they are drawn, and how many more a vector may write.
+// Number of hits or candidates that are queued before they are drawn, and of further entries that one vector may write.
 constexpr std::size_t max_queued = 1024, max_vector = HWY_MAX_BYTES / 4;
 
-// A queue of hits at arbitrary words. It avoids a loop over the few hits of each vector, whose end would be
-// unpredictable.
+// Queue of hits at arbitrary words. It avoids a loop with a mispredicted end over the few hits of each vector.
 class Hits {
   public:
     explicit Hits(const EpipolarPlane& plane) : words_(plane.words) {}
 
-    // Adds the lanes that are hits of span `number`, at these offsets of words.
+    // Adds the hit lanes of span `number`, at these offsets of words.
     HWY_INLINE void add(FloatMask hit, Floats z, Ints offsets, std::uint32_t number) {
         const IntTag di;
         const auto mask = hn::RebindMask(di, hit);
@@ -103,18 +101,17 @@ class Hits {
     HWY_ALIGN std::int32_t hits_[max_queued + max_vector][2];  // halves of words
 };
 
-// A queue of samples that thin spans may cover. Candidates of many spans are collected before the first is tested, so
+// Queue of samples that thin spans may cover. Candidates of many spans are collected before the first is tested, so
 // that tests do not wait for the search and mispredicted loop ends overlap with other work. The candidates of one span
-// fill whole vectors, whichever columns they are from.
+// fill whole vectors, regardless of their columns.
 class Candidates {
   public:
     Candidates(const EpipolarPlane& plane, std::span<const EpiSpan> spans, std::size_t first, Hits& hits)
         : plane_(plane), spans_(spans), first_(first), hits_(hits) {}
 
-    // The index of the first candidate of the next span.
     HWY_INLINE std::size_t begin() const { return vectors_ * hn::Lanes(FloatTag()); }
 
-    // Writes the lanes with k <= end, in columns n and directions k, from index `count` on, and returns their number.
+    // Writes the lanes with k <= end, in columns n and directions k, at index `count`. Returns their number.
     HWY_INLINE std::size_t add(Floats n, Floats k, Floats end, std::size_t count) {
         const FloatTag d;
         const FloatMask candidate = hn::Le(k, end);
@@ -123,7 +120,7 @@ class Candidates {
         return hn::CountTrue(d, candidate);
     }
 
-    // Ends the candidates of a span, which are those from begin() to `count`.
+    // Ends the candidates of a span: the range from begin() to `count`.
     HWY_INLINE void end(std::uint32_t span, std::size_t count) {
         const FloatTag d;
         const NumberTag du;
@@ -134,7 +131,7 @@ class Candidates {
         vectors_ = vectors;
     }
 
-    // Whether the candidates must be drawn before more are added.
+    // Returns whether the candidates must be drawn before more are added.
     static HWY_INLINE bool is_full(std::size_t count) { return count >= max_queued; }
 
     HWY_NOINLINE void draw() {
@@ -142,7 +139,7 @@ class Candidates {
         const IntTag di;
         const std::size_t lanes = hn::Lanes(d);
         const Floats k_first = hn::Set(d, plane_.first_direction);
-        // Added to a whole number below 2²³, this makes the number the last bits of the sum.
+        // Added to an integer below 2²³, this moves the integer to the low bits of the sum.
         constexpr float to_whole = 1 << 23;
         const Floats to_column = hn::Set(d, to_whole - static_cast<float>(plane_.first_column));
         const Floats to_direction = hn::Set(d, to_whole);

@@ -83,7 +83,7 @@ TEST_P(PlaneKernels, vector_and_plain_twins_draw_the_same) {
 }
 
 // Rounds alternate between spans close to the hologram, for which the columns of one vector have more candidates than
-// the queue holds, and many thin spans, some of which no sample sees.
+// the queue holds, and many thin spans, some of them invisible.
 TEST_P(PlaneKernels, full_queues_change_nothing) {
     Coordinates random(9);
     std::size_t covered = 0, in_a_column = 0;
@@ -213,8 +213,7 @@ class EveryTwin : public ::testing::TestWithParam<Draw> {};
 INSTANTIATE_TEST_SUITE_P(EpipolarKernels, EveryTwin, ::testing::Values(&draw_spans, &draw_spans_plain),
                          [](const auto& parameter) { return parameter.param == &draw_spans ? "vector" : "plain"; });
 
-// A chain of points from the left of the plane to its right, in the same order in all directions, so that no sample
-// sees two of the spans between them.
+// A chain of points from left to right, in all directions, so that no sample sees two of its spans.
 TEST_P(EveryTwin, gives_every_sample_to_one_span_of_a_chain) {
     Coordinates random(3);
     for (int round = 0; round < 60; ++round) {

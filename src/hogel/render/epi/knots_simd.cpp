@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fills the knots of all visible spans of a plane from the radiance cache before the plane is shaded. Compiled for
-// every SIMD target and chosen when first called. The plain twin fills each knot when a sample needs it.
+// Fills the knots of all visible spans of a plane from the radiance cache before the plane is shaded, for every SIMD
+// target. The plain version fills each knot at its first use by a sample.
 #include <algorithm>
 #include <cstddef>
 #include <limits>
@@ -39,30 +39,29 @@ class PendingSpans {
     std::size_t count_ = 0;
 };
 
-// Writes the numbers of the pending spans in these words, each once, and returns how many there are.
+// Writes the numbers of the pending spans in these words, each once. Returns their number.
 HWY_INLINE std::size_t find_pending(std::span<const std::uint64_t> words, std::uint8_t* pending, std::uint32_t* found) {
     const NumberTag d;
-    constexpr std::size_t lanes = hn::MaxLanes(d), usual = 4;
+    constexpr std::size_t lanes = hn::MaxLanes(d), usual_runs = 4;
     PendingSpans spans(pending, found);
     if (words.empty()) return 0;
     spans.visit(static_cast<std::uint32_t>(words[0]));
     std::size_t i = 1;
     for (; i + lanes <= words.size(); i += lanes) {
-        // Visits only the first word of each run of one span. There are usually few, and number 0 is never pending.
-        const Numbers numbers = numbers_of(words.data() + i), before = numbers_of(words.data() + i - 1);
-        const auto begins = hn::Ne(numbers, before);
+        // Visits only the first word of each run. There are usually few runs, and number 0 is never pending.
+        const Numbers numbers = numbers_of(words.data() + i), previous = numbers_of(words.data() + i - 1);
+        const auto begins = hn::Ne(numbers, previous);
         const std::size_t count = hn::CountTrue(d, begins);
         HWY_ALIGN std::uint32_t runs[lanes];
         hn::Store(hn::IfThenElseZero(hn::FirstN(d, count), hn::Compress(numbers, begins)), d, runs);
-        for (std::size_t k = 0; k < usual; ++k) spans.visit(runs[k]);
-        if constexpr (lanes > usual)
-            for (std::size_t k = usual; k < count; ++k) spans.visit(runs[k]);
+        for (std::size_t k = 0; k < usual_runs; ++k) spans.visit(runs[k]);
+        if constexpr (lanes > usual_runs)
+            for (std::size_t k = usual_runs; k < count; ++k) spans.visit(runs[k]);
     }
     for (; i < words.size(); ++i) spans.visit(static_cast<std::uint32_t>(words[i]));
     return spans.count();
 }
 
-// SpanOnGrid, one span per lane.
 struct SpansOnGrids {
     HWY_ALIGN float start[2][max_lanes], change[2][max_lanes], scale[2][max_lanes], limit[2][max_lanes],
         intervals[max_lanes];
@@ -70,7 +69,7 @@ struct SpansOnGrids {
 };
 
 HWY_INLINE void place_on_grids(const RadianceSource::Grids& grids, const std::uint32_t* numbers, std::size_t count,
-                               SpansOnGrids& to) {
+                               SpansOnGrids& lanes) {
     const FloatTag d;
     const NumberTag du;
     const hn::RebindToSigned<FloatTag> di;
@@ -79,30 +78,30 @@ HWY_INLINE void place_on_grids(const RadianceSource::Grids& grids, const std::ui
     const float *origins[max_lanes], *bases[max_lanes];
     for (std::size_t i = 0; i < max_lanes; ++i) {
         const SpanOrigin& origin = grids.of_spans[numbers[std::min(i, count - 1)]];
-        to.grids[i] = &grids.of_triangles[origin.triangle];
+        lanes.grids[i] = &grids.of_triangles[origin.triangle];
         origins[i] = &origin.weight0;
-        bases[i] = reinterpret_cast<const float*>(to.grids[i]);
+        bases[i] = reinterpret_cast<const float*>(lanes.grids[i]);
     }
-    Floats origin[4], grid[4], more[4];
+    Floats origin[4], grid[4], grid_end[4];
     for (std::size_t i = 0; i < 4; ++i) {
         origin[i] = load_blocks(origins + i, 0);
         grid[i] = load_blocks(bases + i, 0);
-        more[i] = load_blocks(bases + i, 4);
+        grid_end[i] = load_blocks(bases + i, 4);
     }
     transpose(origin);
     transpose(grid);
-    transpose(more);
+    transpose(grid_end);
     const Floats zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     const auto [weight0, weight1, unused, lone_and_next] = origin;
     const Numbers lone = hn::And(hn::BitCast(du, lone_and_next), hn::Set(du, 0xffff)),
                   next = hn::ShiftRight<16>(hn::BitCast(du, lone_and_next));
-    // The weights of a corner at the two ends (SpanOrigin::weights).
+    // Weights of a corner at the two ends (SpanOrigin::weights).
     const auto weights = [&](Numbers corner, Floats(&weight)[2]) HWY_ATTR {
         const auto is_lone = hn::RebindMask(d, hn::Eq(corner, lone)), is_next = hn::RebindMask(d, hn::Eq(corner, next));
         weight[0] = hn::IfThenElse(is_lone, weight0, hn::IfThenElse(is_next, hn::Sub(one, weight0), zero));
         weight[1] = hn::IfThenElse(is_lone, weight1, hn::IfThenElse(is_next, zero, hn::Sub(one, weight1)));
     };
-    const Numbers corner = hn::BitCast(du, more[2]);
+    const Numbers corner = hn::BitCast(du, grid_end[2]);
     Floats of_corner[2], of_last[2];
     weights(corner, of_corner);
     weights(hn::IfThenElse(hn::Eq(corner, hn::Zero(du)), hn::Set(du, 2), hn::Sub(corner, hn::Set(du, 1))), of_last);
@@ -113,37 +112,37 @@ HWY_INLINE void place_on_grids(const RadianceSource::Grids& grids, const std::ui
         const Floats on_axis = hn::Max(cells, one), scale = hn::Add(on_axis, hn::Set(d, 2 * shading::LightGrid::inset));
         const Floats change = hn::Sub(ends[i][1], ends[i][0]);
         max_cells = hn::Max(max_cells, hn::IfThenElseZero(hn::Gt(cells, zero), hn::Mul(hn::Abs(change), scale)));
-        hn::Store(ends[i][0], d, to.start[i]);
-        hn::Store(change, d, to.change[i]);
-        hn::Store(scale, d, to.scale[i]);
-        hn::Store(hn::Sub(on_axis, hn::Set(d, 1.25f)), d, to.limit[i]);
+        hn::Store(ends[i][0], d, lanes.start[i]);
+        hn::Store(change, d, lanes.change[i]);
+        hn::Store(scale, d, lanes.scale[i]);
+        hn::Store(hn::Sub(on_axis, hn::Set(d, 1.25f)), d, lanes.limit[i]);
     }
     const Floats intervals =
         hn::Min(hn::Mul(hn::Set(d, SpanOnGrid::per_cell), max_cells), hn::Set(d, SpanOnGrid::max_intervals - 1));
-    hn::Store(hn::Add(hn::ConvertTo(d, hn::ConvertTo(di, intervals)), one), d, to.intervals);
+    hn::Store(hn::Add(hn::ConvertTo(d, hn::ConvertTo(di, intervals)), one), d, lanes.intervals);
 }
 
-// LightGrid::Place: the number of a grid's row or column at this fraction of its length, and the remaining fraction
-// `beyond`.
-HWY_INLINE Numbers place_on_axis(Floats part, float scale, float limit, Floats& beyond) {
+// Computes LightGrid::Cell: returns the index of a row or column, and sets the position `beyond` it, in cells.
+HWY_INLINE Numbers place_on_axis(Floats fraction, float scale, float limit, Floats& beyond) {
     const FloatTag d;
     const NumberTag du;
-    const Floats clamped = hn::Min(hn::Max(part, hn::Zero(d)), hn::Set(d, 1.0f));
-    const Floats at = hn::Sub(hn::Mul(clamped, hn::Set(d, scale)), hn::Set(d, shading::LightGrid::inset + 0.5f));
+    const Floats clamped = hn::Min(hn::Max(fraction, hn::Zero(d)), hn::Set(d, 1.0f));
+    const Floats scaled = hn::Sub(hn::Mul(clamped, hn::Set(d, scale)), hn::Set(d, shading::LightGrid::inset + 0.5f));
     const Floats to_whole = hn::Set(d, shading::LightGrid::to_whole);
-    const Floats rounded = hn::Add(hn::Min(hn::Max(at, hn::Set(d, -0.25f)), hn::Set(d, limit)), to_whole);
-    beyond = hn::Add(hn::Sub(at, hn::Sub(rounded, to_whole)), hn::Set(d, 0.5f));
+    const Floats rounded = hn::Add(hn::Min(hn::Max(scaled, hn::Set(d, -0.25f)), hn::Set(d, limit)), to_whole);
+    beyond = hn::Add(hn::Sub(scaled, hn::Sub(rounded, to_whole)), hn::Set(d, 0.5f));
     return hn::And(hn::BitCast(du, rounded), hn::Set(du, shading::LightGrid::node_bits));
 }
 
-// The knots of several spans whose cache points are being prefetched: for each knot the offset of its upper left point,
-// in words, and the fractions of the distance to the next points.
+// Knots of several spans, for prefetching their cache points: the offset of the upper left point in words, and the
+// fractions of the distance to the next points, for each knot.
 class KnotBatch {
   public:
     explicit KnotBatch(bool colour) : colour_(colour) {}
 
-    // Adds the knots of the span in a lane; the first one is knot number `to`.
-    HWY_INLINE void add(const SpansOnGrids& spans, std::size_t lane, const SpanValues& values, std::uint32_t to) {
+    // Adds the knots of the span in a lane; the first one is knot number `first_knot`.
+    HWY_INLINE void add(const SpansOnGrids& spans, std::size_t lane, const SpanValues& values,
+                        std::uint32_t first_knot) {
         const FloatTag d;
         const NumberTag du;
         const shading::LightGrid& grid = *spans.grids[lane];
@@ -151,7 +150,7 @@ class KnotBatch {
         span = {grid.points,
                 grid.columns > 0 ? grid.right : 0,
                 grid.rows > 0 ? grid.down : 0,
-                to,
+                first_knot,
                 count_,
                 count_ + static_cast<std::size_t>(spans.intervals[lane]) + 1};
         const auto set = [d, lane](const float* lanes) HWY_ATTR { return hn::Set(d, lanes[lane]); };
@@ -182,7 +181,8 @@ class KnotBatch {
     HWY_INLINE void fill(ShadedSpans::Knot* knots) {
         for (std::size_t k = 0; k < span_count_; ++k) {
             const Span& span = spans_[k];
-            for (std::size_t i = span.begin; i < span.end; ++i) fill_knot(span, i, knots[span.to + i - span.begin]);
+            for (std::size_t i = span.begin; i < span.end; ++i)
+                fill_knot(span, i, knots[span.first_knot + i - span.begin]);
         }
         count_ = span_count_ = 0;
     }
@@ -193,8 +193,8 @@ class KnotBatch {
     struct Span {
         const std::uint32_t* points;
         std::uint32_t right, down;  // words from a point to the next one
-        std::uint32_t to;
-        std::size_t begin, end;  // its knots in the batch
+        std::uint32_t first_knot;
+        std::size_t begin, end;  // range of its knots in the batch
     };
 
     HWY_INLINE void fill_knot(const Span& span, std::size_t i, ShadedSpans::Knot& knot) const {
@@ -230,17 +230,17 @@ class KnotBatch {
 void FillVisibleKnots(std::span<const std::uint64_t> words, std::span<const SpanValues> values, ShadedSpans& spans,
                       const RadianceSource& source, bool colour) {
     if (!spans.has_cached()) return;
-    const core::ThreadBuffer<std::uint32_t> found(values.size() + 1);
-    const std::size_t count = find_pending(words, spans.pending(), found.data());
+    const core::ThreadBuffer<std::uint32_t> pending(values.size() + 1);
+    const std::size_t count = find_pending(words, spans.pending(), pending.data());
     if (count == 0) return;
     const RadianceSource::Grids grids = source.grids();
     SpansOnGrids on_grids;
     KnotBatch batch(colour);
     for (std::size_t first = 0; first < count; first += max_lanes) {
-        const std::size_t some = std::min(max_lanes, count - first);
-        place_on_grids(grids, &found[first], some, on_grids);
-        for (std::size_t i = 0; i < some; ++i) {
-            const std::size_t number = found[first + i];
+        const std::size_t batch_size = std::min(max_lanes, count - first);
+        place_on_grids(grids, &pending[first], batch_size, on_grids);
+        for (std::size_t i = 0; i < batch_size; ++i) {
+            const std::size_t number = pending[first + i];
             const float intervals = on_grids.intervals[i];
             if (intervals > KnotBatch::max_intervals) {
                 spans.add_pending_knots(number, intervals);

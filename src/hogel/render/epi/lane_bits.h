@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace hogel::render::epi::HWY_NAMESPACE {
 
-// Bit i is that of lane i of the mask.
+// Returns a mask as bits: bit i is lane i.
 template <class D>
 HWY_INLINE std::uint64_t bits_of(D d, hwy::HWY_NAMESPACE::Mask<D> mask) {
     std::uint8_t bytes[8] = {};

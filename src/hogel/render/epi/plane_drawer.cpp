@@ -7,14 +7,14 @@
 namespace hogel::render::epi {
 namespace {
 
-// The number of triangles of a batch from which on they are set up.
+// Minimum number of triangles in a batch before it is set up.
 constexpr std::size_t min_batch = 64;
 
 // Prefetch distance of the footprints of boxes, in clusters.
 constexpr std::size_t prefetch_distance = 8;
 
-// The hierarchical z is updated after this number of spans, or more if a plane has many samples: a compromise between
-// its cost and spans that are drawn unnecessarily. If spans cover many cells it is updated earlier, as soon as the
+// Number of spans between updates of the hierarchical z, larger if a plane has many samples: a compromise between the
+// cost of updates and of spans that are drawn unnecessarily. If spans cover many cells, it is updated as soon as the
 // drawn cells would fill the plane.
 constexpr std::size_t min_update_interval = 128, samples_per_update = 256;
 
@@ -46,8 +46,8 @@ void PlaneDrawer::draw(const EpipolarPlane& plane, const CutPlane& cut, std::spa
 // Adds triangles to the batch and prefetches them.
 void PlaneDrawer::prefetch(const CrossedTriangles& crossed) {
     const std::size_t first = crossed.cluster * cluster_size;
-    for (std::uint64_t rest = crossed.triangles; rest != 0; rest &= rest - 1) {
-        const std::size_t slot = first + static_cast<std::size_t>(std::countr_zero(rest));
+    for (std::uint64_t remaining = crossed.triangles; remaining != 0; remaining &= remaining - 1) {
+        const std::size_t slot = first + static_cast<std::size_t>(std::countr_zero(remaining));
         batch_.push_back(static_cast<std::uint32_t>(slot));
         const auto* lines = reinterpret_cast<const char*>(&clusters_.corners[slot]);
         __builtin_prefetch(lines);
@@ -66,7 +66,7 @@ void PlaneDrawer::draw_new(const EpipolarPlane& plane) {
     drawn_ = spans_.count();
 }
 
-// Updates the hierarchical z if enough has been drawn since.
+// Updates the hierarchical z if enough has been drawn since the last update.
 void PlaneDrawer::update_depths(const EpipolarPlane& plane) {
     const bool many_spans = spans_.count() >= updated_ + update_interval_;
     const bool many_writes = plane.cells->writes >= plane.columns * DepthCells::rows(plane.directions);

@@ -14,15 +14,15 @@
 
 namespace hogel::render::epi {
 
-/// Determines which span each sample of an epipolar plane sees. Clusters that the hierarchical z occludes are skipped;
-/// triangles of the others are prefetched, set up in batches and drawn.
+/// Determines the visible span of each sample of an epipolar plane. Skips clusters that the hierarchical z occludes;
+/// prefetches the triangles of the others, sets them up in batches and draws them.
 class PlaneDrawer {
   public:
     /// Both arguments must outlive this object.
     PlaneDrawer(const TriangleClusters& clusters, PlaneSpans& spans) : clusters_(clusters), spans_(spans) {}
 
-    /// Begins a row of hogels, whose planes share these samples, `shift` and `z0` (EpipolarFrame::Plane).
-    /// @param plane  must outlive the row
+    /// Begins a row of hogels, for planes with these samples, `shift` and `z0` (EpipolarFrame::Plane). `plane` must
+    /// outlive the row.
     void begin_row(const EpipolarPlane& plane, double shift, double z0);
     /// Sets up the spans of a plane and draws them.
     /// @param plane  empty
@@ -40,8 +40,8 @@ class PlaneDrawer {
     HierarchicalZ depths_;
     BoxFootprints footprints_;
     std::vector<std::uint32_t> batch_;  // slots of the triangles being prefetched
-    // The numbers of the first span that is not drawn and of the first not included in the hierarchical z, and the
-    // number of spans after which that is updated.
+    // Number of the first span not yet drawn, number of the first span not yet in the hierarchical z, and number of
+    // spans between updates of the hierarchical z.
     std::size_t drawn_ = 1, updated_ = 1, update_interval_ = 0;
 };
 

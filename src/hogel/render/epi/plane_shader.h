@@ -10,7 +10,7 @@
 
 namespace hogel::render::epi {
 
-/// Writes the radiance and depth of the samples of an epipolar plane from the spans that they see.
+/// Writes the radiance and depth of the samples of an epipolar plane from their visible spans.
 class PlaneShader {
   public:
     /// Scene and spans must outlive this object.

@@ -14,20 +14,18 @@
 
 namespace hogel::render::epi {
 
-/// The source of radiance of each triangle of a scene, determined once for all planes.
+/// Source of radiance of each triangle of a scene, determined once for all planes.
 struct RadianceTable {
-    /// Whether spans are shaded between knots (ShadedSpans), because some do not interpolate radiance between their
-    /// ends.
+    /// Whether some spans do not interpolate radiance between their ends and are shaded between knots (ShadedSpans).
     bool uses_knots;
     std::vector<RadianceFrom> from;  ///< by slot of the clusters; empty unless `uses_knots`
     SpanValues background;
 
-    /// @param channels  of the light field: with one, the background's first value is its luminance
+    /// @param channels  number of channels of the light field: with one, the background's first value is its luminance
     RadianceTable(const ShadedScene& scene, const TriangleClusters& clusters, std::size_t channels);
 };
 
-/// The spans of one epipolar plane, set up from the triangles that it crosses. They are numbered in the order in which
-/// they are added; number 0 is the background.
+/// Spans of one epipolar plane, numbered in the order of addition; number 0 is the background.
 class PlaneSpans {
   public:
     /// All arguments must outlive this object.
@@ -39,11 +37,11 @@ class PlaneSpans {
     void add(std::span<const std::uint32_t> slots, const CutPlane& plane);
 
     std::size_t count() const { return count_; }
-    /// The spans from number `first` on.
+    /// Returns the spans with numbers `first` and above.
     std::span<const EpiSpan> from(std::size_t first) const { return std::span(spans_).subspan(first, count_ - first); }
     std::span<const SpanValues> values() const { return std::span(values_).first(count_); }
 
-    /// RadianceTable::uses_knots; the members below are valid only with it.
+    /// Returns RadianceTable::uses_knots. The members below are valid only if it is true.
     bool uses_knots() const { return table_.uses_knots; }
     const SpanOrigin* origins() const { return origins_.data(); }
     ShadedSpans& shaded() { return shaded_; }

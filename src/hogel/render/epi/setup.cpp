@@ -11,12 +11,12 @@ namespace hogel::render::epi {
 void set_up_spans_plain(const TriangleClusters& clusters, std::span<const std::uint32_t> slots, const CutPlane& plane,
                         EpiSpan* spans, SpanValues* values, SpanOrigin* origins) {
     for (std::size_t i = 0; i < slots.size(); ++i) {
-        const TriangleCorners& own = clusters.corners[slots[i]];
+        const TriangleCorners& triangle = clusters.corners[slots[i]];
         std::array<double, 3> x, z, height;
         for (std::size_t corner = 0; corner < 3; ++corner) {
-            x[corner] = own.x[corner];
-            z[corner] = own.z[corner];
-            height[corner] = (own.y[corner] - plane.slope * z[corner]) - plane.row;
+            x[corner] = triangle.x[corner];
+            z[corner] = triangle.z[corner];
+            height[corner] = (triangle.y[corner] - plane.slope * z[corner]) - plane.row;
         }
         const auto below = [](double h) { return h < 0; };
         if (std::ranges::all_of(height, below) || std::ranges::none_of(height, below)) {
@@ -33,8 +33,8 @@ void set_up_spans_plain(const TriangleClusters& clusters, std::span<const std::u
         const auto x0 = static_cast<float>(end0.x), z0 = static_cast<float>(end0.z);
         spans[i] = {x0, z0, static_cast<float>(end1.x), static_cast<float>(end1.z)};
         const auto w0 = static_cast<float>(end0.weight), w1 = static_cast<float>(end1.weight);
-        const Rgb value0 = w0 * own.radiance[lone] + (1 - w0) * own.radiance[next];
-        const Rgb value1 = w1 * own.radiance[lone] + (1 - w1) * own.radiance[last];
+        const Rgb value0 = w0 * triangle.radiance[lone] + (1 - w0) * triangle.radiance[next];
+        const Rgb value1 = w1 * triangle.radiance[lone] + (1 - w1) * triangle.radiance[last];
         const auto depth0 = static_cast<float>(end0.z * plane.depth_per_z),
                    depth1 = static_cast<float>(end1.z * plane.depth_per_z);
         values[i] = {x0,

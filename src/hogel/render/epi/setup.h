@@ -11,23 +11,22 @@
 
 namespace hogel::render::epi {
 
-/// The epipolar plane that cuts triangles: y = row + slope z, seen at (x + shift, z − z0) (EpipolarFrame).
+/// Epipolar plane that cuts triangles: y = row + slope z, seen at (x + shift, z − z0) (EpipolarFrame).
 struct CutPlane {
     double row, slope, shift, z0;
     double depth_per_z;  ///< ζ in metres for each unit of z
 };
 
-/// Covers nothing.
 constexpr EpiSpan empty_span{1e30f, 1, 1e30f, 1};
 
-/// The position of a span on its triangle: end 0 is on the edge from the lone corner to the next, end 1 on the edge to
-/// the last (TriangleCut).
+/// Position of a span on its triangle: end 0 on the edge from `lone` to `next`, end 1 on the edge to `last`
+/// (TriangleCut).
 struct SpanOrigin {
     float weight0, weight1;  ///< of the lone corner, at the two ends
     std::uint32_t triangle;
     std::uint16_t lone, next;  ///< 0, 1 or 2
 
-    /// The weights of the triangle's vertices at a position, from 0 at end 0 to 1 at end 1.
+    /// Returns the weights of the triangle's vertices at a position, from 0 at end 0 to 1 at end 1.
     std::array<float, 3> weights(float position) const {
         std::array<float, 3> b;
         b[lone] = (1 - position) * weight0 + position * weight1;
@@ -39,7 +38,7 @@ struct SpanOrigin {
 
 /// Cuts the triangles in these slots of the clusters and writes a span for each. The plane crosses a triangle if it
 /// separates its corners; a corner is below if (y − slope z) − row < 0. Triangles that are not crossed get
-/// `empty_span`. The twins give the same bits.
+/// `empty_span`. Both versions give the same bits.
 /// @param spans, values, origins  arrays of slots.size(); `origins` may be null
 void set_up_spans_plain(const TriangleClusters& clusters, std::span<const std::uint32_t> slots, const CutPlane& plane,
                         EpiSpan* spans, SpanValues* values, SpanOrigin* origins);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twin of setup.cpp, one triangle per lane, compiled for every SIMD target and chosen when first called.
+// Vector version of setup.cpp for every SIMD target, one triangle per lane.
 #include <algorithm>
 #include <cstring>
 
@@ -24,13 +24,13 @@ using Tag = hn::FixedTag<double, 2>;
 using Tag = hn::ScalableTag<double>;
 #endif
 using IndexTag = hn::RebindToSigned<Tag>;
-using HalfTag = hn::Rebind<float, Tag>;  // as many floats as doubles
+using HalfTag = hn::Rebind<float, Tag>;  // of the same length as Tag
 using Doubles = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
 constexpr std::size_t max_lanes = hn::MaxLanes(Tag());
 
-// Loads two doubles at `offset` from each base, the first of each into `first`, the second into `second`.
+// Loads two doubles at `offset` from each base: the first of each into `first`, the second into `second`.
 HWY_INLINE void load_pairs(const double* const* bases, std::size_t offset, Doubles& first, Doubles& second) {
     const Tag d;
     // Loads from every second base, beginning with base i.
@@ -54,7 +54,7 @@ HWY_INLINE void load_pairs(const double* const* bases, std::size_t offset, Doubl
     second = hn::InterleaveUpper(d, even, odd);
 }
 
-// A corner of each lane's triangle: its height above the plane, and its coordinates in the plane.
+// Corner of each lane's triangle: its height above the plane, and its coordinates in the plane.
 struct CornerLanes {
     Doubles height, x, z;
 };
@@ -94,7 +94,7 @@ HWY_INLINE CrossingLanes cross_edge(const CornerLanes& lone, const CornerLanes& 
             hn::IfThenElse(upwards, hn::Sub(hn::Set(d, 1.0), fraction), fraction)};
 }
 
-// TriangleCut, one per lane, and the lanes that the plane crosses as bits.
+// TriangleCut, one per lane, and the bit mask of the lanes that the plane crosses.
 struct CutLanes {
     CrossingLanes end0, end1;
     Mask lone_is_2, lone_is_1, upwards;
@@ -121,14 +121,15 @@ HWY_INLINE CutLanes cut_lanes(const CornerLanes (&corner)[3], const CutPlane& pl
             crossed};
 }
 
-// A vector of cuts in memory, for work that is done triangle by triangle.
+// Vector of cuts in memory, for work that is done triangle by triangle.
 struct StoredCuts {
     HWY_ALIGN float ends[max_lanes][4];  // x0, z0, dx, dz of SpanValues
     HWY_ALIGN float weights0[max_lanes], weights1[max_lanes], depths0[max_lanes], depths1[max_lanes];
     HWY_ALIGN std::int64_t lones[max_lanes], nexts[max_lanes];
 };
 
-HWY_INLINE void store_cuts(const CutLanes& cut, double depth_per_z, EpiSpan* spans, std::size_t count, StoredCuts& to) {
+HWY_INLINE void store_cuts(const CutLanes& cut, double depth_per_z, EpiSpan* spans, std::size_t count,
+                           StoredCuts& stored) {
     const Tag d;
     const IndexTag di;
     const HalfTag df;
@@ -138,37 +139,37 @@ HWY_INLINE void store_cuts(const CutLanes& cut, double depth_per_z, EpiSpan* spa
     if (count == hn::Lanes(d)) {
         hn::StoreInterleaved4(x0, z0, x1, z1, df, &spans->x0);
     } else {
-        hn::StoreInterleaved4(x0, z0, x1, z1, df, to.ends[0]);
-        std::memcpy(spans, to.ends, count * sizeof(EpiSpan));
+        hn::StoreInterleaved4(x0, z0, x1, z1, df, stored.ends[0]);
+        std::memcpy(spans, stored.ends, count * sizeof(EpiSpan));
     }
     hn::StoreInterleaved4(x0, z0, hn::DemoteTo(df, hn::Sub(end1.x, end0.x)), hn::DemoteTo(df, hn::Sub(end1.z, end0.z)),
-                          df, to.ends[0]);
+                          df, stored.ends[0]);
     const Doubles depth = hn::Set(d, depth_per_z);
-    hn::Store(hn::DemoteTo(df, end0.weight), df, to.weights0);
-    hn::Store(hn::DemoteTo(df, end1.weight), df, to.weights1);
-    hn::Store(hn::DemoteTo(df, hn::Mul(end0.z, depth)), df, to.depths0);
-    hn::Store(hn::DemoteTo(df, hn::Mul(end1.z, depth)), df, to.depths1);
+    hn::Store(hn::DemoteTo(df, end0.weight), df, stored.weights0);
+    hn::Store(hn::DemoteTo(df, end1.weight), df, stored.weights1);
+    hn::Store(hn::DemoteTo(df, hn::Mul(end0.z, depth)), df, stored.depths0);
+    hn::Store(hn::DemoteTo(df, hn::Mul(end1.z, depth)), df, stored.depths1);
     const auto corners = [&](std::int64_t if2, std::int64_t if1, std::int64_t if0) HWY_ATTR {
         return hn::IfThenElse(hn::RebindMask(di, cut.lone_is_2), hn::Set(di, if2),
                               hn::IfThenElse(hn::RebindMask(di, cut.lone_is_1), hn::Set(di, if1), hn::Set(di, if0)));
     };
-    hn::Store(corners(2, 1, 0), di, to.lones);
-    hn::Store(hn::IfThenElse(hn::RebindMask(di, upwards), corners(1, 0, 2), corners(0, 2, 1)), di, to.nexts);
+    hn::Store(corners(2, 1, 0), di, stored.lones);
+    hn::Store(hn::IfThenElse(hn::RebindMask(di, upwards), corners(1, 0, 2), corners(0, 2, 1)), di, stored.nexts);
 }
 
-HWY_INLINE void write_values(const StoredCuts& cuts, std::size_t i, const Rgb* radiance, SpanValues& to) {
+HWY_INLINE void write_values(const StoredCuts& cuts, std::size_t i, const Rgb* radiance, SpanValues& span) {
     const hn::FixedTag<float, 4> d4;
     const Rgb &at_lone = radiance[cuts.lones[i]], &at_next = radiance[cuts.nexts[i]],
               &at_last = radiance[3 - cuts.lones[i] - cuts.nexts[i]];
-    std::memcpy(&to.x0, cuts.ends[i], sizeof(cuts.ends[i]));
+    std::memcpy(&span.x0, cuts.ends[i], sizeof(cuts.ends[i]));
     const auto w0 = hn::Set(d4, cuts.weights0[i]), w1 = hn::Set(d4, cuts.weights1[i]), one = hn::Set(d4, 1.0f);
     const auto lone = hn::LoadU(d4, &at_lone.r);
     const auto value0 = hn::Add(hn::Mul(w0, lone), hn::Mul(hn::Sub(one, w0), hn::LoadU(d4, &at_next.r)));
     const auto value1 = hn::Add(hn::Mul(w1, lone), hn::Mul(hn::Sub(one, w1), hn::LoadU(d4, &at_last.r)));
-    hn::StoreU(value0, d4, to.value0);
-    hn::StoreU(hn::Sub(value1, value0), d4, to.difference);
-    to.value0[3] = cuts.depths0[i];
-    to.difference[3] = cuts.depths1[i] - cuts.depths0[i];
+    hn::StoreU(value0, d4, span.value0);
+    hn::StoreU(hn::Sub(value1, value0), d4, span.difference);
+    span.value0[3] = cuts.depths0[i];
+    span.difference[3] = cuts.depths1[i] - cuts.depths0[i];
 }
 
 void SetUpSpans(const TriangleClusters& clusters, std::span<const std::uint32_t> slots, const CutPlane& plane,

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twin of shade_between_ends_plain in kernels.cpp, compiled for every SIMD target and chosen when first
-// called.
+// Vector version of shade_between_ends_plain in kernels.cpp for every SIMD target.
 #include <bit>
 #include <cstddef>
 
@@ -19,14 +18,13 @@ void ShadeBetweenEnds(const EpipolarPlane& plane, std::span<const SpanValues> sp
 #else
 using FloatMask = hn::Mask<FloatTag>;
 
-// The SpanValues of a vector of samples. Block b (four lanes) of vector i in each array holds those of sample 4 b + i.
+// SpanValues of a vector of samples. Block b (four lanes) of vector i in each array holds the values of sample 4 b + i.
 struct ValueBlocks {
     Floats ends[4], value0[4], difference[4];
 };
 
-// Loads whole cache lines if a vector has that size, because a processor loads as many lines per cycle as parts of
-// lines.
-HWY_INLINE void load_values(const SpanValues* const* spans, ValueBlocks& to) {
+// Loads whole cache lines if a vector has that size, because a load of a whole line takes no longer than one of a part.
+HWY_INLINE void load_values(const SpanValues* const* spans, ValueBlocks& blocks) {
     const FloatTag d;
 #if HWY_MAX_BYTES >= 64
     const NumberTag du;
@@ -37,30 +35,30 @@ HWY_INLINE void load_values(const SpanValues* const* spans, ValueBlocks& to) {
                          c = hn::Load(d, &spans[i + 8]->x0), e = hn::Load(d, &spans[i + 12]->x0);
             // The blocks of each are ends, value0, difference, and an unused one.
             const Floats ac = hn::ConcatLowerLower(d, c, a), be = hn::ConcatLowerLower(d, e, b);
-            to.ends[i] = hn::IfThenElse(odd, hn::SwapAdjacentBlocks(be), ac);
-            to.value0[i] = hn::IfThenElse(odd, be, hn::SwapAdjacentBlocks(ac));
-            to.difference[i] = hn::IfThenElse(odd, hn::SwapAdjacentBlocks(hn::ConcatUpperUpper(d, e, b)),
-                                              hn::ConcatUpperUpper(d, c, a));
+            blocks.ends[i] = hn::IfThenElse(odd, hn::SwapAdjacentBlocks(be), ac);
+            blocks.value0[i] = hn::IfThenElse(odd, be, hn::SwapAdjacentBlocks(ac));
+            blocks.difference[i] = hn::IfThenElse(odd, hn::SwapAdjacentBlocks(hn::ConcatUpperUpper(d, e, b)),
+                                                  hn::ConcatUpperUpper(d, c, a));
         }
         return;
     }
 #endif
-    const float* from[hn::MaxLanes(d)];
-    for (std::size_t i = 0; i < hn::MaxLanes(d); ++i) from[i] = &spans[i]->x0;
+    const float* sources[hn::MaxLanes(d)];
+    for (std::size_t i = 0; i < hn::MaxLanes(d); ++i) sources[i] = &spans[i]->x0;
     for (std::size_t i = 0; i < 4; ++i) {
-        to.ends[i] = load_blocks(from + i, 0);
-        to.value0[i] = load_blocks(from + i, 4);
-        to.difference[i] = load_blocks(from + i, 8);
+        blocks.ends[i] = load_blocks(sources + i, 0);
+        blocks.value0[i] = load_blocks(sources + i, 4);
+        blocks.difference[i] = load_blocks(sources + i, 8);
     }
 }
 
-// The values of samples that see any number of spans.
+// Computes the values of samples of any number of spans.
 HWY_INLINE void shade_several(const std::uint64_t* words, const SpanValues* spans, Floats n, Floats K,
                               Floats (&values)[4]) {
-    const SpanValues* from[hn::MaxLanes(FloatTag())];
-    for (std::size_t i = 0; i < hn::MaxLanes(FloatTag()); ++i) from[i] = &spans[words[i] & 0xffffffff];
+    const SpanValues* visible[hn::MaxLanes(FloatTag())];
+    for (std::size_t i = 0; i < hn::MaxLanes(FloatTag()); ++i) visible[i] = &spans[words[i] & 0xffffffff];
     ValueBlocks blocks;
-    load_values(from, blocks);
+    load_values(visible, blocks);
     transpose(blocks.ends);
     const Floats position = positions_on_spans(n, K, blocks.ends);
     const auto value = [&](std::size_t i, Floats positions)
@@ -72,8 +70,7 @@ HWY_INLINE void shade_several(const std::uint64_t* words, const SpanValues* span
     transpose(values);
 }
 
-// The values of samples that see up to three spans: the last and the middle one in the lanes of these masks, the first
-// in all others.
+// Computes samples of up to three spans: the last and the middle one in these lanes, the first in all others.
 template <bool depth>
 HWY_INLINE void shade_three(const SpanValues& first, const SpanValues& middle, const SpanValues& last,
                             FloatMask in_middle, FloatMask in_last, Floats n, Floats K, Floats (&values)[4]) {
@@ -90,7 +87,6 @@ HWY_INLINE void shade_three(const SpanValues& first, const SpanValues& middle, c
                             hn::Mul(position, in_lanes(first.difference[i], middle.difference[i], last.difference[i])));
 }
 
-// The values of samples that all see one span.
 template <bool depth>
 HWY_INLINE void shade_one(const SpanValues& span, Floats n, Floats K, Floats (&values)[4]) {
     const FloatTag d;
@@ -100,7 +96,7 @@ HWY_INLINE void shade_one(const SpanValues& span, Floats n, Floats K, Floats (&v
 }
 
 // Shades a vector of samples. Whether it sees one, two or three spans is unpredictable, so these cases share one path,
-// unless most spans are `large`. (It is a class, because lambdas that are called twice are not inlined.)
+// unless most spans are `large`. (A class, because lambdas that are called twice are not inlined.)
 template <bool depth, bool large>
 struct ShadeVector {
     const SpanValues* spans;

@@ -15,8 +15,8 @@ using Knot = ShadedSpans::Knot;
 
 constexpr float pending_depth = std::numeric_limits<float>::quiet_NaN();
 
-shading::RadianceCache::Corners corners_of(const SpanOnGrid& grid, const shading::LightGrid::Place& row,
-                                           const shading::LightGrid::Place& column, std::size_t span,
+shading::RadianceCache::Corners corners_of(const SpanOnGrid& grid, const shading::LightGrid::Cell& row,
+                                           const shading::LightGrid::Cell& column, std::size_t span,
                                            const RadianceSource& source) {
     const std::uint32_t* first =
         grid.points + std::uint64_t{row.node} * grid.down + std::uint64_t{column.node} * grid.right;
@@ -29,17 +29,17 @@ shading::RadianceCache::Corners corners_of(const SpanOnGrid& grid, const shading
     return corners;
 }
 
-// The cached radiance at a position on a span, with a zero in place of the depth.
+// Returns the cached radiance at a position on a span, with a zero in place of the depth.
 Knot cached_radiance(const SpanOnGrid& grid, float position, std::size_t span, const RadianceSource& source) {
     const float towards = grid.start[0] + position * grid.change[0], last = grid.start[1] + position * grid.change[1];
-    const shading::LightGrid::Place row(towards, grid.axis[0]);
-    const shading::LightGrid::Place column(shading::LightGrid::along(towards, last), grid.axis[1]);
+    const shading::LightGrid::Cell row(towards, grid.axis[0]);
+    const shading::LightGrid::Cell column(shading::LightGrid::along(towards, last), grid.axis[1]);
     const shading::RadianceCache::Corners corner = corners_of(grid, row, column, span, source);
     Knot value;
     for (std::size_t i = 0; i < value.size(); ++i) {
-        const float upper = corner[0][i] + column.beyond * (corner[1][i] - corner[0][i]);
-        const float lower = corner[2][i] + column.beyond * (corner[3][i] - corner[2][i]);
-        value[i] = std::max(0.0f, upper + row.beyond * (lower - upper));
+        const float upper = corner[0][i] + column.fraction * (corner[1][i] - corner[0][i]);
+        const float lower = corner[2][i] + column.fraction * (corner[3][i] - corner[2][i]);
+        value[i] = std::max(0.0f, upper + row.fraction * (lower - upper));
     }
     return value;
 }
@@ -127,10 +127,10 @@ void fill_knots_around(float position, std::size_t number, const SpanValues& val
     for (std::uint32_t i = interval; i <= interval + 1; ++i) {
         Knot& knot = spans.knots()[span.first_knot() + i];
         if (!std::isnan(knot[3])) continue;
-        const float at = static_cast<float>(i) / span.intervals;
-        knot = cached_radiance(grid, at, number, source);
+        const float knot_position = static_cast<float>(i) / span.intervals;
+        knot = cached_radiance(grid, knot_position, number, source);
         if (!colour) knot = {luminance({knot[0], knot[1], knot[2]}), 0, 0, 0};
-        knot[3] = values.value0[3] + at * values.difference[3];
+        knot[3] = values.value0[3] + knot_position * values.difference[3];
     }
 }
 
@@ -142,16 +142,16 @@ void shade_between_knots_plain(const EpipolarPlane& plane, std::span<const SpanV
             std::uint64_t& word = plane.words[column * plane.directions + k];
             const std::size_t number = word & 0xffffffff;
             word = EpipolarPlane::empty;
-            const SpanValues& own = values[number];
+            const SpanValues& span_values = values[number];
             const ShadedSpans::Span& span = spans.spans()[number];
             const float n = static_cast<float>(plane.first_column) + static_cast<float>(column);
-            const float position = position_on_span(own, n, plane.first_direction + static_cast<float>(k));
+            const float position = position_on_span(span_values, n, plane.first_direction + static_cast<float>(k));
             Knot value;
             if (number == EpipolarPlane::background) {
-                value = value_between_ends(own, 0);
+                value = value_between_ends(span_values, 0);
             } else if (span.from == RadianceFrom::samples) {
                 const Rgb radiance = source.radiance(number, position, column, k);
-                value = value_between_ends(own, position);
+                value = value_between_ends(span_values, position);
                 value = {colour ? radiance.r : luminance(radiance), radiance.g, radiance.b, value[3]};
             } else {
                 if (span.from == RadianceFrom::cache) {
@@ -159,7 +159,7 @@ void shade_between_knots_plain(const EpipolarPlane& plane, std::span<const SpanV
                     const SpanOrigin& origin = origins[number];
                     if (spans.pending()[number] != 0)
                         spans.add_pending_knots(number, SpanOnGrid(grids[origin.triangle], origin).intervals());
-                    fill_knots_around(position, number, own, spans, source, colour);
+                    fill_knots_around(position, number, span_values, spans, source, colour);
                 }
                 const ShadedSpans::Interval interval(span, position);
                 const Knot* knot = spans.knots() + span.first_knot() + interval.index;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twin of shade_between_knots_plain in shaded_spans.cpp, compiled for every SIMD target and chosen when
-// first called.
+// Vector version of shade_between_knots_plain in shaded_spans.cpp for every SIMD target.
 #include <bit>
 #include <cmath>
 
@@ -20,8 +19,8 @@ void ShadeBetweenKnots(const EpipolarPlane& plane, std::span<const SpanValues> v
     shade_between_knots_plain(plane, values, spans, source, out);
 }
 #else
-// Shades vectors of samples, column by column. The positions of the knots are computed for all samples of a column
-// before any knot is loaded, because otherwise each vector would wait for them.
+// Shades vectors of samples, column by column. The knot positions of all samples of a column are computed before any
+// knot is loaded; otherwise each vector would wait for its own.
 class KnotShading {
   public:
     KnotShading(const EpipolarPlane& plane, std::span<const SpanValues> span_values, ShadedSpans& spans,
@@ -35,7 +34,7 @@ class KnotShading {
           offsets_(offsets),
           fractions_(fractions) {}
 
-    // Computes the positions of the knots of a column's samples.
+    // Computes the knot positions of a column's samples.
     HWY_INLINE void begin(std::size_t column) const {
         const FloatTag d;
         const NumberTag du;
@@ -49,32 +48,32 @@ class KnotShading {
             const auto first = static_cast<std::uint32_t>(words[0]);
             Floats ends[4], knots[4];
             if (!hn::AllTrue(du, hn::Eq(numbers, hn::Set(du, first)))) {
-                const float* from[hn::MaxLanes(FloatTag())];
-                for (std::size_t i = 0; i < hn::MaxLanes(d); ++i) from[i] = &spans[words[i] & 0xffffffff].x0;
+                const float* sources[hn::MaxLanes(FloatTag())];
+                for (std::size_t i = 0; i < hn::MaxLanes(d); ++i) sources[i] = &spans[words[i] & 0xffffffff].x0;
                 for (std::size_t i = 0; i < 4; ++i) {
-                    ends[i] = load_blocks(from + i, 0);
-                    knots[i] = load_blocks(from + i, 4);
+                    ends[i] = load_blocks(sources + i, 0);
+                    knots[i] = load_blocks(sources + i, 4);
                 }
                 transpose(ends);
                 transpose(knots);
             } else {
-                const float* from = &spans[first].x0;
+                const float* sources = &spans[first].x0;
                 for (std::size_t i = 0; i < 4; ++i) {
-                    ends[i] = hn::Set(d, from[i]);
-                    knots[i] = hn::Set(d, from[4 + i]);
+                    ends[i] = hn::Set(d, sources[i]);
+                    knots[i] = hn::Set(d, sources[4 + i]);
                 }
             }
             // ShadedSpans::Interval.
             const auto& [base, intervals, limit, unused] = knots;
-            const Floats at = hn::Mul(positions_on_spans(n, K, ends), intervals);
+            const Floats scaled = hn::Mul(positions_on_spans(n, K, ends), intervals);
             const Floats to_whole = hn::Set(d, shading::LightGrid::to_whole);
-            const Floats rounded = hn::Add(hn::Min(hn::Sub(at, hn::Set(d, 0.5f)), limit), to_whole);
-            hn::Store(hn::Sub(at, hn::Sub(rounded, to_whole)), d, fractions_ + k);
+            const Floats rounded = hn::Add(hn::Min(hn::Sub(scaled, hn::Set(d, 0.5f)), limit), to_whole);
+            hn::Store(hn::Sub(scaled, hn::Sub(rounded, to_whole)), d, fractions_ + k);
             hn::Store(hn::ShiftLeft<4>(hn::Add(hn::BitCast(du, base), hn::BitCast(du, rounded))), du, offsets_ + k);
         }
     }
 
-    // Shades the samples of these words, the first of them in direction k of a column (shade_vectors).
+    // Shades the samples of these words; the first is in direction k of a column (shade_vectors).
     HWY_INLINE void operator()(const std::uint64_t* words, std::size_t column, std::size_t k,
                                Floats (&values)[4]) const {
         const FloatTag d;
@@ -82,10 +81,10 @@ class KnotShading {
         interpolate(k, values);
         // Pending knots have no depth.
         if (HWY_UNLIKELY(!hn::AllFalse(d, hn::IsNaN(values[3])))) {
-            // A copy, so that `values` can stay in registers.
-            Floats some[4] = {values[0], values[1], values[2], values[3]};
-            shade_pending(words, column, k, some);
-            for (int i = 0; i < 4; ++i) values[i] = some[i];
+            // Copied so that `values` can stay in registers.
+            Floats copy[4] = {values[0], values[1], values[2], values[3]};
+            shade_pending(words, column, k, copy);
+            for (int i = 0; i < 4; ++i) values[i] = copy[i];
         }
         if (!depth_) return;
         const auto background = hn::RebindMask(d, hn::Eq(numbers_of(words), hn::Set(du, EpipolarPlane::background)));
@@ -103,17 +102,17 @@ class KnotShading {
         const auto knot = [knots](std::uint32_t offset, std::size_t i)
                               HWY_ATTR { return reinterpret_cast<const float*>(knots + offset) + i; };
         if (hn::AllTrue(du, hn::Eq(hn::Load(du, offsets), hn::Set(du, offsets[0])))) {
-            const float* here = knot(offsets[0], 0);
+            const float* first_knot = knot(offsets[0], 0);
             for (std::size_t i = 0; i < 4; ++i) {
-                const Floats from = hn::Set(d, here[i]);
-                values[i] = hn::Add(from, hn::Mul(fraction, hn::Sub(hn::Set(d, here[4 + i]), from)));
+                const Floats start = hn::Set(d, first_knot[i]);
+                values[i] = hn::Add(start, hn::Mul(fraction, hn::Sub(hn::Set(d, first_knot[4 + i]), start)));
             }
             return;
         }
         const auto interpolated = [&](std::size_t i, Floats fractions) HWY_ATTR {
-            const Floats here = load_blocks([=](std::size_t lane) { return knot(offsets[i + lane], 0); }),
+            const Floats first_knot = load_blocks([=](std::size_t lane) { return knot(offsets[i + lane], 0); }),
                          next = load_blocks([=](std::size_t lane) { return knot(offsets[i + lane], 4); });
-            return hn::Add(here, hn::Mul(fractions, hn::Sub(next, here)));
+            return hn::Add(first_knot, hn::Mul(fractions, hn::Sub(next, first_knot)));
         };
         values[0] = interpolated(0, hn::Broadcast<0>(fraction));
         values[1] = interpolated(1, hn::Broadcast<1>(fraction));
@@ -122,7 +121,6 @@ class KnotShading {
         transpose(values);
     }
 
-    // The lanes that see a pending knot, as bits.
     static HWY_INLINE std::uint64_t pending_lanes(const Floats (&values)[4]) {
         return bits_of(FloatTag(), hn::IsNaN(values[3]));
     }
@@ -139,20 +137,20 @@ class KnotShading {
             return position_on_span(span_values_[words[i] & 0xffffffff], n,
                                     plane_.first_direction + static_cast<float>(k + i));
         };
-        for (std::uint64_t rest = pending_lanes(values); rest != 0; rest &= rest - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+        for (std::uint64_t remaining = pending_lanes(values); remaining != 0; remaining &= remaining - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(remaining));
             const std::size_t number = words[i] & 0xffffffff;
             if (spans_.spans()[number].from == RadianceFrom::cache)
                 fill_knots_around(position_of(i), number, span_values_[number], spans_, source_, colour_);
         }
         interpolate(k, values);
-        std::uint64_t rest = pending_lanes(values);
-        if (rest == 0) return;
+        std::uint64_t remaining = pending_lanes(values);
+        if (remaining == 0) return;
         for (int i = 0; i < 4; ++i) hn::Store(values[i], d, value[i]);
-        for (; rest != 0; rest &= rest - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+        for (; remaining != 0; remaining &= remaining - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(remaining));
             const std::size_t number = words[i] & 0xffffffff;
-            // A lane beyond the column's end, where begin() read the next column.
+            // This lane is beyond the column's end, where begin() read the next column.
             if (number == EpipolarPlane::background) continue;
             const float position = position_of(i);
             const Rgb radiance = source_.radiance(number, position, column, k + i);
@@ -169,7 +167,7 @@ class KnotShading {
     ShadedSpans& spans_;
     const RadianceSource& source_;
     bool colour_, depth_;
-    // For each sample of a column: the offset in bytes of the knot before it, and Interval::fraction.
+    // Offset in bytes of the preceding knot, and Interval::fraction, of each sample of a column.
     std::uint32_t* offsets_;
     float* fractions_;
 };

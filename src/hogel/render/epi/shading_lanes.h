@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vectors of samples, for shade_simd.cpp, shaded_spans_simd.cpp and knots_simd.cpp. To be included after hwy/highway.h,
-// once for every SIMD target.
+// Vectors of samples for *_simd.cpp. To be included after hwy/highway.h, once for every SIMD target.
 #if defined(HOGEL_RENDER_EPI_SHADING_LANES) == defined(HWY_TARGET_TOGGLE)
 #ifdef HOGEL_RENDER_EPI_SHADING_LANES
 #undef HOGEL_RENDER_EPI_SHADING_LANES
@@ -57,8 +56,7 @@ HWY_INLINE Floats load_blocks(const float* const* bases, std::size_t offset) {
     return load_blocks([=](std::size_t i) { return bases[i] + offset; });
 }
 
-// Transposes four vectors v[i], whose block b holds four floats of sample 4 b + i, into vectors of one float of all
-// samples, or back.
+// Transposes 4 × 4 floats per block: block b of v[i] holds four floats of sample 4 b + i, before or after.
 HWY_INLINE void transpose(Floats (&v)[4]) {
     const FloatTag d;
     const hn::RepartitionToWide<FloatTag> dw;
@@ -71,8 +69,7 @@ HWY_INLINE void transpose(Floats (&v)[4]) {
     v[3] = hn::BitCast(d, hn::InterleaveUpper(dw, c, e));
 }
 
-// position_on_span(), one span per lane.
-// @param ends  x0, z0, dx, dz
+// Computes position_on_span(), with one span per lane; `ends` are x0, z0, dx, dz.
 HWY_INLINE Floats positions_on_spans(Floats n, Floats K, const Floats (&ends)[4]) {
     const FloatTag d;
     const auto& [x0, z0, dx, dz] = ends;
@@ -82,14 +79,12 @@ HWY_INLINE Floats positions_on_spans(Floats n, Floats K, const Floats (&ends)[4]
     return hn::IfThenElse(hn::Lt(positive, one), positive, one);
 }
 
-// position_on_span() for samples that all see one span.
 HWY_INLINE Floats positions_on_one(const SpanValues& span, Floats n, Floats K) {
     const FloatTag d;
     return positions_on_spans(n, K,
                               {hn::Set(d, span.x0), hn::Set(d, span.z0), hn::Set(d, span.dx), hn::Set(d, span.dz)});
 }
 
-// The numbers of the spans in a vector of words.
 HWY_INLINE Numbers numbers_of(const std::uint64_t* words) {
     const NumberTag du;
     const hn::RepartitionToWide<NumberTag> d64;
@@ -97,9 +92,8 @@ HWY_INLINE Numbers numbers_of(const std::uint64_t* words) {
                           hn::BitCast(du, hn::LoadU(d64, words)));
 }
 
-// Writes the values of all samples of a plane, and empties it. shade_vector(words, column, first direction, values)
-// sets the values of a vector of samples; words beyond the end of a column are 0. If it has a member function `begin`,
-// that is first called for each column.
+// Writes all samples of a plane, and empties it. shade_vector(words, column, first direction, values) sets the values
+// of a vector of samples; words after the end of a column are 0. shade_vector.begin(column), if any, is called first.
 template <class ShadeVector>
 HWY_INLINE void shade_vectors(const EpipolarPlane& plane, const PlaneOutput& out, const ShadeVector& shade_vector) {
     const FloatTag d;
@@ -109,8 +103,8 @@ HWY_INLINE void shade_vectors(const EpipolarPlane& plane, const PlaneOutput& out
     const auto empty = hn::Set(d64, EpipolarPlane::empty);
     for (std::size_t column = 0; column < plane.columns; ++column) {
         std::uint64_t* words = plane.words + column * directions;
-        float* to[4];
-        for (int i = 0; i < 4; ++i) to[i] = out.values[i] ? out.values[i] + column * out.strides[i] : nullptr;
+        float* destination[4];
+        for (int i = 0; i < 4; ++i) destination[i] = out.values[i] ? out.values[i] + column * out.strides[i] : nullptr;
         if constexpr (requires { shade_vector.begin(column); }) shade_vector.begin(column);
         std::size_t k = 0;
         for (; aligned && k + lanes <= directions; k += lanes, words += lanes) {
@@ -119,23 +113,23 @@ HWY_INLINE void shade_vectors(const EpipolarPlane& plane, const PlaneOutput& out
             hn::StoreU(empty, d64, words);
             hn::StoreU(empty, d64, words + lanes / 2);
             // Non-temporal stores, because samples are not read again soon.
-            if (to[0]) hn::Stream(values[0], d, to[0] + k);
-            if (to[1]) hn::Stream(values[1], d, to[1] + k);
-            if (to[2]) hn::Stream(values[2], d, to[2] + k);
-            if (to[3]) hn::Stream(values[3], d, to[3] + k);
+            if (destination[0]) hn::Stream(values[0], d, destination[0] + k);
+            if (destination[1]) hn::Stream(values[1], d, destination[1] + k);
+            if (destination[2]) hn::Stream(values[2], d, destination[2] + k);
+            if (destination[3]) hn::Stream(values[3], d, destination[3] + k);
         }
         for (; k < directions; k += lanes, words += lanes) {
             const std::size_t count = std::min(lanes, directions - k);
-            HWY_ALIGN std::uint64_t some_words[hn::MaxLanes(d)] = {};
-            std::copy_n(words, count, some_words);
+            HWY_ALIGN std::uint64_t tail_words[hn::MaxLanes(d)] = {};
+            std::copy_n(words, count, tail_words);
             std::fill_n(words, count, EpipolarPlane::empty);
             Floats values[4];
-            shade_vector(some_words, column, k, values);
+            shade_vector(tail_words, column, k, values);
             for (int i = 0; i < 4; ++i) {
-                if (!to[i]) continue;
-                HWY_ALIGN float some[hn::MaxLanes(d)];
-                hn::Store(values[i], d, some);
-                std::memcpy(to[i] + k, some, count * sizeof(float));
+                if (!destination[i]) continue;
+                HWY_ALIGN float tail_values[hn::MaxLanes(d)];
+                hn::Store(values[i], d, tail_values);
+                std::memcpy(destination[i] + k, tail_values, count * sizeof(float));
             }
         }
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bounds of the samples that spans can cover, computed before the spans are drawn, for draw_simd.cpp. To be included
-// after hwy/highway.h, once for every SIMD target.
+// Bounds of the samples that spans can cover, computed before drawing, for draw_simd.cpp. To be included after
+// hwy/highway.h, once for every SIMD target.
 #if defined(HOGEL_RENDER_EPI_SPAN_BOUNDS) == defined(HWY_TARGET_TOGGLE)
 #ifdef HOGEL_RENDER_EPI_SPAN_BOUNDS
 #undef HOGEL_RENDER_EPI_SPAN_BOUNDS
@@ -19,8 +19,8 @@ HWY_BEFORE_NAMESPACE();
 namespace hogel::render::epi::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Approximate costs in processor cycles: of a vector of directions or columns, of the candidates in it, of a queued
-// hit, and of a column of a vector of directions that is drawn in place.
+// Approximate costs in processor cycles of: a vector of directions or columns; one candidate in it; a queued hit; and a
+// column of a vector of directions that is drawn in place.
 constexpr float cost_of_vector = 20, cost_of_candidates = 12, cost_of_hit = 3, cost_of_row = 7;
 
 constexpr std::size_t max_lanes = HWY_MAX_BYTES / 4;
@@ -31,10 +31,9 @@ struct SpanBounds {
     HWY_ALIGN float n_begin[max_lanes], n_end[max_lanes], per_z0[max_lanes], per_z1[max_lanes], margin[max_lanes],
         K_begin[max_lanes], K_end[max_lanes];
     HWY_ALIGN std::int32_t order[max_lanes];
-    HWY_ALIGN std::int32_t min_depth[max_lanes];  // ordered bits of a depth in front of all of the span
+    HWY_ALIGN std::int32_t min_depth[max_lanes];  // ordered bits of a depth in front of the whole span
 };
 
-// The range of a plane's samples.
 struct PlaneExtent {
     float n_first, n_last, k_first, k_last;
     bool fronts_only;
@@ -43,7 +42,7 @@ struct PlaneExtent {
 HWY_INLINE Floats min_of(Floats a, Floats b, Floats c, Floats e) { return hn::Min(hn::Min(a, b), hn::Min(c, e)); }
 HWY_INLINE Floats max_of(Floats a, Floats b, Floats c, Floats e) { return hn::Max(hn::Max(a, b), hn::Max(c, e)); }
 
-// The columns that see a span in some direction of the plane.
+// Columns that see a span in some direction of the plane.
 struct ColumnBounds {
     Floats begin, end;
     FloatMask seen;
@@ -56,20 +55,20 @@ HWY_INLINE ColumnBounds bound_columns(const SpanLanes& span, const PlaneExtent& 
     // c is linear in K, so these bound the columns.
     const Floats c[] = {span.c0(k_first), span.c0(k_last), span.c1(k_first), span.c1(k_last)};
     const Floats low = min_of(c[0], c[1], c[2], c[3]), high = max_of(c[0], c[1], c[2], c[3]);
-    FloatMask seen = hn::And(hn::Ge(high, n_first), hn::Lt(low, n_last));
+    FloatMask visible = hn::And(hn::Ge(high, n_first), hn::Lt(low, n_last));
     if (plane.fronts_only) {
         // A margin larger than the rounding error of c.
         const Floats max_K = hn::Max(hn::Abs(k_first), hn::Abs(k_last));
         const Floats size = hn::Add(hn::Max(hn::Abs(span.x0), hn::Abs(span.x1)),
                                     hn::Mul(max_K, hn::Max(hn::Abs(span.z0), hn::Abs(span.z1))));
         const Floats margin = hn::Mul(hn::Set(d, -1e-6f), size);
-        seen = hn::And(seen, hn::Or(hn::Ge(hn::Sub(c[2], c[0]), margin), hn::Ge(hn::Sub(c[3], c[1]), margin)));
+        visible = hn::And(visible, hn::Or(hn::Ge(hn::Sub(c[2], c[0]), margin), hn::Ge(hn::Sub(c[3], c[1]), margin)));
     }
     // c is monotonic in K, even after rounding.
-    return {hn::Max(n_first, hn::Add(hn::Floor(low), hn::Set(d, 1.0f))), hn::Min(n_last, hn::Floor(high)), seen};
+    return {hn::Max(n_first, hn::Add(hn::Floor(low), hn::Set(d, 1.0f))), hn::Min(n_last, hn::Floor(high)), visible};
 }
 
-// The directions in which some of those columns see a span.
+// Directions in which some of these columns see a span.
 struct DirectionBounds {
     Floats begin, end, per_z0, per_z1, max_per_z, margin;
     FloatMask bounded;  // lanes without bounds can have all directions of the plane
@@ -123,12 +122,12 @@ HWY_INLINE Ints cheapest_order(const SpanLanes& span, const ColumnBounds& n, con
     const FloatMask use_rows = hn::And(K.bounded, hn::Lt(by_rows, hn::Min(by_directions, by_columns)));
     order = hn::IfThenElse(hn::RebindMask(di, use_rows), hn::Set(di, SpanBounds::rows), order);
 #endif
-    const FloatMask seen = hn::And(n.seen, hn::And(hn::Le(n.begin, n.end), hn::Le(K.begin, K.end)));
-    return hn::IfThenElseZero(hn::RebindMask(di, seen), order);
+    const FloatMask visible = hn::And(n.seen, hn::And(hn::Le(n.begin, n.end), hn::Le(K.begin, K.end)));
+    return hn::IfThenElseZero(hn::RebindMask(di, visible), order);
 }
 
 // @param ends  x0, z0, x1, z1 of a vector of spans
-HWY_NOINLINE inline void bound_spans(const float* ends, const PlaneExtent& plane, SpanBounds& to) {
+HWY_NOINLINE inline void bound_spans(const float* ends, const PlaneExtent& plane, SpanBounds& bounds) {
     const FloatTag d;
     const IntTag di;
     const SpanLanes span = load_spans(ends);
@@ -137,15 +136,15 @@ HWY_NOINLINE inline void bound_spans(const float* ends, const PlaneExtent& plane
     // A margin larger than the rounding error of a sample's depth.
     const Floats max_z = hn::Max(hn::Abs(span.z0), hn::Abs(span.z1));
     const Floats min_depth = hn::Sub(hn::Min(span.z0, span.z1), hn::Mul(hn::Set(d, 1e-6f), max_z));
-    hn::Store(n.begin, d, to.n_begin);
-    hn::Store(n.end, d, to.n_end);
-    hn::Store(K.per_z0, d, to.per_z0);
-    hn::Store(K.per_z1, d, to.per_z1);
-    hn::Store(K.margin, d, to.margin);
-    hn::Store(K.begin, d, to.K_begin);
-    hn::Store(K.end, d, to.K_end);
-    hn::Store(cheapest_order(span, n, K), di, to.order);
-    hn::Store(ordered_bits_of(min_depth), di, to.min_depth);
+    hn::Store(n.begin, d, bounds.n_begin);
+    hn::Store(n.end, d, bounds.n_end);
+    hn::Store(K.per_z0, d, bounds.per_z0);
+    hn::Store(K.per_z1, d, bounds.per_z1);
+    hn::Store(K.margin, d, bounds.margin);
+    hn::Store(K.begin, d, bounds.K_begin);
+    hn::Store(K.end, d, bounds.K_end);
+    hn::Store(cheapest_order(span, n, K), di, bounds.order);
+    hn::Store(ordered_bits_of(min_depth), di, bounds.min_depth);
 }
 
 }  // namespace hogel::render::epi::HWY_NAMESPACE

@@ -7,7 +7,7 @@
 
 namespace hogel::render::epi {
 
-/// An empty epipolar plane for tests, with its words and cells.
+/// Empty epipolar plane for tests, with its words and cells.
 struct TestPlane {
     std::vector<std::uint64_t> words;
     DepthCells cells;

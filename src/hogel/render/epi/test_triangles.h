@@ -11,9 +11,8 @@
 
 namespace hogel::render::epi {
 
-/// Triangles for tests, around the middle of the hologram and on both sides of it. Corners are at most `max_distance`
-/// from a triangle's middle along each axis; the corners of every third triangle have equal height. Radiances are
-/// (triangle, corner, 0).
+/// Returns triangles around the middle of the hologram, on both sides. Corners are at most `max_distance` from the
+/// middle along each axis; every third triangle has corners of equal height. Radiances are (triangle, corner, 0).
 inline ShadedScene scattered_triangles(std::size_t count, double max_distance) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> coordinate(-4e-3, 4e-3), offset(-max_distance, max_distance);

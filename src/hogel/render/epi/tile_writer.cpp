@@ -27,10 +27,10 @@ void TileWriter::finish(LightFieldTile& tile, const EpipolarPlane& plane, const 
     for (std::size_t i = 0; i < 4; ++i) {
         if (!is_wanted(tile, i)) continue;
         for (std::size_t column = 0; column < plane.columns; ++column) {
-            float* to = i == 3 ? &tile.depth(t + column, s, 0, first.slow_direction)
-                               : &tile.radiance(i, t + column, s, 0, first.slow_direction);
-            const float* from = buffer_[i].data() + column * plane.directions;
-            for (std::size_t k = 0; k < plane.directions; ++k) to[k * grid_.directions_u] = from[k];
+            float* destination = i == 3 ? &tile.depth(t + column, s, 0, first.slow_direction)
+                                        : &tile.radiance(i, t + column, s, 0, first.slow_direction);
+            const float* source = buffer_[i].data() + column * plane.directions;
+            for (std::size_t k = 0; k < plane.directions; ++k) destination[k * grid_.directions_u] = source[k];
         }
     }
 }

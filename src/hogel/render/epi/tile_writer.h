@@ -11,20 +11,20 @@
 
 namespace hogel::render::epi {
 
-/// The first sample of an epipolar plane, in the numbering of hogels and directions of RowAxes.
+/// First sample of an epipolar plane, by the hogel and direction indices of RowAxes.
 struct FirstSample {
     std::size_t slow_hogel, fast_hogel, slow_direction;
 };
 
-/// Writes the values of epipolar planes to a tile: directly if the directions of a plane are contiguous in the tile,
-/// through a buffer if not, on the left and right sides of a hemicube.
+/// Writes the values of epipolar planes to a tile: directly if the directions of a plane are contiguous in the tile, or
+/// through a buffer on the left and right sides of a hemicube.
 class TileWriter {
   public:
     TileWriter(const LightFieldGrid& grid, const RowAxes& axes) : grid_(grid), axes_(axes) {}
 
-    /// The destination of the values of a plane, valid until the next call. Must be followed by finish().
+    /// Returns the destination of a plane's values, valid until the next call. Must be followed by finish().
     PlaneOutput begin(LightFieldTile& tile, const EpipolarPlane& plane, const FirstSample& first);
-    /// Copies the buffer to the tile. To be called with the same arguments as begin() when all values are written.
+    /// Copies the buffer to the tile. Takes the arguments of begin(), after all values are written.
     void finish(LightFieldTile& tile, const EpipolarPlane& plane, const FirstSample& first) const;
 
   private:

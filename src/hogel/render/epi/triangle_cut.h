@@ -6,22 +6,21 @@
 
 namespace hogel::render::epi {
 
-/// The point where an edge meets a plane, and the weight of the lone corner (TriangleCut) there; the edge's other
-/// corner has the remaining weight.
+/// Point where an edge meets a plane, and the weight of the lone corner (TriangleCut); the other corner has the rest.
 struct Crossing {
     double x, z, weight;
 };
 
-/// The segment in which a plane cuts a triangle. One of the three corners, `lone`, is alone on its side of the plane.
-/// End 0 is on the edge from there to the corner `next`, end 1 on the edge to `last`. `next` is chosen so that end 0 is
-/// the left one, seen from the triangle's front, where its corners run counterclockwise.
+/// Segment in which a plane cuts a triangle. One of the three corners, `lone`, is alone on its side of the plane. End 0
+/// is on the edge from it to the corner `next`, end 1 on the edge to `last`. `next` is chosen such that end 0 is the
+/// left one, seen from the triangle's front, where its corners run counterclockwise.
 struct TriangleCut {
     std::uint32_t lone, next, last;
     Crossing end0, end1;
 };
 
-/// Cuts a triangle whose corners (x, z) have these heights above the plane, one or two of them below 0. An edge is
-/// always cut from its lower to its upper end, so that triangles that share it get bit for bit the same crossing.
+/// Cuts a triangle with corners (x, z) at these heights above the plane, one or two of them below 0. An edge is always
+/// cut from its lower to its upper end, so that triangles that share it get the same crossing bit for bit.
 inline TriangleCut cut_triangle(const std::array<double, 3>& x, const std::array<double, 3>& z,
                                 const std::array<double, 3>& height) {
     // Uses tables and selections, because branches would be unpredictable.
