@@ -26,9 +26,8 @@ namespace {
 
 using std::numbers::pi;
 constexpr std::size_t baked_vertices_per_task = 256;
-constexpr std::size_t fewer_rays = 8;  // all rounds but the last divide the number of rays by this
-// The fraction of the way from a vertex to the middle of its triangles at which rays start, because vertices are often
-// on edges where other surfaces begin.
+constexpr std::size_t ray_divisor = 8;  // divisor of the number of rays in all rounds but the last
+// Rays start at this fraction from a vertex to the middle of its triangles, away from edges of other surfaces.
 constexpr double inside = 0.08;
 
 Rgb emission_at(const Mesh& mesh, std::size_t vertex) {
@@ -52,8 +51,8 @@ struct Surfaces {
                 ++uses[vertex];
             }
         for (std::size_t i = 0; i < uses.size(); ++i)
-            eyes.push_back(uses[i] == 0 ? shaded.positions[i]
-                                        : (1 - inside) * shaded.positions[i] + inside / uses[i] * middles[i]);
+            ray_origins.push_back(uses[i] == 0 ? shaded.positions[i]
+                                               : (1 - inside) * shaded.positions[i] + inside / uses[i] * middles[i]);
         for (const Mesh& mesh : scene.meshes)
             for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
                 normals.push_back(mesh.normals.empty() ? Vec3{0, 0, 0} : mesh.normals[i]);
@@ -63,10 +62,10 @@ struct Surfaces {
             }
     }
 
-    ShadedScene shaded;  // `radiance` is that of the previous round
+    ShadedScene shaded;  // `radiance` of the previous round
     trace::RayCaster caster;
     double offset;
-    std::vector<Vec3> eyes, normals;  // eyes: origins of the rays of each vertex
+    std::vector<Vec3> ray_origins, normals;  // ray_origins: of the rays of each vertex
     std::vector<Rgb> colors, emissions;
     std::vector<char> given;  // whether the radiance of a vertex is given
 };
@@ -75,17 +74,17 @@ ShadedScene unlit(const Scene& scene) {
     Scene dark = scene;
     dark.lights.clear();
     ShadedScene shaded;
-    shaded.fronts_only = true;  // light falls on both faces of a sheet, so both stay
+    shaded.fronts_only = true;  // light arrives on both faces of a sheet, so both are kept
     shade_scene_into(dark, {.model = "vertex"}, shaded);
     return shaded;
 }
 
-/// Calls body(vertex) for all vertices, and reports progress from `from` to `to`.
+/// Calls body(vertex) for all vertices, and reports progress between `from` and `to`.
 void for_vertices(std::size_t n, const Progress& progress, double from, double to,
                   const std::function<void(std::size_t)>& body) {
     const std::size_t tasks = (n + baked_vertices_per_task - 1) / baked_vertices_per_task;
-    const Progress part = progress.part(from, to);
-    work::Steps steps(part, tasks);
+    const Progress range = progress.part(from, to);
+    work::Steps steps(range, tasks);
     work::parallel_for(tasks, [&](std::size_t task) {
         for (std::size_t i = task * baked_vertices_per_task; i < std::min(n, (task + 1) * baked_vertices_per_task);
              ++i) {
@@ -96,23 +95,23 @@ void for_vertices(std::size_t n, const Progress& progress, double from, double t
     });
 }
 
-/// The radiance of each vertex due to direct light.
 std::vector<Rgb> direct_light(const Scene& scene, const Surfaces& surfaces, const Progress& progress, double from,
                               double to) {
     std::vector<Rgb> radiance(surfaces.normals.size());
     for_vertices(radiance.size(), progress, from, to, [&](std::size_t i) {
-        const Rgb arriving = irradiance(scene, surfaces.caster, surfaces.offset, surfaces.eyes[i], surfaces.normals[i]);
+        const Rgb arriving =
+            irradiance(scene, surfaces.caster, surfaces.offset, surfaces.ray_origins[i], surfaces.normals[i]);
         radiance[i] = static_cast<float>(std::numbers::inv_pi) * (surfaces.colors[i] * arriving);
     });
     return radiance;
 }
 
-/// The mean radiance that arrives at a vertex, weighted by the cosine.
+/// Returns the mean radiance that arrives at a vertex, weighted by the cosine.
 Rgb gather(const Scene& scene, const Surfaces& surfaces, std::size_t vertex, std::size_t rays, std::uint64_t seed) {
     const Vec3 normal = surfaces.normals[vertex];
     if (normal == Vec3{}) return scene.ambient;
     const scene::Across frame = scene::across(normal);
-    const Vec3 eye = surfaces.eyes[vertex] + surfaces.offset * normal;
+    const Vec3 origin = surfaces.ray_origins[vertex] + surfaces.offset * normal;
     const auto random = core::philox({static_cast<std::uint32_t>(vertex), static_cast<std::uint32_t>(rays), 0, 0},
                                      {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
     const double shift_a = random[0] / 4294967296.0, shift_b = random[1] / 4294967296.0;
@@ -126,7 +125,7 @@ Rgb gather(const Scene& scene, const Surfaces& surfaces, std::size_t vertex, std
         const double sine2 = a - std::floor(a), sine = std::sqrt(sine2), angle = 2 * pi * (b - std::floor(b));
         const Vec3 direction = sine * std::cos(angle) * frame.first + sine * std::sin(angle) * frame.second +
                                std::sqrt(1 - sine2) * normal;
-        const trace::RayHit hit = surfaces.caster.closest(eye, direction, std::numeric_limits<double>::infinity());
+        const trace::RayHit hit = surfaces.caster.closest(origin, direction, std::numeric_limits<double>::infinity());
         if (hit.triangle == trace::RayHit::miss) {
             sum += scene.ambient;
             continue;
@@ -151,7 +150,7 @@ void set_radiance(Scene& scene, const Surfaces& surfaces, const std::vector<Rgb>
     }
 }
 
-/// The light that arrives at each vertex from other surfaces.
+/// Returns the light that arrives at each vertex from other surfaces.
 std::vector<Rgb> indirect_light(const Scene& scene, Surfaces& surfaces, const BakeOptions& options,
                                 const Progress& progress) {
     const std::size_t vertices = surfaces.normals.size();
@@ -162,7 +161,7 @@ std::vector<Rgb> indirect_light(const Scene& scene, Surfaces& surfaces, const Ba
             if (!surfaces.given[i])
                 surfaces.shaded.radiance[i] = surfaces.emissions[i] + direct[i] + surfaces.colors[i] * indirect[i];
         const bool last = round + 1 == options.bounces;
-        const std::size_t rays = last ? options.rays : (options.rays + fewer_rays - 1) / fewer_rays;
+        const std::size_t rays = last ? options.rays : (options.rays + ray_divisor - 1) / ray_divisor;
         const double from = last ? 0.4 : 0.1 + 0.3 * static_cast<double>(round) / static_cast<double>(options.bounces);
         for_vertices(vertices, progress, from, last ? 0.7 : from, [&](std::size_t i) {
             if (!surfaces.given[i]) indirect[i] = gather(scene, surfaces, i, rays, options.seed + round);
@@ -191,7 +190,7 @@ Scene bake_scene(const Scene& scene, const BakeOptions& options, const Progress&
             fmt::format("scene '{}': has masks or surfaces that blend; expected opaque ones to bake", scene.name));
     Scene baked = scene;
     {
-        // Here `radiance` holds the indirect light that arrives, which the tessellation interpolates.
+        // Here `radiance` holds the arriving indirect light, which the tessellation interpolates.
         Surfaces coarse(scene, unlit(scene));
         set_radiance(baked, coarse, indirect_light(scene, coarse, options, progress));
     }
@@ -212,14 +211,14 @@ Scene bake_scene(const Scene& scene, const BakeOptions& options, const Progress&
 }
 
 Plan plan_bake(const Scene& scene, const BakeOptions& options) {
-    // Bytes per triangle of the result, while it is computed and in a file.
+    // Bytes per triangle of the result, in memory during computation and in a file.
     constexpr double triangle = 310, file_triangle = 31;
     const double triangles = static_cast<double>(triangle_count(scene)) * static_cast<double>(options.tessellation) *
                              static_cast<double>(options.tessellation);
     double vertices = 0;
     for (const Mesh& mesh : scene.meshes) vertices += static_cast<double>(mesh.positions.size());
     const double rays = vertices * static_cast<double>(options.rays) *
-                        (1 + static_cast<double>(options.bounces) / static_cast<double>(fewer_rays));
+                        (1 + static_cast<double>(options.bounces) / static_cast<double>(ray_divisor));
     return {triangles * triangle, triangles * file_triangle,
             core::rates::on_all_threads(rays * core::rates::gathered_ray)};
 }

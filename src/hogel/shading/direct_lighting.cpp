@@ -14,7 +14,7 @@
 namespace hogel::shading {
 namespace {
 
-/// Evaluates every light at each sample, through its shadow map, reflected by the material at that point.
+/// Lighting that evaluates every light at each sample, through its shadow map, with the material at that point.
 class DirectLighting final : public SampleLighting {
   public:
     void set_scene(const Scene& scene, const trace::RayCaster& caster, const ShadingOptions& options,
@@ -38,7 +38,7 @@ class DirectLighting final : public SampleLighting {
         }
     }
 
-    // The light is the radiance on matt surfaces; on glossy ones it is the irradiance, the part of it that depends on
+    // Light is the radiance on matt surfaces. On glossy surfaces it is the irradiance, the part of it that depends on
     // the lobe, and the visibility of each lamp.
     Size size_of_light(std::size_t mesh) const override {
         const Surface& surface = surfaces_[mesh];
@@ -56,8 +56,8 @@ class DirectLighting final : public SampleLighting {
         const bool glossy = surface.material.is_glossy();
         const SurfacePoint point(scene, triangle.vertices, weights);
         const Vec3 normal = normal_at(scene, triangle, weights, 0);
-        std::optional<Material> own;
-        const Material& material = material_at(scene, triangle, weights, 0, own);
+        std::optional<Material> textured;
+        const Material& material = material_at(scene, triangle, weights, 0, textured);
         LightUnderLobe sum;
         constexpr std::size_t block = 64;
         for (std::size_t first = 0; first < lights_.size(); first += block) {
@@ -65,12 +65,12 @@ class DirectLighting final : public SampleLighting {
             std::array<double, block> cosines, falloffs, in_cones;
             std::size_t count = 0;
             for (std::size_t i = first; i < std::min(first + block, lights_.size()); ++i) {
-                const Illumination from = illuminate(lights_[i], point.position);
-                cosines[count] = dot(normal, from.to_light);
-                falloffs[count] = from.falloff;
-                in_cones[count] = from.in_cone;
+                const Illumination illumination = illuminate(lights_[i], point.position);
+                cosines[count] = dot(normal, illumination.to_light);
+                falloffs[count] = illumination.falloff;
+                in_cones[count] = illumination.in_cone;
                 facing[count] = static_cast<std::uint32_t>(i);
-                if (cosines[count] > 0 && from.falloff > 0) ++count;
+                if (cosines[count] > 0 && illumination.falloff > 0) ++count;
             }
             std::array<float, block> visible;
             maps_.visibility(std::span(facing).first(count), point.position + surface.above * normal, point.flat_normal,
@@ -100,23 +100,23 @@ class DirectLighting final : public SampleLighting {
         const Rgb color = texture * interpolate(colors_, triangle.vertices, weights);
         const Rgb emission = texture * surface.material.emission, arriving = rgb(light.first<3>());
         const Vec3 normal = normal_at(scene, triangle, weights, view.footprint);
-        std::optional<Material> own;
-        const Material& material = material_at(scene, triangle, weights, view.footprint, own);
+        std::optional<Material> textured;
+        const Material& material = material_at(scene, triangle, weights, view.footprint, textured);
         const Reflection reflection(material, color, dot(normal, view.to_viewer));
-        Rgb seen = emission + ambient_at(scene, triangle, weights, view.footprint) * reflection.in_uniform_light() +
-                   reflection.diffuse({arriving, rgb(light.subspan<3, 3>())});
+        Rgb result = emission + ambient_at(scene, triangle, weights, view.footprint) * reflection.in_uniform_light() +
+                     reflection.diffuse({arriving, rgb(light.subspan<3, 3>())});
         if (const double cos_view = dot(normal, view.to_viewer); cos_view > 0)
-            seen += reflection.lobe(gloss(lamps_, light.subspan(6).data(),
-                                          {SurfacePoint(scene, triangle.vertices, weights).position, normal,
-                                           view.to_viewer, cos_view, reflection.roughness()}));
-        return seen;
+            result += reflection.lobe(gloss(lamps_, light.subspan(6).data(),
+                                            {SurfacePoint(scene, triangle.vertices, weights).position, normal,
+                                             view.to_viewer, cos_view, reflection.roughness()}));
+        return result;
     }
 
   private:
     struct Surface {
         Material material;
         bool given;
-        double above = 0;  ///< metres above the surface at which visibility is looked up
+        double above = 0;  ///< height above the surface for shadow map lookups, metres
     };
 
     static Material without_textures(Material material) {
@@ -125,17 +125,17 @@ class DirectLighting final : public SampleLighting {
             material.normal_texture = material.occlusion_texture = nullptr;
         return material;
     }
-    // The material of a mesh or, where a texture says more of its lobe, `own` with what it says at this point.
+    // Returns the material of a mesh; with a texture of its lobe, the material at this point, stored in `textured`.
     const Material& material_at(const ShadedScene& scene, const ShadedScene::Triangle& triangle,
                                 const std::array<float, 3>& weights, double footprint,
-                                std::optional<Material>& own) const {
+                                std::optional<Material>& textured) const {
         const Material& material = surfaces_[triangle.mesh].material;
         if (!lobes_.has(triangle.mesh)) return material;
-        const Rgb here = lobes_[triangle.mesh].sample(scene, triangle.vertices, weights, footprint);
-        own = material;
-        own->roughness *= here.g;
-        own->metallic *= here.b;
-        return *own;
+        const Rgb factors = lobes_[triangle.mesh].sample(scene, triangle.vertices, weights, footprint);
+        textured = material;
+        textured->roughness *= factors.g;
+        textured->metallic *= factors.b;
+        return *textured;
     }
 
     static Rgb rgb(std::span<const float, 3> values) { return {values[0], values[1], values[2]}; }
@@ -148,8 +148,8 @@ class DirectLighting final : public SampleLighting {
     Rgb ambient_at(const ShadedScene& scene, const ShadedScene::Triangle& triangle, const std::array<float, 3>& weights,
                    double footprint) const {
         if (!occlusions_.has(triangle.mesh)) return ambient_;
-        const float here = occlusions_[triangle.mesh].sample(scene, triangle.vertices, weights, footprint).r;
-        return (1 + surfaces_[triangle.mesh].material.occlusion_strength * (here - 1)) * ambient_;
+        const float occlusion = occlusions_[triangle.mesh].sample(scene, triangle.vertices, weights, footprint).r;
+        return (1 + surfaces_[triangle.mesh].material.occlusion_strength * (occlusion - 1)) * ambient_;
     }
 
     Vec3 normal_at(const ShadedScene& scene, const ShadedScene::Triangle& triangle, const std::array<float, 3>& weights,

@@ -45,7 +45,7 @@ class DoubledFaces {
         return {scene_.positions[a], scene_.positions[b], scene_.positions[c]};
     }
 
-    // Whether two triangles have the same corners: 1 with the same winding, −1 with the opposite one, 0 if not.
+    // Compares corners of triangles: 1 if the same with the same winding, −1 with the opposite, 0 if different.
     int likeness(std::size_t i, std::size_t j) const {
         const std::array<Vec3, 3> a = corners(i), b = corners(j);
         for (std::size_t k = 0; k < 3; ++k) {
@@ -57,18 +57,18 @@ class DoubledFaces {
         return 0;
     }
 
-    // Whether the ray through the middle of the hologram and of the triangle meets its front.
+    // Returns whether the ray through the middle of the hologram and of the triangle meets its front.
     bool faces_the_middle(std::size_t i) const {
         const auto [a, b, c] = corners(i);
         return dot(cross(b - a, c - a), ray_through_middle((1.0 / 3) * (a + b + c))) < 0;
     }
 
-    // Triangles with the same corners are next to each other in the table but for strangers.
+    // Adds a triangle by linear probing; triangles with the same corners are in one run of the table.
     void add(std::uint32_t i) {
         const std::size_t mask = table_.size() - 1;
-        std::size_t at = hashes_[i] & mask;
-        for (; table_[at] != none; at = (at + 1) & mask) {
-            const std::uint32_t other = table_[at];
+        std::size_t position = hashes_[i] & mask;
+        for (; table_[position] != none; position = (position + 1) & mask) {
+            const std::uint32_t other = table_[position];
             if (hashes_[other] != hashes_[i]) continue;
             const int alike = likeness(other, i);
             if (alike == 0 || (alike < 0 && scene_.fronts_only)) continue;
@@ -78,10 +78,10 @@ class DoubledFaces {
                 return;
             }
             removed_[other] = true;
-            table_[at] = i;
+            table_[position] = i;
             return;
         }
-        table_[at] = i;
+        table_[position] = i;
     }
 
     const ShadedScene& scene_;

@@ -11,10 +11,10 @@
 
 namespace hogel::shading {
 
-/// The lamps of a scene as a structure of arrays, padded with dark lamps to whole blocks.
+/// Lamps of a scene as a structure of arrays, padded with dark lamps to whole blocks.
 class LampTable {
   public:
-    static constexpr std::size_t block = 16;  ///< floats of the widest vector
+    static constexpr std::size_t block = 16;  ///< number of floats in the widest vector
 
     LampTable() = default;
     explicit LampTable(std::span<const Light> lights);
@@ -22,26 +22,24 @@ class LampTable {
     std::size_t size() const { return x.size(); }
 
     using Numbers = std::vector<float, CacheLineAllocator<float>>;
-    Numbers x, y, z;  ///< position of a point light, or the unit direction towards a directional one
-    Numbers near;     ///< 1 for a point light, 0 for a directional one
-    Numbers r, g, b;  ///< intensity
+    Numbers x, y, z;   ///< position of a point light, or the unit direction towards a directional one
+    Numbers is_point;  ///< 1 for a point light, 0 for a directional one
+    Numbers r, g, b;   ///< intensity
 };
 
-/// A point of a glossy surface and the direction to its viewer.
+/// Point of a glossy surface and the direction to its viewer.
 struct GlossyPoint {
     Vec3 position, normal, to_viewer;  ///< unit length
     double cos_view = 1;               ///< normal · to_viewer, above 0
     double roughness = 1;              ///< at least min_roughness
 };
 
-/// The light in the lobe, the sum of Reflection::lobe over the lamps, in single precision. The twins give the same
-/// bits: both first sum the lamps at each index of a block, then these sums.
-/// @param visibility  share of each lamp's light that arrives at the point; `lamps.size()` numbers, any values for dark
-///                    lamps
+/// Returns the light in the lobe: the sum of Reflection::lobe over the lamps, in single precision. Both versions give
+/// the same bits: they first sum the lamps at each index of a block, then these sums.
+/// @param visibility  arriving fraction of each lamp's light, `lamps.size()` values; any value for dark lamps
 LightInLobe gloss_plain(const LampTable& lamps, const float* visibility, const GlossyPoint& point);
 extern decltype(gloss_plain)& gloss;
 
-/// The values of a point in single precision, used by both twins.
 struct GlossyFloats {
     float px, py, pz, nx, ny, nz, vx, vy, vz;
     float cos_view, alpha2, less_alpha2, masked_view;

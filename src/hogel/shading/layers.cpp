@@ -8,7 +8,7 @@
 namespace hogel::shading {
 namespace {
 
-/// The smallest alpha of a picture, each looked at once.
+/// Returns the smallest alpha of a picture. Each picture is scanned once.
 class SmallestAlphas {
   public:
     float operator()(const std::shared_ptr<const Image>& picture) {
@@ -24,7 +24,7 @@ class SmallestAlphas {
     std::map<const Image*, float> known_;
 };
 
-// Alpha is a product of numbers of 8 bits; a rounded one is opaque.
+// Minimum alpha of an opaque surface. Below 1, because alpha is a product of rounded 8-bit numbers.
 constexpr float opaque = 1 - 1.0f / 1024;
 
 }  // namespace
@@ -33,20 +33,20 @@ void set_alphas(const Scene& scene, ShadedScene& shaded) {
     shaded.alphas.clear();
     shaded.mesh_alphas.clear();
     SmallestAlphas smallest;
-    std::vector<ShadedScene::MeshAlpha> meanings(scene.meshes.size());
+    std::vector<ShadedScene::MeshAlpha> mesh_alphas(scene.meshes.size());
     bool any = false;
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         const Mesh& mesh = scene.meshes[m];
         const Material& material = mesh.material;
         if (material.alpha_mode == AlphaMode::opaque) continue;
-        float least = material.alpha * smallest(material.base_color_texture);
-        if (!mesh.alphas.empty()) least *= std::ranges::min(mesh.alphas);
-        if (least >= (material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff : opaque)) continue;
-        meanings[m] = {material.alpha_mode, material.alpha_cutoff};
+        float minimum = material.alpha * smallest(material.base_color_texture);
+        if (!mesh.alphas.empty()) minimum *= std::ranges::min(mesh.alphas);
+        if (minimum >= (material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff : opaque)) continue;
+        mesh_alphas[m] = {material.alpha_mode, material.alpha_cutoff};
         any = true;
     }
     if (!any) return;
-    shaded.mesh_alphas = std::move(meanings);
+    shaded.mesh_alphas = std::move(mesh_alphas);
     for (const Mesh& mesh : scene.meshes)
         for (std::size_t i = 0; i < mesh.positions.size(); ++i)
             shaded.alphas.push_back(mesh.material.alpha * (mesh.alphas.empty() ? 1 : mesh.alphas[i]));

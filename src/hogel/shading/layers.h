@@ -5,8 +5,8 @@
 
 namespace hogel::shading {
 
-/// Gives a scene whose geometry is set the alphas of its vertices and meshes; none if every surface is opaque. A mesh
-/// that has a mask or blends in name only, because alpha is high everywhere, counts as opaque.
+/// Sets the alphas of vertices and meshes of a scene with geometry; clears them if every surface is opaque. A mesh with
+/// a mask or blending counts as opaque if its alpha is high everywhere.
 void set_alphas(const Scene& scene, ShadedScene& shaded);
 
 /// Moves the triangles that are not opaque, and the alphas, to ShadedScene::layers.

@@ -21,7 +21,7 @@ double ray_offset(const Scene& scene) {
 
 double ray_offset(const Mesh& mesh, double usual) {
     if (mesh.name != points_name || mesh.triangles.empty()) return usual;
-    // A disc is a fan of triangles, of each of which the last side is one of the hexagon, as long as its radius.
+    // A disc is a fan of triangles. The last side of each is a side of the hexagon, as long as its radius.
     double sum = 0;
     for (const auto& triangle : mesh.triangles)
         sum += length(mesh.positions[triangle[2]] - mesh.positions[triangle[1]]);
@@ -31,11 +31,13 @@ double ray_offset(const Mesh& mesh, double usual) {
 Rgb irradiance(const Scene& scene, const trace::RayCaster& caster, double offset, Vec3 point, Vec3 normal) {
     Rgb sum{0, 0, 0};
     for (const Light& light : scene.lights) {
-        const Illumination from = illuminate(light, point);
-        const double cosine = dot(normal, from.to_light);
+        const Illumination illumination = illuminate(light, point);
+        const double cosine = dot(normal, illumination.to_light);
         if (!(cosine > 0)) continue;
-        if (light.casts_shadows && caster.occluded(point + offset * normal, from.to_light, 0, from.distance)) continue;
-        sum += static_cast<float>(from.falloff * cosine) * light.intensity;
+        if (light.casts_shadows &&
+            caster.occluded(point + offset * normal, illumination.to_light, 0, illumination.distance))
+            continue;
+        sum += static_cast<float>(illumination.falloff * cosine) * light.intensity;
     }
     return sum;
 }

@@ -32,7 +32,7 @@ MeshTextures::Source occlusion_of(const Mesh& mesh) {
             mesh.occlusion_coordinates.empty() ? mesh.texture_coordinates : mesh.occlusion_coordinates};
 }
 
-/// Adds emission to what surfaces show by another lighting or, where that has none, by their vertices.
+/// Adds emission to the radiance of another lighting or, where there is none, of the vertices.
 class EmissionLighting final : public SampleLighting {
   public:
     EmissionLighting(const Scene& scene, MeshTextures textures, std::shared_ptr<const SampleLighting> lighting)
@@ -60,11 +60,11 @@ class EmissionLighting final : public SampleLighting {
     Rgb radiance(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights,
                  std::span<const float> light, Rgb texture, const ViewSample& view) const override {
         const ShadedScene::Triangle& triangle = scene.triangles[index];
-        const Rgb seen = is_lit(triangle.mesh) ? lighting_->radiance(scene, index, weights, light, texture, view)
-                                               : texture * Rgb{light[0], light[1], light[2]};
-        if (!emits(triangle.mesh)) return seen;
-        return seen + factors_[triangle.mesh] *
-                          textures_[triangle.mesh].sample(scene, triangle.vertices, weights, view.footprint);
+        const Rgb radiance = is_lit(triangle.mesh) ? lighting_->radiance(scene, index, weights, light, texture, view)
+                                                   : texture * Rgb{light[0], light[1], light[2]};
+        if (!emits(triangle.mesh)) return radiance;
+        return radiance + factors_[triangle.mesh] *
+                              textures_[triangle.mesh].sample(scene, triangle.vertices, weights, view.footprint);
     }
 
   private:
@@ -79,19 +79,19 @@ class EmissionLighting final : public SampleLighting {
 
 }  // namespace
 
-MeshTextures::MeshTextures(const Scene& scene, bool filtered, Of of) {
-    if (std::ranges::none_of(scene.meshes, [&](const Mesh& mesh) { return of(mesh).picture != nullptr; })) return;
-    std::map<const Image*, std::vector<std::uint32_t>> known;
+MeshTextures::MeshTextures(const Scene& scene, bool filtered, Select select) {
+    if (std::ranges::none_of(scene.meshes, [&](const Mesh& mesh) { return select(mesh).picture != nullptr; })) return;
+    std::map<const Image*, std::vector<std::uint32_t>> by_picture;
     for (const Mesh& mesh : scene.meshes) {
-        const auto [picture, sampling, coordinates] = of(mesh);
+        const auto [picture, sampling, coordinates] = select(mesh);
         std::uint32_t number = ShadedScene::no_texture;
         if (picture && picture->pixels.size() > 0) {
-            auto& same = known[picture.get()];
-            for (const std::uint32_t other : same)
+            auto& indices = by_picture[picture.get()];
+            for (const std::uint32_t other : indices)
                 if (textures_[other].sampling() == sampling) number = other;
             if (number == ShadedScene::no_texture) {
                 number = static_cast<std::uint32_t>(textures_.size());
-                same.push_back(number);
+                indices.push_back(number);
                 textures_.emplace_back(picture, filtered, sampling);
             }
         }
@@ -115,15 +115,15 @@ Vec3 mapped_normal(const ShadedScene& scene, const SurfaceTexture& map, const st
     const Vec3 ab = scene.positions[b] - scene.positions[a], ac = scene.positions[c] - scene.positions[a];
     const TextureCoordinate &ta = map.coordinates[a], &tb = map.coordinates[b], &tc = map.coordinates[c];
     const double u1 = double{tb.u} - ta.u, v1 = double{tb.v} - ta.v, u2 = double{tc.u} - ta.u, v2 = double{tc.v} - ta.v;
-    // On the triangle p = a + s ab + t ac and (u, v) is linear in s and t, so that dp/du is (v2 ab − v1 ac) over the
-    // determinant of that, of which the sign says on which side of it v grows.
+    // On the triangle p = a + s ab + t ac, and (u, v) is linear in s and t. So dp/du is (v2 ab − v1 ac) over the
+    // determinant. The sign of the determinant is the side on which v grows.
     const double area = u1 * v2 - u2 * v1;
     if (area == 0) return normal;
-    const Vec3 along = std::copysign(1.0, area) * (v2 * ab - v1 * ac);
-    const Vec3 across = along - dot(along, normal) * normal;
-    const double size = length(across);
+    const Vec3 gradient = std::copysign(1.0, area) * (v2 * ab - v1 * ac);
+    const Vec3 tangent = gradient - dot(gradient, normal) * normal;
+    const double size = length(tangent);
     if (!(size > 0)) return normal;
-    const Vec3 t = across / size;
+    const Vec3 t = tangent / size;
     // Seen from the front, v grows to the left of growing u, unless the texture is mirrored.
     const double side = std::copysign(1.0, area) * (dot(cross(ab, ac), normal) < 0 ? -1 : 1);
     const Vec3 bitangent = side * cross(normal, t);

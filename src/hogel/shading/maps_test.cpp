@@ -78,7 +78,7 @@ TEST(Maps, of_level_normals_and_of_full_light_change_nothing) {
         expect_near(seen(plain, "direct", b1), seen(mapped, "direct", b1), "map");
 }
 
-// A normal map says the normal along growing u, along growing v and outwards, however the texture lies on the surface.
+// A normal map gives the normal along growing u and v and outwards, for any orientation of the texture.
 TEST(Maps, of_tilted_normals_are_normals_of_vertices) {
     const double x = 0.4, y = -0.2, z = std::sqrt(1 - x * x - y * y);
     const auto stored = [](double value) { return static_cast<float>(0.5 * value + 0.5); };

@@ -18,7 +18,7 @@ SurfaceTexture texture_of(const ShadedScene& scene, const ShadedScene::Triangle&
     return {scene.textures[triangle.texture], scene.texture_coordinates};
 }
 
-// The radiance of a point whose light is evaluated for samples, either read from the cache or evaluated here.
+// Returns the radiance of a point with light evaluated per sample, read from the cache or computed now.
 Rgb lit_radiance(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights, Rgb texture,
                  const ViewSample& view) {
     const std::size_t size = scene.lighting->size_of_light(scene.triangles[index].mesh).sum();

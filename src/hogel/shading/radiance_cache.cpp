@@ -11,27 +11,26 @@ namespace {
 constexpr std::uint32_t empty = 0, being_filled = 1;
 constexpr double max_cells = LightGrid::node_bits;  // along a side
 
-// The number of cells along a side; the outermost points are inset from its ends.
+// Returns the number of cells along a side; the outermost points are inset from its ends.
 double cells(double side, double spacing) {
     if (side <= spacing) return 0;
     return std::max(1.0, std::ceil(side / spacing - 2 * LightGrid::inset));
 }
 
-// The coordinate, 0 to 1, of point i along an axis of `count` cells.
+// Returns the coordinate, 0 to 1, of point i along an axis of `count` cells.
 float node(std::size_t i, std::uint32_t count) {
     if (count == 0) return 0.5f;
     return (static_cast<float>(i) + LightGrid::inset) / (static_cast<float>(count) + 2 * LightGrid::inset);
 }
 
-// The layout of a point: one word per value, with the state after the third, then four shares per word, padded to whole
-// vectors of four words.
+// Layout of a point: one word per value, the state after the third; four shares per word; padded to four words.
 std::size_t word_of(std::size_t number) { return number + (number < 3 ? 0 : 1); }
 std::size_t first_share(SampleLighting::Size size) { return std::max<std::size_t>(4, size.values + 1); }
 std::size_t words_of(SampleLighting::Size size) { return (first_share(size) + (size.shares + 3) / 4 + 3) / 4 * 4; }
 
 float share_of(std::uint32_t word, std::size_t number) { return static_cast<float>(word >> 8 * number & 255) / 255; }
 
-float between(float a, float b, float part) { return a + part * (b - a); }
+float between(float a, float b, float fraction) { return a + fraction * (b - a); }
 
 }  // namespace
 
@@ -76,13 +75,13 @@ bool RadianceCache::read(const ShadedScene& scene, std::size_t index, const std:
     const LightGrid& grid = grids_[index];
     if (!grid.points) return false;
     const float towards = grid.towards(weights);
-    const LightGrid::Place row(towards, LightGrid::Axis(grid.rows));
-    const LightGrid::Place column(LightGrid::along(towards, grid.last(weights)), LightGrid::Axis(grid.columns));
+    const LightGrid::Cell row(towards, LightGrid::Axis(grid.rows));
+    const LightGrid::Cell column(LightGrid::along(towards, grid.last(weights)), LightGrid::Axis(grid.columns));
     thread_local std::vector<std::uint32_t> scratch;
     const FourPoints points = four_points(scene, index, row.node, column.node, scratch);
     const auto interpolated = [&](auto value) {
-        return between(between(value(points[0]), value(points[1]), column.beyond),
-                       between(value(points[2]), value(points[3]), column.beyond), row.beyond);
+        return between(between(value(points[0]), value(points[1]), column.fraction),
+                       between(value(points[2]), value(points[3]), column.fraction), row.fraction);
     };
     const SampleLighting::Size size = scene.lighting->size_of_light(scene.triangles[index].mesh);
     for (std::size_t i = 0; i < size.values; ++i) {
@@ -91,9 +90,9 @@ bool RadianceCache::read(const ShadedScene& scene, std::size_t index, const std:
     }
     for (std::size_t first = 0; first < size.shares; first += 4) {
         const std::size_t word = first_share(size) + first / 4, last = std::min(first + 4, size.shares);
-        const std::uint32_t four = points[0][word];
+        const std::uint32_t packed = points[0][word];
         // Usually all points have the same shares; they differ only at the edges of shadows.
-        const bool same = four == points[1][word] && four == points[2][word] && four == points[3][word];
+        const bool same = packed == points[1][word] && packed == points[2][word] && packed == points[3][word];
         for (std::size_t i = first; i < last; ++i) {
             const auto share = [=](const std::uint32_t* p) { return share_of(p[word], i - first); };
             light[size.values + i] = same ? share(points[0]) : std::clamp(interpolated(share), 0.0f, 1.0f);
@@ -123,17 +122,17 @@ RadianceCache::FourPoints RadianceCache::four_points(const ShadedScene& scene, s
         points[k] = grid.points + r * grid.down + c * grid.right;
         if (LightGrid::is_filled(points[k])) continue;
         if (scratch.size() < 4 * std::size_t{grid.right}) scratch.resize(4 * std::size_t{grid.right});
-        std::uint32_t* mine = scratch.data() + k * grid.right;
-        compute_point(scene, index, r, c, mine);
+        std::uint32_t* local = scratch.data() + k * grid.right;
+        compute_point(scene, index, r, c, local);
         // Only the first thread writes; all threads compute the same numbers.
         std::uint32_t* words = points_.get() + (points[k] - points_.get());
         std::uint32_t expected = empty;
         if (std::atomic_ref(words[3]).compare_exchange_strong(expected, being_filled, std::memory_order_relaxed)) {
-            std::copy_n(mine, 3, words);
-            std::copy_n(mine + 4, grid.right - 4, words + 4);
+            std::copy_n(local, 3, words);
+            std::copy_n(local + 4, grid.right - 4, words + 4);
             std::atomic_ref(words[3]).store(LightGrid::filled, std::memory_order_release);
         }
-        points[k] = mine;
+        points[k] = local;
     }
     return points;
 }

@@ -22,7 +22,7 @@ double distribution(double cos_half, double alpha) {
     return a2 / (pi * d * d);
 }
 
-/// Smith's masking and shadowing over 4 (n·l)(n·v).
+/// Returns Smith's masking and shadowing over 4 (n·l)(n·v).
 double visibility(double cos_light, double cos_view, double alpha) {
     const double a2 = alpha * alpha;
     const double l = cos_view * std::sqrt(a2 + (1 - a2) * cos_light * cos_light);
@@ -30,7 +30,7 @@ double visibility(double cos_light, double cos_view, double alpha) {
     return 0.5 / (l + v);
 }
 
-/// The albedo, by a sum over facet normals distributed as in the lobe.
+/// Computes the albedo by a sum over facet normals distributed as in the lobe.
 LobeAlbedo integrate(double cosine, double roughness) {
     constexpr std::uint32_t samples = 1024;
     const double alpha = roughness * roughness;
@@ -73,22 +73,22 @@ struct AlbedoTable {
     AlbedoTable() {
         for (std::size_t k = 0; k < table_cells; ++k) {
             for (std::size_t i = 0; i < table_cells; ++i) albedo[k][i] = integrate(cosine(i), roughness(k));
-            // ∫ 2 µ E(µ) dµ with E as look_up() interpolates it, linear in √µ between nodes.
+            // ∫ 2 µ E(µ) dµ with E linear in √µ between nodes, as in look_up().
             LobeAlbedo sum{0, 0};
             constexpr int steps = 512;
             for (int j = 0; j < steps; ++j) {
                 const double mu = (j + 0.5) / steps;
-                const LobeAlbedo here = look_up(k, mu);
-                sum.scale += 2 * mu * here.scale / steps;
-                sum.offset += 2 * mu * here.offset / steps;
+                const LobeAlbedo albedo_at_mu = look_up(k, mu);
+                sum.scale += 2 * mu * albedo_at_mu.scale / steps;
+                sum.offset += 2 * mu * albedo_at_mu.offset / steps;
             }
             mean[k] = sum;
         }
     }
     LobeAlbedo look_up(std::size_t k, double cosine_at) const {
-        const double at = std::sqrt(std::clamp(cosine_at, 0.0, 1.0)) * (table_cells - 1);
-        const auto i = std::min(static_cast<std::size_t>(at), table_cells - 2);
-        const double w = at - static_cast<double>(i);
+        const double position = std::sqrt(std::clamp(cosine_at, 0.0, 1.0)) * (table_cells - 1);
+        const auto i = std::min(static_cast<std::size_t>(position), table_cells - 2);
+        const double w = position - static_cast<double>(i);
         const LobeAlbedo &a = albedo[k][i], &b = albedo[k][i + 1];
         return {a.scale + w * (b.scale - a.scale), a.offset + w * (b.offset - a.offset)};
     }
@@ -99,17 +99,17 @@ const AlbedoTable& table() {
     return albedo;
 }
 
-/// Two neighbouring rows of the table, k and k + 1, and the weight of the second.
+/// Neighbouring rows k and k + 1 of the table, and the weight of the second.
 struct Row {
     std::size_t k;
     double weight;
 };
 
 Row row_of(double roughness) {
-    const double at =
+    const double position =
         (std::clamp(roughness, min_roughness, 1.0) - min_roughness) / (1 - min_roughness) * (table_cells - 1);
-    const auto k = std::min(static_cast<std::size_t>(at), table_cells - 2);
-    return {k, at - static_cast<double>(k)};
+    const auto k = std::min(static_cast<std::size_t>(position), table_cells - 2);
+    return {k, position - static_cast<double>(k)};
 }
 
 LobeAlbedo mixed(LobeAlbedo a, LobeAlbedo b, double w) {
@@ -158,14 +158,14 @@ Reflection::Reflection(const Material& material, Rgb color, double cos_view)
     lobe_ = Rgb{plain, plain, plain} + material.metallic * color;
     max_lobe_ = std::max({lobe_.r, lobe_.g, lobe_.b});
     roughness_ = clamped_roughness(material);
-    here_ = lobe_albedo(std::abs(cos_view), roughness_);
+    albedo_ = lobe_albedo(std::abs(cos_view), roughness_);
     const LobeAlbedo mean = mean_lobe_albedo(roughness_);
-    left_by_lobe_ = (1 - (max_lobe_ * here_.scale + here_.offset)) / (1 - (max_lobe_ * mean.scale + mean.offset));
+    diffuse_scale_ = (1 - (max_lobe_ * albedo_.scale + albedo_.offset)) / (1 - (max_lobe_ * mean.scale + mean.offset));
 }
 
 Rgb Reflection::diffuse(const LightUnderLobe& light) const {
     const auto max_lobe = static_cast<float>(max_lobe_);
-    return static_cast<float>(left_by_lobe_) * (diffuse_ * (light.arriving + -max_lobe * light.for_lobe));
+    return static_cast<float>(diffuse_scale_) * (diffuse_ * (light.arriving + -max_lobe * light.for_lobe));
 }
 
 Rgb Reflection::lobe(Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cos_light) const {
@@ -176,8 +176,8 @@ Rgb Reflection::lobe(Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cos_ligh
     const double alpha = roughness_ * roughness_, grazing = schlick(dot(to_viewer, between) / size);
     const double peak =
         distribution(dot(normal, between) / size, alpha) * visibility(cos_light, cos_view_, alpha) * cos_light;
-    const auto less = static_cast<float>(peak * (1 - grazing)), more = static_cast<float>(peak * grazing);
-    return less * lobe_ + Rgb{more, more, more};
+    const auto at_normal = static_cast<float>(peak * (1 - grazing)), at_grazing = static_cast<float>(peak * grazing);
+    return at_normal * lobe_ + Rgb{at_grazing, at_grazing, at_grazing};
 }
 
 Rgb Reflection::towards(Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cos_light) const {
@@ -189,9 +189,9 @@ Rgb Reflection::towards(Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cos_l
 
 Rgb Reflection::in_uniform_light() const {
     if (!glossy_) return diffuse_;
-    const auto left = static_cast<float>(1 - (max_lobe_ * here_.scale + here_.offset));
-    const auto scale = static_cast<float>(here_.scale), offset = static_cast<float>(here_.offset);
-    return left * diffuse_ + scale * lobe_ + Rgb{offset, offset, offset};
+    const auto remaining = static_cast<float>(1 - (max_lobe_ * albedo_.scale + albedo_.offset));
+    const auto scale = static_cast<float>(albedo_.scale), offset = static_cast<float>(albedo_.offset);
+    return remaining * diffuse_ + scale * lobe_ + Rgb{offset, offset, offset};
 }
 
 }  // namespace hogel::shading

@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t max_texels = 32768;  // along a side of a shadow map
 constexpr const char* automatic = "auto";
 
-/// Whether maps say of more than a tenth of a scene's surface what only `direct` shows: its gloss or its relief.
+/// Returns whether more than a tenth of a scene's surface has maps of gloss or relief, which only `direct` renders.
 bool has_maps_of_gloss(const Scene& scene) {
     const auto has_maps = [](const Mesh& mesh) {
         return mesh.radiance.empty() && (mesh.material.metallic_roughness_texture || mesh.material.normal_texture);
@@ -41,7 +41,7 @@ bool has_maps_of_gloss(const Scene& scene) {
     return with_maps > 0.1 * all;
 }
 
-/// A name for one of the others, which shading_model() finds.
+/// Alias for another model, selected by shading_model().
 ShadingInfo automatic_shading() {
     return {
         .name = automatic,
@@ -70,7 +70,7 @@ void require_memory(const Scene& scene, const ShadingOptions& options, double by
                         options.shadow_map, scene.lights.size(), bytes / 1e9, options.max_shadow_bytes / 1e9));
 }
 
-/// The textures of a scene that is being shaded, each picture once. Textures of the last shading are reused.
+/// Textures of a scene that is being shaded, each picture once. Textures of the last shading are reused.
 class Textures {
   public:
     Textures(std::vector<Texture>& textures, bool filtered)

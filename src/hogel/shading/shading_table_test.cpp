@@ -93,7 +93,7 @@ TEST(ShadeSceneInto, leaves_lighting_alone_that_another_scene_shares) {
     expect_same(shaded, shade_scene(second, model_named("direct")));
 }
 
-// What `vertex` cannot show is not left out silently: maps on more than a tenth of the surface are lit by `direct`.
+// Maps on more than a tenth of the surface are shaded by `direct`, because `vertex` cannot show them.
 TEST(ShadingModels, auto_is_direct_for_large_triangles_and_for_maps_of_gloss_or_relief) {
     Scene scene;
     scene.meshes = {square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), square({0, 0, 1}, {0.2, 0, 0}, {0, 0.2, 0})};

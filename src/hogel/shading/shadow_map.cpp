@@ -16,7 +16,7 @@ constexpr std::size_t cube_faces = 6;
 
 double component(Vec3 p, std::size_t axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
-/// A direction through a face of the cube: 1 along the face's axis, b and c along the next two axes.
+/// Returns a direction through a face of the cube: 1 along the face's axis, b and c along the next two axes.
 Vec3 on_face(std::size_t face, double b, double c) {
     std::array<double, 3> p{};
     const std::size_t axis = face / 2;
@@ -93,36 +93,36 @@ ShadowMap::Projected ShadowMap::project(Vec3 point) const {
 
 float ShadowMap::visibility(Vec3 point, Vec3 normal) const {
     if (depth_.empty()) return 1;
-    const Projected here = project(point);
-    if (!(here.depth > 0)) return 1;
-    // A texel's width at the point's depth, and the height of the tangent plane above the light.
-    const double width = point_light_ ? 2 * here.depth / static_cast<double>(side_) : width_;
-    const double limit = here.depth + max_slope * width;
+    const Projected projected = project(point);
+    if (!(projected.depth > 0)) return 1;
+    // Width of a texel at the point's depth, and height of the tangent plane above the light.
+    const double width = point_light_ ? 2 * projected.depth / static_cast<double>(side_) : width_;
+    const double limit = projected.depth + max_slope * width;
     const double height = dot(normal, point - origin_);
     const double last = static_cast<double>(side_) - 1, per_side = 1 / static_cast<double>(side_);
-    const double column = std::floor(here.column), row = std::floor(here.row);
+    const double column = std::floor(projected.column), row = std::floor(projected.row);
     const std::array columns{std::clamp(column, 0.0, last), std::clamp(column + 1, 0.0, last)};
     const std::array rows{std::clamp(row, 0.0, last), std::clamp(row + 1, 0.0, last)};
-    // A texel's ray meets the tangent plane at (height − start)/fall; `start` and `fall` are each a sum of a term of
-    // the texel's column and one of its row.
-    const std::size_t axis = here.face / 2;
-    const double fall = point_light_ ? (here.face % 2 == 0 ? 1 : -1) * component(normal, axis) : dot(normal, forward_);
+    // A texel's ray meets the tangent plane at (height − start)/fall, each a sum of a column term and a row term.
+    const std::size_t axis = projected.face / 2;
+    const double fall =
+        point_light_ ? (projected.face % 2 == 0 ? 1 : -1) * component(normal, axis) : dot(normal, forward_);
     const double along_columns = point_light_ ? component(normal, (axis + 1) % 3) : width_ * dot(normal, right_);
     const double along_rows = point_light_ ? component(normal, (axis + 2) % 3) : width_ * dot(normal, up_);
-    const auto part = [&](double texel) { return point_light_ ? (2 * texel + 1) * per_side - 1 : texel + 0.5; };
-    const std::array of_columns{along_columns * part(columns[0]), along_columns * part(columns[1])};
-    const std::array of_rows{along_rows * part(rows[0]), along_rows * part(rows[1])};
+    const auto coordinate = [&](double texel) { return point_light_ ? (2 * texel + 1) * per_side - 1 : texel + 0.5; };
+    const std::array of_columns{along_columns * coordinate(columns[0]), along_columns * coordinate(columns[1])};
+    const std::array of_rows{along_rows * coordinate(rows[0]), along_rows * coordinate(rows[1])};
     const auto compare = [&](std::size_t i, std::size_t j) {
         const double added = of_columns[i] + of_rows[j];
         const double f = point_light_ ? fall + added : fall, h = point_light_ ? height : height - added;
         // Rays of a point light meet nothing behind it.
         const bool meets = point_light_ ? f * h > 0 : f != 0;
         const double plane = meets ? h / f : limit;
-        const std::size_t at =
-            (here.face * side_ + static_cast<std::size_t>(rows[j])) * side_ + static_cast<std::size_t>(columns[i]);
-        return static_cast<double>(depth_[at]) >= std::min(plane, limit) - bias * width ? 1.0f : 0.0f;
+        const std::size_t index =
+            (projected.face * side_ + static_cast<std::size_t>(rows[j])) * side_ + static_cast<std::size_t>(columns[i]);
+        return static_cast<double>(depth_[index]) >= std::min(plane, limit) - bias * width ? 1.0f : 0.0f;
     };
-    const auto x = static_cast<float>(here.column - column), y = static_cast<float>(here.row - row);
+    const auto x = static_cast<float>(projected.column - column), y = static_cast<float>(projected.row - row);
     const float a = compare(0, 0), b = compare(1, 0), c = compare(0, 1), d = compare(1, 1);
     const float low = a + x * (b - a), high = c + x * (d - c);
     return low + y * (high - low);
@@ -132,18 +132,18 @@ std::vector<ShadowMap> make_shadow_maps(const Scene& scene, const trace::RayCast
                                         std::vector<ShadowMap> memory, const Progress& progress) {
     const Bounds box = bounds(scene);
     std::vector<ShadowMap> maps;
-    std::vector<std::pair<std::size_t, std::size_t>> work;  // light, row
+    std::vector<std::pair<std::size_t, std::size_t>> map_rows;  // light, row
     for (const Light& light : scene.lights) {
         maps.emplace_back(light, box, n,
                           maps.size() < memory.size() ? memory[maps.size()].release() : std::vector<float>());
-        for (std::size_t row = 0; row < maps.back().rows(); ++row) work.emplace_back(maps.size() - 1, row);
+        for (std::size_t row = 0; row < maps.back().rows(); ++row) map_rows.emplace_back(maps.size() - 1, row);
     }
     constexpr std::size_t rows_per_task = 64;
-    const std::size_t tasks = (work.size() + rows_per_task - 1) / rows_per_task;
+    const std::size_t tasks = (map_rows.size() + rows_per_task - 1) / rows_per_task;
     work::Steps steps(progress, tasks);
     work::parallel_for(tasks, [&](std::size_t task) {
-        for (std::size_t i = task * rows_per_task; i < std::min(work.size(), (task + 1) * rows_per_task); ++i)
-            maps[work[i].first].fill(caster, work[i].second);
+        for (std::size_t i = task * rows_per_task; i < std::min(map_rows.size(), (task + 1) * rows_per_task); ++i)
+            maps[map_rows[i].first].fill(caster, map_rows[i].second);
         steps.report_one();
     });
     return maps;

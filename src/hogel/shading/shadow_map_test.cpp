@@ -88,8 +88,7 @@ TEST(ShadowMap, a_flat_surface_never_shadows_itself) {
         }
 }
 
-// Compares with shadow rays on scenes that are difficult for shadow maps. Points within two texels of a shadow's edge
-// or of a crease are skipped.
+// Compares with shadow rays on difficult scenes, except within two texels of a shadow's edge or a crease.
 TEST(ShadowMap, neither_leaks_nor_speckles_on_built_in_scenes) {
     for (const char* name : {"pumpkin", "billiards", "tower"}) {
         const Scene scene = make_scene(name, 1);

@@ -7,7 +7,7 @@
 namespace hogel::shading {
 namespace {
 
-// A dummy map of one texel per face, for lamps whose evaluation by the vector twin is not used.
+// Dummy map of one texel per face, for lamps with an unused result of the vector version.
 constexpr float far = std::numeric_limits<float>::infinity();
 constexpr std::array no_depth{far, far, far, far, far, far};
 
@@ -16,18 +16,18 @@ constexpr std::array no_depth{far, far, far, far, far, far};
 void ShadowMaps::set(std::vector<ShadowMap> maps) {
     maps_ = std::move(maps);
     table_ = {};
-    other_.clear();
-    any_other_ = false;
+    needs_plain_.clear();
+    any_needs_plain_ = false;
     for (const ShadowMap& map : maps_) {
         const std::span<const float> faces = map.faces();
-        const Vec3 at = map.origin();
-        table_.x.push_back(at.x);
-        table_.y.push_back(at.y);
-        table_.z.push_back(at.z);
+        const Vec3 origin = map.origin();
+        table_.x.push_back(origin.x);
+        table_.y.push_back(origin.y);
+        table_.z.push_back(origin.z);
         table_.side.push_back(faces.empty() ? 1 : static_cast<double>(map.side()));
         table_.depth.push_back(faces.empty() ? no_depth.data() : faces.data());
-        other_.push_back(faces.empty() ? 1 : 0);
-        any_other_ |= faces.empty();
+        needs_plain_.push_back(faces.empty() ? 1 : 0);
+        any_needs_plain_ |= faces.empty();
     }
 }
 

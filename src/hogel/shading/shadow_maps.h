@@ -10,24 +10,22 @@
 
 namespace hogel::shading {
 
-/// The shadow maps of all lamps of a scene, evaluated for many lamps at once.
+/// Shadow maps of all lamps of a scene, for evaluating many lamps at once.
 class ShadowMaps {
   public:
     ShadowMaps() = default;
     explicit ShadowMaps(std::vector<ShadowMap> maps) { set(std::move(maps)); }
 
     void set(std::vector<ShadowMap> maps);
-    /// Moves the maps out.
     std::vector<ShadowMap> release() { return std::move(maps_); }
 
-    /// ShadowMap::visibility() of a point for several lamps. The twins give the same bits.
+    /// Computes ShadowMap::visibility() of a point for several lamps. Both versions give the same bits.
     /// @param lamps  indices of the lamps
-    /// @param shares  receives one share per lamp
+    /// @param shares  receives one fraction per lamp
     void visibility_plain(std::span<const std::uint32_t> lamps, Vec3 point, Vec3 normal, float* shares) const;
     void visibility(std::span<const std::uint32_t> lamps, Vec3 point, Vec3 normal, float* shares) const;
 
-    /// The data of the vector twin: those of point lights with shadows, and for other lamps values that are safe to
-    /// evaluate.
+    /// Data of the vector version for point lights with shadows; safe dummy values for other lamps.
     struct Table {
         using Doubles = std::vector<double, CacheLineAllocator<double>>;
         Doubles x, y, z, side;
@@ -37,8 +35,8 @@ class ShadowMaps {
   private:
     std::vector<ShadowMap> maps_;
     Table table_;
-    std::vector<std::uint8_t> other_;  // whether a lamp needs the plain twin
-    bool any_other_ = false;
+    std::vector<std::uint8_t> needs_plain_;  // whether a lamp needs the plain version
+    bool any_needs_plain_ = false;
 };
 
 }  // namespace hogel::shading

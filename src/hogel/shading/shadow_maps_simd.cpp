@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twin of shadow_maps.cpp, compiled for every SIMD target and chosen when first called.
+// Vector version of shadow_maps.cpp for every SIMD target.
 #include <algorithm>
 
 #include "hogel/core/simd_targets-inl.h"
@@ -11,19 +11,17 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Tag = hn::ScalableTag<double>;
 using IndexTag = hn::RebindToSigned<Tag>;
-using HalfTag = hn::Rebind<float, Tag>;  // as many floats as doubles
+using HalfTag = hn::Rebind<float, Tag>;  // of the same length as Tag
 using Doubles = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
 constexpr std::size_t max_lanes = HWY_MAX_BYTES / 8;
 
-// Like std::clamp.
 HWY_INLINE Doubles clamp(Doubles v, Doubles low, Doubles high) { return hn::Min(hn::Max(v, low), high); }
 
-// Vectors hold one lamp per lane, and the steps are those of ShadowMap::visibility(). All functions are inline, so that
-// their values stay in registers.
+// One lamp per lane; steps as in ShadowMap::visibility(). All functions are inline, to keep values in registers.
 
-// The component along a face's axis, or along the first or second axis after it: pass x, y, z in rotated order.
+// Component along a face's axis, or along the first or second axis after it: pass x, y, z in rotated order.
 struct FaceAxis {
     Mask is_y, is_z;
 
@@ -32,13 +30,13 @@ struct FaceAxis {
     }
 };
 
-// A point on the maps of some lamps.
+// Point on the maps of a vector of lamps.
 struct Projected {
-    Doubles x, y, z;  // from the lamp
+    Doubles x, y, z;  // relative to the lamp
     Doubles side, depth, face, column, row;
     FaceAxis along;
     Mask backwards,
-        in_front;  // whether the face is on the negative side of its axis; whether the point is not at the lamp
+        in_front;  // whether the face is on the negative side of its axis; whether the point is apart from the lamp
 };
 
 HWY_INLINE Projected project(const ShadowMaps::Table& table, hn::Vec<IndexTag> lamp, Vec3 point) {
@@ -69,7 +67,7 @@ HWY_INLINE Projected project(const ShadowMaps::Table& table, hn::Vec<IndexTag> l
     return p;
 }
 
-// The columns and rows of the four texels around a point, which are whole numbers.
+// Columns and rows of the four texels around a point (integers).
 struct TexelsAround {
     Doubles columns[2], rows[2];
     hn::Vec<HalfTag> right, down;  // weights of the second column and row
@@ -86,7 +84,7 @@ HWY_INLINE TexelsAround texels_around(const Projected& p) {
             hn::DemoteTo(df, hn::Sub(p.row, row))};
 }
 
-// The depths of the four texels: texels[2 · row + column][lane]. All are fetched before the first is used.
+// Fetches the depths of the four texels, texels[2 · row + column][lane], before the first is used.
 HWY_INLINE void fetch(const ShadowMaps::Table& table, const std::int64_t* lamps, const Projected& p,
                       const TexelsAround& around, float (*texels)[max_lanes]) {
     const Tag d;
@@ -112,13 +110,13 @@ HWY_INLINE hn::Vec<HalfTag> compare(const Projected& p, const TexelsAround& arou
     const Doubles nx = hn::Set(d, normal.x), ny = hn::Set(d, normal.y), nz = hn::Set(d, normal.z);
     const Doubles width = hn::Div(hn::Mul(two, p.depth), p.side);
     const Doubles limit = hn::Add(p.depth, hn::Mul(hn::Set(d, ShadowMap::max_slope), width));
-    const Doubles nearest = hn::Mul(hn::Set(d, ShadowMap::bias), width);
+    const Doubles tolerance = hn::Mul(hn::Set(d, ShadowMap::bias), width);
     const Doubles height = hn::Add(hn::Add(hn::Mul(nx, p.x), hn::Mul(ny, p.y)), hn::Mul(nz, p.z));
     const Doubles per_side = hn::Div(one, p.side);
     const Doubles normal_along = p.along(nx, ny, nz);
     const Doubles fall = hn::IfThenElse(p.backwards, hn::Neg(normal_along), normal_along);
-    const auto added = [&](Doubles component, Doubles at) HWY_ATTR {
-        return hn::Mul(component, hn::Sub(hn::Mul(hn::Add(hn::Mul(two, at), one), per_side), one));
+    const auto added = [&](Doubles component, Doubles position) HWY_ATTR {
+        return hn::Mul(component, hn::Sub(hn::Mul(hn::Add(hn::Mul(two, position), one), per_side), one));
     };
     const Doubles along_columns = p.along(ny, nz, nx), along_rows = p.along(nz, nx, ny);
     const Doubles of_columns[2] = {added(along_columns, around.columns[0]), added(along_columns, around.columns[1])};
@@ -127,9 +125,9 @@ HWY_INLINE hn::Vec<HalfTag> compare(const Projected& p, const TexelsAround& arou
         const Doubles f = hn::Add(fall, hn::Add(of_columns[i], of_rows[j]));
         const Mask meets = hn::Gt(hn::Mul(f, height), zero);
         const Doubles plane = hn::IfThenElse(meets, hn::Div(height, f), limit);
-        const Doubles seen = hn::PromoteTo(d, hn::Load(df, texels[2 * j + i]));
-        const Mask is_lit = hn::Ge(seen, hn::Sub(hn::Min(plane, limit), nearest));
-        return hn::DemoteTo(df, hn::IfThenElse(is_lit, one, zero));
+        const Doubles depth = hn::PromoteTo(d, hn::Load(df, texels[2 * j + i]));
+        const Mask arrives = hn::Ge(depth, hn::Sub(hn::Min(plane, limit), tolerance));
+        return hn::DemoteTo(df, hn::IfThenElse(arrives, one, zero));
     };
     const auto between = [](auto a, auto b, auto part) HWY_ATTR { return hn::Add(a, hn::Mul(part, hn::Sub(b, a))); };
     return between(between(reached(0, 0), reached(1, 0), around.right),
@@ -152,10 +150,10 @@ void Visibility(const ShadowMaps::Table& table, std::span<const std::uint32_t> l
         HWY_ALIGN float texels[4][max_lanes] = {};
         fetch(table, numbers, projected, around, texels);
         const auto share = compare(projected, around, normal, texels);
-        HWY_ALIGN float some[max_lanes], in_front[max_lanes];
-        hn::Store(share, df, some);
+        HWY_ALIGN float batch[max_lanes], in_front[max_lanes];
+        hn::Store(share, df, batch);
         hn::Store(hn::DemoteTo(df, hn::IfThenElse(projected.in_front, one, zero)), df, in_front);
-        for (std::size_t i = 0; i < count; ++i) shares[begin + i] = in_front[i] != 0 ? some[i] : 1;
+        for (std::size_t i = 0; i < count; ++i) shares[begin + i] = in_front[i] != 0 ? batch[i] : 1;
     }
 }
 
@@ -169,9 +167,9 @@ HWY_EXPORT(Visibility);
 
 void ShadowMaps::visibility(std::span<const std::uint32_t> lamps, Vec3 point, Vec3 normal, float* shares) const {
     HWY_DYNAMIC_DISPATCH(Visibility)(table_, lamps, point, normal, shares);
-    if (!any_other_) return;
+    if (!any_needs_plain_) return;
     for (std::size_t i = 0; i < lamps.size(); ++i)
-        if (other_[lamps[i]]) shares[i] = maps_[lamps[i]].visibility(point, normal);
+        if (needs_plain_[lamps[i]]) shares[i] = maps_[lamps[i]].visibility(point, normal);
 }
 
 }  // namespace hogel::shading

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t shadowed_vertices_per_task = 4096;
 
-/// Interpolates the light of each lamp between the vertices, where it is computed without shadows, and multiplies it
-/// by the visibility from the lamp's shadow map at each sample.
+/// Lighting that interpolates the unshadowed light of each lamp between the vertices, and multiplies it by the
+/// visibility from the lamp's shadow map at each sample.
 class ShadowedLighting final : public SampleLighting {
   public:
     void set_scene(const Scene& scene, const trace::RayCaster& caster, std::size_t texels, const Progress& progress) {
@@ -33,12 +33,12 @@ class ShadowedLighting final : public SampleLighting {
         }
     }
 
-    // The radiance before the texture.
+    // Light is the radiance before the texture.
     Size size_of_light(std::size_t mesh) const override { return given_[mesh] ? Size{} : Size{3, 0}; }
     bool light_is_radiance(std::size_t) const override { return true; }
 
     void light_on(const ShadedScene& scene, std::size_t index, const std::array<float, 3>& weights,
-                  std::span<float> seen) const override {
+                  std::span<float> radiance) const override {
         const ShadedScene::Triangle& triangle = scene.triangles[index];
         const auto& vertices = triangle.vertices;
         const SurfacePoint point(scene, vertices, weights);
@@ -49,7 +49,7 @@ class ShadowedLighting final : public SampleLighting {
         constexpr auto reflected = static_cast<float>(std::numbers::inv_pi);
         constexpr std::size_t block = 64;
         for (std::size_t first = 0; first < intensities_.size(); first += block) {
-            std::array<std::uint32_t, block> shining;  // lamps that contribute; `lights`: their reflected light
+            std::array<std::uint32_t, block> shining;  // lamps that contribute; reflected light is in `lights`
             std::array<Rgb, block> lights;
             std::size_t count = 0;
             for (std::size_t k = first; k < std::min(first + block, intensities_.size()); ++k) {
@@ -65,13 +65,13 @@ class ShadowedLighting final : public SampleLighting {
             for (std::size_t i = 0; i < count; ++i)
                 sum += reflected * visible[i] * (intensities_[shining[i]] * lights[i]);
         }
-        seen[0] = sum.r;
-        seen[1] = sum.g;
-        seen[2] = sum.b;
+        radiance[0] = sum.r;
+        radiance[1] = sum.g;
+        radiance[2] = sum.b;
     }
 
   private:
-    // The vertices of a mesh, which are numbered from `base` on.
+    // Adds the vertices of a mesh, numbered from `base`.
     void add_mesh(const Scene& scene, const Mesh& mesh, std::size_t base) {
         const std::size_t n = mesh.positions.size(), lights = scene.lights.size();
         given_.push_back(!mesh.radiance.empty());
@@ -86,9 +86,10 @@ class ShadowedLighting final : public SampleLighting {
             for (std::size_t i = task * shadowed_vertices_per_task;
                  i < std::min(n, (task + 1) * shadowed_vertices_per_task); ++i)
                 for (std::size_t k = 0; k < lights; ++k) {
-                    const Illumination from = illuminate(scene.lights[k], mesh.positions[i]);
-                    const double cosine = mesh.normals.empty() ? 0 : dot(mesh.normals[i], from.to_light);
-                    irradiance_[(base + i) * lights + k] = static_cast<float>(std::max(0.0, cosine) * from.falloff);
+                    const Illumination illumination = illuminate(scene.lights[k], mesh.positions[i]);
+                    const double cosine = mesh.normals.empty() ? 0 : dot(mesh.normals[i], illumination.to_light);
+                    irradiance_[(base + i) * lights + k] =
+                        static_cast<float>(std::max(0.0, cosine) * illumination.falloff);
                 }
         });
     }
@@ -96,7 +97,7 @@ class ShadowedLighting final : public SampleLighting {
     ShadowMaps maps_;
     std::vector<Rgb> intensities_;
     std::vector<bool> given_;    // whether the radiance of a mesh is given
-    std::vector<double> above_;  // metres above each mesh at which visibility is looked up
+    std::vector<double> above_;  // height above each mesh for shadow map lookups, metres
     std::vector<Rgb> colors_, unshadowed_;
     std::vector<float> irradiance_;  // [vertex][light], per intensity
 };

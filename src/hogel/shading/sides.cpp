@@ -21,52 +21,56 @@ bool has_sides(const Mesh& mesh) { return mesh.material.double_sided && mesh.rad
 class BackFinder {
   public:
     BackFinder(const Scene& scene, const ShadedScene& shaded)
-        : shaded_(shaded), caster_(all_triangles(shaded)), eye_(eye_of(scene)), offset_(ray_offset(scene)) {}
+        : shaded_(shaded),
+          caster_(all_triangles(shaded)),
+          viewpoint_(viewpoint_of(scene)),
+          offset_(ray_offset(scene)) {}
 
-    /// Whether the back of a triangle is seen at its middle or near a corner.
+    /// Returns whether the back of a triangle is visible at its middle or near a corner.
     bool is_seen_from_behind(const ShadedScene::Triangle& triangle) const {
-        const Vec3 a = at(triangle, 0), b = at(triangle, 1), c = at(triangle, 2);
+        const Vec3 a = corner(triangle, 0), b = corner(triangle, 1), c = corner(triangle, 2);
         const Vec3 front = cross(b - a, c - a);
-        if (!(length(front) > 0) || dot(front, (a + b + c) / 3 - eye_) <= 0) return false;
-        const Vec3 behind = -offset_ / length(front) * front;
-        return std::ranges::any_of(std::array{(a + b + c) / 3, near(a, b, c), near(b, c, a), near(c, a, b)},
-                                   [&](Vec3 point) { return is_open(point + behind); });
+        if (!(length(front) > 0) || dot(front, (a + b + c) / 3 - viewpoint_) <= 0) return false;
+        const Vec3 offset = -offset_ / length(front) * front;
+        return std::ranges::any_of(
+            std::array{(a + b + c) / 3, near_corner(a, b, c), near_corner(b, c, a), near_corner(c, a, b)},
+            [&](Vec3 point) { return is_open(point + offset); });
     }
 
   private:
-    static Vec3 eye_of(const Scene& scene) {
+    static Vec3 viewpoint_of(const Scene& scene) {
         const auto [low, high] = bounds(scene);
         return {0, 0, std::max(high.z, 0.0) + 5 * std::max(high.x - low.x, high.y - low.y)};
     }
-    Vec3 at(const ShadedScene::Triangle& triangle, std::size_t corner) const {
-        return shaded_.positions[triangle.vertices[corner]];
+    Vec3 corner(const ShadedScene::Triangle& triangle, std::size_t index) const {
+        return shaded_.positions[triangle.vertices[index]];
     }
-    static Vec3 near(Vec3 corner, Vec3 b, Vec3 c) { return 0.8 * corner + 0.1 * (b + c); }
+    static Vec3 near_corner(Vec3 corner, Vec3 b, Vec3 c) { return 0.8 * corner + 0.1 * (b + c); }
     bool is_open(Vec3 point) const {
-        return !caster_.occluded(point, normalize(eye_ - point), 0, length(eye_ - point));
+        return !caster_.occluded(point, normalize(viewpoint_ - point), 0, length(viewpoint_ - point));
     }
 
     const ShadedScene& shaded_;
     trace::RayCaster caster_;
-    Vec3 eye_;
+    Vec3 viewpoint_;
     double offset_;
 };
 
-/// Which triangles of a shaded scene are to be turned.
+/// Returns for each triangle of a shaded scene whether it must be turned.
 std::vector<char> find_seen_backs(const Scene& scene, const ShadedScene& shaded) {
     const BackFinder finder(scene, shaded);
     const std::size_t count = shaded.triangles.size();
-    std::vector<char> seen(count);
+    std::vector<char> backs(count);
     work::parallel_for((count + sides_per_task - 1) / sides_per_task, [&](std::size_t task) {
         const std::size_t first = task * sides_per_task;
         for (std::size_t i = first; i < std::min(count, first + sides_per_task); ++i)
-            seen[i] =
+            backs[i] =
                 has_sides(scene.meshes[shaded.triangles[i].mesh]) && finder.is_seen_from_behind(shaded.triangles[i]);
     });
-    return seen;
+    return backs;
 }
 
-/// Adds triangles to a mesh with the other side up, by vertices of their own whose normals are turned.
+/// Adds triangles to a mesh with reversed sides, using new vertices with reversed normals.
 class Turner {
   public:
     explicit Turner(Mesh& mesh) : mesh_(mesh) {}
@@ -93,8 +97,8 @@ class Turner {
 std::optional<Scene> with_seen_sides(const Scene& scene, const ShadedScene& shaded) {
     if (scene.lights.empty() || std::ranges::none_of(scene.meshes, has_sides)) return std::nullopt;
     core::require_part("Embree", "the light on both sides of surfaces");
-    const std::vector<char> seen = find_seen_backs(scene, shaded);
-    if (std::ranges::count(seen, char{1}) == 0) return std::nullopt;
+    const std::vector<char> backs = find_seen_backs(scene, shaded);
+    if (std::ranges::count(backs, char{1}) == 0) return std::nullopt;
     Scene turned = scene;
     std::vector<Turner> turners;
     std::vector<std::uint32_t> bases;
@@ -109,7 +113,7 @@ std::optional<Scene> with_seen_sides(const Scene& scene, const ShadedScene& shad
         const auto& [vertices, texture, m] = shaded.triangles[i];
         const std::array<std::uint32_t, 3> corners{vertices[0] - bases[m], vertices[1] - bases[m],
                                                    vertices[2] - bases[m]};
-        if (seen[i])
+        if (backs[i])
             turners[m].add(corners);
         else
             turned.meshes[m].triangles.push_back(corners);

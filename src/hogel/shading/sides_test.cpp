@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two sides of a sheet: which one is seen, and by which light it is lit.
+// The two sides of a sheet: which is visible, and how it is lit.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -58,7 +58,7 @@ TEST(Sides, of_closed_bodies_change_nothing) {
     EXPECT_EQ(single.radiance, both.radiance);
 }
 
-// A roof of two slopes that share the vertices of their ridge, of which the middle sees one from behind.
+// A roof of two slopes that share the vertices of their ridge; the middle sees one slope from behind.
 TEST(Sides, are_chosen_for_each_triangle) {
     Scene scene;
     Mesh& roof = scene.meshes.emplace_back();
@@ -80,7 +80,7 @@ TEST(Sides, are_chosen_for_each_triangle) {
     }
 }
 
-// The leaf of a plant as programs write it: a sheet for each side, with the same corners.
+// The leaf of a plant as modelling programs write it: a sheet for each side, with the same corners.
 TEST(Sides, modelled_by_two_sheets_are_as_modelled) {
     for (const bool back_first : {false, true}) {
         Scene scene;

@@ -29,7 +29,7 @@ TEST(PsfTable, shine_into_their_cone) {
     EXPECT_EQ(share(0), 1);
     EXPECT_EQ(share(0.29), 1);
     EXPECT_EQ(share(0.61), 0);
-    // KHR_lights_punctual: the square of the part of the cosine.
+    // KHR_lights_punctual: the square of the cosine's position within the edge of the cone.
     const double part = (std::cos(0.45) - std::cos(outer)) / (std::cos(inner) - std::cos(outer));
     EXPECT_NEAR(share(0.45), part * part, 1e-12);
     const Illumination from = illuminate(light, {2 * std::tan(0.45), 0, 0});
@@ -39,7 +39,7 @@ TEST(PsfTable, shine_into_their_cone) {
     EXPECT_EQ(illuminate(spot(0.5, 0.5), {2 * std::tan(0.51), 0, 0}).in_cone, 0);
 }
 
-// A point in the cone's edge is lit as by a point light of that share, by every model, with and without gloss.
+// A point in the cone's edge is lit as by a point light of the edge's factor, by every model, with and without gloss.
 TEST(PsfTable, light_surfaces_as_point_lights_of_that_share) {
     for (const std::string model : {"vertex", "shadowed", "direct"})
         for (const float reflectance : {0.0f, 0.04f}) {
@@ -63,7 +63,7 @@ TEST(PsfTable, light_surfaces_as_point_lights_of_that_share) {
         }
 }
 
-// Discs that stand through one another do not darken one another: on a wavy cloud all of them face the light.
+// Intersecting discs do not darken each other: on a wavy cloud all of them face the light.
 TEST(PointClouds, do_not_shadow_themselves_with_their_discs) {
     Mesh discs;
     discs.name = points_name;
@@ -93,7 +93,7 @@ TEST(PointClouds, do_not_shadow_themselves_with_their_discs) {
         return least;
     };
     for (const std::string model : {"vertex", "direct", "shadowed"}) EXPECT_NEAR(darkest(model), lit, 1e-5) << model;
-    scene.meshes[0].name = "heap";  // of which the pieces are surfaces
+    scene.meshes[0].name = "heap";  // its pieces are surfaces
     EXPECT_LT(darkest("vertex"), 0.9f * lit);
 }
 

@@ -9,7 +9,7 @@
 
 namespace hogel::shading {
 
-/// A texture on the triangles of a scene: the picture, and where the scene's vertices are on it.
+/// Texture on the triangles of a scene: the picture, and the texture coordinates of the scene's vertices.
 struct SurfaceTexture {
     const Texture& texture;
     const std::vector<TextureCoordinate>& coordinates;
@@ -20,7 +20,7 @@ struct SurfaceTexture {
                 weights[0] * a.v + weights[1] * b.v + weights[2] * c.v};
     }
 
-    /// The width in texels of a sample that is `footprint` metres wide on the triangle, from the ratio of the
+    /// Returns the width in texels of a sample that is `footprint` metres wide on the triangle, from the ratio of the
     /// triangle's areas in the texture and in space.
     double width(const ShadedScene& scene, const std::array<std::uint32_t, 3>& vertices, double footprint) const {
         if (!texture.filtered() || !(footprint > 0)) return 0;

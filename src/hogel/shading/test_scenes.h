@@ -5,7 +5,7 @@
 
 namespace hogel::shading {
 
-// A square of two triangles, its sides twice `right` and `up`, that faces their cross product.
+// Returns a square of two triangles with sides of twice `right` and `up`, facing their cross product.
 inline Mesh square(Vec3 center, Vec3 right, Vec3 up, Rgb color = {1, 1, 1}) {
     Mesh mesh;
     mesh.positions = {center - right - up, center + right - up, center + right + up, center - right + up};

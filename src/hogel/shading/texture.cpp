@@ -18,17 +18,17 @@ std::array<float, 3> texel(const Image& image, std::size_t row, std::size_t colu
 
 using Wrap = TextureSampling::Wrap;
 
-/// The two samples of n next to a position, and the weight of the second.
+/// The two of n samples next to a position, and the weight of the second.
 struct Neighbours {
     std::size_t first, second;
     float weight;
 };
 
 Neighbours repeated(double position, std::size_t n) {
-    const double at = (position - std::floor(position)) * static_cast<double>(n) - 0.5;
-    const double low = std::floor(at);
+    const double scaled = (position - std::floor(position)) * static_cast<double>(n) - 0.5;
+    const double low = std::floor(scaled);
     const auto first = static_cast<std::size_t>(low < 0 ? low + static_cast<double>(n) : low);
-    return {std::min(first, n - 1), first + 1 < n ? first + 1 : 0, static_cast<float>(at - low)};
+    return {std::min(first, n - 1), first + 1 < n ? first + 1 : 0, static_cast<float>(scaled - low)};
 }
 
 Neighbours neighbours(double position, std::size_t n, Wrap wrap) {
@@ -37,14 +37,15 @@ Neighbours neighbours(double position, std::size_t n, Wrap wrap) {
         position -= 2 * std::floor(0.5 * position);
         if (position > 1) position = 2 - position;
     }
-    // A picture meets its mirror image at equal texels, which is what the last texel continued gives.
-    const double last = static_cast<double>(n - 1), at = std::clamp(position, 0.0, 1.0) * static_cast<double>(n) - 0.5;
-    const double low = std::floor(at);
+    // At its border a picture meets its mirror image with equal texels, so repeating the last texel is correct.
+    const double last = static_cast<double>(n - 1),
+                 scaled = std::clamp(position, 0.0, 1.0) * static_cast<double>(n) - 0.5;
+    const double low = std::floor(scaled);
     return {static_cast<std::size_t>(std::clamp(low, 0.0, last)),
-            static_cast<std::size_t>(std::clamp(low + 1, 0.0, last)), static_cast<float>(at - low)};
+            static_cast<std::size_t>(std::clamp(low + 1, 0.0, last)), static_cast<float>(scaled - low)};
 }
 
-/// The four texels around a point. With `nearest` the weights choose one of them.
+/// The four texels around a point. With `nearest` the weights select one of them.
 struct Around {
     Neighbours column, row;
 
@@ -79,7 +80,7 @@ float interpolate_alpha(const Image& image, TextureCoordinate at, const TextureS
                       image.pixels(row.second, column.first, alpha), image.pixels(row.second, column.second, alpha));
 }
 
-/// The samples of n that sample i of m covers, m <= n, as weights that sum to one.
+/// Samples (of n) that sample i of m covers, m <= n, as weights with sum 1.
 struct Covered {
     std::size_t first;
     std::array<float, 4> weights;
@@ -87,11 +88,12 @@ struct Covered {
 
 Covered covered(std::size_t i, std::size_t m, std::size_t n) {
     const double scale = static_cast<double>(n) / static_cast<double>(m), low = scale * static_cast<double>(i);
-    const double high = std::min(low + scale, static_cast<double>(n));  // the sum may be rounded to more
+    const double high = std::min(low + scale, static_cast<double>(n));  // the sum may be rounded up
     Covered result{static_cast<std::size_t>(low), {}};
     for (std::size_t k = 0; k < result.weights.size(); ++k) {
-        const double from = static_cast<double>(result.first + k);
-        result.weights[k] = static_cast<float>(std::max(0.0, std::min(high, from + 1) - std::max(low, from)) / scale);
+        const double position = static_cast<double>(result.first + k);
+        result.weights[k] =
+            static_cast<float>(std::max(0.0, std::min(high, position + 1) - std::max(low, position)) / scale);
     }
     return result;
 }
@@ -126,8 +128,7 @@ Texture::Texture(std::shared_ptr<const Image> finest, bool filtered, const Textu
 
 template <class Value, class Interpolate>
 Value Texture::between_levels(double width, const Interpolate& interpolate_level) const {
-    // Interpolation within a level averages over about one of its texels; two levels are blended for widths between
-    // them.
+    // Interpolation within a level averages over about one texel. For widths in between, two levels are blended.
     const double level = width > 1 ? std::min(std::log2(width), static_cast<double>(coarser_.size())) : 0;
     const auto fine = static_cast<std::size_t>(level);
     const auto weight = static_cast<float>(level - static_cast<double>(fine));

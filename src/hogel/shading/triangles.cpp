@@ -10,15 +10,15 @@
 namespace hogel::shading {
 namespace {
 
-// With room for the rounding of a product of floats.
+// Below 0.5 by the rounding of a product of floats.
 constexpr float half_opaque = 0.5f - 1.0f / 1024;
 
 void set_triangles(trace::RayCaster& caster, const ShadedScene& scene, trace::Sides sides) {
     trace::TriangleMesh mesh = caster.release();
     mesh.positions = scene.positions;
-    mesh.is_there = {};
+    mesh.is_solid = {};
     if (!scene.mesh_alphas.empty())
-        mesh.is_there = [&scene](std::uint32_t triangle, float b1, float b2) {
+        mesh.is_solid = [&scene](std::uint32_t triangle, float b1, float b2) {
             return opacity_at(scene, triangle, 1 - b1 - b2, b1, b2) >= half_opaque;
         };
     mesh.triangles.resize(scene.triangles.size());

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t vertices_per_task = 16;
 
-// Calls `work` with each mesh that is lit, the number of its first vertex in the scene, and each of its vertices.
+// Calls `work` with each mesh without given radiance, the index of its first vertex, and each of its vertices.
 template <class Work>
 void for_lit_vertices(const Scene& scene, const Work& work) {
     std::size_t base = 0;
@@ -27,7 +27,7 @@ void for_lit_vertices(const Scene& scene, const Work& work) {
     }
 }
 
-// Adds the irradiance of each vertex to its radiance: by shadow rays, with smooth edges where that suits.
+// Adds the irradiance of each vertex to its radiance, from shadow rays, with smooth shadow edges where suitable.
 void add_irradiance(const Scene& scene, ShadedScene& shaded) {
     const trace::RayCaster caster = shadow_caster(scene, shaded, "vertex");
     if (VertexVisibility::suits(scene)) {

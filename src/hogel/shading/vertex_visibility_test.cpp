@@ -14,8 +14,8 @@
 namespace hogel::shading {
 namespace {
 
-/// A level floor of n × n squares from −1 to 1, and before it a half-plane whose shadow, in light from the front, has
-/// an edge through the middle that rises by `slope`.
+/// A level floor of n × n squares from −1 to 1 under a half-plane. In light from the front, its shadow has an edge
+/// through the middle that rises by `slope`.
 Scene floor_in_shadow(std::uint32_t n, double slope) {
     Scene scene;
     Mesh floor;
@@ -42,7 +42,7 @@ Scene floor_in_shadow(std::uint32_t n, double slope) {
     return scene;
 }
 
-/// What a renderer interpolates at a point of the floor.
+/// Returns the interpolated value of a renderer at a point of the floor.
 double interpolated(const std::vector<float>& values, std::uint32_t n, double x, double y) {
     const double column = (x + 1) * n / 2, row = (y + 1) * n / 2;
     const auto i = static_cast<std::uint32_t>(column), k = static_cast<std::uint32_t>(row);
@@ -52,7 +52,7 @@ double interpolated(const std::vector<float>& values, std::uint32_t n, double x,
                  : (1 - v) * at(0, 0) + (v - u) * at(0, 1) + u * at(1, 1);
 }
 
-/// The largest difference of light along lines beside the edge, where it should be the same, and the mean light.
+/// Largest difference of light along lines beside the edge, where it should be constant, and the mean light.
 std::pair<double, double> stairs(const std::vector<float>& values, std::uint32_t n, double slope) {
     double worst = 0, sum = 0;
     int count = 0;
@@ -79,13 +79,13 @@ TEST(VertexVisibility, edges_of_shadows_are_straight_and_where_they_belong) {
         }
         const auto [smooth, mean] = stairs(light, n, slope);
         const auto [steps, unused] = stairs(by_corners, n, slope);
-        EXPECT_GT(steps, 0.6) << slope;  // what rays at corners alone give
+        EXPECT_GT(steps, 0.6) << slope;  // with rays at corners only
         EXPECT_LT(smooth, 0.3) << slope;
         EXPECT_NEAR(mean, 0.5, 0.02) << slope;
     }
 }
 
-// Which takes no further rays.
+// Needs no further rays.
 TEST(VertexVisibility, of_fine_meshes_and_away_from_edges_is_that_of_a_ray) {
     for (const std::uint32_t n : {24u, 300u}) {
         const Scene scene = floor_in_shadow(n, 0.37);
@@ -100,7 +100,7 @@ TEST(VertexVisibility, of_fine_meshes_and_away_from_edges_is_that_of_a_ray) {
     }
 }
 
-// Each of many lights is a small part of all, and stairs of it are not worth rays.
+// Each of many lights is a small part of the total, and its stairs need no smoothing.
 TEST(VertexVisibility, of_many_lights_is_that_of_rays) {
     Scene scene = floor_in_shadow(24, 0.37);
     scene.lights.resize(5, scene.lights[0]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of ray_caster.cpp in a build without Embree. A caster can be made, but given no triangles.
+// Replaces ray_caster.cpp in a build without Embree. A caster can be created, but accepts no triangles.
 #include "hogel/core/part.h"
 #include "hogel/trace/ray_caster.h"
 

@@ -14,15 +14,15 @@
 namespace hogel::trace {
 namespace {
 
-constexpr std::size_t packet = 16;  // rays that Embree traces together
+constexpr std::size_t packet = 16;  // number of rays in an Embree packet
 
 [[noreturn]] void fail(const char* what) {
     throw Error(ErrorCode::internal, fmt::format("RayCaster: {}; expected Embree to accept the mesh", what));
 }
 
-// Whether Embree is to go on with what it builds. It asks on several threads, of which the one that has begun knows of
-// a stop; nothing may be thrown through it.
-bool goes_on(void*, double) {
+// Progress callback of Embree: returns false to cancel the build after a stop request. Embree calls it from several
+// threads, and only the thread that began the build can see the request. It must not throw through Embree.
+bool continues_build(void*, double) {
     try {
         core::throw_if_stopped();
         return true;
@@ -33,14 +33,14 @@ bool goes_on(void*, double) {
 
 }  // namespace
 
-// Embree works in single precision, so it receives coordinates in which the scene's box is centred and about 2 wide,
-// and rays that begin where they enter the sphere around that box. It only selects the triangle; distance and weights
-// are computed in double precision from the caller's ray and triangle.
+// Embree works in single precision. So it receives coordinates with the scene's box centred and about 2 wide, and rays
+// that begin at the sphere around this box. It only selects the triangle; distance and weights are computed in double
+// precision from the caller's ray and triangle.
 struct RayCaster::Device {
     TriangleMesh mesh;
     Vec3 center;
     double scale = 1;   ///< Embree's units per metre
-    double radius = 0;  ///< of the sphere around the box, metres, with a margin for rounding
+    double radius = 0;  ///< of the sphere around the box in metres, with a margin for rounding
     Sides sides = Sides::both;
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
@@ -60,11 +60,11 @@ struct RayCaster::Device {
     void set_frame();
     void build();
 
-    /// A ray in Embree's frame: origin, unit direction and length, and its beginning on the caller's ray.
+    /// Ray in Embree's frame: origin, unit direction and length, and its start on the caller's ray.
     struct Segment {
         double start = 0;  ///< in units of the caller's direction
         float x = 0, y = 0, z = 0, dx = 0, dy = 0, dz = 0;
-        float length = -1;  ///< negative: it misses the sphere
+        float length = -1;  ///< negative if the ray misses the sphere
     };
     Segment enter(Vec3 origin, Vec3 direction, double near, double far) const;
     RayHit refine(Vec3 origin, Vec3 direction, double far, std::uint32_t triangle) const;
@@ -90,7 +90,7 @@ void RayCaster::Device::set_frame() {
     radius = 0.5 * length(size) * (1 + 1e-5) + 1e-5 / scale;
 }
 
-// Embree is not built for the thread sanitizer, which would report the synchronisation of its threads as races.
+// Embree is not built for the thread sanitizer, which would report the synchronisation of its threads as data races.
 #ifdef __SANITIZE_THREAD__
 constexpr const char* device_options = "threads=1";
 #else
@@ -98,12 +98,12 @@ constexpr const char* device_options = nullptr;
 #endif
 
 void RayCaster::Device::build() {
-    const auto give_up = [this](const char* what) {
+    const auto clear_and_fail = [this](const char* what) {
         clear();
         fail(what);
     };
     if (!device) device = rtcNewDevice(device_options);
-    if (!device) give_up("no Embree device");
+    if (!device) clear_and_fail("no Embree device");
     scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -113,7 +113,7 @@ void RayCaster::Device::build() {
         geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh.triangles.size()));
     if (!vertices || !indices) {
         rtcReleaseGeometry(geometry);
-        give_up("out of memory");
+        clear_and_fail("out of memory");
     }
     for (const Vec3& position : mesh.positions) {
         const Vec3 p = scale * (position - center);
@@ -124,18 +124,18 @@ void RayCaster::Device::build() {
     for (const auto& triangle : mesh.triangles) indices = std::copy(triangle.begin(), triangle.end(), indices);
     rtcSetGeometryUserData(geometry, this);
     if (sides == Sides::fronts)
-        rtcSetGeometryIntersectFilterFunction(geometry, mesh.is_there ? skip_backs_and_holes : skip_backs);
-    else if (mesh.is_there)
+        rtcSetGeometryIntersectFilterFunction(geometry, mesh.is_solid ? skip_backs_and_holes : skip_backs);
+    else if (mesh.is_solid)
         rtcSetGeometryIntersectFilterFunction(geometry, skip_holes);
-    if (mesh.is_there) rtcSetGeometryOccludedFilterFunction(geometry, skip_holes);
+    if (mesh.is_solid) rtcSetGeometryOccludedFilterFunction(geometry, skip_holes);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
-    rtcSetSceneProgressMonitorFunction(scene, goes_on, nullptr);
+    rtcSetSceneProgressMonitorFunction(scene, continues_build, nullptr);
     rtcCommitScene(scene);
     const bool is_built = rtcGetDeviceError(device) == RTC_ERROR_NONE;
     if (!is_built) core::throw_if_stopped();
-    if (!is_built) give_up("Embree reports an error");
+    if (!is_built) clear_and_fail("Embree reports an error");
 }
 
 bool RayCaster::Device::is_front(Vec3 direction, std::uint32_t index) const {
@@ -155,12 +155,12 @@ void RayCaster::Device::skip_backs(const RTCFilterFunctionNArguments* hits) {
     }
 }
 
-// Rejects hits where a triangle is not there.
+// Rejects hits in the holes of triangles.
 void RayCaster::Device::skip_holes(const RTCFilterFunctionNArguments* hits) {
     const auto& device = *static_cast<const Device*>(hits->geometryUserPtr);
     for (unsigned i = 0; i < hits->N; ++i)
         if (hits->valid[i] != 0 &&
-            !device.mesh.is_there(RTCHitN_primID(hits->hit, hits->N, i), RTCHitN_u(hits->hit, hits->N, i),
+            !device.mesh.is_solid(RTCHitN_primID(hits->hit, hits->N, i), RTCHitN_u(hits->hit, hits->N, i),
                                   RTCHitN_v(hits->hit, hits->N, i)))
             hits->valid[i] = 0;
 }
@@ -205,8 +205,8 @@ RayHit RayCaster::Device::refine(Vec3 origin, Vec3 direction, double far, std::u
     double b1 = dot(to_origin, p) * inverse, b2 = dot(direction, q) * inverse;
     double distance = dot(ac, q) * inverse;
     if (!(b1 >= 0 && b2 >= 0 && b1 + b2 <= 1)) {
-        // The exact hit may be just outside the triangle although the single-precision hit is on its edge; for a
-        // triangle seen edge-on it may be far away along the ray. So the nearest point of the triangle is used.
+        // The exact hit may be just outside the triangle although the single-precision hit is on its edge. For a
+        // triangle seen edge-on it may even be far away along the ray. So the nearest point of the triangle is used.
         b1 = b1 > 0 ? std::min(b1, 1.0) : 0;
         b2 = b2 > 0 ? std::min(b2, 1.0) : 0;
         const double sum = std::max(b1 + b2, 1.0);

@@ -12,7 +12,7 @@
 
 namespace hogel::trace {
 
-/// The first point at which a ray meets a triangle.
+/// First point at which a ray meets a triangle.
 struct RayHit {
     static constexpr std::uint32_t miss = ~std::uint32_t{0};
 
@@ -21,23 +21,23 @@ struct RayHit {
     float b1 = 0, b2 = 0;           ///< barycentric weights of the second and third vertex
 };
 
-/// The sides of triangles that can be hit. A ray meets the front if it sees the corners in counterclockwise order.
+/// Sides of triangles that can be hit. A ray meets the front if it sees the corners in counterclockwise order.
 enum class Sides { both, fronts };
 
 struct TriangleMesh {
     std::vector<Vec3> positions;
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices of positions
-    /// Whether a triangle is there, at the point with these weights of its second and third vertex; null: everywhere.
-    /// Rays pass where it is not. Called by several threads at once.
-    std::function<bool(std::uint32_t triangle, float b1, float b2)> is_there = {};
+    /// Returns whether a triangle is solid at the point with these weights of its second and third vertex; rays pass
+    /// through holes. Null if all triangles are solid everywhere. Called from several threads at once.
+    std::function<bool(std::uint32_t triangle, float b1, float b2)> is_solid = {};
 };
 
 /// Intersects rays with triangles, by Embree. Rays may be cast from several threads at once, but not during set().
 class RayCaster {
   public:
-    /// A caster without triangles.
+    /// Makes a caster without triangles.
     RayCaster();
-    /// @param sides  that closest() hits; occluded() always hits both
+    /// @param sides  sides that closest() hits; occluded() always hits both
     RayCaster(std::span<const Vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
               Sides sides = Sides::both);
     ~RayCaster();
@@ -46,17 +46,17 @@ class RayCaster {
 
     /// Replaces the triangles. Throws Error(bad_input) for an index without a position.
     void set(TriangleMesh mesh, Sides sides = Sides::both);
-    /// Moves the triangles out, so that the caller can reuse their memory; until the next set() no ray hits anything.
+    /// Moves the triangles out for reusing their memory. No ray hits anything until the next set().
     TriangleMesh release();
 
-    /// The first hit along origin + distance · direction, distance in [0, far].
+    /// Returns the first hit along origin + distance · direction, distance in [0, far].
     RayHit closest(Vec3 origin, Vec3 direction, double far) const;
-    /// As above for many rays with similar origins and directions; `hits` receives one hit per ray.
+    /// Computes the first hits of many rays with similar origins and directions; `hits` receives one hit per ray.
     void closest(std::span<const Vec3> origins, std::span<const Vec3> directions, double far,
                  std::span<RayHit> hits) const;
-    /// Whether any triangle is on origin + distance · direction for distance in [near, far].
+    /// Returns whether any triangle is on origin + distance · direction for distance in [near, far].
     bool occluded(Vec3 origin, Vec3 direction, double near, double far) const;
-    /// As above for many rays from one origin with directions of unit length; `hidden` receives one answer per ray.
+    /// Tests many rays from one origin with directions of unit length; `hidden` receives one result per ray.
     void occluded(Vec3 origin, std::span<const Vec3> directions, double near, double far, std::span<bool> hidden) const;
 
   private:
