@@ -11,7 +11,7 @@
 namespace hogel::bench {
 namespace {
 
-constexpr std::size_t max_count = std::size_t{1} << 24;  // a larger number along one side is treated as a typing error
+constexpr std::size_t max_count = std::size_t{1} << 24;  // larger counts along one side are rejected as typing errors
 constexpr double degrees = 180 / std::numbers::pi;
 
 }  // namespace

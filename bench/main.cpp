@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// hogel-bench: its commands and their options. The only file of the program that includes CLI11.
+// Commands and options of hogel-bench. The only file of the program that includes CLI11.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -30,7 +30,7 @@ struct Program {
     std::function<void()> run;
 };
 
-// An option whose text `parse` reads; throws Error(usage) with the option's name.
+// Adds an option with a value read by `parse`, which throws Error(usage) with the option's name.
 template <class Value, class Parse>
 CLI::Option* add_parsed(CLI::App* command, const std::string& name, Value& value, const std::string& help,
                         const char* type, const std::string& shown, Parse parse) {
@@ -49,7 +49,7 @@ void add_names(CLI::App* command, const std::string& name, std::vector<std::stri
     command->add_option(name, names, help)->type_name("NAME,...")->delimiter(',');
 }
 
-// An option for a number in a range; shows no default if the value is optional.
+// Adds an option for a number in a range. Shows no default if the value is optional.
 template <class Value>
 void add_number(CLI::App* command, const std::string& name, Value& value, const CLI::Range& range,
                 const std::string& help, const char* type) {
@@ -134,7 +134,6 @@ void measure_render(const RenderChoice& choice, const Session& session) {
         measure_regions(choice, session);
 }
 
-// The options that choose what is measured.
 void add_render_measurements(CLI::App* command, RenderChoice& options) {
     std::vector<std::string> known{""};
     for (const RenderPeerInfo& peer : render_peers()) known.push_back(peer.name);
@@ -301,7 +300,7 @@ std::vector<std::string> command_names(const CLI::App& app) {
     return names;
 }
 
-// Every failure is one line on stderr.
+// Prints an error as one line on stderr.
 int fail(ErrorCode code, std::string message) {
     std::ranges::replace(message, '\n', ' ');
     fmt::print(stderr, "hogel-bench: {}\n", message);

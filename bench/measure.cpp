@@ -21,7 +21,7 @@ double seconds_of(clockid_t clock) {
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// The value of a line "name: number kB" of /proc/self/status, in bytes.
+// Returns the value of a line "name: number kB" of /proc/self/status, in bytes.
 double status_bytes(const std::string& name) {
     std::ifstream file("/proc/self/status");
     for (std::string word; file >> word;)

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Measures each stage by 1 rank of 2 threads and by 2 ranks of 1 thread, in turns, files and the start of MPI included, and
-prints the table of docs/cluster.md. Figures count on an idle machine of two processors alone.
+"""Measures each stage with 1 rank of 2 threads and with 2 ranks of 1 thread, alternately, including files and the start of
+MPI. Prints the table of docs/cluster.md. Figures are valid only on an idle machine with two processors.
 
 usage: mpi_efficiency.py HOGEL HOGEL_MPI MPIRUN [--stages NAME,NAME] [--rounds N] [--small | --large] [--require]
-       --small: sizes for a try of this program; --large: four times the work; --require: an error unless each stage reaches
-       its limit in one of three tries, and where there are fewer than two processors
+       --small: small sizes, for testing this program; --large: four times the work
+       --require: fails unless each stage reaches its limit in one of three tries, or if there are fewer than two processors
 """
 import argparse
 import os
@@ -18,9 +18,9 @@ import time
 
 ENVIRONMENT = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 LIMIT = 0.95
-# A virtual machine may have given memory that was free for some seconds to its host, and gets it back at up to three
-# seconds a gigabyte, where it needs more than the run before. This much is had back before each run: more than it takes,
-# because the host takes a sixteenth of what is free every two seconds.
+# A virtual machine may return memory that is free for some seconds to its host. Getting it back takes up to three seconds
+# per gigabyte. So this number of bytes is touched before each run: more than the run needs, because the host reclaims a
+# sixteenth of the free memory every two seconds.
 MEMORY_AT_HAND = min(6 << 30, os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // 2)
 TOUCH = f"""
 import mmap
@@ -29,8 +29,8 @@ memory.madvise(mmap.MADV_HUGEPAGE)
 for place in range(0, {MEMORY_AT_HAND}, 4096):
     memory[place] = 1
 """
-# Stages of which docs/cluster.md says less, and why; with a tenth for other work on the machine. Of three stages with three
-# jobs, a colour each, nothing is required.
+# Lower limits of stages for which docs/cluster.md states and explains a lower ratio, with a tenth for other work on the
+# machine. Three stages with three jobs, one per colour, have no limit.
 LIMITS = {"compress": 0.85, "hologram": 0.85, "photo by rays": 0.85, "photo, camera narrow": 0.85,
           "photo, camera narrow, streamed": 0.85, "photo, camera eye": 0, "photo, looks expected": 0, "photo, camera full": 0.85,
           "propagate": 0.85, "slm": 0, "make": 0.75}
@@ -105,12 +105,12 @@ class Bench:
     def ranks(self, ranks, command):
         for old in self.folder.glob("out*"):
             subprocess.run(["rm", "-r", str(old)], check=True)
-        subprocess.run([sys.executable, "-c", TOUCH], check=False)  # or as much as there is
+        subprocess.run([sys.executable, "-c", TOUCH], check=False)  # or the available memory
         return self.call([self.mpirun, "--oversubscribe", "--bind-to", "none", "-n", str(ranks), self.hogel_mpi,
                           *command.split(), "--threads", str(2 // ranks)])
 
-    # Elapsed and processor seconds of the fastest runs of both, because other work on the machine only adds to a run,
-    # and the ratio of the first.
+    # Returns elapsed and processor seconds of the fastest run of both, because other work on the machine only adds to a
+    # run, and the ratio of the elapsed seconds.
     def compare(self, command, rounds):
         runs = {1: [], 2: []}
         for turn in range(rounds):
@@ -152,7 +152,7 @@ def main():
             else:
                 low.append(name)
     if options.require and low:
-        sys.exit("below what docs/cluster.md says: " + "; ".join(low))
+        sys.exit("below the limits of docs/cluster.md: " + "; ".join(low))
 
 
 if __name__ == "__main__":

@@ -42,7 +42,6 @@ struct Range {
     }
 };
 
-// Maps values to pixels.
 struct Axes {
     PlotText::Scale scale;
     Range x, y;  // log2; log10 or tens
@@ -56,9 +55,8 @@ struct Axes {
     double on_scale(double value) const {
         return scale == PlotText::Scale::logarithmic ? std::log10(value) : value / 10;
     }
-    // The inverse of on_scale().
-    double value_at(double place) const {
-        return scale == PlotText::Scale::logarithmic ? std::pow(10, place) : 10 * place;
+    double value_at(double position) const {
+        return scale == PlotText::Scale::logarithmic ? std::pow(10, position) : 10 * position;
     }
 };
 
@@ -103,7 +101,7 @@ std::string grid_lines(const Axes& axes) {
     return svg;
 }
 
-// The rows of the curves' names, moved apart where they would overlap.
+// Returns the rows of the curves' names, moved apart where they would overlap.
 std::vector<double> label_rows(const Axes& axes, const std::vector<Curve>& curves) {
     std::vector<double> rows(curves.size(), 0);
     std::vector<std::size_t> order;
@@ -122,7 +120,7 @@ std::vector<double> label_rows(const Axes& axes, const std::vector<Curve>& curve
     return rows;
 }
 
-// How curves with the same colour differ.
+// Returns the dash pattern that distinguishes curves of the same colour.
 std::string dashes_of(const Curve& curve, std::size_t number) {
     constexpr std::array patterns{"", "2 3", "10 3 2 3"};
     const char* pattern = curve.dashed ? "6 4" : patterns[number / colours.size() % patterns.size()];
@@ -164,12 +162,12 @@ std::string level_svg(const Axes& axes, const std::string& name, double level) {
 
 std::string plot_svg(const PlotText& text, const std::vector<Curve>& curves) {
     const Axes axes = axes_of(text, curves);
-    const double whole = height + note_height * static_cast<double>(text.notes.size());
+    const double full_height = height + note_height * static_cast<double>(text.notes.size());
     std::string svg = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
         "font-family=\"Helvetica, Arial, 'Liberation Sans', sans-serif\" font-size=\"12.5\" fill=\"#24292f\">\n"
         "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
-        width, whole);
+        width, full_height);
     svg += text_at(left, 27, text.title, "font-size=\"17\" font-weight=\"600\"");
     svg += text_at(left, 47, text.subtitle, "fill=\"#57606a\"");
     svg += grid_lines(axes);

@@ -7,14 +7,14 @@
 
 namespace hogel::bench {
 
-/// A curve of points (x, y), which are positive where their axis is logarithmic.
+/// Curve of points (x, y). Coordinates must be positive on logarithmic axes.
 struct Curve {
     std::string name;
     std::vector<std::pair<double, double>> points;
-    bool dashed = false;  ///< for curves that were not fully measured
+    bool dashed = false;  ///< for curves that are partly estimated
 };
 
-/// The text and the axes of a plot. The x axis is logarithmic, with marks at powers of two.
+/// Text and axes of a plot. The x axis is logarithmic, with marks at powers of two.
 struct PlotText {
     enum class Scale { logarithmic, linear };
 
@@ -24,7 +24,7 @@ struct PlotText {
     std::vector<std::pair<std::string, double>> levels = {};  ///< names and heights of horizontal lines
 };
 
-/// An SVG picture of curves, each with its name at its end. At least one curve must have a point.
+/// Returns an SVG picture of curves, each with its name at its end. At least one curve must have a point.
 std::string plot_svg(const PlotText& text, const std::vector<Curve>& curves);
 
 }  // namespace hogel::bench

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What Python adds to work on arrays above 10 MB, in processor time, beside the same requests in C++
-(python/tests/twin/twin.cpp), which take turns with it, but for what each call costs whatever its arrays.
+"""Measures the overhead of Python for work on arrays above 10 MB, in processor time, against the same requests in C++
+(python/tests/twin/twin.cpp). Both run alternately. The constant cost of a call is subtracted.
 
-usage: python_overhead.py                      how much it adds to each request, by one thread; what `import hogel` takes
+usage: python_overhead.py                      overhead of each request, with one thread; time of `import hogel`
        python_overhead.py figures [THREADS]    the times themselves
 
 PYTHONPATH names the folder of the module, BUILD/python, and HOGEL_TWIN the library BUILD/lib/libpython_twin.so, both built
@@ -22,13 +22,13 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python" / "tests")
 import hogel
 from twin_requests import Requests
 
-# Turns of a request: at least as many, and more until the goal is met or they have taken this processor time (seconds).
+# Minimum number of turns of a request, and limit of processor seconds for further turns until the goal is met.
 TURNS, PATIENCE = 5, 15.0
-# Where memory lies in a process is worth up to two percent of a copy, in all of its turns: so many processes, of which the best
-# counts.
+# Number of processes per request; the best counts. The memory layout of a process changes the time of a copy by up to two
+# percent, in all of its turns.
 PROCESSES = 3
 GOAL = 0.01
-# Of a call or two with arrays of any size (seconds): arguments, and another thread that is woken.
+# Constant cost of one or two calls in seconds: arguments, and waking another thread.
 CALL = 100e-6
 
 
@@ -46,15 +46,15 @@ def times_of(requests, name, enough):
 
 
 def overhead(times):
-    """Of Python without CALL, as a part of the time in C++: of the quickest turns, which nothing disturbed, of those in the
-    middle, or of the two of a turn, which the same disturbed; whichever is least."""
+    """Overhead of Python without CALL, as a fraction of the time in C++: the smallest of three estimates, from the fastest
+    turns, from the medians, and from the median ratio of the two runs of a turn, which share disturbances."""
     shares = [(take(times[True]) - CALL) / take(times[False]) for take in (min, statistics.median)]
     pairs = statistics.median((python - CALL) / cpp for python, cpp in zip(times[True], times[False]))
     return min(*shares, pairs) - 1
 
 
-# Work, of arrays just above 10 MB; what takes a few milliseconds of those, of larger ones, so that the time of a call hides
-# nothing that is done with each element.
+# Requests on arrays just above 10 MB. Requests that take a few milliseconds use larger arrays, so that the constant cost of
+# a call does not hide work per element.
 QUICK = "load", "read", "save", "hologram", "photograph"
 
 
@@ -73,13 +73,13 @@ def measured(requests, name):
 
 
 def measured_in_another_process(of_arrays, name):
-    """In this folder, whose files it may read."""
+    """Measures in a new process with this working folder, so that it can read the files."""
     command = [sys.executable, "-B", os.path.abspath(__file__), "measure", of_arrays.__name__, name]
     return float(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
 
 
 def overheads():
-    limit = hogel.ThreadLimit(1)  # no thread waits busily for another
+    limit = hogel.ThreadLimit(1)  # no busy waiting for other threads
     for of_arrays in work, quick_work:
         requests, names = of_arrays()
         for name in names:
@@ -111,12 +111,12 @@ def figures(threads):
 
 def main():
     words = sys.argv[1:]
-    if words[:1] == ["measure"]:  # one request, for a run of this program that waits in its folder
+    if words[:1] == ["measure"]:  # one request, for a parent process in the same folder
         limit = hogel.ThreadLimit(1)
         print(measured({"work": work, "quick_work": quick_work}[words[1]]()[0], words[2]))
         del limit
         return
-    for name in "PYTHONPATH", "HOGEL_TWIN":  # also for those that it starts elsewhere
+    for name in "PYTHONPATH", "HOGEL_TWIN":  # also for child processes in other folders
         if name in os.environ:
             os.environ[name] = os.path.abspath(os.environ[name])
     with tempfile.TemporaryDirectory() as folder:

@@ -15,7 +15,7 @@ namespace {
 volatile sig_atomic_t signal_seen = 0;
 volatile time_t seen_at = 0;
 
-// Wrappers such as timeout(1) send a signal twice, to the program and to its group. Both count as one request; only a
+// Wrappers such as timeout(1) send a signal twice, to the program and to its group. Both count as one request. Only a
 // signal more than a second later ends the program at once.
 extern "C" void note_signal(int signal) {
     timespec now{};

@@ -8,8 +8,7 @@
 
 namespace hogel::bench {
 
-/// The options shared by commands, and the output of a benchmark while it works. Tables go to the standard output, all
-/// other lines to stderr.
+/// Options shared by commands. Tables go to the standard output, all other lines to stderr.
 struct Session {
     bool quiet = false;
     bool verbose = false;
@@ -20,18 +19,18 @@ struct Session {
     void detail(const std::string& line) const;
 };
 
-/// From now on Ctrl-C and SIGTERM request the work to stop; a second, later signal ends the program at once.
+/// Installs handlers for Ctrl-C and SIGTERM: the first signal requests a stop, a later one ends the program at once.
 void catch_interrupts();
-/// The signal that requested the stop, or 0.
+/// Returns the signal that requested the stop, or 0.
 int interrupted_by();
 /// Throws Error(cancelled) after an interrupt.
 void stop_if_interrupted();
-/// A Progress that stops the library's work after an interrupt.
+/// Returns a Progress that stops the library's work after an interrupt.
 Progress until_interrupted();
 
 /// Creates the folder and its parents. Throws Error(cannot_write).
 void create_folder(const std::filesystem::path& folder);
-/// Writes a file, which appears when it is complete.
+/// Writes a file atomically: it appears only when complete.
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace hogel::bench

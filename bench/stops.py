@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Stops commands of hogel by a signal at moments spread evenly over their work, and prints how long each took to end after it.
-Each stop must end with the status of docs/errors.md, and leave neither output nor temporary file nor process.
+"""Stops commands of hogel by a signal at moments spread evenly over their work, and prints the time from the signal to the end.
+Each stop must end with the status of docs/errors.md, and leave no output, temporary file or process.
 
 usage: stops.py HOGEL [--commands NAME,NAME] [--scene FILE] [--stops N] [--signal TERM|INT|HUP] [--small] [--require]
-       --commands: these of the table alone; --list: says their names
-       --scene: a mesh file beside the scenes that it makes itself, for the commands of scenes
-       --stops: of each command [5]; --small: sizes for a try of this program
-       --require: an error where a stop took longer than a second in two tries of the same moment
+       --commands: only these of the table; --list: prints their names
+       --scene: a mesh file for the commands of scenes, in addition to generated scenes
+       --stops: number of stops of each command [5]; --small: small sizes, for testing this program
+       --require: fails if a stop takes longer than a second in two tries at the same moment
 """
 import argparse
 import array
@@ -24,7 +24,7 @@ import time
 import urllib.request
 
 LIMIT = 1.0
-MAX_SECONDS = 30  # of a command's work, in which it is stopped
+MAX_SECONDS = 30  # part of a command's work in which it is stopped
 VIEW_SECONDS = 12
 NOT_BUILT = "this build of hogel"
 SEED = "7"
@@ -80,7 +80,7 @@ COMMANDS = {
     "info of a picture": (("large.png",), "info large.png"),
     "view": (("rays",), "view rays.h5 --no-browser"),
 }
-# Commands of a scene that --scene adds.
+# Commands added by --scene.
 SCENE_COMMANDS = {
     "scene: info": "info SCENE",
     "scene: render": "render SCENE --hogels 64x64 -o OUT.h5",
@@ -144,7 +144,7 @@ class Bench:
         self.hogel, self.signal = os.path.abspath(options.hogel), getattr(signal, "SIG" + options.signal)
         self.sized = smaller if options.small else str
         self.side = 60 if options.small else 1000
-        self.spool = folder / "spool"  # of temporary files that are in no output's folder
+        self.spool = folder / "spool"  # folder of temporary files outside the output's folder
         self.folder = folder / "work"
         self.spool.mkdir()
         self.folder.mkdir()
@@ -179,7 +179,7 @@ class Bench:
         return {str(each.relative_to(self.spool.parent)) for root in (self.spool, self.folder) for each in root.rglob("*")}
 
     def whole(self, command):
-        """The seconds that the command takes, up to MAX_SECONDS; None if it is not built in."""
+        """Returns the seconds of the complete command, up to MAX_SECONDS; None if it is not built in."""
         if command.startswith("view"):
             return VIEW_SECONDS
         began = time.monotonic()
@@ -199,7 +199,7 @@ class Bench:
         return min(took, MAX_SECONDS)
 
     def stop(self, command, moment):
-        """Seconds from a signal at this moment to the end, and what is wrong with what is left; None after the end."""
+        """Returns the seconds from a signal at this moment to the end (None if it ended before), and a text of the faults."""
         before = self.files()
         running = self.start(command)
         ended = threading.Event()
@@ -224,7 +224,7 @@ class Bench:
         new = self.files() - before
         if command.startswith("make"):  # each of its files is complete
             new = {each for each in new if ".tmp" in each or ".part" in each}
-        # It had just ended, or, as a shell says it, had not begun: the status of both is 128 + signal there.
+        # The command may just have ended, or not have begun; a shell reports 128 + signal for both.
         expected = (0, -self.signal, 128 + self.signal)
         if status == 0:
             return ""
@@ -243,7 +243,7 @@ class Bench:
         return "left a process; "
 
     def ask(self, ended):
-        """Asks a viewer for one picture after the other."""
+        """Requests pictures from a viewer, one after the other, until `ended`."""
         number = 0
         while not ended.wait(0.2):
             number += 1
@@ -256,7 +256,7 @@ class Bench:
 
 
 def measure(bench, name, command, options):
-    """A row of the table, and whether it holds the limit."""
+    """Prints a row of the table; returns whether the command is within the limit."""
     whole = bench.whole(command)
     if whole is None:
         print(f"| {name} | not built | | | | |", flush=True)
@@ -265,7 +265,7 @@ def measure(bench, name, command, options):
     times, wrong = [], ""
     for moment in moments:
         took, faults = bench.stop(command, moment)
-        if took is not None and took > LIMIT:  # other work may have disturbed it
+        if took is not None and took > LIMIT:  # possibly disturbed by other work
             again, more = bench.stop(command, moment)
             took, faults = min(took, again if again is not None else took), faults + more
         times += [] if took is None else [took]
@@ -295,7 +295,7 @@ def main():
         return
     wanted = [each.replace(",", "") for each in (options.commands.split(",") if options.commands else names)]
     if unknown := [each for each in wanted if each not in names]:
-        sys.exit(f"there is no command '{unknown[0]}'; --list says their names, without commas")
+        sys.exit(f"unknown command '{unknown[0]}'; --list prints the names, without commas")
     late = []
     with tempfile.TemporaryDirectory(prefix="hogel_stops_") as folder:
         bench = Bench(options, pathlib.Path(folder))
@@ -307,7 +307,7 @@ def main():
             if not measure(bench, names[each], bench.sized(command), options):
                 late.append(each)
     if options.require and late:
-        sys.exit("later than a second, or otherwise than docs/errors.md says: " + "; ".join(late))
+        sys.exit("stopped after more than a second, or not as in docs/errors.md: " + "; ".join(late))
 
 
 if __name__ == "__main__":

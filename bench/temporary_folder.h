@@ -9,7 +9,7 @@
 
 namespace hogel::bench {
 
-/// A new empty folder, which the destructor removes with its contents.
+/// New empty folder. The destructor removes it with its contents.
 class TemporaryFolder {
   public:
     TemporaryFolder() {

@@ -40,7 +40,6 @@ std::shared_ptr<const LightFieldSource> open(const Session& session, const Codec
     return open_or_render(session, options.input, options.light_field);
 }
 
-// Each coder with each of its transforms.
 std::vector<CodingMethod> methods_of(const CodecOptions& options) {
     const auto wanted = [](const std::vector<std::string>& names, std::string_view name) {
         return names.empty() || std::ranges::count(names, name) > 0;
@@ -84,7 +83,6 @@ std::string table(const std::vector<RateCurve>& curves, const std::vector<double
     return text;
 }
 
-// The curves of all requested coders and peers.
 std::vector<RateCurve> measure(const LightFieldBuffer& field, const CodecOptions& options, const QualityRange& range,
                                const Session& session) {
     std::vector<RateCurve> curves;
@@ -118,7 +116,7 @@ std::string plot(const std::string& name, const std::string& subtitle, const std
 
 void measure_codec(const CodecOptions& options, const Session& session) {
     const auto source = open(session, options);
-    // Fails for unknown coders before anything is measured.
+    // Fails for unknown coders before the first measurement.
     for (const std::string& name : options.coders) coders().find(name);
     if (!options.peers.empty() && source->grid().channels != 1 && !options.grey)
         throw Error(ErrorCode::usage, "peers are compared on one channel; expected --grey");

@@ -9,7 +9,7 @@
 
 namespace hogel::bench {
 
-/// The options of `hogel-bench codec`.
+/// Options of `hogel-bench codec`.
 struct CodecOptions {
     std::string input;   ///< a light field file, a scene, or a dense light field: dense, dense-hdr
     std::string output;  ///< folder for a plot; empty: none
@@ -18,22 +18,22 @@ struct CodecOptions {
     std::vector<std::string> peers;
     std::vector<double> sqnrs{25, 30, 35, 40};  ///< decibels at which rates are printed
     std::vector<double> rates{8};               ///< pixels per bit at which SQNRs are printed
-    bool grey = false;                          ///< whether the mean of the colours is coded instead of the colours
-    bool thesis = false;                        ///< whether the plot has the point that [K] gives
+    bool grey = false;                          ///< whether to code the mean of the colours
+    bool thesis = false;                        ///< whether to plot the point of [K]
 };
 
 /// Prints the size of a light field against its quality for coders and peers, and their speed.
 void measure_codec(const CodecOptions& options, const Session& session);
 
-/// The options of `hogel-bench thesis`.
+/// Options of `hogel-bench thesis`.
 struct ThesisOptions {
     std::string output;  ///< folder for the figures; empty: none
     std::vector<std::string> scenes{"pumpkin", "church"};
     LightFieldOptions light_field;
     std::vector<double> rates = ThesisMeasurement().rates;
     std::vector<std::string> transforms;  ///< empty: all
-    bool radiance = false;                ///< whether L is coded instead of √L
-    std::size_t crop = 192, columns = 6;  ///< side of the pictures, and how many stand in a row
+    bool radiance = false;                ///< whether to code L instead of √L
+    std::size_t crop = 192, columns = 6;  ///< side of the pictures, and number of pictures in a row
 
     ThesisOptions() {
         light_field.hogels = {128, 1};

@@ -15,7 +15,7 @@ constexpr std::size_t ellipses = 28, waves = 4;
 constexpr double max_disparity = 2;
 constexpr double max_frequency = 0.22;  // of textures, in cycles per direction
 
-// A sequence of random numbers from 0 to 1, the same in every run.
+// Sequence of random numbers from 0 to 1, the same in every run.
 class Numbers {
   public:
     double operator()() { return core::philox({next_++, 0, 0, 0}, {2000, 4})[0] * 0x1p-32; }
@@ -25,8 +25,8 @@ class Numbers {
     std::uint32_t next_ = 0;
 };
 
-// A part of a plane that the middle hogel sees as an ellipse. The coordinates (x, y) of its points are the direction in
-// which that hogel sees them; their disparity is p = p0 + a x + b y.
+// Part of a plane that the middle hogel sees as an ellipse. The coordinates (x, y) of its points are their directions
+// from the middle hogel. Their disparity is p = p0 + a x + b y.
 struct Surface {
     double p0, a, b;
     double x, y, along, across, cosine, sine;  // the ellipse: centre, half axes, rotation
@@ -36,8 +36,7 @@ struct Surface {
     };
     std::array<Wave, waves> texture;
 
-    // The disparity of the point that the hogel at (i, j) from the middle one sees in direction (u, v), which is x = u
-    // + p i, y = v + p j.
+    // Disparity seen by the hogel at (i, j) from the middle one in direction (u, v): x = u + p i, y = v + p j.
     double disparity(double u, double v, double i, double j) const {
         return (p0 + a * u + b * v) / (1 - a * i - b * j);
     }
@@ -72,7 +71,6 @@ class DenseField final : public LightFieldSource {
             surface.b = number.between(-slant, slant);
             surface.x = number() * width;
             surface.y = number() * height;
-            // The plane is tilted about the ellipse's centre.
             surface.p0 -= surface.a * surface.x + surface.b * surface.y;
             surface.along = ground ? 1e9 : number.between(0.06, 0.25) * width;
             surface.across = ground ? 1e9 : number.between(0.06, 0.25) * width;
@@ -97,27 +95,27 @@ class DenseField final : public LightFieldSource {
             for (std::size_t s = 0; s < range.ns; ++s)
                 for (std::size_t v = 0; v < grid_.directions_v; ++v)
                     for (std::size_t u = 0; u < grid_.directions_u; ++u)
-                        tile.radiance(0, t, s, v, u) = static_cast<float>(
-                            seen(from_middle(range.s0 + s, grid_.hogels_s), from_middle(range.t0 + t, grid_.hogels_t),
-                                 static_cast<double>(u), static_cast<double>(v)));
+                        tile.radiance(0, t, s, v, u) = static_cast<float>(radiance_of_ray(
+                            from_middle(range.s0 + s, grid_.hogels_s), from_middle(range.t0 + t, grid_.hogels_t),
+                            static_cast<double>(u), static_cast<double>(v)));
     }
 
   private:
     static double from_middle(std::size_t k, std::size_t count) {
         return static_cast<double>(k) - static_cast<double>(count - 1) / 2;
     }
-    // The radiance of the nearest surface on the ray, the one with the largest disparity.
-    double seen(double i, double j, double u, double v) const {
+    // Returns the radiance of the nearest surface on the ray, the one with the largest disparity.
+    double radiance_of_ray(double i, double j, double u, double v) const {
         double nearest = surfaces_.front().disparity(u, v, i, j);
-        const Surface* found = &surfaces_.front();
+        const Surface* surface_at_ray = &surfaces_.front();
         for (const Surface& surface : surfaces_) {
             const double p = surface.disparity(u, v, i, j);
             if (p > nearest && surface.covers(u + p * i, v + p * j)) {
                 nearest = p;
-                found = &surface;
+                surface_at_ray = &surface;
             }
         }
-        return found->radiance(u + nearest * i, v + nearest * j);
+        return surface_at_ray->radiance(u + nearest * i, v + nearest * j);
     }
 
     LightFieldGrid grid_;

@@ -52,18 +52,18 @@ struct Frame {
         return point.first >= axes.min_x && point.first <= axes.max_x && point.second >= axes.min_y &&
                point.second <= axes.max_y;
     }
-    std::pair<double, double> place(const std::pair<double, double>& point) const {
+    std::pair<double, double> position(const std::pair<double, double>& point) const {
         return {column(point.first), row(point.second)};
     }
     std::vector<std::pair<double, double>> markers(const Curve& curve) const {
-        std::vector<std::pair<double, double>> places;
+        std::vector<std::pair<double, double>> positions;
         for (const auto& point : curve.points)
-            if (holds(point)) places.push_back(place(point));
-        return places;
+            if (holds(point)) positions.push_back(position(point));
+        return positions;
     }
-    // A curve as far as it is within the axes: between its points it is cut where it leaves them.
+    // Returns the part of a curve within the axes, cut where it leaves them between two points.
     std::vector<std::pair<double, double>> line(const Curve& curve) const {
-        std::vector<std::pair<double, double>> points = curve.points, places;
+        std::vector<std::pair<double, double>> points = curve.points, positions;
         std::ranges::sort(points);
         constexpr int parts = 64;
         for (std::size_t k = 0; k + 1 < points.size(); ++k)
@@ -74,9 +74,9 @@ struct Frame {
                     points[k].second + weight * (points[k + 1].second - points[k].second)};
                 const bool edge = part == 0 || part == parts, inside = holds(between);
                 const bool next_to_end = !edge && inside && (!holds(points[k]) || !holds(points[k + 1]));
-                if (inside && (edge || next_to_end)) places.push_back(place(between));
+                if (inside && (edge || next_to_end)) positions.push_back(position(between));
             }
-        return places;
+        return positions;
     }
 };
 
@@ -86,7 +86,7 @@ std::string polyline(const std::vector<std::pair<double, double>>& points, const
     return fmt::format("<polyline points=\"{}\" {}/>\n", line, attributes);
 }
 
-// Markers differ in shape, so that curves are told apart without colours.
+// Markers differ in shape, so that curves can be distinguished without colours.
 std::string marker(std::size_t number, double x, double y) {
     const char* colour = colours[number % colours.size()];
     switch (number % colours.size()) {
@@ -133,7 +133,7 @@ std::string grid_svg(const Frame& frame) {
     return svg;
 }
 
-// The rows of names at the right ends of curves, moved apart where they would overlap.
+// Returns the rows of names at the right ends of curves, moved apart where they would overlap.
 std::vector<double> name_rows(const Frame& frame, const std::vector<std::vector<std::pair<double, double>>>& lines) {
     std::vector<double> rows(lines.size(), frame.row(frame.axes.min_y));
     std::vector<std::size_t> order(lines.size());
@@ -203,22 +203,23 @@ std::string panels_svg(const std::string& title, const std::string& subtitle, co
         "<text class=\"mute\" x=\"16\" y=\"47\">{4}</text>\n",
         width, height, style, title, subtitle);
     for (std::size_t i = 0; i < panels.size(); ++i) {
-        const PanelAxes& own = panels[i].axes ? *panels[i].axes : axes;
-        const Frame frame{own, panel_width * static_cast<double>(i % columns),
+        const PanelAxes& panel_axes = panels[i].axes ? *panels[i].axes : axes;
+        const Frame frame{panel_axes, panel_width * static_cast<double>(i % columns),
                           head + panel_height * static_cast<double>(i / columns)};
         svg += panel_svg(frame, panels[i], panels);
         if (i + columns >= panels.size())
             svg += fmt::format("<text class=\"mute\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
-                               frame.x0 + (left + panel_width - right) / 2, frame.y0 + panel_height - 10, own.x_name);
-        // A panel's axis has the name of the one to its left, unless it says another.
+                               frame.x0 + (left + panel_width - right) / 2, frame.y0 + panel_height - 10,
+                               panel_axes.x_name);
+        // Names a panel's y axis unless the panel to its left has the same name.
         if (i % columns == 0 ||
-            (panels[i].axes && own.y_name != (panels[i - 1].axes ? *panels[i - 1].axes : axes).y_name)) {
+            (panels[i].axes && panel_axes.y_name != (panels[i - 1].axes ? *panels[i - 1].axes : axes).y_name)) {
             const double middle = frame.y0 + (top + panel_height - bottom) / 2;
             svg += fmt::format(
                 "<text class=\"mute\" x=\"{2:.1f}\" y=\"{0:.1f}\" text-anchor=\"middle\" transform=\"rotate(-90 "
                 "{2:.1f} "
                 "{0:.1f})\">{1}</text>\n",
-                middle, own.y_name, frame.x0 + 13);
+                middle, panel_axes.y_name, frame.x0 + 13);
         }
     }
     return svg + "</svg>\n";

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double table_rates[] = {1, 2, 4, 8, 16, 32, 64, 128};
 
-// The mean of the colours of a scene's light field, or its square root, which is what [K] 3.7.2 calls L.
+// Returns the mean of the colours of a scene's light field, or its square root, called L in [K] 3.7.2.
 LightFieldBuffer lumigraph_of(const Session& session, const std::string& scene, const ThesisOptions& options) {
     const auto source = open_or_render(session, scene, options.light_field);
     LightFieldBuffer field(source->grid());
@@ -34,7 +34,6 @@ LightFieldBuffer lumigraph_of(const Session& session, const std::string& scene, 
     return result;
 }
 
-// The curve with that name, or null.
 const ThesisCurve* find(const std::vector<ThesisCurve>& curves, std::string_view transform) {
     const auto found = std::ranges::find(curves, transform, &ThesisCurve::transform);
     return found == curves.end() ? nullptr : &*found;
@@ -48,7 +47,7 @@ Curve drawn(const ThesisCurve& curve, const std::string& name) {
 
 const PanelAxes axes{"Compression (pixels per bit)", "SQNR (dB)", 1, 128, 20, 50, 5};
 
-// Fig. 4.19 and 4.20: the families of fig. 4.5 to 4.9, each in a panel.
+// Draws fig. 4.19 and 4.20: the families of fig. 4.5 to 4.9, each in a panel.
 std::vector<Panel> families(const std::vector<ThesisCurve>& curves) {
     const std::pair<const char*, std::vector<const char*>> groups[] = {
         {"Daubechies", {"haar", "d4", "d6"}},
@@ -66,7 +65,7 @@ std::vector<Panel> families(const std::vector<ThesisCurve>& curves) {
     return panels;
 }
 
-// Fig. 4.18: EZW and three passes.
+// Draws fig. 4.18: EZW and three passes.
 std::vector<Panel> ezw_panels(const std::vector<ThesisCurve>& curves) {
     std::vector<Panel> panels;
     for (const auto& [name, title] : {std::pair{"haar", "(a) Haar"}, {"d6", "(b) D6"}}) {
@@ -88,7 +87,7 @@ double variance(std::span<const float> values) {
     return squares / count - sum / count * (sum / count);
 }
 
-// The hogel with the most contrast, whose slices are shown.
+// Returns the hogel with the most contrast, for showing its slices.
 std::size_t lively_hogel(const LightFieldBuffer& field) {
     const std::size_t size = field.grid().directions();
     std::size_t best = 0;
@@ -103,7 +102,7 @@ std::size_t lively_hogel(const LightFieldBuffer& field) {
     return best;
 }
 
-// A square of directions of a hogel.
+// Square of directions of a hogel.
 struct Window {
     std::size_t u0 = 0, v0 = 0, side;
 
@@ -115,7 +114,7 @@ struct Window {
     }
 };
 
-// The part of a slice with the most contrast, in steps of a quarter of its side.
+// Finds the part of a slice with the most contrast, in steps of a quarter of its side.
 Window lively_window(std::span<const float> slice, const LightFieldGrid& grid, std::size_t side) {
     Window best{0, 0, side};
     double most = -1;
@@ -132,7 +131,6 @@ Window lively_window(std::span<const float> slice, const LightFieldGrid& grid, s
     return best;
 }
 
-// Values as display values, with `white` as 1.
 std::vector<float> display(std::vector<float> values, double white, bool radiance) {
     for (float& value : values) {
         const double part = std::max(value, 0.0f) / white;
@@ -174,7 +172,7 @@ void print_table(const std::string& scene, const std::vector<ThesisCurve>& curve
     }
 }
 
-// The c that meets each rate, and what the alphabets take more.
+// Prints the c that meets each rate, and the overhead of the alphabets.
 void print_overheads(const std::string& scene, const std::vector<ThesisCurve>& curves) {
     for (const ThesisCurve& curve : curves) {
         if (curve.coder != "threepass") continue;

@@ -25,10 +25,9 @@ constexpr std::pair<const char*, const char*> wavelets[] = {
     {"i42", "I (4,2)"},     {"i44", "I (4,4)"},     {"cdf31", "CDF (3,1)"}, {"cdf33", "CDF (3,3)"},
     {"cdf42", "CDF (4,2)"}, {"cdf44", "CDF (4,4)"}, {"cdf97", "(9,7)"}};
 
-// The c with which rates are asked for; each point says which c meets its rate.
-constexpr double asked_overhead = 4;
+// Initial c for the requested rates; each point records the c that meets its rate.
+constexpr double initial_overhead = 4;
 
-// A lumigraph, and how it is measured.
 class Lumigraph {
   public:
     Lumigraph(const LightFieldBuffer& buffer, const ThesisMeasurement& measurement)
@@ -52,7 +51,7 @@ class Lumigraph {
         return result;
     }
     // Adds a point and its slice to a curve.
-    // @param decoded   coefficients; overwritten
+    // @param decoded  coefficients; overwritten
     void add(const wavelets::Transform& transform, std::vector<float>& decoded, std::size_t bytes,
              ThesisCurve& curve) const {
         transform.inverse(pyramid_, decoded);
@@ -87,7 +86,7 @@ ThesisCurve three_pass_curve(const Lumigraph& lumigraph, const char* name, const
     ThesisCurve curve{"threepass", name, label, {}};
     for (const double rate : lumigraph.rates()) {
         const double wanted = lumigraph.pixels() / rate;
-        const double step = histogram.step(wanted, asked_overhead);
+        const double step = histogram.step(wanted, initial_overhead);
         const auto encode = [&](zerotrees::ThreePassSymbols symbols) {
             return zerotrees::three_pass_encode(lumigraph.pyramid(), coefficients, step, symbols);
         };
@@ -109,7 +108,7 @@ ThesisCurve three_pass_curve(const Lumigraph& lumigraph, const char* name, const
     return curve;
 }
 
-// EZW codes once; every rate is a prefix.
+// Codes once with EZW; the code of every rate is a prefix.
 ThesisCurve ezw_curve(const Lumigraph& lumigraph, const char* name, const char* label) {
     const wavelets::Transform transform = wavelets::transform(name);
     ThesisCurve curve{"ezw", std::string("ezw-") + name, label, {}};
@@ -125,15 +124,14 @@ ThesisCurve ezw_curve(const Lumigraph& lumigraph, const char* name, const char* 
     return curve;
 }
 
-// Calls code(scale), which returns pixels per bit, with scales that fall by factors of 2.2 until the lowest rate is
-// passed.
+// Calls code(scale), which returns pixels per bit, with scales falling by 2.2 down to the lowest rate.
 template <class Code>
 void with_falling_scale(const Lumigraph& lumigraph, double scale, Code&& code) {
     for (int pass = 0; pass < 24; ++pass, scale /= 2.2)
         if (code(scale) < lumigraph.rates().front()) break;
 }
 
-// The highest rate of points that are kept.
+// Returns the highest rate of points to keep.
 double max_rate(const Lumigraph& lumigraph) { return 3 * lumigraph.rates().back(); }
 
 ThesisCurve cosine_curve(const Lumigraph& lumigraph, zerotrees::QuantisationTable table) {

@@ -18,7 +18,7 @@
 namespace hogel::bench {
 namespace {
 
-// A coder of ffmpeg. {} in `encoder` is replaced by one of the qualities, which begin with the best.
+// Coder of ffmpeg. {} in `encoder` is replaced by one of the qualities, sorted from the best.
 struct FfmpegCoder {
     const char *name, *needs, *encoder, *file;
     std::vector<double> qualities;
@@ -50,7 +50,7 @@ const std::vector<FfmpegCoder>& ffmpeg_coders() {
     return all;
 }
 
-// Processor time of all child programs that have ended.
+// Returns the processor time in seconds of all child programs that have ended.
 double processor_seconds_of_programs() {
     rusage usage{};
     getrusage(RUSAGE_CHILDREN, &usage);
@@ -70,8 +70,7 @@ std::string quoted(const std::filesystem::path& path) {
     return result + "'";
 }
 
-// The hogels as pictures of whole numbers, in rows of alternating direction, so that consecutive pictures are
-// neighbours.
+// Hogels as pictures of integers, in rows of alternating direction, so that consecutive pictures are neighbours.
 class Pictures {
   public:
     Pictures(const LightFieldBuffer& field, bool video) : field_(field), video_(video), top_(video ? 1023 : 65535) {
@@ -85,7 +84,6 @@ class Pictures {
         const std::size_t luminance = field_.grid().directions();
         return video_ ? luminance + luminance / 2 : luminance;
     }
-    // Writes one file of 16-bit pictures.
     void write(const std::filesystem::path& path) const {
         std::ofstream file(path, std::ios::binary);
         std::vector<std::uint16_t> picture(samples_of_picture(), static_cast<std::uint16_t>((top_ + 1) / 2));
@@ -94,7 +92,7 @@ class Pictures {
             file.write(reinterpret_cast<const char*>(picture.data()), std::streamsize(2 * picture.size()));
         }
     }
-    // The SQNR of a file in the format of write(), compared with the light field in floats.
+    // Returns the SQNR of a file written by write().
     double sqnr_of(const std::filesystem::path& path) const {
         std::ifstream file(path, std::ios::binary);
         std::vector<std::uint16_t> picture(samples_of_picture());
@@ -109,7 +107,6 @@ class Pictures {
         }
         return 10 * std::log10(signal_ / error);
     }
-    // Writes a folder of PGM files.
     void write_each(const std::filesystem::path& folder) const {
         std::vector<std::uint8_t> bytes(2 * samples_of_picture());
         for (std::size_t k = 0; k < field_.grid().hogels(); ++k) {
@@ -123,7 +120,7 @@ class Pictures {
             file.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
         }
     }
-    // The SQNR of a folder of files without a header, the low byte first.
+    // Returns the SQNR of a folder of files without a header, low byte first.
     double sqnr_of_each(const std::filesystem::path& folder) const {
         std::vector<std::uint8_t> bytes(2 * samples_of_picture());
         double error = 0;
@@ -242,7 +239,6 @@ std::optional<RateCurve> measure_openjpeg(const LightFieldBuffer& field, const Q
     return curve;
 }
 
-// Measures a coder of ffmpeg on the hogels as pictures.
 std::optional<RateCurve> measure_ffmpeg(const LightFieldBuffer& field, const FfmpegCoder& coder,
                                         const QualityRange& range) {
     if (!run(fmt::format("ffmpeg -hide_banner -h encoder={} | grep -q '^Encoder {}'", coder.needs, coder.needs)))

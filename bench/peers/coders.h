@@ -9,7 +9,7 @@
 
 namespace hogel::bench {
 
-/// The names of coders of other projects.
+/// Returns the names of coders of other projects.
 std::vector<std::string> coder_peers();
 
 /// Measures a peer on a light field of one channel:
@@ -22,8 +22,7 @@ std::vector<std::string> coder_peers();
 std::optional<RateCurve> measure_coder_peer(const LightFieldBuffer& field, const std::string& name,
                                             const QualityRange& range);
 
-/// As above, for OpenEXR's lossy compression.
-/// @param compression   dwaa or dwab
+/// Measures OpenEXR's lossy compression, dwaa or dwab; otherwise as measure_coder_peer().
 std::optional<RateCurve> measure_openexr(const LightFieldBuffer& field, const std::string& compression,
                                          const QualityRange& range);
 

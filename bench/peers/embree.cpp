@@ -53,7 +53,7 @@ class EmbreePeer final : public RenderPeer {
 
     std::size_t min_hogels() const override { return thread_count(); }
 
-    void render(std::span<const HogelPlace> hogels) override {
+    void render(std::span<const HogelIndex> hogels) override {
         values_.resize(hogels.size() * 3 * grid_.directions());
         const std::size_t rows = (grid_.directions_v + side - 1) / side;
         const std::size_t bands = (rows + rows_of_squares - 1) / rows_of_squares;
@@ -75,7 +75,7 @@ class EmbreePeer final : public RenderPeer {
     static constexpr std::size_t rays = side * side;
     static constexpr std::size_t rows_of_squares = 64 / side;  // traced as one task
 
-    void trace(HogelPlace hogel, std::size_t v0, std::size_t u0, float* values) const {
+    void trace(HogelIndex hogel, std::size_t v0, std::size_t u0, float* values) const {
         const std::size_t nv = std::min(side, grid_.directions_v - v0), nu = std::min(side, grid_.directions_u - u0);
         alignas(64) RTCRayHitNt<rays> batch;
         const auto s = static_cast<float>(scale_ * grid_.s(static_cast<double>(hogel.s)));

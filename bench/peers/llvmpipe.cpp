@@ -35,7 +35,7 @@ namespace {
 
 [[noreturn]] void fail(const std::string& what) { throw Error(ErrorCode::not_built_in, what); }
 
-// The functions of OpenGL, found at run time.
+// OpenGL functions, found at run time.
 struct OpenGl {
 #define HOGEL_GL_FUNCTION(type, name) type name = reinterpret_cast<type>(eglGetProcAddress("gl" #name))
     HOGEL_GL_FUNCTION(PFNGLATTACHSHADERPROC, AttachShader);
@@ -75,7 +75,7 @@ struct OpenGl {
 #undef HOGEL_GL_FUNCTION
 };
 
-// A hogel is a camera whose axis is the normal of the hologram: the picture's columns are U, its rows −V.
+// A hogel is a camera with its axis along the hologram's normal: the picture's columns are U, its rows −V.
 constexpr const char* vertex_shader = R"(#version 330
 #extension GL_ARB_shader_viewport_layer_array : enable
 #extension GL_AMD_vertex_shader_layer : enable
@@ -102,7 +102,7 @@ void replace(std::string& text, const std::string& what, const std::string& with
     text.replace(text.find(what), what.size(), with);
 }
 
-// The geometry that every context draws. Positions are in widths of the hologram.
+// Geometry that every context draws. Positions are in widths of the hologram.
 struct Geometry {
     std::vector<float> vertices;  // position and radiance
     std::vector<std::uint32_t> indices;
@@ -126,7 +126,6 @@ Geometry geometry_of(const ShadedScene& scene, const LightFieldGrid& grid) {
     return geometry;
 }
 
-// The OpenGL context of one thread.
 class Context {
   public:
     Context(EGLDisplay display, const Geometry& geometry, const LightFieldGrid& grid, std::size_t views)
@@ -163,9 +162,9 @@ class Context {
     }
 
     // Writes the samples of up to `views` hogels: red, green, blue and an unused byte each.
-    void render(std::span<const HogelPlace> hogels, unsigned char* bytes) {
+    void render(std::span<const HogelIndex> hogels, unsigned char* bytes) {
         std::vector<float> places;
-        for (const HogelPlace& hogel : hogels) {
+        for (const HogelIndex& hogel : hogels) {
             places.push_back(static_cast<float>(geometry_.scale * grid_.s(static_cast<double>(hogel.s))));
             places.push_back(static_cast<float>(geometry_.scale * grid_.t(static_cast<double>(hogel.t))));
         }
@@ -282,7 +281,7 @@ class LlvmpipePeer final : public RenderPeer {
 
     std::size_t min_hogels() const override { return views_ * contexts_.size(); }
 
-    void render(std::span<const HogelPlace> hogels) override {
+    void render(std::span<const HogelIndex> hogels) override {
         bytes_.resize(hogels.size() * grid_.directions() * 4);
         on_all_threads([&](Context& context, std::size_t thread) {
             context.make_current();
@@ -301,9 +300,8 @@ class LlvmpipePeer final : public RenderPeer {
     float max_radiance() const override { return 1; }
 
   private:
-    // Opens the display once for the whole program, when Mesa reads these variables. A context sets up all its
-    // triangles on the thread that draws, so each thread has its own context, which also rasterises on that thread
-    // (LP_NUM_THREADS=0).
+    // Opens the display once, when Mesa reads these variables. A context sets up its triangles on the drawing thread.
+    // So each thread has its own context, which also rasterises on that thread (LP_NUM_THREADS=0).
     static EGLDisplay open_display() {
         static const EGLDisplay display = [] {
             setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);

@@ -20,7 +20,7 @@ namespace {
 // Levels of OpenEXR's lossy compression, the best first; 45 is its default.
 constexpr std::array levels{2, 10, 45, 200, 1000, 5000, 20000, 100000};
 
-// All hogels side by side as one picture of floats, whose channel has a name that OpenEXR codes lossily. A second
+// All hogels side by side as one picture of floats. Its channel has a name that OpenEXR codes lossily. A second
 // channel, of zeros, takes hardly any bytes; the figures in the documentation were measured with it.
 class Sheet {
   public:

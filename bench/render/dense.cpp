@@ -14,7 +14,7 @@
 namespace hogel::bench {
 namespace {
 
-// A renderer and its name in the figures: those of [K], and the others.
+// Renderer and its name in the figures: those of [K], and the others.
 struct Drawn {
     std::string algorithm, name;
 };
@@ -40,7 +40,7 @@ std::vector<Curve> curves_of(const std::vector<RegionTimes>& all, const std::vec
     return curves;
 }
 
-// A round number not below a value: 1, 2, 3, 5 or 8 times a power of ten.
+// Returns a round number not below a value: 1, 2, 3, 5 or 8 times a power of ten.
 double round_up(double value) {
     const double power = std::pow(10, std::floor(std::log10(value)));
     for (const double step : {1.0, 2.0, 3.0, 5.0, 8.0})
@@ -48,9 +48,9 @@ double round_up(double value) {
     return 10 * power;
 }
 
-// Linear axes end where the dearest of `shown` begins; logarithmic ones hold all.
-Panel panel(const std::string& title, std::vector<Curve> curves, double side, bool logarithmic, double largest) {
-    double low = largest, high = 0;
+// Makes a panel. Linear axes end at `largest`, rounded up; logarithmic ones contain all points.
+Panel panel(const std::string& title, std::vector<Curve> curves, double side, bool logarithmic, double max_y) {
+    double low = max_y, high = 0;
     for (const Curve& curve : curves)
         for (const auto& [x, y] : curve.points) {
             low = std::min(low, y);
@@ -62,7 +62,7 @@ Panel panel(const std::string& title, std::vector<Curve> curves, double side, bo
         axes.min_y = std::pow(10, std::floor(std::log10(low)));
         axes.max_y = std::pow(10, std::ceil(std::log10(high)));
     } else {
-        axes.max_y = round_up(largest);
+        axes.max_y = round_up(max_y);
         axes.y_step = axes.max_y / (axes.max_y / std::pow(10, std::floor(std::log10(axes.max_y))) == 8.0 ? 4 : 5);
     }
     return {title, std::move(curves), axes};
@@ -71,21 +71,21 @@ Panel panel(const std::string& title, std::vector<Curve> curves, double side, bo
 void draw(const std::string& scene, const std::string& title, const std::string& subtitle, double side,
           const std::vector<RegionTimes>& all, const std::string& folder) {
     const std::vector<Curve> thesis = curves_of(all, of_thesis), rest = curves_of(all, others);
-    double reference = 0, dearest = 0;
+    double reference = 0, largest = 0;
     for (const Curve& curve : thesis)
         for (const auto& [x, y] : curve.points) {
             if (curve.name == "2D") reference = y;
-            dearest = std::max(dearest, y);
+            largest = std::max(largest, y);
         }
-    if (reference == 0) reference = dearest;
+    if (reference == 0) reference = largest;
     std::vector<Panel> panels;
     if (!thesis.empty()) {
         panels.push_back(panel("The thesis' algorithms, linear", thesis, side, false, 2 * reference));
-        panels.push_back(panel("logarithmic", thesis, side, true, dearest));
+        panels.push_back(panel("logarithmic", thesis, side, true, largest));
     }
     if (!rest.empty()) {
         panels.push_back(panel("Other renderers, linear", rest, side, false, 1.25 * reference));
-        panels.push_back(panel("logarithmic", rest, side, true, dearest));
+        panels.push_back(panel("logarithmic", rest, side, true, largest));
     }
     write_text(std::filesystem::path(folder) / fmt::format("dense_{}.svg", scene),
                panels_svg(title, subtitle, *panels.front().axes, panels, 2));

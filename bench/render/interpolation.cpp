@@ -14,10 +14,10 @@ namespace {
 
 struct Rendered {
     LightFieldTile tile;
-    double milliseconds = 0;  // a hogel
+    double milliseconds = 0;  // per hogel
 };
 
-// A square of hogels, by processor time of this thread.
+// Renders a square of hogels, and measures the processor time of this thread.
 Rendered render(const LightFieldSource& source, std::size_t side) {
     Rendered result{LightFieldTile(source.grid(), {0, 0, side, side}, false)};
     const double began = thread_seconds();
@@ -30,15 +30,15 @@ struct Error2 {
     double psnr = 0, sqnr = 0, differing = 0;
 };
 
-// [K] (4.7), (4.8): the peak is the largest value; and the share of values that differ by more than 1/64 of it.
-Error2 error(const LightFieldTile& exact, const LightFieldTile& other) {
+// Computes [K] (4.7) and (4.8) with the largest value as peak, and the fraction of values off by more than peak/64.
+Error2 error(const LightFieldTile& exact, const LightFieldTile& approximate) {
     double peak = 0, energy = 0, squares = 0, differing = 0;
     for (const float value : exact.radiance.elements()) peak = std::max(peak, double{value});
     for (std::size_t i = 0; i < exact.radiance.size(); ++i) {
-        const double value = exact.radiance.data()[i], off = other.radiance.data()[i] - value;
+        const double value = exact.radiance.data()[i], difference = approximate.radiance.data()[i] - value;
         energy += value * value;
-        squares += off * off;
-        differing += std::abs(off) > peak / 64 ? 1 : 0;
+        squares += difference * difference;
+        differing += std::abs(difference) > peak / 64 ? 1 : 0;
     }
     const auto count = static_cast<double>(exact.radiance.size());
     return {10 * std::log10(peak * peak * count / squares), 10 * std::log10(energy / squares), differing / count};
@@ -59,11 +59,11 @@ void measure_scene(const std::string& name, const RenderOptions& options, const 
         const Rendered exact = render(*make_renderer("simplex", scene, grid), side);
         for (std::size_t region = side; region >= 2; region /= 2) {
             stop_if_interrupted();
-            const Rendered other = render(*make_interpolating_renderer(scene, grid, region), side);
-            const Error2 off = error(exact.tile, other.tile);
+            const Rendered approximate = render(*make_interpolating_renderer(scene, grid, region), side);
+            const Error2 deviation = error(exact.tile, approximate.tile);
             fmt::print("| {}, {} triangles | {} | {} | {:.1f} | {:.1f} | {:.2f} % | {:.3g} | {:.3g} |\n", name,
-                       scene->triangles.size(), shading, region, off.psnr, off.sqnr, 100 * off.differing,
-                       exact.milliseconds, other.milliseconds);
+                       scene->triangles.size(), shading, region, deviation.psnr, deviation.sqnr,
+                       100 * deviation.differing, exact.milliseconds, approximate.milliseconds);
             std::fflush(stdout);
         }
     }

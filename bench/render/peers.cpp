@@ -19,7 +19,7 @@ std::string cell(const Racer& racer) {
     return fmt::format(" {:.3g} ({:.3g}–{:.3g}) |", racer.median, racer.min, racer.max);
 }
 
-// The scene without textures, which peers do not draw.
+// Returns the scene without textures, which peers do not draw.
 std::shared_ptr<const ShadedScene> untextured(const std::shared_ptr<const ShadedScene>& scene) {
     auto plain = std::make_shared<ShadedScene>(*scene);
     plain->textures.clear();
@@ -43,9 +43,9 @@ void print_row(const std::string& name, const LightFieldGrid& grid, const std::v
     double worst = 0;
     for (const RenderPeerInfo& peer : peers) {
         const auto racer = std::ranges::find(race.racers, peer.name, &Racer::name);
-        const bool there = racer != race.racers.end();
-        row += there ? cell(*racer) + fmt::format(" {:.3g} |", racer->ours_is_faster) : " | |";
-        if (there) worst = std::max(worst, racer->differing);
+        const bool found = racer != race.racers.end();
+        row += found ? cell(*racer) + fmt::format(" {:.3g} |", racer->ours_is_faster) : " | |";
+        if (found) worst = std::max(worst, racer->differing);
     }
     fmt::print("{} {:.2g} % |\n", row, 100 * worst);
     std::fflush(stdout);
@@ -79,7 +79,7 @@ void measure_peers(const RenderOptions& options, const Session& session) {
         const auto scene = untextured(bench_scene(session, name, light_field));
         for (const Counts& count : hogels) {
             light_field.hogels = count;
-            // Enough rows for threads to share them as evenly as those of the whole light field.
+            // Enough rows for the same load balance among threads as with the whole light field.
             constexpr std::size_t max_hogels = 2160, max_rows = 16;
             limits.rows = std::clamp<std::size_t>(max_hogels / count.columns, 1, max_rows);
             const LightFieldGrid grid = light_field.grid();

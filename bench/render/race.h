@@ -12,30 +12,30 @@
 namespace hogel::bench {
 
 struct RaceLimits {
-    std::size_t rows = 0;    ///< of hogels, spread over the hologram, that hogel's renderer renders in a round
-    std::size_t rounds = 0;  ///< rounds, over which medians are taken
-    double seconds = 0;      ///< limit of a peer in a round; a slower one renders fewer of the hogels
+    std::size_t rows = 0;    ///< rows of hogels, spread over the hologram, of hogel's renderer in a round
+    std::size_t rounds = 0;  ///< rounds for the medians
+    double seconds = 0;      ///< time limit of a peer in a round; slower peers render fewer hogels
 };
 
-/// The speed of a renderer over all rounds. A sample is a ray with all its channels.
+/// Speed of a renderer over all rounds. A sample is a ray with all its channels.
 struct Racer {
     std::string name;
     double median = 0, min = 0, max = 0;  ///< million samples per second of wall time
     double per_processor_second = 0;      ///< million samples, median
-    double bytes = 0;                     ///< maximum memory without the scene: samples, trees, buffers
-    std::size_t hogels = 0;               ///< in each round
+    double bytes = 0;                     ///< maximum memory in bytes without the scene: samples, trees, buffers
+    std::size_t hogels = 0;               ///< number of hogels in each round
     double ours_is_faster = 1;            ///< ratio of speeds, median over the rounds
-    double differing = 0;                 ///< share of samples that differ from hogel's
+    double differing = 0;                 ///< fraction of samples that differ from hogel's
 };
 
 struct Race {
     std::vector<Racer> racers;  ///< hogel's renderer first
-    double covered = 0;         ///< share of rays that meet something
+    double covered = 0;         ///< fraction of rays that hit the scene
 };
 
 /// Measures hogel's renderer and peers on the same rays of the same triangles. They alternate round by round, so that
-/// other work on the machine affects all alike. Peers that this machine lacks are reported and left out. Throws
-/// Error(internal) if a peer renders another picture.
+/// other work on the machine affects all alike. Peers that are missing on this machine are reported and left out.
+/// Throws Error(internal) if a peer renders a different picture.
 Race race(const Session& session, const std::string& algorithm, const std::vector<RenderPeerInfo>& peers,
           const std::shared_ptr<const ShadedScene>& scene, const LightFieldGrid& grid, const RaceLimits& limits);
 

@@ -16,7 +16,7 @@
 namespace hogel::bench {
 namespace {
 
-// Processor time of reading a tile on the calling thread.
+// Returns the processor time in seconds of reading a tile on the calling thread.
 // @param cached  whether the scene has a radiance cache, which a first, unmeasured reading fills
 double time_of_reading(const LightFieldSource& source, LightFieldTile& tile, bool cached) {
     const core::StopScope scope(until_interrupted());
@@ -38,7 +38,7 @@ render::Visits visits_of(const LightFieldSource& source) {
     return counter ? counter->visits() : render::Visits{};
 }
 
-// Mean seconds for single hogels, spread evenly over the hologram.
+// Returns the mean seconds for single hogels, spread evenly over the hologram.
 double time_of_hogels(const LightFieldSource& source, double budget, bool cached) {
     const LightFieldGrid& grid = source.grid();
     constexpr std::size_t min_hogels = 3, max_hogels = 64;
@@ -47,11 +47,13 @@ double time_of_hogels(const LightFieldSource& source, double budget, bool cached
     while (hogels < min_hogels || (seconds < budget && hogels < max_hogels)) {
         // The multiples of the inverse powers of the plastic number fill a square evenly.
         constexpr double plastic = 1.32471795724474602596;
-        const auto place = [&](double step, std::size_t n) {
-            const double part = 0.5 + static_cast<double>(hogels) * step;
-            return std::min(n - 1, static_cast<std::size_t>((part - std::floor(part)) * static_cast<double>(n)));
+        const auto position = [&](double step, std::size_t n) {
+            const double fraction = 0.5 + static_cast<double>(hogels) * step;
+            return std::min(n - 1,
+                            static_cast<std::size_t>((fraction - std::floor(fraction)) * static_cast<double>(n)));
         };
-        const HogelRange hogel{place(1 / plastic, grid.hogels_s), place(1 / (plastic * plastic), grid.hogels_t), 1, 1};
+        const HogelRange hogel{position(1 / plastic, grid.hogels_s), position(1 / (plastic * plastic), grid.hogels_t),
+                               1, 1};
         LightFieldTile tile(grid, hogel, false);
         seconds += time_of_reading(source, tile, cached);
         ++hogels;
@@ -59,42 +61,41 @@ double time_of_hogels(const LightFieldSource& source, double budget, bool cached
     return seconds / static_cast<double>(hogels);
 }
 
-// One in `part` of the scene's runs of consecutive triangles, which share vertices and are similar; no triangle for
-// part 0.
+// Returns one in `part` of the scene's runs of consecutive, similar triangles; no triangle for part 0.
 std::shared_ptr<const ShadedScene> thinned(const ShadedScene& scene, std::size_t part) {
-    auto few = std::make_shared<ShadedScene>(scene);
-    few->triangles.clear();
-    few->radiance_cache = nullptr;  // it is indexed by the numbers of triangles
+    auto thinned_scene = std::make_shared<ShadedScene>(scene);
+    thinned_scene->triangles.clear();
+    thinned_scene->radiance_cache = nullptr;  // it is indexed by the numbers of triangles
     constexpr std::size_t run = 16;
     for (std::size_t i = 0; part > 0 && i < scene.triangles.size(); ++i)
-        if (i / run % part == 0) few->triangles.push_back(scene.triangles[i]);
-    return few;
+        if (i / run % part == 0) thinned_scene->triangles.push_back(scene.triangles[i]);
+    return thinned_scene;
 }
 
-// The smallest power of two n, usually 1, for which a hogel with one in n triangles is rendered within `seconds`.
+// Returns the smallest power of two n such that a hogel with 1/n of the triangles is rendered within `seconds`.
 std::size_t affordable_part(const std::string& algorithm, const ShadedScene& scene, const LightFieldGrid& grid,
                             double seconds) {
     constexpr std::size_t guess = 64;
     const auto source = make_source(algorithm, thinned(scene, guess), grid, 1);
     LightFieldTile tile(grid, {grid.hogels_s / 2, grid.hogels_t / 2, 1, 1}, false);
-    const double whole = guess * time_of_reading(*source, tile, false);
+    const double all_seconds = guess * time_of_reading(*source, tile, false);
     std::size_t part = 1;
-    while (whole > seconds * static_cast<double>(part)) part *= 2;
+    while (all_seconds > seconds * static_cast<double>(part)) part *= 2;
     return part;
 }
 
-// A rendering algorithm and its scene.
 struct Rendering {
     std::string algorithm;
     std::shared_ptr<const ShadedScene> scene;
-    bool cached = false;                                      ///< whether the scene has a radiance cache
-    std::shared_ptr<const LightFieldSource> whole = nullptr;  ///< with all directions, once it is made
+    bool cached = false;  ///< whether the scene has a radiance cache
+    std::shared_ptr<const LightFieldSource> full_source =
+        nullptr;  ///< source with all directions; null until it is made
 };
 
 struct Reading {
     double seconds = 0;  // for all directions
     render::Visits visits;
-    double rays = 0;  // that were visited
+    double rays = 0;  // number of visited rays
 };
 
 std::size_t rows_of(const std::vector<DirectionSlab>& slabs) {
@@ -112,17 +113,17 @@ Reading read_slabs(Rendering& rendering, const LightFieldGrid& grid, const Hogel
         stop_if_interrupted();
         std::shared_ptr<const LightFieldSource> source;
         const bool all = slab.rows == grid.directions_v;
-        if (all && rendering.whole && !by_region)
-            source = rendering.whole;
+        if (all && rendering.full_source && !by_region)
+            source = rendering.full_source;
         else
             source = make_source(rendering.algorithm, rendering.scene, all ? grid : slab.of(grid), range.ns);
-        if (all) rendering.whole = source;
+        if (all) rendering.full_source = source;
         LightFieldTile tile(source->grid(), range, false);
         const render::Visits earlier = visits_of(*source);
         reading.seconds += time_of_reading(*source, tile, rendering.cached);
-        const render::Visits now = visits_of(*source);
-        reading.visits.slices += now.slices - earlier.slices;
-        reading.visits.samples += now.samples - earlier.samples;
+        const render::Visits current = visits_of(*source);
+        reading.visits.slices += current.slices - earlier.slices;
+        reading.visits.samples += current.samples - earlier.samples;
         reading.rays += static_cast<double>(range.hogels() * source->grid().directions()) *
                         (rendering.cached ? 2 : 1);  // read twice
     }
@@ -130,11 +131,11 @@ Reading read_slabs(Rendering& rendering, const LightFieldGrid& grid, const Hogel
     return reading;
 }
 
-// The slabs in which a region of so many hogels is rendered; none if it is beyond the limits.
-// @param expected  its time, seconds
+// Returns the slabs for rendering a region of this number of hogels; none if it is beyond the limits.
+// @param expected  expected time in seconds
 std::vector<DirectionSlab> affordable_slabs(const RegionLimits& limits, const LightFieldGrid& grid, std::size_t hogels,
                                             double bytes_per_ray, double expected) {
-    const double bytes = static_cast<double>(hogels * grid.directions_u) * bytes_per_ray;  // of one V
+    const double bytes = static_cast<double>(hogels * grid.directions_u) * bytes_per_ray;  // of one row of directions
     const double max_rows = std::min(std::floor(limits.bytes / bytes), static_cast<double>(grid.directions_v));
     if (!limits.slabs) {
         if (max_rows < static_cast<double>(grid.directions_v) || expected > limits.seconds) return {};
@@ -145,8 +146,8 @@ std::vector<DirectionSlab> affordable_slabs(const RegionLimits& limits, const Li
                            limits.slabs ? limits.seconds / expected : 1);
 }
 
-// The region of side × rows hogels in or near the middle; none where it leaves the grid.
-// @param aligned  begins at multiples of its side, as interpolation has it
+// Returns the region of side × rows hogels in or near the middle; none if it leaves the grid.
+// @param aligned  whether the region begins at multiples of its side, as interpolation requires
 std::optional<HogelRange> middle(const LightFieldGrid& grid, std::size_t side, std::size_t rows, bool aligned) {
     const auto first = [&](std::size_t hogels, std::size_t across) {
         return aligned ? hogels / 2 / across * across : (hogels - across) / 2;
@@ -161,7 +162,7 @@ std::optional<HogelRange> middle(const LightFieldGrid& grid, std::size_t side, s
 RegionTimes time_regions(const std::string& algorithm, const std::shared_ptr<const ShadedScene>& scene,
                          const LightFieldGrid& grid, const RegionLimits& limits,
                          const std::function<void(const RegionTimes&)>& measured) {
-    const double before = reset_max_memory_held();
+    const double initial_bytes = reset_max_memory_held();
     const bool cached = scene->radiance_cache != nullptr;
     const bool hogel_by_hogel = algorithm == "raytrace" || algorithm == "zbuffer";
     const bool row_by_row = algorithm == "simplex3d" || algorithm == "mvr";
@@ -171,7 +172,7 @@ RegionTimes time_regions(const std::string& algorithm, const std::shared_ptr<con
     const auto add = [&](std::size_t side, double milliseconds, double directions) {
         times.curve.points.emplace_back(static_cast<double>(side), milliseconds);
         times.directions.push_back(directions);
-        times.bytes = max_memory_held() - before;
+        times.bytes = max_memory_held() - initial_bytes;
         measured(times);
     };
     if (hogel_by_hogel) {
@@ -186,25 +187,27 @@ RegionTimes time_regions(const std::string& algorithm, const std::shared_ptr<con
     Rendering empty{algorithm, thinned(*scene, 0)};
     const bool aligned = algorithm == interpolated_simplex;
     const double bytes_per_ray = aligned ? 28 : 20;  // colours in its buffer
-    double last = 0;
+    double last_seconds = 0;
     for (std::size_t side = 1; side <= max_side; side *= 2) {
         const std::size_t rows = row_by_row ? 1 : side, hogels = side * rows;
         const double min_growth = limits.slabs && !row_by_row ? 4 : 1.5;
         const std::vector<DirectionSlab> slabs =
-            affordable_slabs(limits, grid, hogels, bytes_per_ray, last * min_growth);
+            affordable_slabs(limits, grid, hogels, bytes_per_ray, last_seconds * min_growth);
         const std::optional<HogelRange> range = middle(grid, side, rows, aligned);
         if (slabs.empty() || !range) break;
         const Reading reading = read_slabs(rendering, grid, *range, slabs);
-        last = reading.seconds;
+        last_seconds = reading.seconds;
         times.slices_a_ray = static_cast<double>(reading.visits.slices) / reading.rays;
         times.tests_a_ray = static_cast<double>(reading.visits.samples) / reading.rays;
-        // Short times vary, and the first includes that of getting memory from the system.
-        if (slabs.size() == 1 && last < 0.02 * limits.seconds)
-            last = std::min(last, read_slabs(rendering, grid, *range, slabs).seconds);
-        const auto part = static_cast<double>(times.part);
-        const double whole =
-            times.part > 1 ? part * last - (part - 1) * read_slabs(empty, grid, *range, slabs).seconds : last;
-        add(side, 1e3 * whole / static_cast<double>(hogels),
+        // Short times vary, and the first includes the time of memory allocation.
+        if (slabs.size() == 1 && last_seconds < 0.02 * limits.seconds)
+            last_seconds = std::min(last_seconds, read_slabs(rendering, grid, *range, slabs).seconds);
+        const auto triangle_part = static_cast<double>(times.part);
+        const double all_seconds =
+            times.part > 1
+                ? triangle_part * last_seconds - (triangle_part - 1) * read_slabs(empty, grid, *range, slabs).seconds
+                : last_seconds;
+        add(side, 1e3 * all_seconds / static_cast<double>(hogels),
             static_cast<double>(rows_of(slabs)) / static_cast<double>(grid.directions_v));
     }
     return times;

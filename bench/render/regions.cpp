@@ -16,10 +16,9 @@ namespace {
 
 struct ThesisScene {
     const char *name, *shading, *note;
-    double faster;  // speed of the best 4D renderer relative to 2D there; 0 if the text gives no number
+    double faster;  // speed of the best 4D renderer relative to 2D in [K]; 0 if not given
 };
-// The scenes of [K] fig. 5.26 to 5.30, shaded as there. The notes quote its text on the curves, for which it gives no
-// numbers.
+// Scenes of [K] fig. 5.26 to 5.30, shaded as in [K]. The notes quote its text on the curves, which gives no numbers.
 constexpr std::array thesis_scenes{
     ThesisScene{"church", "direct",
                 "[K] fig. 5.26, one 120 MHz processor, axis to 40 s: \"only a marginal improvement\"", 0},
@@ -71,7 +70,7 @@ std::string table_row(const RegionTimes& times, const RegionTimes* reference, st
     return row + fmt::format(" {} |\n", format_bytes(times.bytes));
 }
 
-// Lines below the axis of a plot.
+// Returns the lines below the axis of a plot.
 std::vector<std::string> notes(const std::string& scene, const std::vector<RegionTimes>& all) {
     std::vector<std::string> lines;
     std::string parts;
@@ -82,7 +81,7 @@ std::vector<std::string> notes(const std::string& scene, const std::vector<Regio
     return lines;
 }
 
-// A scene's name, and the number of parts into which the sides of its triangles are cut.
+// Returns a scene's name, and the number of parts into which the sides of its triangles are cut.
 std::pair<std::string, std::size_t> named_scene(const std::string& name) {
     const std::size_t colon = name.rfind(':');
     if (colon == std::string::npos || colon + 1 == name.size() ||
@@ -91,7 +90,7 @@ std::pair<std::string, std::size_t> named_scene(const std::string& name) {
     return {name.substr(0, colon), parse_count(name.substr(colon + 1), name)};
 }
 
-// The plot of what has been measured.
+// Plots the measured times.
 void plot(const std::string& name, const std::string& title, const std::string& subtitle,
           const std::vector<RegionTimes>& all, const RenderOptions& options) {
     PlotText text{title, subtitle, "Side of the region (hogels)", "Time for each hogel (ms)"};
@@ -105,7 +104,7 @@ void plot(const std::string& name, const std::string& title, const std::string& 
     options.write_plot("render", name, text, curves);
 }
 
-// Prints and plots each renderer as soon as it is measured, because a run that is interrupted has taken a while.
+// Prints and plots each renderer as soon as it is measured, so that an interrupted run keeps its results.
 void measure_scene(const std::string& name, std::vector<std::string> algorithms, const RenderOptions& options,
                    const Session& session) {
     LightFieldOptions light_field = options.light_field(render_defaults.hogels, render_defaults.directions);
@@ -114,7 +113,7 @@ void measure_scene(const std::string& name, std::vector<std::string> algorithms,
     const LightFieldGrid grid = light_field.grid();
     const RegionLimits limits{options.max_side.value_or(128), options.seconds.value_or(render_defaults.seconds),
                               1e9 * options.gigabytes};
-    // The others are compared with it.
+    // The reference for the others.
     const auto zbuffer = std::ranges::find(algorithms, "zbuffer");
     const bool ratios = zbuffer != algorithms.end();
     if (ratios) std::rotate(algorithms.begin(), zbuffer, zbuffer + 1);
@@ -189,7 +188,7 @@ void measure_regions(const RenderOptions& options, const Session& session) {
     if (scenes.empty()) scenes = thesis_scene_names();
     if (algorithms.empty())
         for (const RendererInfo& info : renderers().rows()) algorithms.emplace_back(info.name);
-    // Fails for unknown names before anything is measured.
+    // Fails for unknown names before the first measurement.
     const LightFieldGrid grid = options.light_field(render_defaults.hogels, render_defaults.directions).grid();
     for (const std::string& algorithm : algorithms) make_renderer(algorithm, std::make_shared<ShadedScene>(), grid);
     options.prepare_output();

@@ -14,9 +14,9 @@ HogelRows::HogelRows(const LightFieldSource& source, std::size_t rows) : source_
     rows = std::min(rows, grid.hogels_t);
     const std::size_t width = std::min(source.preferred_tile().ns, grid.hogels_s);
     for (std::size_t i = 0; i < rows; ++i) {
-        places_.push_back((2 * i + 1) * grid.hogels_t / (2 * rows));
+        rows_.push_back((2 * i + 1) * grid.hogels_t / (2 * rows));
         for (std::size_t s = 0; s < grid.hogels_s; s += width)
-            tiles_.emplace_back(grid, HogelRange{s, places_[i], std::min(width, grid.hogels_s - s), 1}, false);
+            tiles_.emplace_back(grid, HogelRange{s, rows_[i], std::min(width, grid.hogels_s - s), 1}, false);
     }
 }
 
@@ -24,21 +24,22 @@ void HogelRows::render() {
     work::parallel_for(tiles_.size(), [&](std::size_t i) { source_.read(tiles_[i]); });
 }
 
-std::vector<HogelPlace> HogelRows::some(std::size_t count) const {
+std::vector<HogelIndex> HogelRows::subset(std::size_t count) const {
     const std::size_t width = source_.grid().hogels_s;
-    std::vector<HogelPlace> hogels;
+    std::vector<HogelIndex> hogels;
     for (std::size_t i = 0; i < count; ++i) {
         // Columns advance by the golden ratio, so that no row repeats the columns of another.
-        const double along = (static_cast<double>(i) + 0.5) * std::numbers::phi;
-        const auto column = static_cast<std::size_t>((along - std::floor(along)) * static_cast<double>(width));
-        hogels.push_back({column, places_[(2 * i + 1) * places_.size() / (2 * count)]});
+        const double position = (static_cast<double>(i) + 0.5) * std::numbers::phi;
+        const auto column = static_cast<std::size_t>((position - std::floor(position)) * static_cast<double>(width));
+        hogels.push_back({column, rows_[(2 * i + 1) * rows_.size() / (2 * count)]});
     }
     return hogels;
 }
 
-Rgb HogelRows::sample(HogelPlace hogel, std::size_t v, std::size_t u) const {
-    const LightFieldTile& tile = *std::ranges::find_if(tiles_, [&](const LightFieldTile& one) {
-        return one.range.t0 == hogel.t && one.range.s0 <= hogel.s && hogel.s < one.range.s0 + one.range.ns;
+Rgb HogelRows::sample(HogelIndex hogel, std::size_t v, std::size_t u) const {
+    const LightFieldTile& tile = *std::ranges::find_if(tiles_, [&](const LightFieldTile& candidate) {
+        return candidate.range.t0 == hogel.t && candidate.range.s0 <= hogel.s &&
+               hogel.s < candidate.range.s0 + candidate.range.ns;
     });
     const std::size_t s = hogel.s - tile.range.s0;
     return {tile.radiance(0, 0, s, v, u), tile.radiance(1, 0, s, v, u), tile.radiance(2, 0, s, v, u)};

@@ -16,19 +16,18 @@
 namespace hogel::bench {
 namespace {
 
-// The number of rows of hogels that are rendered: more if threads share them, because one row may take twice as long as
-// another.
+// Number of rendered rows of hogels; larger if threads share them, because one row may take twice as long as another.
 constexpr std::size_t few_rows = 2, rows_for_threads = 16;
 
 Times times_of(const std::string& algorithm, const std::shared_ptr<const ShadedScene>& scene,
                const LightFieldGrid& grid, std::size_t rounds, std::size_t rows = few_rows) {
     const auto source = make_renderer(algorithm, scene, grid);
-    HogelRows some(*source, rows);
-    some.render();  // touches the memory
-    return median_time_of([&] { some.render(); }, rounds);
+    HogelRows hogel_rows(*source, rows);
+    hogel_rows.render();  // touches the memory
+    return median_time_of([&] { hogel_rows.render(); }, rounds);
 }
 
-// Processor times relative to that of the first point.
+// Returns processor times relative to the first point.
 Curve relative(const std::string& name, const std::vector<std::pair<double, double>>& seconds) {
     Curve curve{name, {}};
     for (const auto& [size, time] : seconds) curve.points.emplace_back(size, time / seconds.front().second);
@@ -95,15 +94,15 @@ void print_limits(const std::string& algorithm, const LightFieldGrid& grid, doub
     // Rows of far more memory than the caches.
     constexpr std::size_t min_bytes = std::size_t{1} << 29;
     const std::size_t row_bytes = grid.hogels_s * grid.directions() * grid.channels * sizeof(float);
-    HogelRows some(*source, std::clamp<std::size_t>(min_bytes / row_bytes, few_rows, grid.hogels_t));
-    some.render();
-    const double rendering = median_time_of([&] { some.render(); }, rounds).processor;
+    HogelRows hogel_rows(*source, std::clamp<std::size_t>(min_bytes / row_bytes, few_rows, grid.hogels_t));
+    hogel_rows.render();
+    const double rendering = median_time_of([&] { hogel_rows.render(); }, rounds).processor;
     // Some processors write cache lines of zeros without moving data, twice as fast as other values.
     constexpr int not_zero = 0x3f;
     const double writing = median_time_of(
                                [&] {
-                                   work::parallel_for(some.tiles().size(), [&](std::size_t i) {
-                                       const auto values = some.tiles()[i].radiance.elements();
+                                   work::parallel_for(hogel_rows.tiles().size(), [&](std::size_t i) {
+                                       const auto values = hogel_rows.tiles()[i].radiance.elements();
                                        std::memset(values.data(), not_zero, values.size_bytes());
                                    });
                                },
@@ -112,7 +111,7 @@ void print_limits(const std::string& algorithm, const LightFieldGrid& grid, doub
     fmt::print(
         "Two triangles that fill the view: {:.3g} million samples a processor second; plain writing of the "
         "same samples: {:.3g}; {:.0f} % of its speed.\n",
-        1e-6 * some.rays() / rendering, 1e-6 * some.rays() / writing, 100 * writing / rendering);
+        1e-6 * hogel_rows.rays() / rendering, 1e-6 * hogel_rows.rays() / writing, 100 * writing / rendering);
 }
 
 void print_threads(const std::string& algorithm, const std::shared_ptr<const ShadedScene>& scene,

@@ -16,8 +16,7 @@
 namespace hogel::bench {
 namespace {
 
-// Rounds samples to half floats, as a file does, and keeps only a checksum, which does not depend on the tiling and the
-// number of threads.
+// Rounds samples to half floats, as a file does, and keeps only a checksum, independent of tiles and threads.
 class ConsumingSink final : public LightFieldSink {
   public:
     explicit ConsumingSink(const LightFieldGrid& grid) : grid_(grid) {}
@@ -31,9 +30,9 @@ class ConsumingSink final : public LightFieldSink {
             for (std::size_t t = 0; t < tile.range.nt; ++t)
                 for (std::size_t s = 0; s < tile.range.ns; ++s) {
                     core::to_half(&tile.radiance(c, t, s, 0, 0), halves.data(), halves.size());
-                    const std::size_t place =
+                    const std::size_t index =
                         (c * grid_.hogels_t + tile.range.t0 + t) * grid_.hogels_s + tile.range.s0 + s;
-                    sum += (2 * place + 1) * digest(halves);
+                    sum += (2 * index + 1) * digest(halves);
                 }
         sum_ += sum;
     }
@@ -41,7 +40,7 @@ class ConsumingSink final : public LightFieldSink {
     std::uint64_t sum() const { return sum_; }
 
   private:
-    // FNV-1a by words, in four independent chains so that the processor overlaps their multiplications.
+    // Computes FNV-1a by words, in four independent chains so that the processor overlaps their multiplications.
     static std::uint64_t digest(const std::vector<std::uint16_t>& halves) {
         constexpr std::uint64_t prime = 0x100000001b3, basis = 0xcbf29ce484222325;
         std::array<std::uint64_t, 4> chains{basis, basis + 1, basis + 2, basis + 3};
@@ -53,9 +52,9 @@ class ConsumingSink final : public LightFieldSink {
                 chains[k] = std::rotl((chains[k] ^ word) * prime, 29);
             }
         for (; i < halves.size(); ++i) chains[0] = std::rotl((chains[0] ^ halves[i]) * prime, 29);
-        std::uint64_t all = 0;
-        for (const std::uint64_t chain : chains) all = std::rotl((all ^ chain) * prime, 29);
-        return all;
+        std::uint64_t hash = 0;
+        for (const std::uint64_t chain : chains) hash = std::rotl((hash ^ chain) * prime, 29);
+        return hash;
     }
 
     LightFieldGrid grid_;

@@ -13,7 +13,7 @@
 namespace hogel::bench {
 namespace {
 
-// Every tile alone, on one thread.
+// Measures every tile separately, on one thread.
 std::vector<double> costs_of(const LightFieldSource& source, std::size_t across, std::size_t down) {
     const LightFieldGrid& grid = source.grid();
     std::vector<double> costs;
@@ -31,7 +31,7 @@ std::vector<double> costs_of(const LightFieldSource& source, std::size_t across,
 }  // namespace
 
 void measure_tiles(const RenderOptions& options, const Session& session) {
-    const ThreadLimit one(1);
+    const ThreadLimit single_thread(1);
     const std::size_t across = render_defaults.tiles_across;
     const LightFieldOptions field = options.light_field(4 * across, render_defaults.directions);
     const LightFieldGrid grid = field.grid();
