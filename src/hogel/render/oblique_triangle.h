@@ -101,12 +101,12 @@ struct NearestTriangle {
 
 /// Records triangle `index` as the visible one of the ray through (s, t) if the ray meets it at a depth of at least
 /// `min_depth` and less than the recorded depth. Of two triangles at equal depth the first is kept.
-inline void see(NearestTriangle& seen, std::uint32_t index, const ObliqueTriangle& triangle, double s, double t,
+inline void see(NearestTriangle& nearest, std::uint32_t index, const ObliqueTriangle& triangle, double s, double t,
                 double min_depth = -std::numeric_limits<double>::infinity()) {
-    if (seen.triangle == index) return;
+    if (nearest.triangle == index) return;
     const ObliqueTriangle::Hit hit = triangle.at(s, t);
     const float depth = static_cast<float>(hit.depth);
-    if (hit && hit.depth >= min_depth && depth < seen.depth) seen = {depth, index};
+    if (hit && hit.depth >= min_depth && depth < nearest.depth) nearest = {depth, index};
 }
 
 /// Returns the point where the ray through (s, t) meets triangle `index`, projected along the ray's direction.
@@ -118,11 +118,11 @@ inline VisiblePoint visible_point(std::size_t index, const ObliqueTriangle& tria
 
 /// Shades the visible triangle of the ray of hogel (t, s) in direction (v, u), and stores the sample in the tile.
 inline void store(LightFieldTile& tile, const ShadedScene& scene, const LightFieldGrid& grid,
-                  const NearestTriangle& seen, std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
+                  const NearestTriangle& nearest, std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
     VisiblePoint point;
-    if (seen.triangle != NearestTriangle::none) {
-        const ObliqueTriangle triangle(scene, seen.triangle, grid, static_cast<double>(u), static_cast<double>(v));
-        point = visible_point(seen.triangle, triangle, grid.s(static_cast<double>(tile.range.s0 + s)),
+    if (nearest.triangle != NearestTriangle::none) {
+        const ObliqueTriangle triangle(scene, nearest.triangle, grid, static_cast<double>(u), static_cast<double>(v));
+        point = visible_point(nearest.triangle, triangle, grid.s(static_cast<double>(tile.range.s0 + s)),
                               grid.t(static_cast<double>(tile.range.t0 + t)));
     }
     store(tile, scene, grid, point, t, s, v, u);

@@ -11,8 +11,10 @@ namespace hogel::render {
 /// process each row of hogels separately, at a cost that depends more on the number of rows than on their length.
 inline HogelRange row_tile(const LightFieldGrid& grid, bool along_t = false) {
     const std::size_t hogels = default_tile(grid).hogels();
-    const std::size_t along = along_t ? grid.hogels_t : grid.hogels_s, across = along_t ? grid.hogels_s : grid.hogels_t;
-    const std::size_t length = std::min(along, hogels), rows = std::clamp<std::size_t>(hogels / length, 1, across);
+    const std::size_t extent_along = along_t ? grid.hogels_t : grid.hogels_s,
+                      extent_across = along_t ? grid.hogels_s : grid.hogels_t;
+    const std::size_t length = std::min(extent_along, hogels),
+                      rows = std::clamp<std::size_t>(hogels / length, 1, extent_across);
     return along_t ? HogelRange{0, 0, rows, length} : HogelRange{0, 0, length, rows};
 }
 

@@ -17,12 +17,14 @@ struct Span {  // samples first <= i < end
 
 /// Returns the integers of [0, n) from `low` to `high`, both widened by the margin.
 inline Span samples_between(double low, double high, std::size_t n) {
-    const double from = low - scan_margin, to = high + scan_margin;
-    if (!(from <= to) || to < 0 || from > static_cast<double>(n - 1)) return {};
+    const double first_position = low - scan_margin, last_position = high + scan_margin;
+    if (!(first_position <= last_position) || last_position < 0 || first_position > static_cast<double>(n - 1))
+        return {};
     // Conversions truncate, which is faster than std::ceil and std::floor.
-    std::size_t first = from > 0 ? static_cast<std::size_t>(from) : 0;
-    if (static_cast<double>(first) < from) ++first;
-    const std::size_t end = to < static_cast<double>(n - 1) ? static_cast<std::size_t>(to) + 1 : n;
+    std::size_t first = first_position > 0 ? static_cast<std::size_t>(first_position) : 0;
+    if (static_cast<double>(first) < first_position) ++first;
+    const std::size_t end =
+        last_position < static_cast<double>(n - 1) ? static_cast<std::size_t>(last_position) + 1 : n;
     return first < end ? Span{first, end} : Span{};
 }
 

@@ -45,7 +45,7 @@ HWY_INLINE Floats max_of(Floats a, Floats b, Floats c, Floats e) { return hn::Ma
 // Columns that see a span in some direction of the plane.
 struct ColumnBounds {
     Floats begin, end;
-    FloatMask seen;
+    FloatMask visible;
 };
 
 HWY_INLINE ColumnBounds bound_columns(const SpanLanes& span, const PlaneExtent& plane) {
@@ -122,7 +122,7 @@ HWY_INLINE Ints cheapest_order(const SpanLanes& span, const ColumnBounds& n, con
     const FloatMask use_rows = hn::And(K.bounded, hn::Lt(by_rows, hn::Min(by_directions, by_columns)));
     order = hn::IfThenElse(hn::RebindMask(di, use_rows), hn::Set(di, SpanBounds::rows), order);
 #endif
-    const FloatMask visible = hn::And(n.seen, hn::And(hn::Le(n.begin, n.end), hn::Le(K.begin, K.end)));
+    const FloatMask visible = hn::And(n.visible, hn::And(hn::Le(n.begin, n.end), hn::Le(K.begin, K.end)));
     return hn::IfThenElseZero(hn::RebindMask(di, visible), order);
 }
 
