@@ -79,7 +79,8 @@ LightInLobe gloss_plain(const LampTable& lamps, const float* visibility, const G
         // Factor of the intensity: D V n·l times visibility, over the squared distance.
         const float falloff = lamps.is_point[i] > 0 ? 1 / squared : 1;
         const float peak = surface.alpha2 * half_per_pi / (d * d * visible) * cos_light * (arriving * falloff);
-        const float rest = 1 - std::min(view_half, 1.0f), rest2 = rest * rest, grazing = rest2 * rest2 * rest;
+        const float complement = 1 - std::min(view_half, 1.0f), complement2 = complement * complement,
+                    grazing = complement2 * complement2 * complement;
         const float at_grazing = peak * grazing, at_normal = peak - at_grazing;
         const std::array<float, 3> intensity{lamps.r[i], lamps.g[i], lamps.b[i]};
         for (std::size_t c = 0; c < 3; ++c) {

@@ -52,8 +52,8 @@ LightInLobe Gloss(const LampTable& lamps, const float* visibility, const GlossyP
         const Floats peak =
             hn::Mul(hn::Mul(hn::Div(alpha2_per_2pi, hn::Mul(hn::Mul(spread, spread), visible)), cos_light),
                     hn::Mul(arriving, falloff));
-        const Floats rest = hn::Sub(one, hn::Min(view_half, one)), rest2 = hn::Mul(rest, rest);
-        const Floats at_grazing = hn::Mul(peak, hn::Mul(hn::Mul(rest2, rest2), rest)),
+        const Floats complement = hn::Sub(one, hn::Min(view_half, one)), complement2 = hn::Mul(complement, complement);
+        const Floats at_grazing = hn::Mul(peak, hn::Mul(hn::Mul(complement2, complement2), complement)),
                      at_normal = hn::Sub(peak, at_grazing);
         const Floats intensity[3] = {r, g, b};
         for (std::size_t c = 0; c < 3; ++c)

@@ -19,13 +19,13 @@ double ray_offset(const Scene& scene) {
     return 1e-4 * length(box.high - box.low);
 }
 
-double ray_offset(const Mesh& mesh, double usual) {
-    if (mesh.name != points_name || mesh.triangles.empty()) return usual;
+double ray_offset(const Mesh& mesh, double scene_offset) {
+    if (mesh.name != points_name || mesh.triangles.empty()) return scene_offset;
     // A disc is a fan of triangles. The last side of each is a side of the hexagon, as long as its radius.
     double sum = 0;
     for (const auto& triangle : mesh.triangles)
         sum += length(mesh.positions[triangle[2]] - mesh.positions[triangle[1]]);
-    return std::max(usual, sum / static_cast<double>(mesh.triangles.size()));
+    return std::max(scene_offset, sum / static_cast<double>(mesh.triangles.size()));
 }
 
 Rgb irradiance(const Scene& scene, const trace::RayCaster& caster, double offset, Vec3 point, Vec3 normal) {

@@ -34,8 +34,8 @@ double ray_offset(const Scene& scene);
 
 /// Returns the distance above one mesh at which shadow rays start. The discs of a point cloud (points_name) intersect,
 /// so that corners of one lie under the next; there the distance is the discs' mean radius.
-/// @param usual  ray_offset() of the scene
-double ray_offset(const Mesh& mesh, double usual);
+/// @param scene_offset  ray_offset() of the scene
+double ray_offset(const Mesh& mesh, double scene_offset);
 
 /// Returns the irradiance at a point of a surface from all lights that are visible from there.
 Rgb irradiance(const Scene& scene, const trace::RayCaster& caster, double offset, Vec3 point, Vec3 normal);

@@ -13,8 +13,8 @@ namespace {
 using std::numbers::pi;
 
 double schlick(double cosine) {
-    const double rest = 1 - std::clamp(cosine, 0.0, 1.0), squared = rest * rest;
-    return squared * squared * rest;
+    const double complement = 1 - std::clamp(cosine, 0.0, 1.0), squared = complement * complement;
+    return squared * squared * complement;
 }
 
 double distribution(double cos_half, double alpha) {

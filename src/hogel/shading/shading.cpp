@@ -30,15 +30,15 @@ bool has_maps_of_gloss(const Scene& scene) {
         return mesh.radiance.empty() && (mesh.material.metallic_roughness_texture || mesh.material.normal_texture);
     };
     if (std::ranges::none_of(scene.meshes, has_maps)) return false;
-    double all = 0, with_maps = 0;
+    double total_area = 0, mapped_area = 0;
     for (const Mesh& mesh : scene.meshes) {
         double area = 0;
         for (const auto& [a, b, c] : mesh.triangles)
             area += length(cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]));
-        all += area;
-        if (has_maps(mesh)) with_maps += area;
+        total_area += area;
+        if (has_maps(mesh)) mapped_area += area;
     }
-    return with_maps > 0.1 * all;
+    return mapped_area > 0.1 * total_area;
 }
 
 /// Alias for another model, selected by shading_model().
@@ -167,8 +167,8 @@ void shade_scene_into(const Scene& scene, const ShadingOptions& options, ShadedS
         set_geometry(*turned, options.filter_textures, shaded);
         set_alphas(*turned, shaded);
     }
-    const Scene& seen = turned ? *turned : scene;
-    shaded.lighting = with_maps(seen, options, model.make(seen, options, shaded, progress));
+    const Scene& shown = turned ? *turned : scene;
+    shaded.lighting = with_maps(shown, options, model.make(shown, options, shaded, progress));
     separate_layers(shaded);
     shaded.provenance = {{"scene", scene.name}};
     if (!std::ranges::all_of(scene.meshes, [](const Mesh& mesh) { return !mesh.radiance.empty(); }))

@@ -42,13 +42,13 @@ struct Projected {
 HWY_INLINE Projected project(const ShadowMaps::Table& table, hn::Vec<IndexTag> lamp, Vec3 point) {
     const Tag d;
     const Doubles zero = hn::Zero(d), one = hn::Set(d, 1.0), two = hn::Set(d, 2.0), half = hn::Set(d, 0.5);
-    const auto of = [&](const ShadowMaps::Table::Doubles& values)
-                        HWY_ATTR { return hn::GatherIndex(d, values.data(), lamp); };
+    const auto gather = [&](const ShadowMaps::Table::Doubles& values)
+                            HWY_ATTR { return hn::GatherIndex(d, values.data(), lamp); };
     Projected p;
-    p.x = hn::Sub(hn::Set(d, point.x), of(table.x));
-    p.y = hn::Sub(hn::Set(d, point.y), of(table.y));
-    p.z = hn::Sub(hn::Set(d, point.z), of(table.z));
-    p.side = of(table.side);
+    p.x = hn::Sub(hn::Set(d, point.x), gather(table.x));
+    p.y = hn::Sub(hn::Set(d, point.y), gather(table.y));
+    p.z = hn::Sub(hn::Set(d, point.z), gather(table.z));
+    p.side = gather(table.side);
     const Doubles size_x = hn::Abs(p.x), size_y = hn::Abs(p.y), size_z = hn::Abs(p.z);
     const Mask over_x = hn::Lt(size_x, size_y);
     const Doubles larger = hn::IfThenElse(over_x, size_y, size_x);

@@ -49,9 +49,9 @@ Neighbours neighbours(double position, std::size_t n, Wrap wrap) {
 struct Around {
     Neighbours column, row;
 
-    Around(const Image& image, TextureCoordinate at, const TextureSampling& sampling, bool nearest)
-        : column(neighbours(at.u, image.width(), sampling.wrap_u)),
-          row(neighbours(1.0 - at.v, image.height(), sampling.wrap_v)) {
+    Around(const Image& image, TextureCoordinate coordinate, const TextureSampling& sampling, bool nearest)
+        : column(neighbours(coordinate.u, image.width(), sampling.wrap_u)),
+          row(neighbours(1.0 - coordinate.v, image.height(), sampling.wrap_v)) {
         if (!nearest) return;
         column.weight = column.weight < 0.5f ? 0.0f : 1.0f;
         row.weight = row.weight < 0.5f ? 0.0f : 1.0f;
@@ -62,8 +62,8 @@ struct Around {
     }
 };
 
-Rgb interpolate(const Image& image, TextureCoordinate at, const TextureSampling& sampling, bool nearest) {
-    const Around around(image, at, sampling, nearest);
+Rgb interpolate(const Image& image, TextureCoordinate coordinate, const TextureSampling& sampling, bool nearest) {
+    const Around around(image, coordinate, sampling, nearest);
     const auto& [column, row] = around;
     const auto a = texel(image, row.first, column.first), b = texel(image, row.first, column.second);
     const auto c = texel(image, row.second, column.first), d = texel(image, row.second, column.second);
@@ -72,8 +72,9 @@ Rgb interpolate(const Image& image, TextureCoordinate at, const TextureSampling&
     return {mixed[0], mixed[1], mixed[2]};
 }
 
-float interpolate_alpha(const Image& image, TextureCoordinate at, const TextureSampling& sampling, bool nearest) {
-    const Around around(image, at, sampling, nearest);
+float interpolate_alpha(const Image& image, TextureCoordinate coordinate, const TextureSampling& sampling,
+                        bool nearest) {
+    const Around around(image, coordinate, sampling, nearest);
     const auto& [column, row] = around;
     constexpr std::size_t alpha = 3;
     return around.mix(image.pixels(row.first, column.first, alpha), image.pixels(row.first, column.second, alpha),

@@ -39,9 +39,9 @@ void add_irradiance(const Scene& scene, ShadedScene& shaded) {
         }
         return;
     }
-    const double usual = ray_offset(scene);
+    const double scene_offset = ray_offset(scene);
     std::vector<double> offsets;
-    for (const Mesh& mesh : scene.meshes) offsets.push_back(ray_offset(mesh, usual));
+    for (const Mesh& mesh : scene.meshes) offsets.push_back(ray_offset(mesh, scene_offset));
     for_lit_vertices(scene, [&](const Mesh& mesh, std::size_t base, std::size_t i) {
         const double offset = offsets[static_cast<std::size_t>(&mesh - scene.meshes.data())];
         shaded.radiance[base + i] = irradiance(scene, caster, offset, mesh.positions[i], mesh.normals[i]);

@@ -65,10 +65,10 @@ VertexVisibility::VertexVisibility(const Scene& scene, const ShadedScene& shaded
       totals_(shaded.positions.size(), std::numbers::pi_v<float> * brightness(scene.ambient)) {
     const Bounds box = bounds(scene);
     diagonal_ = length(box.high - box.low);
-    const double usual = ray_offset(scene);
+    const double scene_offset = ray_offset(scene);
     std::size_t base = 0;
     for (const Mesh& mesh : scene.meshes) {
-        parts_.push_back({&mesh, base, ray_offset(mesh, usual)});
+        parts_.push_back({&mesh, base, ray_offset(mesh, scene_offset)});
         base += mesh.positions.size();
         if (mesh.radiance.empty() && !mesh.normals.empty()) trace_vertices(parts_.back());
     }
