@@ -135,17 +135,17 @@ void measure_render(const RenderChoice& choice, const Session& session) {
 }
 
 void add_render_measurements(CLI::App* command, RenderChoice& options) {
-    std::vector<std::string> known{""};
-    for (const RenderPeerInfo& peer : render_peers()) known.push_back(peer.name);
+    std::vector<std::string> peer_names{""};
+    for (const RenderPeerInfo& peer : render_peers()) peer_names.push_back(peer.name);
     options.peers_option =
         command
             ->add_option("--peers", options.peers,
                          fmt::format("Instead: samples a second, side by side with {}; all if none are named",
-                                     fmt::join(known.begin() + 1, known.end(), ", ")))
+                                     fmt::join(peer_names.begin() + 1, peer_names.end(), ", ")))
             ->type_name("NAME,...")
             ->expected(0, static_cast<int>(render_peers().size()))
             ->delimiter(',')
-            ->check(CLI::IsMember(known).description(""));
+            ->check(CLI::IsMember(peer_names).description(""));
     CLI::Option* scaling = command->add_flag("--scaling", options.scaling,
                                              "Instead: how the time grows with hogels, directions and triangles, and "
                                              "what a second thread gains");
@@ -319,8 +319,9 @@ int run(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
-        const std::vector<std::string> rest = app.remaining();
-        if (app.get_subcommands().empty() && !rest.empty()) throw_unknown("command", rest.front(), command_names(app));
+        const std::vector<std::string> extra = app.remaining();
+        if (app.get_subcommands().empty() && !extra.empty())
+            throw_unknown("command", extra.front(), command_names(app));
         return fail(ErrorCode::usage, error.what());
     }
     const ThreadLimit limit(program.threads);

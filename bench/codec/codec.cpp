@@ -41,16 +41,16 @@ std::shared_ptr<const LightFieldSource> open(const Session& session, const Codec
 }
 
 std::vector<CodingMethod> methods_of(const CodecOptions& options) {
-    const auto wanted = [](const std::vector<std::string>& names, std::string_view name) {
+    const auto is_requested = [](const std::vector<std::string>& names, std::string_view name) {
         return names.empty() || std::ranges::count(names, name) > 0;
     };
     std::vector<CodingMethod> methods;
     for (const CoderInfo& coder : coders().rows()) {
-        if (!wanted(options.coders, coder.name)) continue;
+        if (!is_requested(options.coders, coder.name)) continue;
         if (coder.transform.empty()) methods.push_back({coder.name, ""});
         for (const std::string& transform : transform_names())
             if (!coder.transform.empty() && (coder.name == "jpeg4d") == (transform == "dct8") &&
-                wanted(options.transforms, transform)) {
+                is_requested(options.transforms, transform)) {
                 methods.push_back({coder.name, transform});
                 if (coder.quantisation_table) methods.push_back({coder.name, transform, QuantisationTable::jpeg});
             }

@@ -93,9 +93,9 @@ std::size_t lively_hogel(const LightFieldBuffer& field) {
     std::size_t best = 0;
     double most = -1;
     for (std::size_t hogel = 0; hogel < field.grid().hogels(); ++hogel) {
-        const double here = variance(field.radiance.elements().subspan(hogel * size, size));
-        if (here > most) {
-            most = here;
+        const double contrast = variance(field.radiance.elements().subspan(hogel * size, size));
+        if (contrast > most) {
+            most = contrast;
             best = hogel;
         }
     }
@@ -122,9 +122,9 @@ Window lively_window(std::span<const float> slice, const LightFieldGrid& grid, s
     for (std::size_t v = 0; v + side <= grid.directions_v; v += step)
         for (std::size_t u = 0; u + side <= grid.directions_u; u += step) {
             const Window window{u, v, side};
-            const double here = variance(window.of(slice, grid));
-            if (here > most) {
-                most = here;
+            const double contrast = variance(window.of(slice, grid));
+            if (contrast > most) {
+                most = contrast;
                 best = window;
             }
         }

@@ -67,8 +67,8 @@ class EmbreePeer final : public RenderPeer {
     }
 
     Rgb sample(std::size_t i, std::size_t v, std::size_t u) const override {
-        const float* at = values_.data() + i * 3 * grid_.directions() + v * grid_.directions_u + u;
-        return {at[0], at[grid_.directions()], at[2 * grid_.directions()]};
+        const float* pixel = values_.data() + i * 3 * grid_.directions() + v * grid_.directions_u + u;
+        return {pixel[0], pixel[grid_.directions()], pixel[2 * grid_.directions()]};
     }
 
   private:
@@ -114,8 +114,8 @@ class EmbreePeer final : public RenderPeer {
                     const auto& [base, along_u, along_v] = colours_[batch.hit.primID[i]];
                     radiance = base + batch.hit.u[i] * along_u + batch.hit.v[i] * along_v;
                 }
-                float* at = values + (v0 + v) * grid_.directions_u + u0 + u;
-                at[0] = radiance.r, at[plane] = radiance.g, at[2 * plane] = radiance.b;
+                float* pixel = values + (v0 + v) * grid_.directions_u + u0 + u;
+                pixel[0] = radiance.r, pixel[plane] = radiance.g, pixel[2 * plane] = radiance.b;
             }
     }
 

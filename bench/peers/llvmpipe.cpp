@@ -163,12 +163,12 @@ class Context {
 
     // Writes the samples of up to `views` hogels: red, green, blue and an unused byte each.
     void render(std::span<const HogelIndex> hogels, unsigned char* bytes) {
-        std::vector<float> places;
+        std::vector<float> positions;
         for (const HogelIndex& hogel : hogels) {
-            places.push_back(static_cast<float>(geometry_.scale * grid_.s(static_cast<double>(hogel.s))));
-            places.push_back(static_cast<float>(geometry_.scale * grid_.t(static_cast<double>(hogel.t))));
+            positions.push_back(static_cast<float>(geometry_.scale * grid_.s(static_cast<double>(hogel.s))));
+            positions.push_back(static_cast<float>(geometry_.scale * grid_.t(static_cast<double>(hogel.t))));
         }
-        gl_.Uniform2fv(hogels_, static_cast<GLsizei>(hogels.size()), places.data());
+        gl_.Uniform2fv(hogels_, static_cast<GLsizei>(hogels.size()), positions.data());
         gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         gl_.DrawElementsInstanced(GL_TRIANGLES, static_cast<GLsizei>(geometry_.indices.size()), GL_UNSIGNED_INT,
                                   nullptr, static_cast<GLsizei>(hogels.size()));
@@ -293,8 +293,9 @@ class LlvmpipePeer final : public RenderPeer {
     }
 
     Rgb sample(std::size_t i, std::size_t v, std::size_t u) const override {
-        const unsigned char* at = bytes_.data() + 4 * (i * grid_.directions() + v * grid_.directions_u + u);
-        return {static_cast<float>(at[0]) / 255, static_cast<float>(at[1]) / 255, static_cast<float>(at[2]) / 255};
+        const unsigned char* pixel = bytes_.data() + 4 * (i * grid_.directions() + v * grid_.directions_u + u);
+        return {static_cast<float>(pixel[0]) / 255, static_cast<float>(pixel[1]) / 255,
+                static_cast<float>(pixel[2]) / 255};
     }
     float rounding() const override { return 1.0f / 255; }
     float max_radiance() const override { return 1; }

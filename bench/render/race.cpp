@@ -78,12 +78,12 @@ std::optional<Lane> prepare(const Session& session, const std::string& algorithm
     session.detail(fmt::format("preparing {}", info.name));
     Lane lane;
     try {
-        const double held = reset_max_memory_held();
+        const double initial_bytes = reset_max_memory_held();
         lane.peer = info.make(scene, grid);
         lane.hogels = rows.subset(affordable_hogels(*lane.peer, rows, seconds));
         lane.peer->render(lane.hogels);
         lane.racer = {.name = info.name,
-                      .bytes = max_memory_held() - held,
+                      .bytes = max_memory_held() - initial_bytes,
                       .hogels = lane.hogels.size(),
                       .differing = differing(rows, *lane.peer, lane.hogels, grid)};
     } catch (const Error& error) {

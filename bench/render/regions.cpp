@@ -33,8 +33,8 @@ constexpr std::array thesis_scenes{
                 "[K] fig. 5.30, one 120 MHz processor, axis to 6 s: gain between those of fig. 5.26 and 5.27", 0}};
 
 const ThesisScene* thesis_scene(const std::string& name) {
-    const auto* const known = std::ranges::find(thesis_scenes, name, &ThesisScene::name);
-    return known != thesis_scenes.end() ? known : nullptr;
+    const auto* const found = std::ranges::find(thesis_scenes, name, &ThesisScene::name);
+    return found != thesis_scenes.end() ? found : nullptr;
 }
 
 // Moves a scene behind the hologram, at a distance of `gap`.
@@ -77,7 +77,7 @@ std::vector<std::string> notes(const std::string& scene, const std::vector<Regio
     for (const RegionTimes& times : all)
         if (times.part > 1) parts += fmt::format("{}{} 1/{}", parts.empty() ? "" : ", ", times.curve.name, times.part);
     if (!parts.empty()) lines.push_back("dashed: measured on a part of the triangles: " + parts);
-    if (const ThesisScene* known = thesis_scene(scene)) lines.emplace_back(known->note);
+    if (const ThesisScene* thesis = thesis_scene(scene)) lines.emplace_back(thesis->note);
     return lines;
 }
 
@@ -98,9 +98,9 @@ void plot(const std::string& name, const std::string& title, const std::string& 
     std::vector<Curve> curves;
     for (const RegionTimes& times : all) curves.push_back(times.curve);
     const auto reference = std::ranges::find(curves, "zbuffer", &Curve::name);
-    if (const ThesisScene* known = thesis_scene(name); known && known->faster > 0 && reference != curves.end())
-        text.levels.emplace_back(fmt::format("{:g}:1, [K]", known->faster),
-                                 reference->points.front().second / known->faster);
+    if (const ThesisScene* thesis = thesis_scene(name); thesis && thesis->faster > 0 && reference != curves.end())
+        text.levels.emplace_back(fmt::format("{:g}:1, [K]", thesis->faster),
+                                 reference->points.front().second / thesis->faster);
     options.write_plot("render", name, text, curves);
 }
 
@@ -160,8 +160,8 @@ LightFieldOptions RenderOptions::light_field(std::size_t default_hogels, std::si
 
 std::string RenderOptions::shading_of(const std::string& scene) const {
     if (!shading.empty()) return shading;
-    const ThesisScene* known = thesis_scene(named_scene(scene).first);
-    return known ? known->shading : default_shading;
+    const ThesisScene* thesis = thesis_scene(named_scene(scene).first);
+    return thesis ? thesis->shading : default_shading;
 }
 
 void RenderOptions::prepare_output() const {
