@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// transforms.json as nerfstudio, instant-ngp and the scripts of NeRF write it.
+// transforms.json as written by nerfstudio, instant-ngp and the scripts of NeRF.
 #include "hogel/exchange/camera_frames.h"
 
 #include <fmt/format.h>
@@ -31,13 +31,13 @@ Json parse(const fs::path& file) {
     return json;
 }
 
-// The numbers of a frame, or of the whole file where the frame does not say them.
+// Numbers of a frame, with the file's global values as fallback.
 class Numbers {
   public:
     Numbers(const fs::path& file, const Json& all, const Json& frame, std::string where)
         : file_(file), all_(all), frame_(frame), where_(std::move(where)) {}
 
-    /// NaN where neither says it.
+    /// Returns NaN if neither has the number.
     double get(const char* name) const {
         for (const Json* from : {&frame_, &all_}) {
             const auto found = from->find(name);
@@ -53,14 +53,13 @@ class Numbers {
         if (value <= 0) fail_source(file_, fmt::format("{}: {} is {}, but must be positive", where_, name, value));
         return value;
     }
-    /// The focal length in pixels, by one name or by the angle of the whole picture; NaN where neither is there.
+    /// Returns the focal length in pixels, from its own entry or from the full angle of view; NaN if neither exists.
     double focal(const char* name, const char* angle_name, double pixels) const {
         if (const double focal = positive(name); !std::isnan(focal)) return focal;
         const double angle = positive(angle_name);
         if (angle >= std::numbers::pi) fail_source(file_, fmt::format("{}: {} is too large", where_, angle_name));
         return 0.5 * pixels / std::tan(0.5 * angle);
     }
-    /// Throws unless the camera is a pinhole.
     void require_pinhole() const {
         for (const char* name : {"k1", "k2", "k3", "k4", "p1", "p2"})
             if (const double value = get(name); value != 0 && !std::isnan(value))
@@ -81,7 +80,7 @@ class Numbers {
     std::string where_;
 };
 
-// The columns of a camera-to-world matrix of 3 or 4 rows.
+// Reads the columns of a camera-to-world matrix of 3 or 4 rows.
 void take_matrix(const fs::path& file, const Json& frame, const std::string& where, CameraFrame& camera) {
     const auto found = frame.find("transform_matrix");
     const auto fail = [&] { fail_source(file, fmt::format("{}: has no transform_matrix of 4x4 numbers", where)); };
@@ -97,7 +96,7 @@ void take_matrix(const fs::path& file, const Json& frame, const std::string& whe
         }
     }
     for (std::size_t axis = 0; axis < 3; ++axis) camera.axes[axis] = {m[0][axis], m[1][axis], m[2][axis]};
-    camera.place = {m[0][3], m[1][3], m[2][3]};
+    camera.position = {m[0][3], m[1][3], m[2][3]};
     constexpr double rounding = 1e-3;
     for (std::size_t a = 0; a < 3; ++a)
         for (std::size_t b = a; b < 3; ++b)
@@ -107,7 +106,7 @@ void take_matrix(const fs::path& file, const Json& frame, const std::string& whe
         fail_source(file, fmt::format("{}: its transform_matrix mirrors the scene", where));
 }
 
-// The picture of a frame; the first data sets of NeRF leave out the extension.
+// Returns the picture of a frame. The first NeRF data sets omit the extension.
 fs::path picture_of(const fs::path& file, const Json& frame, const std::string& where) {
     const auto found = frame.find("file_path");
     if (found == frame.end() || !found->is_string() || found->get<std::string>().empty())
@@ -118,7 +117,7 @@ fs::path picture_of(const fs::path& file, const Json& frame, const std::string& 
     for (const char* extension : {"", ".png", ".exr", ".jpg"}) {
         fs::path whole = named.string() + extension;
         if (!fs::is_regular_file(whole, none)) continue;
-        // A file that names others must not make hogel read just any: SECURITY.md.
+        // Do not let a file read pictures outside its folder: SECURITY.md.
         const fs::path inside = fs::canonical(whole, none).lexically_relative(fs::canonical(folder, none));
         if (inside.empty() || *inside.begin() == "..")
             fail_source(file,
@@ -136,7 +135,7 @@ std::vector<CameraFrame> read_camera_frames(const fs::path& file) {
     if (list.size() < 2 || list.size() > max_frames)
         fail_source(file, fmt::format("has {} frames, but a set has two or more", list.size()));
     std::vector<CameraFrame> cameras;
-    std::map<fs::path, ViewSet> sizes;  // of pictures whose frames do not say them
+    std::map<fs::path, ViewSet> sizes;  // of pictures whose frames do not state it
     for (std::size_t i = 0; i < list.size(); ++i) {
         core::throw_if_stopped();
         const Json& frame = list[i];
@@ -149,7 +148,7 @@ std::vector<CameraFrame> read_camera_frames(const fs::path& file) {
         take_matrix(file, frame, where, camera);
         double width = numbers.positive("w"), height = numbers.positive("h");
         if (std::isnan(width) || std::isnan(height)) {
-            // The first data sets of NeRF leave it to the pictures.
+            // The first NeRF data sets omit the size.
             const auto [known, is_new] = sizes.try_emplace(camera.picture);
             if (is_new) take_size(image::read_picture(camera.picture, max_pixels), known->second);
             width = static_cast<double>(known->second.width);

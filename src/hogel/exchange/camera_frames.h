@@ -9,38 +9,35 @@
 #include "hogel/exchange/view_set.h"
 #include "hogel/geometry.h"
 
-/// Cameras as files of calibrated pictures describe them, one by one, and the grid of parallel cameras that they may
-/// be.
+/// Cameras as described by files of calibrated pictures, and their arrangement as a grid of parallel cameras.
 namespace hogel::exchange {
 
 /// One camera of transforms.json.
 struct CameraFrame {
-    std::filesystem::path picture;  ///< in the file's folder or below
-    /// Its axes in the file's frame: to the right, up, and backwards (OpenGL), of length 1 and perpendicular.
+    std::filesystem::path picture;  ///< path in the folder of the file or below
+    /// Camera axes in the file's frame: right, up and backwards (OpenGL), orthonormal.
     std::array<Vec3, 3> axes{};
-    Vec3 place;
-    double width = 0, height = 0;     ///< of the picture as the file or the picture says it, pixels
+    Vec3 position;
+    double width = 0, height = 0;     ///< picture size according to the file, otherwise the picture, in pixels
     double focal_x = 0, focal_y = 0;  ///< focal length in pixels
     double center_x = 0,
            center_y = 0;  ///< the point of the picture on the optical axis, pixels from its top left corner
 };
 
-/// Reads transforms.json of nerfstudio and instant-ngp. Throws Error(bad_input) with the file and the place in it for
-/// what is missing or no number, for pictures that do not exist, and for cameras that are no pinholes.
+/// Reads transforms.json of nerfstudio and instant-ngp. Throws Error(bad_input), naming the file and the position in
+/// it, for missing or non-numeric values, missing pictures and cameras that are not pinholes.
 std::vector<CameraFrame> read_camera_frames(const std::filesystem::path& file);
 
-/// Frames in rows and columns.
 struct CameraGrid {
     std::size_t rows = 0, columns = 0;
-    std::vector<std::size_t> frames;  ///< [row from the top][column from the left]: the index of a frame
+    std::vector<std::size_t> frames;  ///< [row from the top][column from the left]: index of a frame
     ViewGeometry geometry;
     std::vector<std::string> notes;
 };
 
-/// Arranges the cameras in rows and columns, in the order in which they are seen from behind, looking ahead. Throws
-/// Error(bad_input), naming the file and a frame, for cameras that are turned against each other, that do not stand on
-/// a plane parallel to their pictures, that leave a place empty or stand at the same one, whose focal lengths differ,
-/// or whose pictures agree on no plane.
+/// Arranges the cameras in rows and columns, as seen from behind the cameras. Throws Error(bad_input), naming the file
+/// and a frame, if cameras are rotated relative to each other, do not lie on a plane parallel to their pictures, leave
+/// a grid position empty or share one, differ in focal length, or if the pictures have no common zero-parallax plane.
 /// @param width, height  of every picture, pixels
 CameraGrid arrange(const std::filesystem::path& file, const std::vector<CameraFrame>& frames, std::size_t width,
                    std::size_t height);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// transforms.json: cameras that are written by their definition in nerfstudio's and instant-ngp's documents, and what
-// is refused of them.
+// transforms.json: cameras as defined by the documentation of nerfstudio and instant-ngp, and rejected files.
 #include "hogel/exchange/camera_frames.h"
 
 #include <gtest/gtest.h>
@@ -27,10 +26,10 @@ struct Frame {
     std::string more;
 };
 
-// What tests change of the frames before they are written.
+// Modification of the frames by a test before they are written.
 using Change = std::function<void(std::vector<Frame>&)>;
 
-// The cameras of the scene, all turned alike in a world that is ten times as large.
+// The cameras of the scene, with a common rotation, in a world of ten times the size.
 void write_set(const TestFolder& folder, const Change& change = {}, const std::string& common = "") {
     const double focal = scene.distance / scene.pixel;
     std::vector<Frame> frames;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether cameras are a grid of parallel ones, and which is where.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,9 +12,9 @@ namespace hogel::exchange {
 namespace fs = std::filesystem;
 namespace {
 
-// By how many pixels a picture may be elsewhere than a grid of parallel cameras would have it.
+// Maximum offset of a picture, in pixels, from an ideal grid of parallel cameras.
 constexpr double max_pixels_off = 0.5;
-// Parts of the spacing by which a camera may stand beside the others' plane, and beside its place on it.
+// Maximum offsets of a camera, relative to the spacing: from the common plane, and from its grid position.
 constexpr double max_behind = 0.02, max_beside = 0.25, noted_beside = 0.01;
 
 class Arrangement {
@@ -26,13 +25,13 @@ class Arrangement {
     CameraGrid made() {
         require_parallel();
         for (const CameraFrame& frame : frames_) {
-            const Vec3 from = frame.place - frames_.front().place;
+            const Vec3 from = frame.position - frames_.front().position;
             const auto& axes = frames_.front().axes;
-            places_.push_back({dot(from, axes[0]), dot(from, axes[1]), dot(from, axes[2])});
+            positions_.push_back({dot(from, axes[0]), dot(from, axes[1]), dot(from, axes[2])});
         }
         std::vector<std::size_t> column, row;
         const auto range = [&](double Vec3::*axis) {
-            const auto [low, high] = std::ranges::minmax(places_, {}, axis);
+            const auto [low, high] = std::ranges::minmax(positions_, {}, axis);
             return high.*axis - low.*axis;
         };
         const double whole_range = std::max(range(&Vec3::x), range(&Vec3::y));
@@ -73,77 +72,80 @@ class Arrangement {
                                     largest * 180 / std::numbers::pi, first.picture.filename().string()));
     }
 
-    // Sorts the cameras into columns or rows by their places along an axis, and says at what spacing these stand.
+    // Sorts the cameras into columns or rows by their positions along an axis, and computes the spacing of these.
     std::size_t steps(double Vec3::*axis, double whole_range, double sign, std::vector<std::size_t>& step_of,
                       double& spacing) const {
-        std::vector<std::size_t> order(places_.size());
+        std::vector<std::size_t> order(positions_.size());
         for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-        std::ranges::stable_sort(order, {}, [&](std::size_t i) { return sign * (places_[i].*axis); });
-        const auto place = [&](std::size_t i) { return sign * (places_[order[i]].*axis); };
+        std::ranges::stable_sort(order, {}, [&](std::size_t i) { return sign * (positions_[i].*axis); });
+        const auto position = [&](std::size_t i) { return sign * (positions_[order[i]].*axis); };
         double gap = 0;
-        for (std::size_t i = 1; i < order.size(); ++i) gap = std::max(gap, place(i) - place(i - 1));
-        step_of.assign(places_.size(), 0);
-        // A single row stands as straight as its cameras stand apart.
-        if (place(order.size() - 1) - place(0) < 0.5 * max_beside * whole_range / static_cast<double>(order.size())) {
+        for (std::size_t i = 1; i < order.size(); ++i) gap = std::max(gap, position(i) - position(i - 1));
+        step_of.assign(positions_.size(), 0);
+        // Treat the cameras as a single row if its deviation is small relative to the camera spacing.
+        if (position(order.size() - 1) - position(0) <
+            0.5 * max_beside * whole_range / static_cast<double>(order.size())) {
             spacing = 0;
             return 1;
         }
         std::size_t step = 0;
         for (std::size_t i = 1; i < order.size(); ++i) {
-            if (place(i) - place(i - 1) > 0.4 * gap) ++step;
+            if (position(i) - position(i - 1) > 0.4 * gap) ++step;
             step_of[order[i]] = step;
         }
-        spacing = (place(order.size() - 1) - place(0)) / static_cast<double>(step);
+        spacing = (position(order.size() - 1) - position(0)) / static_cast<double>(step);
         return step + 1;
     }
 
     void put(const std::vector<std::size_t>& row, const std::vector<std::size_t>& column) {
         if (grid_.rows * grid_.columns > 2 * frames_.size() + 2)
             fail_source(file_, fmt::format("its {} cameras stand in no rows and columns", frames_.size()));
-        constexpr std::size_t nobody = std::numeric_limits<std::size_t>::max();
-        grid_.frames.assign(grid_.rows * grid_.columns, nobody);
+        constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+        grid_.frames.assign(grid_.rows * grid_.columns, none);
         for (std::size_t i = 0; i < frames_.size(); ++i) {
-            std::size_t& there = grid_.frames[row[i] * grid_.columns + column[i]];
-            if (there != nobody)
-                fail(i, fmt::format("its camera stands where that of {} does",
-                                    frames_[there].picture.filename().string()));
-            there = i;
+            std::size_t& slot = grid_.frames[row[i] * grid_.columns + column[i]];
+            if (slot != none)
+                fail(i,
+                     fmt::format("its camera stands where that of {} does", frames_[slot].picture.filename().string()));
+            slot = i;
         }
-        const auto hole = std::ranges::find(grid_.frames, nobody);
+        const auto hole = std::ranges::find(grid_.frames, none);
         if (hole == grid_.frames.end()) return;
-        const auto at = static_cast<std::size_t>(hole - grid_.frames.begin());
-        fail_source(file_,
-                    fmt::format("no camera stands in row {} from the top and column {} from the left; there are {} of "
-                                "{}x{}",
-                                at / grid_.columns, at % grid_.columns, frames_.size(), grid_.columns, grid_.rows));
+        const auto index = static_cast<std::size_t>(hole - grid_.frames.begin());
+        fail_source(
+            file_,
+            fmt::format("no camera stands in row {} from the top and column {} from the left; there are {} of "
+                        "{}x{}",
+                        index / grid_.columns, index % grid_.columns, frames_.size(), grid_.columns, grid_.rows));
     }
 
     void require_places(const std::vector<std::size_t>& row, const std::vector<std::size_t>& column) {
         const double spacing = std::max(spacing_x_, spacing_y_);
         const auto middle = [&](double Vec3::*axis) {
             double sum = 0;
-            for (const Vec3& place : places_) sum += place.*axis;
-            return sum / static_cast<double>(places_.size());
+            for (const Vec3& position : positions_) sum += position.*axis;
+            return sum / static_cast<double>(positions_.size());
         };
         const Vec3 center{middle(&Vec3::x), middle(&Vec3::y), middle(&Vec3::z)};
-        const auto at = [](std::size_t i, std::size_t n) {
+        const auto offset = [](std::size_t i, std::size_t n) {
             return static_cast<double>(i) - 0.5 * static_cast<double>(n - 1);
         };
         std::vector<double> depths;
-        for (const Vec3& place : places_) depths.push_back(place.z);
+        for (const Vec3& position : positions_) depths.push_back(position.z);
         std::ranges::nth_element(depths, depths.begin() + static_cast<long>(depths.size() / 2));
         const double plane = depths[depths.size() / 2];
-        const auto behind = [&](const Vec3& place) { return std::abs(place.z - plane); };
-        if (const auto worst = std::ranges::max_element(places_, {}, behind); behind(*worst) > max_behind * spacing)
-            fail(static_cast<std::size_t>(worst - places_.begin()),
+        const auto behind = [&](const Vec3& position) { return std::abs(position.z - plane); };
+        if (const auto worst = std::ranges::max_element(positions_, {}, behind); behind(*worst) > max_behind * spacing)
+            fail(static_cast<std::size_t>(worst - positions_.begin()),
                  fmt::format(
                      "its camera stands {:.3g} {} the plane of the others, where {:.3g} are from one to the next",
                      behind(*worst), worst->z > plane ? "behind" : "before", spacing));
         double uneven = 0;
         std::size_t farthest = 0;
-        for (std::size_t i = 0; i < places_.size(); ++i) {
-            const Vec3 off = places_[i] - center -
-                             Vec3{at(column[i], grid_.columns) * spacing_x_, -at(row[i], grid_.rows) * spacing_y_, 0};
+        for (std::size_t i = 0; i < positions_.size(); ++i) {
+            const Vec3 off =
+                positions_[i] - center -
+                Vec3{offset(column[i], grid_.columns) * spacing_x_, -offset(row[i], grid_.rows) * spacing_y_, 0};
             const double beside = std::max(std::abs(off.x), std::abs(off.y)) / spacing;
             if (beside > uneven) uneven = beside, farthest = i;
         }
@@ -154,11 +156,10 @@ class Arrangement {
             grid_.notes.push_back(fmt::format(
                 "cameras stand up to {:.2f} of their spacing beside even steps, at which they are taken to be",
                 uneven));
-        for (Vec3& place : places_) place = place - center;
+        for (Vec3& position : positions_) position = position - center;
     }
 
-    // The plane on which the pictures agree: a camera at (x, y) has its centre at a + f x/D, b - f y/D. Least squares
-    // for a, b and 1/D.
+    // Least squares for a, b, 1/D, where the camera at (x, y) has its picture centre at a + f x/D, b - f y/D.
     void find_plane() {
         const CameraFrame& first = frames_.front();
         double a = 0, b = 0, above = 0, below = 0;
@@ -167,7 +168,7 @@ class Arrangement {
             b += frame.center_y / static_cast<double>(frames_.size());
         }
         for (std::size_t i = 0; i < frames_.size(); ++i) {
-            const double x = first.focal_x * places_[i].x, y = -first.focal_y * places_[i].y;
+            const double x = first.focal_x * positions_[i].x, y = -first.focal_y * positions_[i].y;
             above += x * (frames_[i].center_x - a) + y * (frames_[i].center_y - b);
             below += x * x + y * y;
         }
@@ -175,7 +176,8 @@ class Arrangement {
         double shift = 0, max_off = 0;
         std::size_t worst = 0;
         for (std::size_t i = 0; i < frames_.size(); ++i) {
-            const double dx = inverse * first.focal_x * places_[i].x, dy = -inverse * first.focal_y * places_[i].y;
+            const double dx = inverse * first.focal_x * positions_[i].x,
+                         dy = -inverse * first.focal_y * positions_[i].y;
             const double off = std::max(std::abs(frames_[i].center_x - a - dx), std::abs(frames_[i].center_y - b - dy));
             if (off > max_off) max_off = off, worst = i;
             shift = std::max({shift, std::abs(dx), std::abs(dy)});
@@ -203,7 +205,7 @@ class Arrangement {
     const fs::path& file_;
     const std::vector<CameraFrame>& frames_;
     std::size_t width_, height_;
-    std::vector<Vec3> places_;  // to the right, up and backwards; at last from their middle
+    std::vector<Vec3> positions_;  // right, up and backwards; finally relative to their mean
     double spacing_x_ = 0, spacing_y_ = 0;
     CameraGrid grid_;
 };

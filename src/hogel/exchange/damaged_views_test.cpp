@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sets with something wrong are refused, by the name of the file that is wrong.
+// Damaged sets are rejected with the name of the damaged file.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -44,7 +44,7 @@ TEST(DamagedViews, AHoleIsNamed) {
         << error_of(folder.path());
 }
 
-// Room was made for every pair of the numbers.
+// Memory was reserved for every pair of the numbers.
 TEST(DamagedViews, NumbersThatAllDifferMakeNoGridOfTheirSquare) {
     constexpr std::int64_t count = 50000;
     NumberedFiles group;

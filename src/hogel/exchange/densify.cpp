@@ -13,12 +13,11 @@
 namespace hogel::exchange {
 namespace {
 
-// Pixels by which the disparity of a source may disagree and still see the same thing, and what one that does not
-// counts.
+// Disparity tolerance, pixels, of a visible surface; weights of sources where it is hidden or outside.
 constexpr double same_surface = 0.5;
 constexpr float hidden_weight = 1e-4f, outside_weight = 1e-6f;
 
-// Weights of four samples around a fraction between the two in the middle (Catmull and Rom).
+// Returns the weights of four samples around a fraction between the middle two (Catmull-Rom).
 std::array<float, 4> cubic(float f) {
     return {0.5f * f * (-1 + f * (2 - f)), 0.5f * (2 + f * f * (3 * f - 5)), 0.5f * f * (1 + f * (4 - 3 * f)),
             0.5f * f * f * (f - 1)};
@@ -75,9 +74,9 @@ class DensifiedPictures final : public ViewPictures {
     }
 
   private:
-    // A view near the one that is asked for.
+    // A view near the requested one.
     struct Source {
-        double across = 0, down = 0;  // from the view that is asked for to this one
+        double across = 0, down = 0;  // offset from the requested view
         float weight = 0;
         std::shared_ptr<const image::Picture> picture;
         std::shared_ptr<const DisparityMap> map;
@@ -104,15 +103,15 @@ class DensifiedPictures final : public ViewPictures {
         return sources;
     }
 
-    // Whether a source sees a point of this disparity at (x, y), by the source's own disparity.
+    // Returns the visibility weight of a point at (x, y) in a source, by the source's own disparity.
     float seen(const Source& from, double x, double y, float disparity) const {
         const DisparityMap& map = *from.map;
         const double inside_x = static_cast<double>(map.extent(1)) - 1,
                      inside_y = static_cast<double>(map.extent(0)) - 1;
         if (x < -0.5 || y < -0.5 || x > inside_x + 0.5 || y > inside_y + 0.5) return outside_weight;
-        const float there = map(static_cast<std::size_t>(std::lround(std::clamp(y, 0.0, inside_y))),
+        const float local = map(static_cast<std::size_t>(std::lround(std::clamp(y, 0.0, inside_y))),
                                 static_cast<std::size_t>(std::lround(std::clamp(x, 0.0, inside_x))));
-        return std::abs(there - disparity) < same_surface ? 1 : hidden_weight;
+        return std::abs(local - disparity) < same_surface ? 1 : hidden_weight;
     }
 
     template <class Samples>
@@ -131,7 +130,7 @@ class DensifiedPictures final : public ViewPictures {
                 std::ranges::fill(sum, 0.0f);
                 float weights = 0;
                 for (const Source& from : sources) {
-                    // What is here is `across` views to the right by as many times its disparity to the left.
+                    // `across` views to the right, the point is across · d pixels to the left.
                     const double at_x = static_cast<double>(x) - static_cast<double>(d) * from.across;
                     const double at_y =
                         static_cast<double>(y) - static_cast<double>(d) * from.down * set_.geometry.spacing_ratio;

@@ -6,13 +6,12 @@
 
 namespace hogel::exchange {
 
-/// The set with factor - 1 views between neighbours, interpolated by their disparity: each pixel is looked up in the
-/// two or four views around it that see it, between pixels by cubic interpolation, in the codes that are stored. Views
-/// of the set stay as they are.
-/// @param memory  bytes of decoded views that are kept
+/// Returns the set with factor - 1 interpolated views between neighbours. Each pixel is fetched by disparity from the
+/// surrounding two or four views that see it, with cubic interpolation of the stored codes. Keeps the set's own views.
+/// @param memory  bytes of decoded views that are cached
 ViewSet densified(ViewSet set, std::shared_ptr<const Disparities> disparities, std::size_t factor, double memory);
 
-/// The same cameras with factor - 1 between neighbours.
+/// Inserts factor - 1 cameras between neighbouring cameras.
 void densify(Placement& placement, std::size_t factor);
 
 }  // namespace hogel::exchange

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Views between views, and the depth of rays, against a scene in which both are known.
+// Interpolated views and the depth of rays, compared with a scene of known views and depth.
 #include "hogel/exchange/densify.h"
 
 #include <gtest/gtest.h>
@@ -15,10 +15,10 @@
 namespace hogel::exchange {
 namespace {
 
-// Every second view of this scene becomes a set, so that the others are known.
+// Every second view of this scene forms the set, so that ground truth exists for the others.
 const TestScene scene{.columns = 5, .rows = 5, .width = 96, .height = 80, .near = -0.04, .far = 0.04};
 
-// By how many pixels what a view shows at a pixel moves left from a view of the set to the next, two cameras on.
+// Disparity of a pixel in pixels, from a view of the set to the next, two cameras to the right.
 float disparity_at(std::size_t row, std::size_t column, std::size_t y, std::size_t x) {
     const double depth = scene.depth(scene.camera_x(column), scene.camera_y(row), scene.pixel_x(x), scene.pixel_y(y));
     return static_cast<float>(-2 * scene.spacing * depth / (scene.distance + depth) / scene.pixel);

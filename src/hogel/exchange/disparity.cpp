@@ -20,26 +20,26 @@ namespace hogel::exchange {
 namespace fs = std::filesystem;
 namespace {
 
-// Holes take the smaller disparity, the farther one, of the nearest pixels on both sides along the motion.
+// Fills holes with the smaller (farther) disparity of the nearest known pixels on both sides along the motion.
 void fill_holes(DisparityMap& map, bool along_y) {
     const std::size_t lines = map.extent(along_y ? 1 : 0), length = map.extent(along_y ? 0 : 1);
     for (std::size_t line = 0; line < lines; ++line) {
-        const auto at = [&](std::size_t i) -> float& { return along_y ? map(i, line) : map(line, i); };
+        const auto pixel = [&](std::size_t i) -> float& { return along_y ? map(i, line) : map(line, i); };
         for (std::size_t i = 0; i < length;) {
-            if (!std::isnan(at(i))) {
+            if (!std::isnan(pixel(i))) {
                 ++i;
                 continue;
             }
             std::size_t end = i;
-            while (end < length && std::isnan(at(end))) ++end;
-            const float before = i > 0 ? at(i - 1) : NAN, after = end < length ? at(end) : NAN;
+            while (end < length && std::isnan(pixel(end))) ++end;
+            const float before = i > 0 ? pixel(i - 1) : NAN, after = end < length ? pixel(end) : NAN;
             const float fill = std::isnan(before) ? after : std::isnan(after) ? before : std::min(before, after);
-            for (; i < end; ++i) at(i) = fill;
+            for (; i < end; ++i) pixel(i) = fill;
         }
     }
 }
 
-// The median of 3x3 pixels, which closes cracks of a pixel that moving leaves.
+// Applies a 3x3 median, which closes the one-pixel cracks that moving leaves.
 DisparityMap median(const DisparityMap& map) {
     DisparityMap out(map.shape());
     const std::size_t height = map.extent(0), width = map.extent(1);
@@ -65,11 +65,11 @@ std::string lower_name(const fs::path& path) {
 struct Candidate {
     fs::path path;
     bool depth = false;
-    bool coded = false;  // as whole numbers
+    bool coded = false;  // stored as integers
 };
 
-// Files that are maps by their names; those of floating-point numbers first, disparity before depth, in the order of
-// their names. Pictures of 8 bits are shown to people, and no maps unless there is a scale.
+// Returns the files that are maps by name: floating-point first, disparity before depth, then by name. Pictures of 8
+// bits are previews, not maps, unless there is a scale.
 std::vector<Candidate> candidates(const fs::path& folder) {
     std::vector<Candidate> found;
     std::error_code error;
@@ -105,7 +105,7 @@ DisparityMap read_npy(const fs::path& path) {
     return map;
 }
 
-// A map of whole numbers; nothing for a picture of 8 bits where no scale makes it a map.
+// Reads a map of integers. Returns nothing for a picture of 8 bits without a scale.
 std::optional<DisparityMap> read_codes(const fs::path& path, double scale) {
     const image::Picture picture = image::read_picture(path, max_pixels);
     if (scale == 0 && !std::holds_alternative<Array<std::uint16_t, 3>>(picture.samples)) return {};
@@ -119,7 +119,7 @@ std::optional<DisparityMap> read_codes(const fs::path& path, double scale) {
         [&](const auto& samples) {
             using T = std::remove_cvref_t<decltype(samples(0, 0, 0))>;
             if (samples.extent(2) != 1) fail_source(path, "a map has one channel, but this picture has colours");
-            // Codes of less than 16 bits were scaled to them.
+            // Codes of less than 16 bits were scaled to 16 bits.
             const double full = std::is_same_v<T, std::uint8_t> ? 255 : 65535;
             const double code = std::is_same_v<T, float> ? 1 : max_code_of(picture) / full;
             DisparityMap map({samples.extent(0), samples.extent(1)});
@@ -143,12 +143,12 @@ DisparityMap read_map(const fs::path& path) {
     return map;
 }
 
-// Depth Z becomes the disparity (1/Z - 1/D) b/a.
+// Converts depth Z to the disparity (1/Z - 1/D) b/a.
 void to_disparity(const fs::path& path, const ViewGeometry& g, DisparityMap& map) {
     if (!(g.spacing > 0 && g.pixel_tangent > 0 && g.distance > 0))
         fail_source(path, "depth becomes disparity by the distances of the cameras, which this set does not say");
     for (float& value : map.elements()) {
-        if (std::isnan(value)) continue;  // not known
+        if (std::isnan(value)) continue;  // unknown
         if (!(value > 0)) fail_source(path, "holds a depth that is not positive");
         value = static_cast<float>((1 / static_cast<double>(value) - 1 / g.distance) * g.spacing / g.pixel_tangent);
     }
@@ -156,8 +156,7 @@ void to_disparity(const fs::path& path, const ViewGeometry& g, DisparityMap& map
 
 using KnownMaps = std::vector<std::pair<std::pair<std::size_t, std::size_t>, DisparityMap>>;
 
-// Where there are more maps than views, those of one kind of names that are as many: one of the middle view may lie
-// beside them.
+// If there are too many maps, keeps those of a name pattern with one map per view.
 void keep_those_of_all_views(std::size_t views, std::size_t columns, KnownMaps& known, std::vector<fs::path>& used) {
     if (known.size() <= views) return;
     const auto shape_of = [](const fs::path& path) {
@@ -194,8 +193,8 @@ DisparityMap moved(const DisparityMap& map, double across, double down, double s
             const float d = map(static_cast<std::size_t>(y), static_cast<std::size_t>(x));
             const long to_x = x - std::lround(d * across), to_y = y - std::lround(d * down * spacing_ratio);
             if (to_x < 0 || to_y < 0 || to_x >= width || to_y >= height) continue;
-            float& there = out(static_cast<std::size_t>(to_y), static_cast<std::size_t>(to_x));
-            if (std::isnan(there) || d > there) there = d;
+            float& target = out(static_cast<std::size_t>(to_y), static_cast<std::size_t>(to_x));
+            if (std::isnan(target) || d > target) target = d;
         }
     const bool along_y = std::abs(down * spacing_ratio) > std::abs(across);
     fill_holes(out, along_y);
@@ -211,11 +210,11 @@ Disparities::Disparities(std::vector<std::pair<std::pair<std::size_t, std::size_
 
 std::shared_ptr<const DisparityMap> Disparities::at(double row, double column) const {
     return moved_.get({row, column}, [&] {
-        const auto away = [&](const auto& each) {
+        const auto distance = [&](const auto& each) {
             return std::hypot(static_cast<double>(each.first.first) - row,
                               static_cast<double>(each.first.second) - column);
         };
-        const auto nearest = std::ranges::min_element(known_, {}, away);
+        const auto nearest = std::ranges::min_element(known_, {}, distance);
         return std::make_shared<const DisparityMap>(
             moved(nearest->second, column - static_cast<double>(nearest->first.second),
                   row - static_cast<double>(nearest->first.first), spacing_ratio_));
@@ -231,7 +230,7 @@ std::shared_ptr<const Disparities> find_disparities(const fs::path& source, cons
     bool of_depth = false, of_codes = false;
     const std::size_t views = set.rows * set.columns;
     for (const Candidate& candidate : candidates(folder)) {
-        // Either disparity or depth, and of one kind of numbers.
+        // Do not mix disparity with depth, or integers with floating-point numbers.
         if (!used.empty() && (candidate.depth != of_depth || candidate.coded != of_codes)) break;
         std::optional<DisparityMap> read =
             candidate.coded ? read_codes(candidate.path, scale) : read_map(candidate.path);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plane sweep. For each candidate of disparity the views around the middle one are looked up where it would put each
-// pixel; of the differences the smaller half counts, because what is hidden in some views is seen in those opposite.
+// Plane sweep over candidate disparities. The cost of a pixel is the sum of the smaller half of the differences to the
+// surrounding views, because a point that is hidden in some views is visible in the opposite ones.
 #include <algorithm>
 #include <cmath>
 
@@ -12,13 +12,13 @@
 namespace hogel::exchange {
 namespace {
 
-// Pixels between candidates, rows that are worked on together, and the sides of the windows, 2 r + 1 pixels.
+// Step between candidates in pixels, rows per task, and window radius r: windows have 2 r + 1 pixels a side.
 constexpr double disparity_step = 0.25;
 constexpr std::size_t strip = 48;
 constexpr long window = 2;
-// Views to each side of the middle one.
-constexpr long reach = 2;
-// A difference counts up to this part of the full range, so that few pixels do not outweigh many.
+// Number of views on each side of the middle one.
+constexpr long neighbour_range = 2;
+// Upper limit of a difference, relative to the full range, which bounds the influence of outliers.
 constexpr float max_difference = 0.1f;
 
 struct Neighbour {
@@ -40,7 +40,7 @@ float sample(const Array<float, 2>& grey, double x, double y) {
 
 std::vector<Neighbour> neighbours(const ViewSet& set, std::size_t row, std::size_t column) {
     std::vector<Neighbour> list;
-    for (long k = -reach; k <= reach; ++k) {
+    for (long k = -neighbour_range; k <= neighbour_range; ++k) {
         const long r = static_cast<long>(row) + k, c = static_cast<long>(column) + k;
         if (k == 0) continue;
         if (c >= 0 && c < static_cast<long>(set.columns))
@@ -52,7 +52,7 @@ std::vector<Neighbour> neighbours(const ViewSet& set, std::size_t row, std::size
     return list;
 }
 
-// The cost of a candidate at the rows [first, first + count).
+// Computes the cost of a candidate at the rows [first, first + count).
 void costs(const Array<float, 2>& middle, const std::vector<Neighbour>& around, double disparity, long first,
            Array<float, 2>& cost) {
     std::vector<float> differences(around.size());
@@ -74,7 +74,7 @@ void costs(const Array<float, 2>& middle, const std::vector<Neighbour>& around, 
         }
 }
 
-// Sums over windows, of the rows that have whole ones.
+// Sums over windows, for the rows with complete windows.
 Array<float, 2> windowed(const Array<float, 2>& cost) {
     const std::size_t width = cost.extent(1);
     Array<float, 2> across(cost.shape()), sums({cost.extent(0) - 2 * window, width});
@@ -94,7 +94,7 @@ void sweep(const Array<float, 2>& middle, const std::vector<Neighbour>& around, 
     const std::size_t rows = std::min(strip, middle.extent(0) - first), width = middle.extent(1);
     const long most = std::lround(std::ceil(max_disparity / disparity_step));
     Array<float, 2> before, now, least({rows, width}, INFINITY);
-    // Candidates in rising order: `now` is known with those on both sides when `next` is there.
+    // Candidates in ascending order: when `next` is computed, `now` has both neighbours for the parabola fit.
     Array<float, 2> cost({rows + 2 * window, width});
     for (long k = -most - 1; k <= most + 1; ++k) {
         core::throw_if_stopped();

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light field as a set of views: the inverse of import_views.cpp.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +16,7 @@ namespace hogel {
 namespace exchange {
 namespace {
 
-// What the import stored of the pictures; empty for other light fields.
+// Returns a property of the imported pictures; empty for other light fields.
 std::string stored(const LightField& light_field, const std::string& key) {
     for (const auto& [name, text] : light_field.provenance().entries)
         if (name == key) return text;
@@ -40,7 +39,7 @@ unsigned bits_for(const LightField& light_field, const ViewExportOptions& option
                                                                 : 8;
 }
 
-// The format of the pictures: as asked for, else what holds the bits that the set had.
+// Returns the picture format: as requested, otherwise one that holds the bits of the imported set.
 std::string format_for(const LightField& light_field, const ViewExportOptions& options) {
     static const std::vector<std::string> known{"png", "ppm", "pfm", "exr"};
     if (!options.format.empty()) {
@@ -93,7 +92,6 @@ void require_views(const LightField& light_field, const ViewLayout& layout) {
                         layout.name));
 }
 
-// A group of views, filled from tiles of hogels.
 class Group {
   public:
     Group(const LightFieldGrid& grid, std::size_t first, std::size_t count)
@@ -163,10 +161,10 @@ ExportedViews write_views(const LightField& light_field, const ViewTarget& targe
     const std::size_t views = target.columns * target.rows;
     exported.files.resize(views);
     const double view_bytes = static_cast<double>(target.width * target.height * target.channels) * sizeof(float);
-    const auto at_once =
+    const auto group_size =
         static_cast<std::size_t>(std::clamp(options.memory / view_bytes, 1.0, static_cast<double>(views)));
-    for (std::size_t first = 0; first < views; first += at_once) {
-        const std::size_t count = std::min(at_once, views - first);
+    for (std::size_t first = 0; first < views; first += group_size) {
+        const std::size_t count = std::min(group_size, views - first);
         const Progress part = progress.part(static_cast<double>(first) / static_cast<double>(views),
                                             static_cast<double>(first + count) / static_cast<double>(views));
         Group group(light_field.grid(), first, count);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is exported is imported back: geometry, and every sample to the last bit where the format holds it.
+// Round trip of export and import: geometry, and all samples exactly if the format can hold them.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ LightFieldGrid grid_of_cameras(std::size_t rows) {
     return grid;
 }
 
-// Codes of so many bits, all different where there are enough, as linear light.
+// Codes of the given number of bits, distinct if possible, as linear light.
 LightField random_codes(const LightFieldGrid& grid, unsigned bits, Transfer transfer) {
     auto buffer = std::make_shared<LightFieldBuffer>(grid);
     std::mt19937 random(1);

@@ -20,7 +20,7 @@ constexpr std::size_t max_digits = 18;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// A number in a name: its sign and its digits.
+/// A number in a name: its range of characters and its value.
 struct NameNumber {
     std::size_t begin, end;
     std::int64_t value;
@@ -56,7 +56,7 @@ std::pair<std::string, std::vector<std::int64_t>> parse(const std::string& name)
     return {shape + name.substr(done), values};
 }
 
-/// Whether files with the same number at `i` have the same number at `k`.
+/// Returns whether number i of the names determines number k.
 bool follows_from(const std::vector<NumberedFile>& files, std::size_t k, std::size_t i) {
     std::map<std::int64_t, std::int64_t> values;
     return std::ranges::all_of(files, [&](const NumberedFile& file) {
@@ -75,7 +75,7 @@ std::vector<std::size_t> varying_of(const std::vector<NumberedFile>& files) {
     return varying;
 }
 
-// The distinct values of a number, in rising order, at even steps.
+// Returns the distinct values of a number, ascending. Throws unless they are evenly spaced.
 std::vector<std::int64_t> steps(const NumberedFiles& group, std::size_t number) {
     std::vector<std::int64_t> values;
     for (const NumberedFile& file : group.files) values.push_back(file.numbers[number]);
@@ -90,7 +90,7 @@ std::vector<std::int64_t> steps(const NumberedFiles& group, std::size_t number) 
     return values;
 }
 
-// The name of a file that is missing: another one's, with two of its numbers replaced at their widths.
+// Returns the name of a missing file: another file's name with two numbers replaced at their widths.
 std::string name_with(const std::string& name, std::size_t a, std::int64_t a_value, std::size_t b,
                       std::int64_t b_value) {
     std::string replaced;
@@ -107,7 +107,6 @@ std::string name_with(const std::string& name, std::size_t a, std::int64_t a_val
     return replaced + name.substr(done);
 }
 
-// A number of names, by its index, and a value that it has.
 struct NumberInName {
     std::size_t index;
     std::int64_t value;
@@ -122,7 +121,7 @@ struct NumberInName {
                                                   group.files.size(), grid.columns, grid.rows));
 }
 
-// Whether pictures are by their names something else than what cameras saw: disparity, depth, labels, small copies.
+// Returns whether the name denotes derived pictures instead of camera views: disparity, depth, labels, thumbnails.
 bool is_map(const std::string& shape) {
     std::string name = shape;
     std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -159,28 +158,28 @@ std::vector<NumberedFiles> numbered_pictures(const fs::path& folder) {
 
 PictureGrid in_rows_and_columns(const NumberedFiles& group, std::size_t row_number, std::size_t column_number) {
     const std::vector<std::int64_t> rows = steps(group, row_number), columns = steps(group, column_number);
-    // In the order of views. Numbers that differ in every name would be a grid of the square of the number of files.
-    std::vector<std::pair<std::size_t, const NumberedFile*>> places;
+    // Sorted list instead of an array: numbers that differ in every name would make a grid of (number of files)².
+    std::vector<std::pair<std::size_t, const NumberedFile*>> indexed;
     const auto index_of = [](const std::vector<std::int64_t>& values, std::int64_t value) {
         return static_cast<std::size_t>(std::ranges::lower_bound(values, value) - values.begin());
     };
     for (const NumberedFile& file : group.files)
-        places.emplace_back(
+        indexed.emplace_back(
             index_of(rows, file.numbers[row_number]) * columns.size() + index_of(columns, file.numbers[column_number]),
             &file);
-    std::ranges::stable_sort(places, {}, [](const auto& place) { return place.first; });
+    std::ranges::stable_sort(indexed, {}, [](const auto& entry) { return entry.first; });
     PictureGrid grid{rows.size(), columns.size(), {}};
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const auto& [place, file] = places[i];
-        if (i > 0 && place == places[i - 1].first)
+    for (std::size_t i = 0; i < indexed.size(); ++i) {
+        const auto& [index, file] = indexed[i];
+        if (i > 0 && index == indexed[i - 1].first)
             throw Error(ErrorCode::bad_input, fmt::format("{}: is the same view as {}", file->path.string(),
-                                                          places[i - 1].second->path.filename().string()));
-        if (place != i)
+                                                          indexed[i - 1].second->path.filename().string()));
+        if (index != i)
             fail_missing(group, {row_number, rows[i / columns.size()]}, {column_number, columns[i % columns.size()]},
                          grid);
         grid.files.push_back(file->path);
     }
-    if (const std::size_t i = places.size(); i < rows.size() * columns.size())
+    if (const std::size_t i = indexed.size(); i < rows.size() * columns.size())
         fail_missing(group, {row_number, rows[i / columns.size()]}, {column_number, columns[i % columns.size()]}, grid);
     return grid;
 }

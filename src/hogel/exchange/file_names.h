@@ -6,41 +6,39 @@
 #include <string>
 #include <vector>
 
-/// What the names of a folder's pictures say of the order of views.
+/// Order of views as derived from the names of a folder's pictures.
 namespace hogel::exchange {
 
-/// A picture and the whole numbers in its name, in their order. A '-' behind a blank or '_' is the sign of a number.
+/// A picture and the integers in its name, in order. A '-' after a blank or '_' is the sign of a number.
 struct NumberedFile {
     std::filesystem::path path;
     std::vector<std::int64_t> numbers;
 };
 
-/// Pictures whose names differ in numbers alone.
+/// Pictures whose names differ only in numbers.
 struct NumberedFiles {
     std::string shape;  ///< the name with '#' in place of each number
     std::vector<NumberedFile> files;
-    /// Indices of the numbers that are not the same in all names, without those that follow from one before them, as a
-    /// camera's place from its column.
+    /// Indices of the numbers that vary between names, without those determined by an earlier one.
     std::vector<std::size_t> varying;
 };
 
-/// The pictures of a folder, by the shape of their names, the largest group first, and last those that are maps of
-/// disparity, depth or labels by their names. Folders, hidden files and files that
-/// are no pictures by their names are left out. No groups for what is no folder.
+/// Groups the pictures of a folder by the shape of their names, the largest group first; maps of disparity, depth or
+/// labels (by name) last. Skips folders, hidden files and other extensions. Returns no groups unless `folder` is a
+/// folder.
 std::vector<NumberedFiles> numbered_pictures(const std::filesystem::path& folder);
 
-/// Pictures in rows and columns.
 struct PictureGrid {
     std::size_t rows = 0, columns = 0;
     std::vector<std::filesystem::path> files;  ///< [row][column]
 };
 
-/// The pictures of a group by two of the numbers in their names, in rising order. Throws Error(bad_input), with the
-/// name that is missing or that is there twice, unless they fill a rectangle at even steps.
+/// Arranges a group by two of the numbers in its names, ascending. Throws Error(bad_input), with the name that is
+/// missing or duplicate, unless the pictures fill a rectangle at even steps.
 PictureGrid in_rows_and_columns(const NumberedFiles& group, std::size_t row_number, std::size_t column_number);
 
-/// The pictures of a group by one number, which counts them row by row. With columns = rows = 0 they form a square.
-/// Throws Error(bad_input) for a number that is missing or there twice, and Error(usage) for a count that does not fit.
+/// Arranges a group by one number that counts the pictures row by row. columns = rows = 0 means a square. Throws
+/// Error(bad_input) for a missing or duplicate number, and Error(usage) for a count that does not fit.
 PictureGrid counted(const NumberedFiles& group, std::size_t number, std::size_t columns, std::size_t rows);
 
 }  // namespace hogel::exchange

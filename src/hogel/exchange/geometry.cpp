@@ -12,8 +12,7 @@
 namespace hogel::exchange {
 namespace {
 
-// What is assumed where neither the set nor the options say: the size, eye distance and field of view of a hologram
-// that is made here (hogel/pipeline.h).
+// Default size, viewing distance and field of view, as for synthetic holograms (hogel/pipeline.h).
 constexpr double assumed_size = 20e-3, assumed_distance = 300e-3, assumed_field = 16 * std::numbers::pi / 180;
 
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
@@ -32,14 +31,15 @@ Shear shear_of(const ViewSet& set, const ViewImportOptions& options) {
     shear.dy = -options.disparity * set.geometry.spacing_ratio;
     const auto crop = [](std::size_t pixels, double step, std::size_t views, double& first) {
         const double lost = std::abs(step) * static_cast<double>(views - 1);
-        const double left = std::floor(static_cast<double>(pixels) - lost + 1e-9);
-        if (!(left >= 1))
+        const double remaining = std::floor(static_cast<double>(pixels) - lost + 1e-9);
+        if (!(remaining >= 1))
             throw Error(ErrorCode::usage, "disparity",
                         fmt::format("a disparity of {} leaves no pixel that all {} views show", std::abs(step), views));
-        // The middles of the cropped pictures lie in the middle of the hologram.
-        const double middle = 0.5 * (static_cast<double>(pixels) - left) - 0.5 * step * static_cast<double>(views - 1);
+        // Centre the cropped pictures in the hologram.
+        const double middle =
+            0.5 * (static_cast<double>(pixels) - remaining) - 0.5 * step * static_cast<double>(views - 1);
         first = std::abs(middle - std::round(middle)) < 1e-9 ? std::round(middle) : middle;
-        return static_cast<std::size_t>(left);
+        return static_cast<std::size_t>(remaining);
     };
     shear.width = crop(set.width, shear.dx, set.columns, shear.x0);
     shear.height = crop(set.height, shear.dy, set.rows, shear.y0);
@@ -52,7 +52,7 @@ Shear shear_of(const ViewSet& set, const ViewImportOptions& options) {
     return shear;
 }
 
-// Half the range of directions of n views at steps of `step`. A single row stands for as much as the columns span.
+// Returns half the range of n views' directions at steps of `step`. A single row gets the range of the columns.
 double half_range(std::size_t views, double step, double other) {
     return views > 1 ? 0.5 * static_cast<double>(views) * step : other;
 }
@@ -76,8 +76,8 @@ void place_orthographic(const ViewSet& set, const ViewImportOptions& options, Pl
     placement.grid.view = Perspective{{half_u, half_v, 0, 0}, Face::front};
 }
 
-// The distance of the cameras to the plane that becomes the hologram, in metres of the set; 0 where it does not say.
-double own_distance(const ViewGeometry& g, const ViewImportOptions& options) {
+// Returns the distance from the cameras to the plane that becomes the hologram, in metres of the set; 0 if not stated.
+double distance_in_set(const ViewGeometry& g, const ViewImportOptions& options) {
     if (g.distance == 0) return 0;
     if (options.disparity == 0 && std::isinf(g.distance))
         throw Error(ErrorCode::usage, "disparity",
@@ -98,7 +98,7 @@ void place_cameras(const ViewSet& set, const ViewImportOptions& options, Placeme
     if (options.spacing && options.field_of_view)
         throw Error(ErrorCode::usage, "spacing, fov",
                     "the spacing of cameras and the field of view say the same; one of them is enough");
-    const double own = own_distance(g, options);
+    const double set_distance = distance_in_set(g, options);
     const auto columns = static_cast<double>(std::max(set.columns, set.rows));
     double& distance = placement.distance;
     if (options.distance) {
@@ -109,10 +109,10 @@ void place_cameras(const ViewSet& set, const ViewImportOptions& options, Placeme
         distance = assumed_distance;
         placement.assumed.push_back(fmt::format("a distance of {} from the cameras", format_length(distance)));
     }
-    if (own > 0) placement.scale = distance / own;
+    if (set_distance > 0) placement.scale = distance / set_distance;
     if (options.spacing) {
         placement.spacing = *options.spacing;
-    } else if (g.spacing > 0 && own > 0 && !options.field_of_view) {
+    } else if (g.spacing > 0 && set_distance > 0 && !options.field_of_view) {
         placement.spacing = g.spacing * placement.scale;
     } else {
         const double field = field_of_view(options);
@@ -122,7 +122,7 @@ void place_cameras(const ViewSet& set, const ViewImportOptions& options, Placeme
     }
     placement.spacing_y = placement.spacing * g.spacing_ratio;
     const double half_u = half_range(set.columns, placement.spacing / distance, placement.spacing / distance);
-    // The set's own tangents, at the distance that was asked for.
+    // Scale the set's tangents to the requested distance.
     const double stretch = g.pixel_tangent > 0 ? placement.grid.pitch / g.pixel_tangent / distance : 1;
     placement.grid.view = FocalPlane{{half_u, half_range(set.rows, placement.spacing_y / distance, half_u),
                                       g.center_u * stretch, g.center_v * stretch},
@@ -147,7 +147,7 @@ Placement place(const ViewSet& set, const ViewImportOptions& options) {
         place_orthographic(set, options, placement);
     else
         place_cameras(set, options, placement);
-    // A geometry that no option gives is the set's own.
+    // Without options, an invalid geometry is the set's own error.
     if (options.size > 0 || options.distance || options.spacing || options.field_of_view || options.disparity != 0)
         validate(grid, ErrorCode::usage, set.layout);
     else

@@ -5,30 +5,30 @@
 
 namespace hogel::exchange {
 
-/// Which pixels of each view become hogels. View (row, column) is read at x = x0 + i + dx·column, y = y0 + j + dy·row
-/// for hogel (i, j); rows of pixels that are not square are `step_y` apart instead of 1.
+/// Hogel (i, j) reads view (row, column) at x = x0 + i + dx·column, y = y0 + j + dy·row; `step_y` replaces the row step
+/// 1 if pixels are not square.
 struct Shear {
     double x0 = 0, y0 = 0, dx = 0, dy = 0, step_y = 1;
-    std::size_t width = 0, height = 0;  ///< of what all views show
+    std::size_t width = 0, height = 0;  ///< size of the area that all views show, pixels
 };
 
-/// A set of views at the hologram.
+/// Geometry of a set of views at the hologram.
 struct Placement {
     LightFieldGrid grid;
     Shear shear;
     double spacing = 0, spacing_y = 0,
            distance = 0;  ///< of the cameras, metres at the hologram; of orthographic views 0
-    double scale = 0;     ///< 0 where the set does not say its size
+    double scale = 0;     ///< distance at the hologram per distance in the set; 0 if the set does not state its size
     std::vector<std::string> assumed;
 };
 
-/// Where a set goes. For cameras, the plane that becomes the hologram is the one of options.disparity: with the spacing
-/// b, the distance D of the plane on which views agree and the tangent a between pixels, it is at D' with 1/D' = 1/D +
-/// disparity a/b, and its pixels are a D' apart. Throws Error(usage) for options that do not go together or a plane
-/// that is nowhere, and Error(bad_input) for a geometry of the set's own that no light field has.
+/// Computes the placement of a set. For cameras, options.disparity selects the plane that becomes the hologram: with
+/// camera spacing b, distance D of the zero-parallax plane and pixel tangent a, its distance D' satisfies 1/D' = 1/D +
+/// disparity a/b, and its pixel pitch is a D'. Throws Error(usage) for conflicting options or a plane that does not
+/// exist, and Error(bad_input) for a geometry of the set that no light field has.
 Placement place(const ViewSet& set, const ViewImportOptions& options);
 
-/// The geometry as understood, one line.
+/// Returns a one-line description of the geometry.
 std::string describe(const ViewSet& set, const Placement& placement, double parallax);
 
 }  // namespace hogel::exchange

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a set of views to a light field.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +23,7 @@ namespace {
 
 constexpr std::size_t max_densify = 64;
 
-// The disparity that comes with a set, or an estimate where that is allowed.
+// Returns the disparity maps of a set, or an estimate if the options allow it.
 std::shared_ptr<const Disparities> disparities_of(const std::filesystem::path& source, const ViewSet& set,
                                                   const ViewImportOptions& options, std::vector<std::string>& notes) {
     if (!(options.depth_scale >= 0 && std::isfinite(options.depth_scale)))
@@ -50,7 +49,6 @@ std::shared_ptr<const Disparities> disparities_of(const std::filesystem::path& s
                                  kept);
 }
 
-// Puts views between those of a set.
 void densify(const ViewImportOptions& options, const std::shared_ptr<const Disparities>& disparities, ViewSet& set,
              Placement& placement) {
     const std::size_t before = set.rows * set.columns;
@@ -62,7 +60,7 @@ void densify(const ViewImportOptions& options, const std::shared_ptr<const Dispa
                                     views, disparities->origin()));
 }
 
-// What is found out before the rim of the lenses of a light field camera darkens a light field's edges.
+// Adds a note if vignetting of a light field camera darkens the corner views.
 void note_dark_corners(ViewSet& set) {
     if (set.rows < 5 || set.columns < 5) return;
     constexpr double dark = 0.5;
@@ -75,11 +73,11 @@ void note_dark_corners(ViewSet& set) {
     const double middle = mean(set.rows / 2, set.columns / 2);
     for (const std::size_t row : {std::size_t{0}, set.rows - 1})
         for (const std::size_t column : {std::size_t{0}, set.columns - 1})
-            if (const double there = mean(row, column); there < dark * middle) {
+            if (const double corner = mean(row, column); corner < dark * middle) {
                 set.notes.push_back(fmt::format(
                     "views at the rim are dark: {} has {:.0f} % of the middle view's mean; the middle {}x{} or fewer "
                     "can be taken alone",
-                    set.pictures->name(row, column), 100 * there / middle, set.columns - 2, set.rows - 2));
+                    set.pictures->name(row, column), 100 * corner / middle, set.columns - 2, set.rows - 2));
                 return;
             }
 }
@@ -145,14 +143,14 @@ Plan plan_import(const ImportedViews& views, const ViewImportOptions& options, c
     const HogelRange tile = views.light_field.front().preferred_tile();
     const double tile_bytes = static_cast<double>(tile.hogels() * grid.directions() * grid.channels) * sizeof(float);
     const double picture = static_cast<double>(grid.hogels() * grid.channels) * stored;
-    // Without a spool file each band decodes all pictures again.
+    // Without a spool file, each band decodes all pictures again.
     const double bands = views.spool_bytes > 0 ? 1 : std::max(1.0, samples * stored / options.memory);
     Plan plan;
     plan.memory =
         std::min(samples * stored, options.memory) + static_cast<double>(thread_count()) * (2 * picture + tile_bytes);
     plan.disk = samples * (file.type == SampleType::half ? 2 : 4) + views.spool_bytes;
     const auto densified = static_cast<double>(options.densify * options.densify);
-    if (options.densify > 1 || options.with_depth)  // maps of disparity, and pictures of the set
+    if (options.densify > 1 || options.with_depth)  // disparity maps, and pictures of the set
         plan.memory += std::min(samples / static_cast<double>(grid.channels) * sizeof(float), options.memory) +
                        std::min(samples / densified * stored, options.memory);
     plan.seconds = rates::on_all_threads(samples * bands *

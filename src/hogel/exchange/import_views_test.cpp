@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sets of views that are written here by the names of each layout, and the rays that become of them.
+// Sets of views with the file names of each layout, and the resulting rays.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -31,8 +31,8 @@ ViewImportOptions options_of(const TestScene& scene) {
     return options;
 }
 
-// Every sample is the light along its ray, by the equations of docs/notation.md alone: x = s + U zeta at zeta = -D is
-// where the camera is.
+// Every sample is the light along its ray, by the equations of docs/notation.md: at zeta = -D, x = s + U zeta is the
+// camera position.
 void expect_rays_of(const TestScene& scene, const LightField& light_field) {
     const LightFieldGrid& grid = light_field.grid();
     ASSERT_EQ(grid.hogels_s, scene.width);
@@ -183,7 +183,7 @@ TEST(ImportViews, QuiltsRunFromTheBottomLeft) {
     EXPECT_EQ(wide.hogels_t, scene.height / 2);
 }
 
-// What is nearer than the plane on which the views agree moves left for an eye that moves right.
+// Points nearer than the zero-parallax plane move left for a viewpoint that moves right.
 TEST(ImportViews, TheParallaxHasTheSignOfTheScene) {
     const TestScene scene{.columns = 5, .rows = 1, .width = 64, .height = 48, .near = -0.03, .far = 0};
     const TestFolder folder;

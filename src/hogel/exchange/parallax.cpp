@@ -13,9 +13,9 @@ namespace hogel::exchange {
 namespace {
 
 constexpr std::size_t block_side = 16;
-// A block has texture if a shift by one pixel costs more than noise of this standard deviation would.
+// Noise level, standard deviation: a block has texture if a shift of one pixel costs more than this noise.
 constexpr double noise = 4.0 / 255;
-// Shares of the evidence by which one explanation must be better than the other.
+// Minimum ratio of evidence between two explanations.
 constexpr double clear_ratio = 1.5;
 
 double squared_difference(View<const float, 2> a, View<const float, 2> b, std::size_t y0, std::size_t x0, long dy,
@@ -32,11 +32,10 @@ double squared_difference(View<const float, 2> a, View<const float, 2> b, std::s
     return sum;
 }
 
-// Mean product of the movements of blocks in two comparisons: a quarter of them by half a pixel in both.
+// Minimum mean product of block motions in two comparisons: a quarter of the blocks, half a pixel in both.
 constexpr double enough_movement = 0.25 * 0.25;
 
-// The index of the smallest error, or of one that is hardly larger and nearer to no shift at all, because patterns
-// repeat.
+// Returns the index of the smallest error, or of a similar minimum nearer to no shift: patterns repeat.
 std::size_t nearest_minimum(const std::vector<double>& errors, std::size_t no_shift) {
     const double least = *std::ranges::min_element(errors),
                  enough = 1.25 * least + block_side * block_side / (255.0 * 255.0);
@@ -62,11 +61,11 @@ BlockMatch match_block(View<const float, 2> a, View<const float, 2> b, std::size
         errors.push_back(squared_difference(a, b, y0, x0, along_y ? shift : 0, along_y ? 0 : shift));
     const auto best =
         errors.begin() + static_cast<std::ptrdiff_t>(nearest_minimum(errors, static_cast<std::size_t>(-low)));
-    const auto at = static_cast<std::size_t>(best - errors.begin());
-    BlockMatch match{static_cast<double>(low + static_cast<long>(at)), *best, 0};
-    if (at == 0 || at + 1 == errors.size()) return match;
-    // The minimum of the parabola through three sums.
-    const double before = errors[at - 1], after = errors[at + 1], bend = before - 2 * *best + after;
+    const auto index = static_cast<std::size_t>(best - errors.begin());
+    BlockMatch match{static_cast<double>(low + static_cast<long>(index)), *best, 0};
+    if (index == 0 || index + 1 == errors.size()) return match;
+    // Minimum of the parabola through three errors.
+    const double before = errors[index - 1], after = errors[index + 1], bend = before - 2 * *best + after;
     if (bend > 0) match.shift += 0.5 * (before - after) / bend;
     match.texture = std::min(before, after) - *best;
     return match;
@@ -76,9 +75,9 @@ bool has_texture(const BlockMatch& match) { return match.texture > block_side * 
 
 double percentile98(std::vector<double> values) {
     if (values.empty()) return 0;
-    const std::size_t at = std::min(values.size() - 1, values.size() * 98 / 100);
-    std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(at));
-    return values[at];
+    const std::size_t index = std::min(values.size() - 1, values.size() * 98 / 100);
+    std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(index));
+    return values[index];
 }
 
 double largest(const Array<BlockMatch, 2>& matches, double disparity) {
@@ -88,7 +87,7 @@ double largest(const Array<BlockMatch, 2>& matches, double disparity) {
     return percentile98(std::move(shifts));
 }
 
-// How much speaks for the same direction in two comparisons of views, and for the opposite one.
+// Returns the evidence for equal and for opposite directions in two comparisons of views.
 std::pair<double, double> same_and_opposite(const Array<BlockMatch, 2>& a, const Array<BlockMatch, 2>& b) {
     double same = 0, opposite = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -182,8 +181,8 @@ ParallaxEvidence parallax_of(const ViewSet& set, double disparity) {
     }
     if (set.columns < 2 || set.rows < 2) return evidence;
     evidence.swapped = swapped < straight;
-    // What is nearer than the plane on which views agree moves left from a view to the one on its right, and up to the
-    // one below: in an orderly set both shifts of a block have the same sign.
+    // Points nearer than the zero-parallax plane move left from a view to its right neighbour, and up to the view
+    // below. With the correct order, both shifts of a block have the same sign.
     const auto [same, opposite] = same_and_opposite(right, below);
     evidence.opposed = opposite > same;
     const auto [less, more] = std::minmax(straight, swapped);

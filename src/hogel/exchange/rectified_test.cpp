@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras that are turned against each other are known by their pictures, and shifted ones are not taken for them.
+// Rotated cameras are detected from their pictures, and shifted ones are not.
 #include "hogel/exchange/rectified.h"
 
 #include <gtest/gtest.h>
@@ -17,13 +17,13 @@ namespace {
 
 const TestScene scene{.columns = 5, .rows = 3, .width = 224, .height = 192, .spacing = 0.015, .far = 0.012};
 
-// How cameras are turned: each to look at the middle of the hologram, about the axes that are named.
+// Rotation of the cameras towards the middle of the hologram, about the named axes.
 struct Turned {
     bool about_y = false, about_x = false;
 };
 
-// What the camera in row r and column c sees: its axes are turned by the angles to the middle, its centre is in the
-// middle of the picture. Without turning, that is the camera that is shifted, whose pictures agree on the hologram.
+// Returns the view of the camera in row r and column c: rotated towards the middle, with the centre in the middle of
+// the picture, or, without rotation, shifted such that the pictures agree on the hologram.
 Array<std::uint8_t, 3> view_of(std::size_t r, std::size_t c, const Turned& turned, double lower = 0) {
     const double cx = scene.camera_x(c), cy = scene.camera_y(r), focal = scene.distance;
     const double yaw = turned.about_y ? std::atan(-cx / focal) : 0, pitch = turned.about_x ? std::atan(-cy / focal) : 0;

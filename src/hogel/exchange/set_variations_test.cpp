@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sets as they are found: with other files beside their views, names in other cases, rims that are dark.
+// Sets with other files beside the views, names in other cases, dark edges.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -58,7 +58,7 @@ TEST(SetVariations, MapsAreNoViewsThoughTheyAreAsMany) {
     EXPECT_NE(set.pictures->name(1, 2).find("view "), std::string::npos) << set.pictures->name(1, 2);
 }
 
-// As a light-field camera of Blender names them: column and row, the camera's place, and the size of the array.
+// Names of a light field camera in Blender: column and row, camera position, and array size.
 TEST(SetVariations, NumbersThatFollowFromOthersSayNothingOfTheOrder) {
     const TestFolder folder;
     const TestScene large{.columns = 3, .rows = 3};
@@ -74,7 +74,7 @@ TEST(SetVariations, NumbersThatFollowFromOthersSayNothingOfTheOrder) {
     EXPECT_TRUE(set.pictures->name(0, 2).find("_07_01_-90") != std::string::npos) << set.pictures->name(0, 2);
 }
 
-// Programs for neural networks write axes of one in front.
+// Neural network software writes leading axes of extent 1.
 TEST(SetVariations, ArraysOfBatchesAreViewsOrFields) {
     const TestFolder folder;
     const auto is_set = [&](const char* type, const std::vector<std::size_t>& shape) {

@@ -9,15 +9,15 @@
 namespace hogel::exchange {
 namespace {
 
-// Samples of parallax between neighbouring directions up to which the windows of `olas` overlap well:
-// docs/holograms.md.
+// Maximum parallax, samples per direction, of overlapping windows of `olas`: docs/holograms.md.
 constexpr double max_overlap_parallax = 4;
-// The wavelength that stands for visible light.
+// Wavelength used for all visible light.
 constexpr double green = 532e-9;
 
 std::string counts(const LightFieldGrid& grid, const auto& enough) {
-    const auto of = [&](std::size_t views, double half) { return views < 2 ? 1.0 : enough(views, half); };
-    return fmt::format("{:.0f}x{:.0f}", of(grid.directions_u, grid.half_u()), of(grid.directions_v, grid.half_v()));
+    const auto along = [&](std::size_t views, double half) { return views < 2 ? 1.0 : enough(views, half); };
+    return fmt::format("{:.0f}x{:.0f}", along(grid.directions_u, grid.half_u()),
+                       along(grid.directions_v, grid.half_v()));
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 
 namespace hogel::exchange {
 
-/// What views do that are so far apart that things move by `parallax` hogels, more than one, from a view to the next:
-/// to photographs and to holograms of each method, with the numbers of views that would do. Lines for people.
+/// Returns lines of text about the effects of a parallax of more than one hogel from view to view on photographs and
+/// holograms of each method, and sufficient numbers of views.
 std::vector<std::string> sparse_views(const LightFieldGrid& grid, double parallax);
 
 }  // namespace hogel::exchange

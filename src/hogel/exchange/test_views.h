@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene whose views are known in closed form, as a camera array sees it.
+// Test scene with closed-form views, as seen by a camera array.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,6 @@
 
 namespace hogel::exchange {
 
-/// A folder for one test, removed with the object.
 class TestFolder {
   public:
     TestFolder()
@@ -43,21 +42,21 @@ class TestFolder {
     std::filesystem::path path_;
 };
 
-/// Cameras at distance D in front of the plane on which the views agree, z = 0, and behind that a textured plane at
-/// depth `far` with a card in front of the middle of it at depth `near`. Lengths in metres.
+/// Cameras at distance D in front of the zero-parallax plane z = 0; behind it a textured plane at depth `far`, and at
+/// depth `near` a card in front of its middle. Lengths in metres.
 struct TestScene {
     std::size_t columns = 4, rows = 3, width = 64, height = 48;
     double distance = 0.3, spacing = 0.01, pixel = 0.5e-3;
     double near = -0.02, far = 0.03;
 
-    /// x to the right and y up of the camera in column c from the left and row r from the top.
+    /// Position, x to the right and y up, of the camera in column c from the left and row r from the top.
     double camera_x(std::size_t c) const {
         return (static_cast<double>(c) + 0.5 - 0.5 * static_cast<double>(columns)) * spacing;
     }
     double camera_y(std::size_t r) const {
         return (0.5 * static_cast<double>(rows) - static_cast<double>(r) - 0.5) * spacing;
     }
-    /// The place of a pixel on the plane z = 0.
+    /// Position of a pixel on the plane z = 0.
     double pixel_x(std::size_t i) const {
         return (static_cast<double>(i) + 0.5 - 0.5 * static_cast<double>(width)) * pixel;
     }
@@ -65,13 +64,14 @@ struct TestScene {
         return (0.5 * static_cast<double>(height) - static_cast<double>(j) - 0.5) * pixel;
     }
 
-    /// The radiance along the ray from the camera at (cx, cy) through (s, t) of the plane z = 0: 0 to 1.
+    /// Returns the radiance, 0 to 1, along the ray from the camera at (cx, cy) through (s, t) of the plane z = 0.
     double radiance(double cx, double cy, double s, double t) const {
-        const double met = depth(cx, cy, s, t), m = 1 + met / distance;  // of the way from the camera to z = 0
+        const double met = depth(cx, cy, s, t),
+                     m = 1 + met / distance;  // fraction of the path from the camera to z = 0
         const double x = cx + (s - cx) * m, y = cy + (t - cy) * m;
         return met == near ? texture(x + 0.1, y) : texture(x, y - 0.2);
     }
-    /// The depth behind z = 0 of what that ray meets.
+    /// Returns the depth behind z = 0 of the point that this ray hits.
     double depth(double cx, double cy, double s, double t) const {
         const double m = 1 + near / distance;
         return std::abs(cx + (s - cx) * m) < 0.2 * static_cast<double>(width) * pixel &&
@@ -80,7 +80,7 @@ struct TestScene {
                    : far;
     }
 
-    /// The display codes, 0 to 255, of a view, the same in all channels but for the channel's own offset.
+    /// Returns the display codes, 0 to 255, of a view. Channels differ only by an offset.
     Array<std::uint8_t, 3> view(std::size_t r, std::size_t c, std::size_t channels = 3) const {
         Array<std::uint8_t, 3> codes({height, width, channels});
         for (std::size_t j = 0; j < height; ++j)
@@ -95,7 +95,7 @@ struct TestScene {
     }
 
   private:
-    // Values at the corners of cells of 2.5 mm, without order or period, and smooth between them.
+    // Pseudorandom values at the corners of cells of 2.5 mm, smoothly interpolated.
     static double texture(double x, double y) {
         constexpr double cell = 2.5e-3;
         const double i = std::floor(x / cell), j = std::floor(y / cell);

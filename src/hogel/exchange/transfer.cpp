@@ -22,8 +22,7 @@ std::optional<Transfer> transfer_named(const std::string& name) {
 
 namespace exchange {
 
-// ITU-R BT.709-6, 1.2: E' = α E^0.45 − (α − 1) from E = β on, 4.5 E below, with the α and β of BT.2020 that make it
-// continuous; BT.709 rounds them to 1.099 and 0.018.
+// ITU-R BT.709-6, 1.2: E' = α E^0.45 − (α − 1) for E >= β, otherwise 4.5 E; with BT.2020's α and β (continuous).
 constexpr float alpha = 1.09929682680944f, beta = 0.018053968510807f;
 
 float decode(Transfer transfer, float stored) {

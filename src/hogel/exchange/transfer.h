@@ -5,7 +5,7 @@
 
 namespace hogel::exchange {
 
-/// Linear light of a stored number, and back: decode(encode(x)) = x for 0 <= x <= 1.
+/// Converts a stored number to linear light, and back: decode(encode(x)) = x for 0 <= x <= 1.
 float decode(Transfer transfer, float stored);
 float encode(Transfer transfer, float linear);
 

@@ -14,10 +14,10 @@
 namespace hogel::exchange {
 namespace {
 
-// Hogels of a row that are filled together, so that their directions stay in the cache.
-constexpr std::size_t together = 64;
+// Hogels per block of a row, sized so that their directions stay in cache.
+constexpr std::size_t block_hogels = 64;
 
-// Linear light of each code of 8 or 16 bits, to which the codes 0 to `max` of a file were scaled.
+// Returns the linear light of each 8- or 16-bit code. The codes 0 to `max` of a file were scaled to the full range.
 std::vector<float> linear_table(Transfer transfer, std::size_t codes, std::uint32_t max) {
     std::vector<float> table(codes);
     const std::size_t full = codes - 1;
@@ -74,7 +74,7 @@ void ViewLightField::read(LightFieldTile& tile) const {
     }
 }
 
-// The band that holds a row of hogels. One is kept; threads that still read another hold that one themselves.
+// Returns the band of a row of hogels. One band is cached; readers share ownership.
 std::shared_ptr<const ViewLightField::Band> ViewLightField::band_at(std::size_t t) const {
     const std::lock_guard lock(mutex_);
     if (band_ == nullptr || t < band_->first || t >= band_->first + band_->count) {
@@ -97,9 +97,9 @@ std::shared_ptr<const ViewLightField::Band> ViewLightField::load(std::size_t fir
     });
     if (disparities_ == nullptr) return band;
     band->maps.resize(band->views.size());
-    const auto place = [&](std::size_t i) { return static_cast<double>(i) / static_cast<double>(densified_); };
+    const auto set_position = [&](std::size_t i) { return static_cast<double>(i) / static_cast<double>(densified_); };
     work::parallel_for(band->maps.size(), [&](std::size_t i) {
-        band->maps[i] = disparities_->at(place(i / set_.columns), place(i % set_.columns));
+        band->maps[i] = disparities_->at(set_position(i / set_.columns), set_position(i % set_.columns));
     });
     return band;
 }
@@ -107,16 +107,16 @@ std::shared_ptr<const ViewLightField::Band> ViewLightField::load(std::size_t fir
 void ViewLightField::set_depth(std::shared_ptr<const Disparities> disparities, std::size_t densified, double shear) {
     disparities_ = std::move(disparities);
     densified_ = densified;
-    disparity_here_ = shear;
+    disparity_on_hologram_ = shear;
 }
 
 // For cameras b apart at the distance D, with pixels p at the hologram, 1/Z = 1/D + disparity p/(b D), and the depth
-// behind the hologram is Z - D. Of orthographic views: -disparity p over the step of U.
+// behind the hologram is Z - D. For orthographic views it is -disparity p over the step of U.
 float ViewLightField::depth_of(double disparity) const {
-    const double from_here = disparity - disparity_here_, step = grid_.step_u() * static_cast<double>(densified_);
-    if (set_.geometry.orthographic) return static_cast<float>(-from_here * grid_.pitch / step);
+    const double relative = disparity - disparity_on_hologram_, step = grid_.step_u() * static_cast<double>(densified_);
+    if (set_.geometry.orthographic) return static_cast<float>(-relative * grid_.pitch / step);
     const double distance = -grid_.focal_plane()->depth, spacing = step * distance;
-    const double inverse = 1 / distance + from_here * grid_.pitch / (spacing * distance);
+    const double inverse = 1 / distance + relative * grid_.pitch / (spacing * distance);
     return inverse > 0 ? static_cast<float>(1 / inverse - distance) : INFINITY;
 }
 
@@ -127,8 +127,8 @@ void ViewLightField::fill_depth(LightFieldTile& tile, std::size_t j, const Band&
         const DisparityMap& map = *band.maps[view];
         const double y =
             shear_.y0 + shear_.dy * static_cast<double>(row) + shear_.step_y * static_cast<double>(tile.range.t0 + j);
-        const auto inside = [](double at, std::size_t extent) {
-            return static_cast<std::size_t>(std::clamp(std::round(at), 0.0, static_cast<double>(extent - 1)));
+        const auto inside = [](double coordinate, std::size_t extent) {
+            return static_cast<std::size_t>(std::clamp(std::round(coordinate), 0.0, static_cast<double>(extent - 1)));
         };
         for (std::size_t i = 0; i < tile.range.ns; ++i) {
             const double x =
@@ -198,7 +198,6 @@ void ViewLightField::check(const image::Picture& picture, std::size_t row, std::
             if (!std::isfinite(value)) fail_source(name, "holds a sample that is not finite");
 }
 
-// The pixels of a view that become rows of hogels.
 image::Samples ViewLightField::cut(image::Samples samples, std::size_t row, std::size_t column, std::size_t first,
                                    std::size_t count) const {
     const double x = shear_.x0 + shear_.dx * static_cast<double>(column);
@@ -216,7 +215,7 @@ image::Samples ViewLightField::cut(image::Samples samples, std::size_t row, std:
         samples);
 }
 
-// The same between pixels, in linear light.
+// As cut(), interpolated between pixels in linear light.
 Array<float, 3> ViewLightField::interpolated(const image::Samples& samples, double x, double y,
                                              std::size_t count) const {
     Array<float, 3> part({count, shear_.width, set_.channels});
@@ -237,9 +236,9 @@ float ViewLightField::between(const image::Samples& samples, double x, double y,
                fy = static_cast<float>(y_in - static_cast<double>(y0));
     return std::visit(
         [&](const auto& all) {
-            const auto at = [&](std::size_t row, std::size_t column) { return linear(all(row, column, c)); };
-            const float top = at(y0, x0) + fx * (at(y0, x1) - at(y0, x0));
-            const float bottom = at(y1, x0) + fx * (at(y1, x1) - at(y1, x0));
+            const auto value = [&](std::size_t row, std::size_t column) { return linear(all(row, column, c)); };
+            const float top = value(y0, x0) + fx * (value(y0, x1) - value(y0, x0));
+            const float bottom = value(y1, x0) + fx * (value(y1, x1) - value(y1, x0));
             return top + fy * (bottom - top);
         },
         samples);
@@ -249,11 +248,10 @@ float ViewLightField::linear(float value) const {
     return transfer_ == Transfer::linear ? value : decode(transfer_, value);
 }
 
-// One row of hogels of a tile.
 void ViewLightField::fill(LightFieldTile& tile, std::size_t j, const Band& band) const {
     const std::size_t y = tile.range.t0 + j - band.first, n = set_.columns, m = set_.rows;
-    for (std::size_t s0 = 0; s0 < tile.range.ns; s0 += together) {
-        const std::size_t count = std::min(together, tile.range.ns - s0);
+    for (std::size_t s0 = 0; s0 < tile.range.ns; s0 += block_hogels) {
+        const std::size_t count = std::min(block_hogels, tile.range.ns - s0);
         for (std::size_t view = 0; view < n * m; ++view) {
             const std::size_t l = m - 1 - view / n, k = n - 1 - view % n;
             std::visit(

@@ -12,31 +12,31 @@
 
 namespace hogel::exchange {
 
-/// A set of views as a light field: the picture's pixel is the hogel, the camera is the direction. Sample k of U is the
-/// ray that goes to the right behind the hologram, which an eye on the left sees: camera column c is k = n - 1 - c,
-/// camera row r (from the top) is l = n - 1 - r. The natural mapping k = c would be pseudoscopic.
+/// Light field of a set of views: a pixel is a hogel, a camera is a direction. Sample k of U is the ray that goes to
+/// the right behind the hologram, which a viewpoint on the left sees. Therefore camera column c maps to k = n - 1 - c,
+/// and camera row r (from the top) to l = n - 1 - r. The mapping k = c would be pseudoscopic.
 ///
-/// Views that do not fit into memory together are held in bands of rows. Each band decodes every picture, or, with a
-/// folder for a spool file, every picture is decoded once, when the first band is read, and written there as it is held
-/// in memory. The file has no name: it is gone with the light field, however the process ends.
+/// Views that do not fit into memory are read in bands of rows. Without a spool folder, each band decodes every picture
+/// again. With one, the first read decodes every picture once into a spool file, in its memory format. The file is
+/// unnamed, so that it disappears with the process.
 class ViewLightField final : public LightFieldSource {
   public:
     /// @param memory  bytes of pictures held at any time
-    /// @param spool   folder for the spool file; empty: none
+    /// @param spool   folder of the spool file; empty: no spool file
     ViewLightField(ViewSet set, const Placement& placement, Transfer transfer, double memory,
                    std::filesystem::path spool);
 
-    /// Gives the light field depth, by the disparity of the set's own views, between which others were put.
+    /// Adds depth, from the disparity of the set's own views before densification.
     void set_depth(std::shared_ptr<const Disparities> disparities, std::size_t densified, double shear);
 
     const LightFieldGrid& grid() const override { return grid_; }
     bool has_depth() const override { return disparities_ != nullptr; }
-    /// Long rows, no higher than a band.
+    /// Full-width rows, no higher than a band.
     HogelRange preferred_tile() const override;
     void read(LightFieldTile& tile) const override;
 
     std::size_t band_rows() const { return band_rows_; }
-    /// The size of the spool file; 0 where all rows fit into memory.
+    /// Size of the spool file, bytes; 0 if all rows fit into memory.
     double spool_bytes() const;
 
   private:
@@ -44,7 +44,7 @@ class ViewLightField final : public LightFieldSource {
     struct Band {
         std::size_t first = 0, count = 0;
         std::vector<image::Samples> views;
-        std::vector<std::shared_ptr<const DisparityMap>> maps;  // none without depth
+        std::vector<std::shared_ptr<const DisparityMap>> maps;  // empty without depth
     };
 
     bool is_whole() const;
@@ -74,13 +74,14 @@ class ViewLightField final : public LightFieldSource {
     Transfer transfer_;
     std::shared_ptr<const Disparities> disparities_;
     std::size_t densified_ = 1;
-    double disparity_here_ = 0;  // of what lies on the hologram, from a view of the set to the next
+    double disparity_on_hologram_ =
+        0;  // disparity of points on the hologram, between neighbouring views of the set, pixels
     std::filesystem::path spool_folder_;
     std::vector<float> table8_, table16_;
     std::size_t band_rows_ = 1;
     mutable std::mutex mutex_;
     mutable std::shared_ptr<const Band> band_;
-    mutable std::unique_ptr<core::RawFile> spool_;  // under the mutex until it is filled
+    mutable std::unique_ptr<core::RawFile> spool_;  // guarded by mutex_ until it is filled
 };
 
 }  // namespace hogel::exchange

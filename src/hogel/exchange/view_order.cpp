@@ -8,7 +8,7 @@
 namespace hogel::exchange {
 namespace {
 
-// Whether things move the other way along every second row of views, or column.
+// Returns whether the motion reverses in every second row, or column, of views.
 bool runs_back(const ViewSet& set, bool along_columns) {
     const std::size_t row = (set.rows - 2) / 2, column = (set.columns - 2) / 2;
     const auto shifts = [&](std::size_t r, std::size_t c) {
@@ -18,8 +18,8 @@ bool runs_back(const ViewSet& set, bool along_columns) {
     return move_oppositely(shifts(row, column), along_columns ? shifts(row, column + 1) : shifts(row + 1, column));
 }
 
-// Whether things move up and down from a view near the middle to the next by number, which are neighbours whether the
-// numbers run along rows or along columns.
+// Returns whether the parallax is vertical between a view near the middle and the next by number. The pair is chosen to
+// be neighbours in row-major and in column-major order.
 bool runs_down(const ViewSet& set) {
     const std::size_t n = set.columns, m = set.rows;
     for (std::size_t i = (n * m - 1) / 2; i + 1 < n * m; ++i)

@@ -56,7 +56,7 @@ class ReorderedPictures final : public ViewPictures {
     Order order_;
 };
 
-// A folder below that is a set, as a sentence's part.
+// Returns a clause that names a subfolder that is a set, or an empty string.
 std::string set_below(const std::filesystem::path& source) {
     std::error_code error;
     std::vector<std::filesystem::path> folders;
@@ -68,7 +68,7 @@ std::string set_below(const std::filesystem::path& source) {
     return {};
 }
 
-// Why the pictures of a folder are none, as a sentence's part.
+// Returns a clause that explains why the pictures are not recognised, or an empty string.
 std::string names_that_differ(const std::filesystem::path& source) {
     const std::vector<NumberedFiles> groups = numbered_pictures(source);
     if (groups.empty() || groups.front().files.size() < 3 || groups.front().varying.size() < 3) return {};
@@ -168,9 +168,8 @@ void take_size(const image::Picture& picture, ViewSet& set) {
         picture.samples);
 }
 
-// Throws unless what a set says of itself can be true of its pictures.
 void require_plausible(const std::filesystem::path& source, const ViewSet& set) {
-    constexpr double longest = 8;  // side of a pixel, by the other
+    constexpr double longest = 8;  // maximum ratio of the sides of a pixel
     const double height = set.geometry.pixel_height;
     if (!(height >= 1 / longest && height <= longest))
         fail_source(source,

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Views as picture files.
 #include <fmt/format.h>
 
 #include "hogel/core/output_file.h"
@@ -25,7 +24,7 @@ class FileWriter final : public ViewWriter {
     std::function<std::string(std::size_t, std::size_t)> name_;
 };
 
-// Codes of a pixmap, from those of 8 or 16 bits.
+// Rescales codes from the full range of 8 or 16 bits to those of a pixmap, 0 to `max`.
 Array<std::uint16_t, 3> pixmap_codes(const StoredView& view, std::uint32_t max) {
     return std::visit(
         [&](const auto& samples) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film of a walk past the scene: each frame is what a camera of one row sees, from the left. The program ffmpeg,
-// where it is installed, decodes it into a temporary file of pixmaps one after the other, which has no name once it is
-// complete.
+// Film of a camera path past the scene: a frame is the view of a camera of one row, from the left. ffmpeg, if
+// installed, decodes it into an unnamed temporary file of consecutive pixmaps.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,9 +18,9 @@ namespace hogel::exchange {
 namespace fs = std::filesystem;
 namespace {
 
-// A row of cameras is shorter; a longer film is refused before it is decoded.
+// Rows of cameras are shorter; a longer film is rejected before decoding.
 constexpr std::size_t max_frames = 1000;
-// Bytes of all frames, decoded. A few kilobytes can be any number of frames.
+// Maximum size of all decoded frames, bytes. A file of a few kilobytes can contain any number of frames.
 constexpr std::uint64_t max_decoded = std::uint64_t{8} << 30;
 
 bool probe(const fs::path& source) {
@@ -32,7 +31,6 @@ bool probe(const fs::path& source) {
     return std::ranges::count(endings, ending) > 0 && fs::is_regular_file(source, none);
 }
 
-// What ffmpeg makes of a film.
 class Decoder {
   public:
     Decoder(const fs::path& source, const fs::path& folder)
@@ -44,18 +42,18 @@ class Decoder {
                                     source.string()));
     }
 
-    // The number of packets, which are frames, up to `most`. Nothing is decoded.
+    // Counts packets (= frames), up to `most`, without decoding.
     std::size_t count(std::size_t most) const {
         const auto list = run({"-an", "-sn", "-c", "copy", "-frames:v", fmt::format("{}", most), "-f", "framecrc"});
         std::string text(list->size(), ' ');
         list->read(0, text.data(), text.size());
-        std::size_t packets = 0;  // a line each, behind lines that begin with '#'
-        for (std::size_t at = 0; at < text.size(); at = std::min(text.find('\n', at), text.size()) + 1)
-            packets += text[at] == '#' ? 0 : 1;
+        std::size_t packets = 0;  // one line each, after header lines that begin with '#'
+        for (std::size_t line = 0; line < text.size(); line = std::min(text.find('\n', line), text.size()) + 1)
+            packets += text[line] == '#' ? 0 : 1;
         return packets;
     }
 
-    // Pixmaps (P6) one after the other, of no more than about `most` bytes.
+    // Decodes to concatenated pixmaps (P6) of at most about `most` bytes.
     std::unique_ptr<core::RawFile> pixmaps(std::size_t frames, std::uint64_t most) const {
         return run({"-an", "-sn", "-vsync", "passthrough", "-frames:v", fmt::format("{}", frames), "-fs",
                     fmt::format("{}", most), "-f", "image2pipe", "-c:v", "ppm", "-pix_fmt", "rgb24"});
@@ -63,8 +61,8 @@ class Decoder {
 
   private:
     std::unique_ptr<core::RawFile> run(const std::vector<std::string>& output) const {
-        const core::OutputFile made(folder_ / "hogel-film");  // takes the name away again at the end of this function
-        // A file that names others, as playlists do, cannot make it read them from elsewhere than this machine.
+        const core::OutputFile made(folder_ / "hogel-film");  // its name is removed at the end of this function
+        // The whitelist prevents playlists from reading other machines' files.
         std::vector<std::string> words{program_, "-nostdin", "-protocol_whitelist",
                                        "file",   "-i",       "file:" + fs::absolute(source_).string()};
         words.insert(words.end(), output.begin(), output.end());
@@ -79,7 +77,6 @@ class Decoder {
     std::string program_;
 };
 
-// The first frame of a film of pixmaps.
 struct Frame {
     std::size_t width = 0, height = 0, bytes = 0;
 };
@@ -98,7 +95,7 @@ Frame frame_of(const fs::path& source, const core::RawFile& file) {
     return frame;
 }
 
-// Throws unless the frames of a film may be decoded into the folder.
+// Throws unless the frames of a film fit the limits and the free space of the folder.
 void require_room(const fs::path& source, const fs::path& folder, const Frame& frame, std::size_t frames) {
     if (frames > max_frames)
         fail_source(source, fmt::format("has more than {} frames; a film of a row of cameras is shorter", max_frames));
@@ -126,7 +123,7 @@ class FilmPictures final : public ViewPictures {
         const Frame frame = frame_of(source, *decoder.pixmaps(1, max_decoded));
         require_room(source, folder, frame, packets);
         frame_bytes_ = frame.bytes;
-        // A frame more than there should be, because some packets hold several.
+        // One extra frame, because some packets hold several.
         file_ = decoder.pixmaps(max_frames + 1, (packets + 1) * std::uint64_t{frame.bytes});
         frames_ = static_cast<std::size_t>(file_->size() / frame_bytes_);
         require_room(source, folder, frame, frames_);

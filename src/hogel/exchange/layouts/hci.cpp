@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The 4D Light Field Benchmark (Honauer et al. 2016) and the files of its Blender add-on
 // (lightfield-analysis/blender-addon, import_export.py): input_Cam000.png, ... row by row from the top left, and
-// parameters.cfg. The cameras are shifted, not rotated: views agree on the plane at focus_distance_m.
+// parameters.cfg. The cameras are shifted, not rotated: the zero-parallax plane is at focus_distance_m.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,12 +40,12 @@ std::string trimmed(const std::string& text) {
     return first == std::string::npos ? "" : text.substr(first, last - first + 1);
 }
 
-// The numbers of parameters.cfg by name. Sections do not matter: no name is in two of them.
+// Reads the numbers of parameters.cfg by name. Sections are ignored: names are unique across sections.
 std::map<std::string, double> read_parameters(const fs::path& file) {
     std::map<std::string, double> parameters;
     std::istringstream stream(read_text(file, max_bytes));
     for (std::string line; std::getline(stream, line);) {
-        // As Python's configparser: a name, = or :, a value; and what people write behind it.
+        // As Python's configparser: a name, = or :, a value, an optional comment.
         const std::size_t equals = line.find_first_of("=:");
         if (equals == std::string::npos) continue;
         std::string text = line.substr(equals + 1);
@@ -61,7 +61,7 @@ std::map<std::string, double> read_parameters(const fs::path& file) {
 constexpr const char* needed[] = {"baseline_mm",     "focus_distance_m",      "sensor_size_mm",
                                   "focal_length_mm", "image_resolution_x_px", "image_resolution_y_px"};
 
-// The first name that is missing; empty if none is. Throws for a number that is not positive.
+// Returns the first missing name, or an empty string. Throws for a number that is not positive.
 std::string missing_of(const fs::path& file, const std::map<std::string, double>& parameters) {
     std::string missing;
     for (const char* name : needed) {
@@ -74,7 +74,6 @@ std::string missing_of(const fs::path& file, const std::map<std::string, double>
     return missing;
 }
 
-// Throws unless pictures have the size that the parameters say.
 void require_size(const fs::path& file, const std::map<std::string, double>& parameters, const ViewSet& set) {
     const auto x = parameters.find("image_resolution_x_px"), y = parameters.find("image_resolution_y_px");
     if (x == parameters.end() || y == parameters.end()) return;
@@ -98,7 +97,7 @@ ViewSet open(const fs::path& source, const ViewImportOptions& options) {
     const std::vector<NumberedFiles> groups = numbered_pictures(source);
     const NumberedFiles* group = pictures_in(groups);
     if (group == nullptr) fail_source(source, "has no pictures input_Cam000.png and so on");
-    counted(*group, 0, group->files.size(), 1);  // throws for one that is missing, by its name
+    counted(*group, 0, group->files.size(), 1);  // throws if a file is missing, naming it
     std::size_t columns = options.columns, rows = options.rows;
     ViewSet set;
     if (const fs::path file = source / "parameters.cfg"; fs::exists(file)) {
@@ -127,7 +126,6 @@ ViewSet open(const fs::path& source, const ViewImportOptions& options) {
     return set;
 }
 
-// Names the views and describes the cameras when they are all there.
 class Writer final : public ViewWriter {
   public:
     explicit Writer(const ViewTarget& target)
@@ -143,7 +141,7 @@ class Writer final : public ViewWriter {
         const ViewGeometry& g = target_.geometry;
         constexpr double sensor_mm = 35;
         const auto widest = static_cast<double>(std::max(target_.width, target_.height));
-        // offset: the disparity in pixels that shifting the cameras has taken away.
+        // offset: the disparity in pixels that the camera shift removed.
         const std::string text = fmt::format(
             "[intrinsics]\nfocal_length_mm = {}\nimage_resolution_x_px = {}\nimage_resolution_y_px = {}\n"
             "sensor_size_mm = {}\n\n[extrinsics]\nnum_cams_x = {}\nnum_cams_y = {}\nbaseline_mm = {}\n"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light field as an array of a MAT file, of version 5 or 7.3. The Light Field Toolbox (doda42/LFToolbox) has
-// LF(t,s,v,u,c): row of views, column of views, y, x, channel, where a fourth channel is a weight. Other programs put
-// the axes of the pictures first, or the channel third; extents tell them apart. Nothing says which axis of views is
-// the column, so the parallax does.
+// A light field as an array of a MAT file of version 5 or 7.3. The Light Field Toolbox (doda42/LFToolbox) uses
+// LF(t,s,v,u,c): row and column of views, y, x, channel; a fourth channel is a weight. Other programs put the picture
+// axes first, or the channel third: decided by the extents. The parallax decides which view axis is the column.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -29,7 +28,6 @@ namespace {
 using io::arrays::Number;
 using io::arrays::NumberArray;
 
-// The arrays that can be light fields.
 std::vector<NumberArray> light_fields_in(const fs::path& source) {
     std::vector<NumberArray> arrays = io::arrays::mat_heads(source);
     std::erase_if(arrays, [](const NumberArray& array) { return array.shape.size() < 4 || array.shape.size() > 5; });
@@ -49,7 +47,7 @@ bool probe(const fs::path& source) {
     }
 }
 
-// Which axis of an array is what; `channel` is shape.size() where there is none.
+// Meaning of the axes of an array; `channel` is shape.size() if there is none.
 struct Axes {
     std::size_t row = 0, column = 1, y = 2, x = 3, channel = 4;
 
@@ -65,8 +63,7 @@ struct Axes {
     }
 };
 
-// The axis of channels: the last or the third with 3 elements, else the last with 4 or either with 1, else the first
-// with 3; shape.size() for none.
+// Returns the axis of 3 channels (last or third), 4 (last), 1 (last or third) or 3 (first); else shape.size().
 std::size_t channel_axis(const std::vector<std::size_t>& shape) {
     constexpr std::pair<std::size_t, std::size_t> by_rank[] = {{4, 3}, {2, 3}, {4, 4}, {4, 1}, {2, 1}, {0, 3}};
     for (const auto& [axis, elements] : by_rank)
@@ -74,7 +71,7 @@ std::size_t channel_axis(const std::vector<std::size_t>& shape) {
     return shape.size();
 }
 
-// The two of the axes without the channel that have fewer elements are those of views.
+// Takes as view axes the pair of non-channel axes with fewer elements.
 Axes axes_of(const fs::path& source, const NumberArray& array) {
     const std::vector<std::size_t>& shape = array.shape;
     Axes axes;
@@ -91,7 +88,7 @@ Axes axes_of(const fs::path& source, const NumberArray& array) {
     return axes;
 }
 
-// The array in the order of views, [row][column][y][x][channel]; its file has neighbouring views side by side.
+// Array in view order, [row][column][y][x][channel]. In the file, neighbouring elements belong to neighbouring views.
 class MatPictures final : public ViewPictures {
   public:
     MatPictures(const fs::path& source, const NumberArray& head) : source_(source) {
@@ -145,8 +142,7 @@ class MatPictures final : public ViewPictures {
   private:
     std::size_t view_samples() const { return shape_[2] * shape_[3] * shape_[4]; }
 
-    // Whole numbers are codes up to what their class holds, but 10 or 12 bits in 16 are told by the largest of them,
-    // and codes as floating-point numbers by being whole.
+    // Chooses the largest code: by the integer class, 10 or 12 bits by the maximum; integral floats are codes.
     void choose_codes(const NumberArray& array) {
         double least = 0, largest = 0;
         bool all_whole = true;
@@ -175,24 +171,24 @@ class MatPictures final : public ViewPictures {
                                          largest, max_code_));
     }
 
-    // The numbers at the sum of steps along their axes; those of a weight are left out.
+    // Returns the numbers at the offsets given by `steps` for each axis, without those of a weight channel.
     template <class T, class Convert>
     std::vector<T> in_order(const NumberArray& array, std::size_t channel_axis, const std::vector<std::size_t>& steps,
                             const Convert& convert) const {
         std::vector<T> to(shape_[0] * shape_[1] * view_samples());
         const std::size_t last = array.shape.size() - 1, slices = array.shape[last], slice = array.samples() / slices;
         work::parallel_for(slices, [&](std::size_t i) {
-            std::vector<std::size_t> at(array.shape.size());
-            at[last] = i;
-            std::size_t place = i * steps[last];
+            std::vector<std::size_t> index(array.shape.size());
+            index[last] = i;
+            std::size_t offset = i * steps[last];
             for (std::size_t n = 0; n < slice; ++n) {
-                if (channel_axis > last || at[channel_axis] < shape_[4])
-                    to[place] = convert(array.real_at(i * slice + n));
+                if (channel_axis > last || index[channel_axis] < shape_[4])
+                    to[offset] = convert(array.real_at(i * slice + n));
                 for (std::size_t axis = 0; axis < last; ++axis) {
-                    place += steps[axis];
-                    if (++at[axis] < array.shape[axis]) break;
-                    place -= array.shape[axis] * steps[axis];
-                    at[axis] = 0;
+                    offset += steps[axis];
+                    if (++index[axis] < array.shape[axis]) break;
+                    offset -= array.shape[axis] * steps[axis];
+                    index[axis] = 0;
                 }
             }
         });
@@ -227,7 +223,7 @@ ViewSet open(const fs::path& source, const ViewImportOptions& options) {
     return set;
 }
 
-// Holds the whole array, because neighbouring numbers are those of neighbouring views.
+// Holds the whole array, because neighbouring elements belong to neighbouring views.
 class Writer final : public ViewWriter {
   public:
     explicit Writer(const ViewTarget& target) : target_(target), beginning_(target.path) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A NumPy array [row of views][column of views][y][x][channel] of uint8, uint16 or float32: views[0, 0] is what the
-// camera at the top left sees. Without the last axis, one channel. An array says nothing of the geometry.
+// A NumPy array [row of views][column of views][y][x][channel] of uint8, uint16 or float32, without geometry. views[0,
+// 0] belongs to the camera at the top left. Without the last axis there is one channel.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,13 +17,13 @@ namespace {
 using io::arrays::NpyHeader;
 using io::arrays::Number;
 
-/// The extents without those of one before the five that views have, as arrays of batches have them.
+/// Removes leading batch axes of extent 1 beyond the five axes of views.
 std::vector<std::size_t> without_batches(std::vector<std::size_t> shape) {
     while (shape.size() > 5 && shape.front() == 1) shape.erase(shape.begin());
     return shape;
 }
 
-/// Whether an array is rather that of a field, with axes of one before its colours, or its real and imaginary parts.
+/// Returns whether an array is a complex field: axes of 1 before colours, or real and imaginary parts.
 bool is_field(const NpyHeader& header, const std::vector<std::size_t>& shape) {
     if (header.complex) return true;
     if (shape.size() == 4) return shape[0] == 1 && (shape[1] <= 3 || shape[3] <= 3);

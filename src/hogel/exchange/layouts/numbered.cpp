@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures counted by one number in their names, row by row. As in the sets of OpenHolo (OpenHolo_LFCGH) they are
-// orthographic views by their directions: the first shows the rays that go to the left and to the top behind the
-// hologram, which an eye on the right and below sees. With orthographic = false, or by names that cameras give, they
-// are those of cameras from the top left.
+// Pictures numbered row by row. As in the sets of OpenHolo (OpenHolo_LFCGH), they are orthographic views by direction:
+// the first shows the rays to the left and top behind the hologram, seen from the right and below. With orthographic =
+// false, or with camera-like names, they are camera views from the top left.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +20,7 @@ bool probe(const fs::path& source) {
     return !groups.empty() && groups.front().varying.size() == 1 && groups.front().files.size() > 2;
 }
 
-// Whether names are those that cameras and films give: IMG_0001.JPG, Cam_004.png.
+// Returns whether names follow the conventions of cameras and films: IMG_0001.JPG, Cam_004.png.
 bool names_cameras(const std::string& shape) {
     std::string name = shape;
     std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });

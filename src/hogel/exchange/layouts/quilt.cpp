@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looking Glass quilts: one picture of rows and columns of tiles, name_qs8x6a0.75.png. The tile at the bottom left is
-// what the leftmost of a row of cameras sees; then they run to the right, then up. The number after 'a' is the aspect
-// of one view, which is not that of its tile where pixels are not square. Cameras are shifted, not rotated. A quilt
-// says nothing of their spacing: the cone of the display is the field of view.
+// Looking Glass quilts: one picture of rows and columns of tiles, name_qs8x6a0.75.png. The bottom left tile is the
+// leftmost view of a row of cameras; tiles run to the right, then up. The number after 'a' is the aspect of a view,
+// which differs from that of its tile if pixels are not square. Cameras are shifted, not rotated. A quilt has no camera
+// spacing: the view cone of the display is the field of view.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,15 +41,14 @@ bool take_letter(std::string_view& text, char letter) {
     return true;
 }
 
-// The tiling that a name's last "_qs" tells, in any case and whatever follows it, without an aspect too; nothing
-// without one.
+// Parses the tiling after the last "_qs" of a name, in any case; the aspect and any suffix are optional.
 std::optional<Tiling> tiling_of(const fs::path& path) {
     std::string stem = path.stem().string();
     std::ranges::transform(stem, stem.begin(), [](unsigned char c) { return std::tolower(c); });
-    const std::size_t at = stem.rfind("_qs");
-    if (at == std::string::npos) return {};
+    const std::size_t tag = stem.rfind("_qs");
+    if (tag == std::string::npos) return {};
     std::string_view text(stem);
-    text.remove_prefix(at + 3);
+    text.remove_prefix(tag + 3);
     Tiling tiling;
     constexpr std::size_t max_tiles = 1000;
     if (!take(text, tiling.columns) || !take_letter(text, 'x') || !take(text, tiling.rows)) return {};
@@ -64,7 +63,7 @@ bool probe(const fs::path& source) {
     return fs::is_regular_file(source, none) && image::format_by_extension(source) != nullptr && tiling_of(source);
 }
 
-// The tiles of one picture, which is kept.
+// Tiles of one picture, which stays in memory.
 class QuiltPictures final : public ViewPictures {
   public:
     QuiltPictures(const fs::path& source, const Tiling& tiling) : source_(source), tiling_(tiling) {
@@ -135,7 +134,7 @@ ViewSet open(const fs::path& source, const ViewImportOptions& options) {
     return set;
 }
 
-// The number of columns for n views that makes the quilt most nearly square.
+// Returns the number of columns that makes a quilt of n views closest to square.
 std::size_t best_columns(const ViewTarget& target) {
     const std::size_t n = target.columns;
     std::size_t best = n;
@@ -149,11 +148,11 @@ std::size_t best_columns(const ViewTarget& target) {
     return best;
 }
 
-// The columns of tiles that the name of the file asks for. Throws unless it is a name for so many views of this shape,
-// because the name alone tells a reader how the picture is divided.
+// Returns the columns of tiles given by the file name. Throws unless the name matches the number and aspect of the
+// views, because a reader has only the name to divide the picture.
 std::size_t columns_for(const ViewTarget& target) {
     const double aspect = static_cast<double>(target.width) / static_cast<double>(target.height);
-    constexpr double max_rounding = 1e-3;  // of the aspect in a name
+    constexpr double max_rounding = 1e-3;  // of the aspect in a name, relative
     const std::optional<Tiling> named = tiling_of(target.path);
     if (named && named->columns * named->rows == target.columns && std::abs(named->aspect / aspect - 1) < max_rounding)
         return named->columns;

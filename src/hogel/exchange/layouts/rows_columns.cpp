@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures with two numbers in their names, a row and a column of views: 003_004.ppm of JPEG Pleno and the EPFL sets,
-// view_03_04.png and so on. Writers and readers of JPEG Pleno disagree about which is the column; the views themselves
-// say it, because along a row of cameras things move sideways. Rows run from the top, columns from the left; the views
-// say whether one of the two runs the other way, but nothing but options says that both do.
+// Pictures named by row and column of views: 003_004.ppm of JPEG Pleno and the EPFL sets, view_03_04.png and so on.
+// JPEG Pleno software disagrees about which number is the column; the parallax decides, which is horizontal along a
+// row. Rows run from the top, columns from the left. The parallax shows if one is reversed, only options if both are.
 #include <fmt/format.h>
 
 #include "hogel/error.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The (New) Stanford Light Field Archive: out_RR_CC_y_x_.png, rectified, so that views agree on a plane. The two
-// decimal numbers are the camera's place, x to the right and y down, in units of which the archive says nothing. Their
-// order, not that of RR and CC, says which camera is where: RR runs from the bottom up.
+// The (New) Stanford Light Field Archive: out_RR_CC_y_x_.png, rectified to a common plane. The decimal numbers are the
+// camera position, x right and y down, in unknown units. They decide the arrangement, not RR and CC: RR runs upwards.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +16,6 @@ namespace hogel::exchange {
 namespace fs = std::filesystem;
 namespace {
 
-// A name: its two numbers and the place of its camera.
 struct Name {
     std::int64_t row = 0, column = 0;
     double y = 0, x = 0;
@@ -40,7 +38,7 @@ bool parse(const std::string& stem, Name& name) {
            text.empty() && std::isfinite(name.y) && std::isfinite(name.x);
 }
 
-// All pictures of the folder with such names, with RR and CC as their numbers.
+// Returns all pictures of the folder with such names, with RR and CC as their numbers.
 NumberedFiles pictures_in(const fs::path& source) {
     NumberedFiles all;
     for (const NumberedFiles& group : numbered_pictures(source))
@@ -59,7 +57,7 @@ Name name_of(const fs::path& path) {
     return name;
 }
 
-// Means of the cameras' places along one axis, for each row or column.
+// Returns the mean camera position along one axis for each row or column.
 std::vector<double> mean_places(const PictureGrid& grid, bool of_columns) {
     std::vector<double> means(of_columns ? grid.columns : grid.rows);
     for (std::size_t i = 0; i < grid.files.size(); ++i) {
@@ -76,7 +74,6 @@ double spacing_of(const std::vector<double>& places) {
     return places.size() < 2 ? 0 : (places.back() - places.front()) / static_cast<double>(places.size() - 1);
 }
 
-// Throws unless places rise or fall throughout.
 void require_order(const fs::path& source, const std::vector<double>& places, const char* what) {
     const double spacing = spacing_of(places);
     for (std::size_t i = 1; i < places.size(); ++i)
@@ -85,7 +82,7 @@ void require_order(const fs::path& source, const std::vector<double>& places, co
                         fmt::format("the places of cameras in the names do not follow the numbers of their {}", what));
 }
 
-// How far cameras are from even steps, in steps.
+// Returns the largest deviation of cameras from even steps, in steps.
 double unevenness(const std::vector<double>& places) {
     const double spacing = spacing_of(places);
     double worst = 0;

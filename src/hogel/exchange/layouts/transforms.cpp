@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// transforms.json of the tools for neural radiance fields (nerfstudio, instant-ngp): a camera for each picture, by its
-// place, axes, focal length and centre. Cameras of a light field are parallel; where their pictures agree on a plane at
-// a finite distance, the centres (cx, cy) are shifted, each by another amount.
+// transforms.json of radiance field tools (nerfstudio, instant-ngp): position, axes, focal length and centre of each
+// camera. Cameras of a light field are parallel, with shifted centres (cx, cy) if the zero-parallax plane is finite.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +18,7 @@ namespace {
 
 constexpr const char* file_name = "transforms.json";
 
-// The file itself, or the one of that name in a folder.
+// Returns the file itself, or transforms.json in a folder.
 fs::path file_of(const fs::path& source) {
     std::error_code none;
     return fs::is_directory(source, none) ? source / file_name : source;
@@ -58,7 +57,7 @@ ViewSet open(const fs::path& source, const ViewImportOptions&) {
 
 std::string picture_name(std::size_t row, std::size_t column) { return fmt::format("{:03}_{:03}", row, column); }
 
-// The whole file. The frame has its origin in the middle of the hologram, and its axes.
+// Returns the text of the file. The origin of the frame is the centre of the hologram, its axes are the hologram's.
 std::string cameras_text(const ViewTarget& target) {
     const ViewGeometry& g = target.geometry;
     const double focal = 1 / g.pixel_tangent;
@@ -85,18 +84,18 @@ std::string cameras_text(const ViewTarget& target) {
     return text + "\n]\n}\n";
 }
 
-// By how much the centres of pictures are beside their middles at most: pixels across and down.
+// Returns the largest offsets of picture centres (cx, cy) from the middle: pixels across and down.
 std::pair<double, double> off_centre(const ViewTarget& target) {
     const ViewGeometry& g = target.geometry;
     const double step = g.spacing / (g.distance * g.pixel_tangent);
-    const auto most = [](std::size_t views, double by, double centre) {
-        return 0.5 * static_cast<double>(views - 1) * by + std::abs(centre);
+    const auto most = [](std::size_t views, double step_pixels, double centre) {
+        return 0.5 * static_cast<double>(views - 1) * step_pixels + std::abs(centre);
     };
     return {most(target.columns, step, g.center_u / g.pixel_tangent),
             most(target.rows, step * g.spacing_ratio, g.center_v / g.pixel_tangent)};
 }
 
-// Programs exist that take the middle of each picture for its centre (graphdeco-inria/gaussian-splatting, issue 1010).
+// Some programs assume the centre in the middle of each picture (graphdeco-inria/gaussian-splatting, issue 1010).
 std::vector<std::string> off_centre_notes(const ViewTarget& target) {
     const auto [across, down] = off_centre(target);
     if (std::max(across, down) < 0.5) return {};
