@@ -24,7 +24,7 @@
 namespace hogel {
 namespace {
 
-// The formats of pictures that this build has.
+// Returns the picture formats of this build.
 std::vector<FileFormat> picture_rows() {
     std::vector<FileFormat> rows;
     for (const image::PictureFormat& format : image::picture_formats()) {
@@ -36,7 +36,6 @@ std::vector<FileFormat> picture_rows() {
     return rows;
 }
 
-// The mesh files that a build with assimp reads.
 std::vector<FileFormat> mesh_rows() {
     std::vector<FileFormat> rows;
     const auto add = [&](const char* name, std::vector<std::string> extensions, const char* text) {
@@ -80,7 +79,7 @@ std::string lower_case(std::string text) {
     return text;
 }
 
-// The format whose files have names that end like this, if any, built in or not.
+// Returns the format with this file extension, built in or not.
 std::optional<FileFormat> format_of_name(const std::filesystem::path& path) {
     const std::string extension = lower_case(path.extension().string());
     if (extension.empty()) return std::nullopt;
@@ -90,21 +89,20 @@ std::optional<FileFormat> format_of_name(const std::filesystem::path& path) {
         if (std::ranges::count(format.extensions, extension) > 0) return format;
     if (const image::PictureFormat* format = image::format_by_extension(path))
         return FileFormat{format->name, format->extensions, format->text, {}, {}};
-    // What programs write by the library's pictures and facts.
+    // Formats that front ends write from the library's results.
     for (const char* other : {"mp4", "apng", "svg", "json", "html"})
         if (extension.substr(1) == other) return FileFormat{other, {extension}, "", {}, {}};
     return std::nullopt;
 }
 
-// Only pictures and meshes are recognised by their names.
+// Only pictures and meshes are recognised by name.
 FileKind kind_by_extension(const std::filesystem::path& path) {
     const std::string extension = lower_case(path.extension().string());
     for (const FileFormat& format : file_formats().rows())
         if (std::ranges::count(format.extensions, extension) > 0)
             for (const FileKind kind : format.reads)
                 if (kind == FileKind::picture || kind == FileKind::mesh) return kind;
-    // A mesh or a picture of a format that is not built in is known as such, so that its reader can say what is
-    // missing.
+    // Recognise formats that are not built in too, so that their reader can report the missing part.
     for (const FileFormat& format : mesh_rows())
         if (std::ranges::count(format.extensions, extension) > 0) return FileKind::mesh;
     return image::format_by_extension(path) != nullptr ? FileKind::picture : FileKind::unknown;
@@ -117,11 +115,11 @@ bool io::hdf5::is_hdf5(const std::filesystem::path& path) {
         throw Error(ErrorCode::bad_input, fmt::format("cannot read '{}': {}", path.string(), why));
     };
     std::error_code status;
-    const std::filesystem::file_status there = std::filesystem::status(path, status);
-    if (!std::filesystem::exists(there)) fail("no such file");
-    if (std::filesystem::is_directory(there))
+    const std::filesystem::file_status status_of_file = std::filesystem::status(path, status);
+    if (!std::filesystem::exists(status_of_file)) fail("no such file");
+    if (std::filesystem::is_directory(status_of_file))
         fail("it is a folder without a set of views that is recognised; `hogel import` says why");
-    if (!std::filesystem::is_regular_file(there)) fail("it is not a plain file");
+    if (!std::filesystem::is_regular_file(status_of_file)) fail("it is not a plain file");
     std::ifstream file(path, std::ios::binary);
     if (!file) fail("it cannot be opened");
     std::array<char, 8> start{};
@@ -137,10 +135,10 @@ void require_hdf5(const std::filesystem::path& path) {
 void require_name(const std::filesystem::path& path, std::string_view format) {
     const std::optional<FileFormat> named = format_of_name(path);
     if (!named || named->name == format) return;
-    const FileFormat& wanted = file_formats().find(format);
+    const FileFormat& expected = file_formats().find(format);
     throw Error(ErrorCode::usage,
                 fmt::format("'{}' is named like a file of the format {}; expected a name that ends in {}",
-                            path.string(), named->name, fmt::join(wanted.extensions, " or ")));
+                            path.string(), named->name, fmt::join(expected.extensions, " or ")));
 }
 
 void require_folder_name(const std::filesystem::path& path) {

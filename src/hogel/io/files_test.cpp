@@ -322,7 +322,7 @@ TEST_F(Files, formats_name_every_extension_once_and_pictures_and_meshes_are_know
     EXPECT_TRUE(std::ranges::adjacent_find(extensions) == extensions.end());
 }
 
-// No file is other than its name says.
+// The extension of a file must match its format.
 TEST_F(Files, names_of_other_formats_are_refused) {
     const auto refused = [&](const char* name, const char* format) {
         try {

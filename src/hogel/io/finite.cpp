@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light fields and fields from files, which may hold what no light is: a single number that is not finite would be
-// spread over whole holograms and pictures.
+// Rejects values in files that are not finite: a single one would spread over whole holograms and pictures.
 #include "hogel/io/finite.h"
 
 #include <fmt/format.h>
@@ -35,8 +34,7 @@ class FiniteSource final : public LightFieldSource {
 
 }  // namespace
 
-// Such numbers have all bits of the exponent set, so that adding 1 to it carries into the place of the sign. In
-// integers, because compilers then look at several numbers at once.
+// Adding 1 to the exponent of a non-finite number carries into the sign bit. Integer loops are vectorised.
 bool all_finite(std::span<const float> values) {
     std::uint32_t carries = 0;
     for (const float value : values) carries |= (std::bit_cast<std::uint32_t>(value) & 0x7fffffffu) + 0x00800000u;
@@ -48,8 +46,8 @@ void throw_not_finite(const LightFieldTile& tile, const std::filesystem::path& p
     for (std::size_t i = 0; i < tile.radiance.size(); ++i) {
         const float value = tile.radiance.data()[i];
         if (std::isfinite(value)) continue;
-        std::size_t at = i, index[5];
-        for (std::size_t axis = 5; axis-- > 0; at /= shape[axis]) index[axis] = at % shape[axis];
+        std::size_t rest = i, index[5];
+        for (std::size_t axis = 5; axis-- > 0; rest /= shape[axis]) index[axis] = rest % shape[axis];
         throw Error(ErrorCode::bad_input,
                     fmt::format("cannot use '{}': the radiance of its hogel ({}, {}) in direction ({}, {}), channel "
                                 "{}, is {}; a finite number was expected",
@@ -61,17 +59,17 @@ void throw_not_finite(const LightFieldTile& tile, const std::filesystem::path& p
 
 void require_finite(View<const std::complex<float>, 2> samples, const Region& region, std::size_t field,
                     const std::filesystem::path& path) {
-    // The standard allows it to take complex numbers for pairs of floats.
+    // The standard allows access to complex numbers as pairs of floats.
     if (all_finite({reinterpret_cast<const float*>(samples.data()), 2 * samples.size()})) return;
     const auto is_wrong = [](const std::complex<float>& sample) {
         return !std::isfinite(sample.real()) || !std::isfinite(sample.imag());
     };
     const auto found = std::ranges::find_if(samples.elements(), is_wrong);
-    const auto at = static_cast<std::size_t>(found - samples.elements().begin());
+    const auto index = static_cast<std::size_t>(found - samples.elements().begin());
     throw Error(ErrorCode::bad_input,
                 fmt::format("cannot use '{}': the sample in row {} and column {} of its field {}, from 0, is {}{:+}i; "
                             "finite numbers were expected",
-                            path.string(), region.y0 + at / region.width, region.x0 + at % region.width, field,
+                            path.string(), region.y0 + index / region.width, region.x0 + index % region.width, field,
                             found->real(), found->imag()));
 }
 

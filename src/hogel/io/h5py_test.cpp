@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests what docs/files.md promises to users of h5py: its examples run, values are right, and files made by h5py are
-// read.
+// Tests the statements of docs/files.md about h5py: examples run, values are right, files made by h5py are read.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -212,7 +211,7 @@ TEST_F(H5py, writes_light_fields_that_are_read) {
     }
 }
 
-// Also where one channel is read by itself, if it is the one.
+// Also if only the faulty channel is read.
 TEST_F(H5py, writes_radiances_that_are_no_numbers_which_are_refused) {
     for (const char* storage : {"dtype='f2'", "dtype='f4'", "dtype='f4', chunks=True"}) {
         run(std::string("import sys, h5py, numpy as np\n"

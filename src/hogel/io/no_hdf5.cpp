@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of the folder hdf5 in a build without HDF5.
+// Replaces the folder hdf5 in a build without HDF5.
 #include <fmt/format.h>
 
 #include "hogel/core/part.h"
@@ -21,7 +21,7 @@ namespace io::hdf5 {
 
 FileKind kind_of(const std::filesystem::path& path) { refuse(path); }
 void summarize(const std::filesystem::path& path, FileSummary&) { refuse(path); }
-// Any file that is not compressed is taken for HDF5, so this says first what is wrong with one that is not.
+// Called for any file that is not compressed: report other errors first.
 LightField open_light_field(const std::filesystem::path& path) {
     is_hdf5(path);
     refuse(path);

@@ -5,7 +5,7 @@
 
 namespace hogel::io {
 
-/// Types of numbers in a file, little-endian. `real` is a double, `boolean` a byte that is 0 or not.
+/// Number types in a file, little-endian. `real` is a double, `boolean` a byte that is 0 or not.
 enum class Number { boolean, int8, uint8, int16, uint16, int32, uint32, int64, uint64, half, single, real };
 
 inline std::size_t bytes_of(Number number) {

@@ -12,20 +12,18 @@
 
 namespace hogel::io {
 
-/// Rows of hogels or of samples.
 struct Rows {
     std::size_t first = 0, count = 0;
 };
 
-/// Which part of a file is written: number `number`, from 1, of `count`.
+/// Part `number`, from 1, of `count` of a file.
 struct PartNumber {
     std::size_t number = 1, count = 1;
-    std::string input;  ///< what the parts must have in common beside attributes and sampling: the input
+    std::string input;  ///< input that all parts must have in common, beside attributes and sampling
 };
 
-/// Sinks of the rows of each face or field, which take tiles whose first row is number 0. Errors are those of
-/// create_light_field() and create_hologram().
-/// @param grids  of the whole file
+/// Create sinks for the rows of each face or field; tiles count rows from the first of the part. Errors are those of
+/// create_light_field() and create_hologram(). `grids` are those of the complete file.
 std::vector<std::unique_ptr<LightFieldSink>> create_light_field_part(const std::filesystem::path& path,
                                                                      std::span<const LightFieldGrid> grids,
                                                                      const LightFieldFileOptions& options,

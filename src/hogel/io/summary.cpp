@@ -13,13 +13,13 @@ namespace hogel::io {
 
 namespace {
 
-// The angle from edge to edge of the directions' cells.
+// Returns the angle in degrees between the outer edges of the directions' cells.
 double degrees_across(bool sines, double center, double half) {
-    const auto angle = [&](double at) { return sines ? std::asin(std::clamp(at, -1.0, 1.0)) : std::atan(at); };
+    const auto angle = [&](double value) { return sines ? std::asin(std::clamp(value, -1.0, 1.0)) : std::atan(value); };
     return (angle(center + half) - angle(center - half)) * 180 / std::numbers::pi;
 }
 
-// What the numbers of the range are of, as in the names of files' attributes.
+// Returns the quantity of the direction range, as in the attribute names of files.
 std::string_view half_name(const LightFieldGrid& grid) {
     return grid.has_frequencies() ? "sine_half" : grid.focal_plane() ? "focal_half" : "tan_half";
 }

@@ -8,8 +8,8 @@
 
 namespace hogel::io {
 
-/// Functions that add facts for summarize(): the sampling of a light field's front; its faces and the sampling of the
-/// sides; the plane of field number `index`; and a compressed light field.
+/// Add facts to summarize(): the sampling of a light field's front; its faces and the sampling of the sides; the plane
+/// of field number `index`; and a compressed light field.
 void describe(const LightFieldGrid& grid, FileSummary& summary);
 void describe_faces(const std::vector<LightFieldGrid>& grids, FileSummary& summary);
 void describe(const FieldGrid& grid, std::size_t index, FileSummary& summary);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fields in the channels of an EXR file: two for each field, of real and imaginary parts or of amplitudes and phases,
-// which their names say: "real" and "imaginary", "field0.re" and "field0.im", "R.amplitude" and "R.phase".
+// Fields in the channels of an EXR file, two per field. The names denote real and imaginary parts, or amplitude and
+// phase: "real" and "imaginary", "field0.re" and "field0.im", "R.amplitude" and "R.phase".
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 using Channels = std::vector<std::pair<std::string, Array<float, 2>>>;
 
-// The pairs in the order of their channels' names; red, green and blue in this order.
+// Returns the pairs ordered by channel name, but red, green and blue in this order.
 std::vector<PartPair> pairs_of(const Channels& channels) {
     std::vector<PartName> names;
     for (const auto& [name, samples] : channels) names.push_back({name, ""});
@@ -61,17 +61,17 @@ ExternalFacts exr_facts(const std::filesystem::path& path) {
     return facts_of(picture, pairs_of(picture.channels));
 }
 
-std::unique_ptr<FieldSource> open_exr_field(const std::filesystem::path& path, const ExternalField& what) {
+std::unique_ptr<FieldSource> open_exr_field(const std::filesystem::path& path, const ExternalField& description) {
     const image::NamedChannels picture = image::read_named_channels(path);
     const std::vector<PartPair> pairs = pairs_of(picture.channels);
-    auto field = std::make_unique<Field>(external_grid(path, what, facts_of(picture, pairs)));
-    const PartPair& pair = pairs[what.colour];
-    const SampleConverter convert(path, what, pair.content, Number::single, Number::single);
+    auto field = std::make_unique<Field>(external_grid(path, description, facts_of(picture, pairs)));
+    const PartPair& pair = pairs[description.colour];
+    const SampleConverter convert(path, description, pair.content, Number::single, Number::single);
     const float* const first = picture.channels[pair.first].second.data();
     const float* const second = picture.channels[pair.second].second.data();
     for (std::size_t i = 0; i < field->samples.size(); ++i)
         field->samples.data()[i] = convert(double{first[i]}, double{second[i]});
-    require_finite(*field, what.colour, path);
+    require_finite(*field, description.colour, path);
     return field;
 }
 

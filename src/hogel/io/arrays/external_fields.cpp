@@ -37,14 +37,14 @@ bool is_external_field(const std::filesystem::path& path) {
     return format_of(path) != Format::picture || is_picture_field(path);
 }
 
-ExternalFacts external_facts(const std::filesystem::path& path, const ExternalField& what) {
+ExternalFacts external_facts(const std::filesystem::path& path, const ExternalField& description) {
     switch (format_of(path)) {
         case Format::npy:
             return npy_facts(path);
         case Format::npz:
-            return npz_facts(path, what);
+            return npz_facts(path, description);
         case Format::mat:
-            return mat_facts(path, what);
+            return mat_facts(path, description);
         case Format::ohc:
             return ohc_facts(path);
         case Format::exr:
@@ -52,30 +52,31 @@ ExternalFacts external_facts(const std::filesystem::path& path, const ExternalFi
         case Format::picture:
             break;
     }
-    return picture_facts(path, what);
+    return picture_facts(path, description);
 }
 
-std::shared_ptr<const FieldSource> open_external_field(const std::filesystem::path& path, const ExternalField& what) {
+std::shared_ptr<const FieldSource> open_external_field(const std::filesystem::path& path,
+                                                       const ExternalField& description) {
     const Format format = format_of(path);
-    if (format == Format::picture) return open_picture_field(path, what);
-    if (!what.imaginary.empty() || !what.phases.empty())
-        throw Error(ErrorCode::usage, what.phases.empty() ? "imaginary" : "phases",
+    if (format == Format::picture) return open_picture_field(path, description);
+    if (!description.imaginary.empty() || !description.phases.empty())
+        throw Error(ErrorCode::usage, description.phases.empty() ? "imaginary" : "phases",
                     fmt::format("'{}' holds whole fields; {} of their own go with a picture", path.string(),
-                                what.phases.empty() ? "imaginary parts" : "phases"));
-    if (what.zero)
+                                description.phases.empty() ? "imaginary parts" : "phases"));
+    if (description.zero)
         throw Error(ErrorCode::usage, "zero",
                     fmt::format("'{}' holds whole fields; a zero level is one of pictures", path.string()));
     switch (format) {
         case Format::npy:
-            return open_npy(path, what);
+            return open_npy(path, description);
         case Format::npz:
-            return open_npz(path, what);
+            return open_npz(path, description);
         case Format::mat:
-            return open_mat(path, what);
+            return open_mat(path, description);
         case Format::ohc:
-            return open_ohc(path, what);
+            return open_ohc(path, description);
         default:
-            return open_exr_field(path, what);
+            return open_exr_field(path, description);
     }
 }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the texts of a picture say of the field that its numbers are.
 #include "hogel/io/arrays/field_entries.h"
 
 #include <fmt/format.h>
@@ -27,7 +26,7 @@ const std::string* find_text(const Metadata& entries, const std::string& key) {
     return found == entries.end() ? nullptr : &found->second;
 }
 
-// A positive number, or 0.
+// Returns 0 if there is no positive number.
 double positive_number(const Metadata& entries, const std::string& key) {
     const std::string* const text = find_text(entries, key);
     double value = 0;
@@ -38,14 +37,16 @@ double positive_number(const Metadata& entries, const std::string& key) {
 
 }  // namespace
 
-Metadata field_entries(const ExternalField& what, std::span<const double> wavelengths) {
-    Metadata entries{{pitch_x_key, fmt::format("{}", what.pitch_x)}, {pitch_y_key, fmt::format("{}", what.pitch_y)}};
+Metadata field_entries(const ExternalField& description, std::span<const double> wavelengths) {
+    Metadata entries{{pitch_x_key, fmt::format("{}", description.pitch_x)},
+                     {pitch_y_key, fmt::format("{}", description.pitch_y)}};
     for (std::size_t i = 0; i < wavelengths.size(); ++i)
         entries.emplace_back(wavelength_key(i), fmt::format("{}", wavelengths[i]));
-    const bool phases = what.values == ExternalField::Values::phase;
-    if (phases || what.values == ExternalField::Values::amplitude)
+    const bool phases = description.values == ExternalField::Values::phase;
+    if (phases || description.values == ExternalField::Values::amplitude)
         entries.emplace_back(values_key, phases ? "phase" : "amplitude");
-    if (phases && what.phase_code) entries.emplace_back(phase_code_key, phase_code_text(*what.phase_code));
+    if (phases && description.phase_code)
+        entries.emplace_back(phase_code_key, phase_code_text(*description.phase_code));
     return entries;
 }
 
@@ -65,7 +66,7 @@ void io::arrays::take_entries(const Metadata& entries, ExternalFacts& facts) {
         parse_phase_code(*code);
         facts.phase_code = *code;
     } catch (const Error&) {
-        // A code of a later version: it is asked for.
+        // Unknown code of a later version: the user has to state it.
     }
 }
 

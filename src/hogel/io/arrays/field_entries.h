@@ -5,11 +5,10 @@
 
 namespace hogel::io::arrays {
 
-/// Takes what the texts of field_entries() say of `facts.colours` fields: pitch, wavelengths, values and phase code.
+/// Sets pitch, wavelengths, values and phase code from field_entries() texts of `facts.colours` fields.
 void take_entries(const Metadata& entries, ExternalFacts& facts);
 
-/// The power of the light on a pattern of one wavelength that shows the hologram, |F|², as `hogel slm` states it; 0
-/// where the texts say none.
+/// Returns the light power |F|² on a pattern of one wavelength, as stated by `hogel slm`; 0 if not stated.
 double power_of_pattern(const Metadata& entries, double wavelength);
 
 }  // namespace hogel::io::arrays

@@ -118,7 +118,7 @@ Bytes npz_of(const Members& members) {
     return zip.finish();
 }
 
-// Two real arrays make a field where their names say of what they are parts.
+// Two real arrays form a field if their names denote its parts.
 TEST_F(FieldFormats, of_several_arrays_are_joined_by_their_names) {
     const Bytes a = npy_of({1, 2, 3, 4}, {2, 2}), b = npy_of({5, 6, 7, 8}, {2, 2});
     const Bytes pitch = npy_of({8e-6}, {}), wave = npy_of({532}, {1});
@@ -151,7 +151,7 @@ TEST_F(FieldFormats, of_a_complex_array_beside_real_ones_is_that_array) {
     EXPECT_EQ(external_facts(path).width, 4u);
 }
 
-// What cannot be a length in metres is not believed.
+// Implausible lengths in metres are not used.
 TEST_F(FieldFormats, with_parameters_that_are_no_lengths_in_metres_complain) {
     const Bytes samples = npy_of({1, 2, 3, 4}, {2, 2});
     for (const double wave : {532.0, 0.0, -5e-7, std::nan(""), 1e-12}) {
@@ -266,7 +266,7 @@ TEST_F(FieldFormats, of_two_pictures_of_levels_have_their_zero_at_the_median_or_
     EXPECT_LT(std::abs(sample - std::polar(100.0f, float(2 * std::numbers::pi * 8 / 255))), 1e-4f);
 }
 
-// A picture with the texts of field_entries() is opened without a word; what is said goes before them.
+// A picture with the texts of field_entries() needs no description; a description takes precedence.
 TEST_F(FieldFormats, of_pictures_that_say_what_they_are_need_no_description) {
     if (without_pictures()) return;
     Array<std::uint8_t, 3> levels({2, 2, 3});

@@ -12,7 +12,7 @@ namespace hogel::io::arrays {
 namespace {
 
 struct Stream : z_stream {
-    // zlib's format or, for negative bits of the window, bare data.
+    // zlib's format, or raw data if `bits` is negative.
     explicit Stream(int bits = MAX_WBITS) : z_stream{} { started = inflateInit2(this, bits) == Z_OK; }
     ~Stream() {
         if (started) inflateEnd(this);

@@ -11,7 +11,7 @@
 namespace hogel::io::arrays {
 namespace {
 
-// Whether the version in the header, which precedes the byte-order mark, is 7.3.
+// Returns whether the version in the header, before the byte-order mark, is 7.3.
 bool is_version_73(const std::filesystem::path& path) {
     const core::RawFile file(path, core::RawFile::Mode::read, path);
     unsigned char version[4];
@@ -19,7 +19,7 @@ bool is_version_73(const std::filesystem::path& path) {
     return version[1] == 2 && version[2] == 'I' && version[3] == 'M';
 }
 
-// The arrays that a field named like this may be in.
+// Returns the arrays that may hold a field of this name.
 std::vector<NumberArray> arrays_of(const std::filesystem::path& path, const std::string& variable, Reads reads) {
     std::vector<std::string> only;
     if (!variable.empty()) {
@@ -59,12 +59,12 @@ NumberArray read_mat_array(const std::filesystem::path& path, const std::string&
     return std::move(*found);
 }
 
-std::unique_ptr<FieldSource> open_mat(const std::filesystem::path& path, const ExternalField& what) {
-    return open_arrays(path, what, arrays_of(path, what.variable, Reads::all));
+std::unique_ptr<FieldSource> open_mat(const std::filesystem::path& path, const ExternalField& description) {
+    return open_arrays(path, description, arrays_of(path, description.variable, Reads::all));
 }
 
-ExternalFacts mat_facts(const std::filesystem::path& path, const ExternalField& what) {
-    return facts_of_arrays(path, what, arrays_of(path, what.variable, Reads::parameters), "mat");
+ExternalFacts mat_facts(const std::filesystem::path& path, const ExternalField& description) {
+    return facts_of_arrays(path, description, arrays_of(path, description.variable, Reads::parameters), "mat");
 }
 
 }  // namespace hogel::io::arrays

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// MAT files of version 7.3. Arrays have their axes reversed, because MATLAB stores columns first.
+// MAT files of version 7.3. The axes are reversed, because MATLAB is column-major.
 #include <cstring>
 
 #include "hogel/io/arrays/mat.h"
@@ -8,7 +8,6 @@
 namespace hogel::io::arrays {
 namespace {
 
-// One of the numbers of each element.
 std::vector<unsigned char> numbers_of(const Mat73Array& array, std::size_t offset, Number number) {
     const std::size_t bytes = bytes_of(number), step = array.element_bytes(), count = array.elements.size() / step;
     std::vector<unsigned char> numbers(count * bytes);

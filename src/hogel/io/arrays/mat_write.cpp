@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// MAT files of version 5: mat5.cpp explains them.
+// MAT files of version 5: see mat5.cpp.
 #include "hogel/io/arrays/mat_write.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,6 @@
 namespace hogel::io::arrays {
 namespace {
 
-// Classes of arrays.
 constexpr unsigned char class_text = 4, class_double = 6, class_single = 7, class_uint8 = 9, class_uint16 = 11;
 
 template <class T>
@@ -29,7 +28,7 @@ std::span<const unsigned char> bytes_of_values(std::span<const T> values) {
 MatWriter::MatWriter(const std::filesystem::path& path) : path_(path), bytes_(128, ' ') {
     constexpr std::string_view text = "MATLAB 5.0 MAT-file, written by hogel", end{"\0\1IM", 4};
     std::memcpy(bytes_.data(), text.data(), text.size());
-    std::memset(&bytes_[116], 0, 8);  // no data of subsystems
+    std::memset(&bytes_[116], 0, 8);  // no subsystem data
     std::memcpy(&bytes_[124], end.data(), end.size());
 }
 
@@ -81,7 +80,7 @@ void MatWriter::text(const std::string& name, const std::string& value) {
 }
 
 void MatWriter::require_size(std::uint64_t bytes) const {
-    constexpr std::uint64_t most = std::uint64_t{1} << 31;  // of an array, in bytes
+    constexpr std::uint64_t most = std::uint64_t{1} << 31;  // bytes of an array
     if (bytes > most - 4096)
         throw Error(
             ErrorCode::usage,

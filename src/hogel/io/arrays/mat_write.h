@@ -12,23 +12,22 @@
 
 namespace hogel::io::arrays {
 
-/// The bytes of a MAT file of version 5, which MATLAB from version 5 on, Octave and SciPy read: little-endian, not
-/// compressed. Names are those of variables in MATLAB: a letter, then letters, digits and underscores.
+/// Writer of an uncompressed little-endian MAT file of version 5, as read by MATLAB 5 and later, Octave and SciPy.
+/// Names are MATLAB variable names: a letter, then letters, digits and underscores.
 class MatWriter {
   public:
-    /// @param path  of the file, for messages
     explicit MatWriter(const std::filesystem::path& path);
 
-    /// A double, or a row of them.
+    /// Adds a double, or a row of doubles.
     void numbers(const std::string& name, std::span<const double> values);
     void text(const std::string& name, const std::string& value);
-    /// An array of class single; the first index runs fastest, as in MATLAB. `imaginary` is empty for a real array.
-    /// Throws Error(usage) for an array of more than 2 GiB, which the format does not hold.
+    /// Adds an array of class single; the first index runs fastest, as in MATLAB. `imaginary` is empty for a real
+    /// array. Throws Error(usage) for an array of more than 2 GiB, the limit of the format.
     void array(const std::string& name, std::span<const std::size_t> shape, std::span<const float> real,
                std::span<const float> imaginary = {});
 
-    /// All of an array of numbers but these, which are to follow the bytes, the first index fastest, and then zeros up
-    /// to a multiple of eight; nothing else may follow. Throws as array() does.
+    /// Adds the header of an array of numbers. The caller appends the numbers to bytes(), first index fastest, and
+    /// zeros up to a multiple of eight; nothing else may follow. Throws as array() does.
     void begin_numbers(const std::string& name, std::span<const std::size_t> shape, Number number);
 
     const std::vector<unsigned char>& bytes() const { return bytes_; }

@@ -164,7 +164,7 @@ void put_compressed(Bytes& file, const Bytes& packed) {
     file.insert(file.end(), packed.begin(), packed.end());
 }
 
-// What the file says of itself is asked for before the numbers are: they were inflated each time.
+// Facts are requested before the numbers; arrays used to be inflated for each request.
 TEST_F(MatlabFields, are_inflated_only_where_their_numbers_are_read) {
     if (!core::part("zlib").built_in) GTEST_SKIP() << "no zlib";
     const std::vector<float> numbers(20 * 30, 0.5f);
@@ -187,7 +187,7 @@ TEST_F(MatlabFields, are_inflated_only_where_their_numbers_are_read) {
     ExternalField which = known();
     which.variable = "field";
     EXPECT_EQ(all_of(*open_external_field(write("two.mat", file), which))(19, 29), Complex(0.5f, 0.5f));
-    // Real numbers stay where they were inflated.
+    // Real numbers stay in the inflated buffer.
     MatWriter real("x.mat");
     real.array("field", std::vector<std::size_t>{20, 30}, numbers);
     file = header;

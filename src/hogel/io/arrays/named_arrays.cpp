@@ -26,7 +26,7 @@ std::string lower_case(std::string text) {
     return text;
 }
 
-// What is left of a name without a word at its beginning or end: "holo" of "holo_re"; nothing if it has none.
+// Removes a word and its separator from the beginning or end of a name ("holo_re" -> "holo"); nothing if it has none.
 std::optional<std::string> without(const std::string& name, Words words) {
     const std::string lower = lower_case(name);
     for (const std::string_view word : words) {
@@ -40,10 +40,9 @@ std::optional<std::string> without(const std::string& name, Words words) {
     return std::nullopt;
 }
 
-// The arrays that hold a field.
 struct Chosen {
     const NumberArray* first = nullptr;
-    const NumberArray* second = nullptr;  // null where one array holds the field
+    const NumberArray* second = nullptr;  // null if one array holds the field
     Content content = Content::real;
 };
 
@@ -55,7 +54,7 @@ std::string names_of(const std::vector<const NumberArray*>& arrays) {
     return names;
 }
 
-// The two real arrays of one shape that are parts of a field by their names, if no others are.
+// Returns the pair of real arrays of equal shape whose names denote parts of a field, if there is exactly one.
 std::optional<Chosen> only_pair_of(const std::vector<const NumberArray*>& arrays) {
     std::vector<const NumberArray*> real;
     std::vector<PartName> names;
@@ -93,14 +92,14 @@ Chosen chosen(const std::filesystem::path& path, const std::string& variable, co
     std::vector<const NumberArray*> fields;
     for (const NumberArray& array : arrays)
         if (array.shape.size() >= 2 && !is_parameter(array)) fields.push_back(&array);
-    // One field that is small, because nothing else could be meant.
+    // Accept a small field if there is no other candidate.
     if (fields.empty())
         for (const NumberArray& array : arrays)
             if (array.shape.size() >= 2 && array.samples() > 1) fields.push_back(&array);
     if (fields.empty()) fail_external(path, "it holds no array of numbers with two axes");
     if (fields.size() == 1) return of_one(*fields.front());
     if (const std::optional<Chosen> pair = only_pair_of(fields)) return *pair;
-    // One complex array among real ones, such as the picture that a hologram was made of.
+    // A complex array takes precedence over real ones, such as the source picture of a hologram.
     if (std::ranges::count_if(fields, [](const NumberArray* array) { return array->complex; }) == 1)
         return of_one(**std::ranges::find_if(fields, [](const NumberArray* a) { return a->complex; }));
     throw Error(ErrorCode::usage, "variable",
@@ -108,12 +107,12 @@ Chosen chosen(const std::filesystem::path& path, const std::string& variable, co
 }
 
 Planes planes_of_array(const std::filesystem::path& path, const NumberArray& array, const Chosen& chosen) {
-    // Two arrays are the parts of samples, so that none of their axes is.
+    // In a pair of arrays, no axis holds the parts of samples.
     return arrays::planes_of(path, array.shape, array.by_columns, chosen.content != Content::real);
 }
 
 std::string kind_of(const Chosen& chosen, bool pairs) {
-    // Whole numbers may stand for the doubles of MATLAB.
+    // Integers may represent MATLAB doubles.
     const NumberArray& array = *chosen.first;
     const Number number = array.floating && is_whole(array.real_number) ? Number::real : array.real_number;
     const std::string width = is_whole(number)         ? fmt::format("whole numbers of {} bits", 8 * bytes_of(number))
@@ -139,7 +138,7 @@ std::vector<PartPair> pairs_of_parts(std::span<const PartName> names, std::size_
                           {Content::amplitude_phase, amplitude_words, phase_words}};
     std::vector<PartPair> pairs;
     for (const Kind& kind : kinds) {
-        std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> firsts;  // by rest of name and group
+        std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> firsts;  // by remaining name and group
         for (std::size_t i = 0; i < names.size(); ++i)
             if (auto rest = without(names[i].name, kind.first)) firsts[{std::move(*rest), names[i].group}].push_back(i);
         for (std::size_t k = 0; k < names.size(); ++k) {
@@ -167,10 +166,10 @@ Planes planes_of(const std::filesystem::path& path, std::span<const std::size_t>
         axes[axis] = {shape[axis], step};
         step *= shape[axis];
     }
-    // Takes the axis before or after the others if it is as wanted. Where both are: `last` says which.
-    const auto take = [&](bool last, const auto& wanted) {
-        if (axes.size() <= 2 || !(wanted(axes.front().extent) || wanted(axes.back().extent))) return Axis{};
-        const bool back = last ? wanted(axes.back().extent) : !wanted(axes.front().extent);
+    // Removes the first or last axis if it matches; `last` decides if both match.
+    const auto take = [&](bool last, const auto& matches) {
+        if (axes.size() <= 2 || !(matches(axes.front().extent) || matches(axes.back().extent))) return Axis{};
+        const bool back = last ? matches(axes.back().extent) : !matches(axes.front().extent);
         const Axis taken = back ? axes.back() : axes.front();
         axes.erase(back ? axes.end() - 1 : axes.begin());
         return taken;
@@ -179,7 +178,7 @@ Planes planes_of(const std::filesystem::path& path, std::span<const std::size_t>
     Planes planes;
     const auto is_colours = [&](std::size_t n) { return n == 3 || (n == 2 && complex); };
     const auto take_colours = [&] {
-        // As MATLAB has colours, and as Python's programs for light do.
+        // By the conventions of MATLAB and of Python optics packages.
         if (const Axis colours = take(by_columns, is_colours); colours.extent > 0) {
             planes.colours = colours.extent;
             planes.step_colour = colours.step;
@@ -203,7 +202,7 @@ namespace {
 
 enum class Parameter { none, wavelength, pitch, across, down };
 
-// What a name without underscores is of.
+// Classifies a lower-case name without underscores.
 Parameter parameter_named(std::string_view name) {
     constexpr std::string_view
         waves[] = {"wavelength", "wavelengths", "wavelen", "lambda", "lambdas", "lambda0",
@@ -220,7 +219,7 @@ Parameter parameter_named(std::string_view name) {
                             : Parameter::none;
 }
 
-// Also with a unit at the end, whose length in metres is then `unit`: "wav_um".
+// As parameter_named(), for names that may end in a unit: "wav_um". `unit` receives its length in metres.
 Parameter parameter_of(const std::string& full, double& unit) {
     std::string name = lower_case(full);
     std::erase(name, '_');
@@ -235,9 +234,9 @@ Parameter parameter_of(const std::string& full, double& unit) {
     return Parameter::none;
 }
 
-void complain(ExternalFacts& facts, const std::string& name, double value, const char* what) {
+void complain(ExternalFacts& facts, const std::string& name, double value, const char* quantity) {
     if (facts.complaint.empty())
-        facts.complaint = fmt::format("its variable '{}' is {:.9g}, which is no {} in metres", name, value, what);
+        facts.complaint = fmt::format("its variable '{}' is {:.9g}, which is no {} in metres", name, value, quantity);
 }
 
 }  // namespace
@@ -246,14 +245,13 @@ void take_parameter(const std::string& full, std::span<const double> values, Ext
     double unit = 1;
     const Parameter parameter = parameter_of(full, unit);
     if (parameter == Parameter::none || values.empty()) return;
-    // Lengths of light in metres; others are named, not guessed at. Those in millimetres would be thousands of times
-    // too large, and still lengths of something.
+    // Plausible lengths in metres. Others are reported, not guessed: millimetres would be plausible too.
     constexpr double shortest_wave = 10e-9, longest_wave = 20e-6, shortest_pitch = 1e-9, longest_pitch = 0.99e-3;
-    const auto take = [&](double low, double high, const char* what) {
+    const auto take = [&](double low, double high, const char* quantity) {
         std::vector<double> lengths;
         for (const double value : values) {
             if (!(value * unit >= low && value * unit <= high)) {
-                complain(facts, full, value, what);
+                complain(facts, full, value, quantity);
                 return std::vector<double>{};
             }
             lengths.push_back(value * unit);
@@ -276,10 +274,10 @@ void take_parameter(const std::string& full, std::span<const double> values, Ext
     if (parameter != Parameter::across) facts.pitch_y = pitches[0];
 }
 
-ExternalFacts facts_of_arrays(const std::filesystem::path& path, const ExternalField& what,
+ExternalFacts facts_of_arrays(const std::filesystem::path& path, const ExternalField& description,
                               const std::vector<NumberArray>& arrays, const std::string& format) {
     ExternalFacts facts;
-    const Chosen field = chosen(path, what.variable, arrays);
+    const Chosen field = chosen(path, description.variable, arrays);
     const Planes planes = planes_of_array(path, *field.first, field);
     facts.format = format;
     facts.numbers = kind_of(field, planes.step_pair > 0);
@@ -292,7 +290,7 @@ ExternalFacts facts_of_arrays(const std::filesystem::path& path, const ExternalF
         for (std::size_t i = 0; i < array.samples(); ++i) values.push_back(array.real_at(i));
         take_parameter(array.name, values, facts);
     }
-    if (facts.pitch_y == 0) facts.pitch_y = facts.pitch_x;  // dx alone
+    if (facts.pitch_y == 0) facts.pitch_y = facts.pitch_x;  // only dx is given
     if (facts.pitch_x == 0) facts.pitch_x = facts.pitch_y;
     if (!facts.wavelengths.empty() && facts.wavelengths.size() != facts.colours) {
         facts.complaint = fmt::format("it holds {} wavelengths for {} {}", facts.wavelengths.size(), facts.colours,
@@ -302,27 +300,29 @@ ExternalFacts facts_of_arrays(const std::filesystem::path& path, const ExternalF
     return facts;
 }
 
-std::unique_ptr<FieldSource> open_arrays(const std::filesystem::path& path, const ExternalField& what,
+std::unique_ptr<FieldSource> open_arrays(const std::filesystem::path& path, const ExternalField& description,
                                          const std::vector<NumberArray>& arrays) {
-    const Chosen parts = chosen(path, what.variable, arrays);
+    const Chosen parts = chosen(path, description.variable, arrays);
     const NumberArray &first = *parts.first, &second = parts.second ? *parts.second : first;
     const Planes a = planes_of_array(path, first, parts), b = planes_of_array(path, second, parts);
-    ExternalField meant = what;
-    const Content content = a.step_pair > 0 ? take_pairs(path, meant) : parts.content;
-    const SampleConverter convert(path, meant, content, first.kind(),
+    ExternalField resolved = description;
+    const Content content = a.step_pair > 0 ? take_pairs(path, resolved) : parts.content;
+    const SampleConverter convert(path, resolved, content, first.kind(),
                                   parts.second || a.step_pair > 0 ? second.kind() : first.imaginary_number);
-    auto field = std::make_unique<Field>(external_grid(path, what, facts_of_arrays(path, what, arrays, "")));
-    const auto other_at = [&](std::size_t i) {
+    auto field =
+        std::make_unique<Field>(external_grid(path, description, facts_of_arrays(path, description, arrays, "")));
+    const auto second_at = [&](std::size_t i) {
         if (parts.second || a.step_pair > 0) return second.real_at(i + a.step_pair);
         return first.imaginary.empty() ? 0 : first.imaginary_at(i);
     };
     for (std::size_t y = 0; y < a.height; ++y) {
         core::throw_if_stopped();
         for (std::size_t x = 0; x < a.width; ++x)
-            field->samples(y, x) = convert(first.real_at(y * a.step_y + x * a.step_x + what.colour * a.step_colour),
-                                           other_at(y * b.step_y + x * b.step_x + what.colour * b.step_colour));
+            field->samples(y, x) =
+                convert(first.real_at(y * a.step_y + x * a.step_x + description.colour * a.step_colour),
+                        second_at(y * b.step_y + x * b.step_x + description.colour * b.step_colour));
     }
-    require_finite(*field, what.colour, path);
+    require_finite(*field, description.colour, path);
     return field;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of inflate.cpp in a build without zlib.
+// Replaces inflate.cpp in a build without zlib.
 #include <fmt/format.h>
 
 #include "hogel/core/part.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// NumPy's array format, versions 1 to 3: "\x93NUMPY", two bytes of version, the length of a header (2 bytes, or 4 from
-// version 2 on), the header as the text of a Python dictionary, and the numbers.
+// NumPy's array format, versions 1 to 3: "\x93NUMPY", two version bytes, the header length (2 bytes, 4 since version
+// 2), the header as text of a Python dictionary, and the numbers.
 #include "hogel/io/arrays/npy.h"
 
 #include <fmt/format.h>
@@ -24,18 +24,18 @@ constexpr std::size_t max_header = 1 << 16;
 
 constexpr std::size_t max_axes = 32;  // as in NumPy
 
-// The text after "'key':", or nothing.
+// Returns the text after "'key':", or nothing.
 std::string_view value_of(std::string_view header, const char* key) {
     const std::string quoted = fmt::format("'{}'", key);
-    std::size_t at = header.find(quoted);
-    if (at == std::string_view::npos) return {};
-    at = header.find_first_not_of(" \t\n", at + quoted.size());
-    if (at == std::string_view::npos || header[at] != ':') return {};
-    at = header.find_first_not_of(" \t\n", at + 1);
-    return at == std::string_view::npos ? std::string_view{} : header.substr(at);
+    std::size_t position = header.find(quoted);
+    if (position == std::string_view::npos) return {};
+    position = header.find_first_not_of(" \t\n", position + quoted.size());
+    if (position == std::string_view::npos || header[position] != ':') return {};
+    position = header.find_first_not_of(" \t\n", position + 1);
+    return position == std::string_view::npos ? std::string_view{} : header.substr(position);
 }
 
-// Reads a whole number from the start of a text. Returns false if there is none below 2^40.
+// Parses an integer at the start of a text. Returns false if there is none below 2^40.
 bool take_number(std::string_view& text, std::size_t& number) {
     number = 0;
     std::size_t digits = 0;
@@ -53,7 +53,7 @@ bool take(std::string_view& text, char expected) {
     return true;
 }
 
-// Returns false for types that are no numbers, or none that are read.
+// Returns false for unsupported types.
 bool take_type(std::string_view descr, NpyHeader& header) {
     struct Known {
         std::string_view name;
@@ -67,7 +67,7 @@ bool take_type(std::string_view descr, NpyHeader& header) {
         {"i2'", Number::int16, false},   {"u4'", Number::uint32, false}, {"i4'", Number::int32, false},
         {"u8'", Number::uint64, false},  {"i8'", Number::int64, false},
     };
-    // The first letter is the order of bytes.
+    // The first letter is the byte order.
     for (const Known& type : known) {
         const std::string_view orders = bytes_of(type.number) == 1 ? "|" : "<>";
         if (descr.size() > 2 && descr[0] == '\'' && orders.find(descr[1]) != orders.npos &&
@@ -89,7 +89,7 @@ bool take_type(std::string_view descr, NpyHeader& header) {
                   fmt::format("its numbers are of type {}; c8, c16, f2, f4, f8 and whole numbers are read", shown));
 }
 
-// The extents of "(4, 3)". Returns false for anything else.
+// Parses the extents of "(4, 3)". Returns false for anything else.
 bool parse_shape(std::string_view text, std::vector<std::size_t>& shape) {
     if (!take(text, '(')) return false;
     for (std::size_t extent = 0; take_number(text, extent);) {
@@ -99,17 +99,16 @@ bool parse_shape(std::string_view text, std::vector<std::size_t>& shape) {
     return shape.size() <= max_axes && take(text, ')');
 }
 
-// Throws unless all numbers are in the file.
 void require_numbers(const std::filesystem::path& path, std::uint64_t size, const NpyHeader& header) {
     const std::uint64_t bytes = header.bytes_of_sample();
-    std::uint64_t held = (size - header.begin) / bytes;
-    for (const std::size_t extent : header.shape) held = extent == 0 ? held : held / extent;
-    if (held == 0 && std::ranges::count(header.shape, 0u) == 0)
+    std::uint64_t remaining = (size - header.begin) / bytes;
+    for (const std::size_t extent : header.shape) remaining = extent == 0 ? remaining : remaining / extent;
+    if (remaining == 0 && std::ranges::count(header.shape, 0u) == 0)
         fail_external(path, fmt::format("it is truncated: {} bytes are too few for {} numbers of {} bytes",
                                         size - header.begin, fmt::join(header.shape, "x"), bytes));
 }
 
-// The text of the header; sets where the numbers begin.
+// Returns the text of the header; sets the offset of the numbers.
 std::string text_of(const std::filesystem::path& path, std::span<const unsigned char> start, std::uint64_t& begin) {
     if (start.size() < 12) fail_external(path, "it is truncated inside its header");
     const int version = start[6];
@@ -187,17 +186,17 @@ ExternalFacts facts_of(const NpyHeader& header, const Planes& planes) {
 
 class NpyField final : public FieldSource {
   public:
-    NpyField(const std::filesystem::path& path, const ExternalField& what)
+    NpyField(const std::filesystem::path& path, const ExternalField& description)
         : file_(path, core::RawFile::Mode::read, path),
           header_(read_npy_header(path, file_)),
           planes_(planes_of(path, header_.shape, header_.by_columns, header_.complex)),
-          grid_(external_grid(path, what, facts_of(header_, planes_))),
-          colour_(what.colour),
-          convert_(converter(path, what)) {}
+          grid_(external_grid(path, description, facts_of(header_, planes_))),
+          colour_(description.colour),
+          convert_(converter(path, description)) {}
 
     const FieldGrid& grid() const override { return grid_; }
 
-    // Reads lines along the axis whose samples are nearer to each other.
+    // Reads lines along the axis with the smaller stride.
     void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override {
         validate(region, grid_, out.shape());
         if (look != 0) throw Error(ErrorCode::usage, fmt::format("look {} was asked of a file, which has one", look));
@@ -206,7 +205,7 @@ class NpyField final : public FieldSource {
         const std::size_t lines = columns ? region.width : region.height,
                           count = columns ? region.height : region.width,
                           step = columns ? planes_.step_y : planes_.step_x;
-        // The second of two real numbers follows in a line of its own, which may be the same.
+        // The second real number of each sample is read as another line, which may be the same in the file.
         std::vector<unsigned char> line(((count - 1) * step + 1) * bytes),
             second(planes_.step_pair > 0 ? line.size() : 0);
         for (std::size_t i = 0; i < lines; ++i) {
@@ -215,30 +214,31 @@ class NpyField final : public FieldSource {
             read_numbers(first, line);
             if (!second.empty()) read_numbers(first + planes_.step_pair, second);
             for (std::size_t k = 0; k < count; ++k) {
-                const std::size_t at = k * step * bytes;
-                const double other = !second.empty()   ? number_at(header_.number, &second[at])
-                                     : header_.complex ? number_at(header_.number, &line[at + number_bytes])
-                                                       : 0;
-                (columns ? out(k, i) : out(i, k)) = convert_(number_at(header_.number, &line[at]), other);
+                const std::size_t offset = k * step * bytes;
+                const double second_number = !second.empty()   ? number_at(header_.number, &second[offset])
+                                             : header_.complex ? number_at(header_.number, &line[offset + number_bytes])
+                                                               : 0;
+                (columns ? out(k, i) : out(i, k)) = convert_(number_at(header_.number, &line[offset]), second_number);
             }
         }
         require_finite(out, region, colour_, file_.name());
     }
 
   private:
-    SampleConverter converter(const std::filesystem::path& path, ExternalField what) const {
+    SampleConverter converter(const std::filesystem::path& path, ExternalField description) const {
         const Content content = header_.complex         ? Content::complex
-                                : planes_.step_pair > 0 ? take_pairs(path, what)
+                                : planes_.step_pair > 0 ? take_pairs(path, description)
                                                         : Content::real;
-        return {path, what, content, header_.number, header_.number};
+        return {path, description, content, header_.number, header_.number};
     }
 
-    // In this machine's order of bytes.
+    // Converts to native byte order.
     void read_numbers(std::size_t first, std::vector<unsigned char>& bytes) const {
         file_.read(header_.begin + first * header_.bytes_of_sample(), bytes.data(), bytes.size());
         const std::size_t number = bytes_of(header_.number);
         if (header_.big_endian)
-            for (std::size_t at = 0; at < bytes.size(); at += number) std::reverse(&bytes[at], &bytes[at] + number);
+            for (std::size_t offset = 0; offset < bytes.size(); offset += number)
+                std::reverse(&bytes[offset], &bytes[offset] + number);
     }
 
     core::RawFile file_;
@@ -260,8 +260,8 @@ ExternalFacts npy_facts(const std::filesystem::path& path) {
     return facts_of(header, planes_of(path, header.shape, header.by_columns, header.complex));
 }
 
-std::unique_ptr<FieldSource> open_npy(const std::filesystem::path& path, const ExternalField& what) {
-    return std::make_unique<NpyField>(path, what);
+std::unique_ptr<FieldSource> open_npy(const std::filesystem::path& path, const ExternalField& description) {
+    return std::make_unique<NpyField>(path, description);
 }
 
 }  // namespace hogel::io::arrays

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// NPZ files of NumPy: a ZIP archive of NPY files, one for each array, stored or deflated.
+// NPZ files of NumPy: a ZIP archive of NPY files, one per array, stored or deflated.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace hogel::io::arrays {
 namespace {
 
-// The samples of a header's array, in this machine's order of bytes; complex numbers part by part.
+// Returns the array of a header, in native byte order, with real and imaginary parts separated.
 NumberArray array_of(const std::string& name, const NpyHeader& header, std::span<const unsigned char> bytes) {
     NumberArray array;
     array.name = name;
@@ -33,14 +33,14 @@ NumberArray array_of(const std::string& name, const NpyHeader& header, std::span
     };
     for (std::size_t i = 0; i < count; ++i) {
         if (i % bytes_between_checks == 0) core::throw_if_stopped();
-        const unsigned char* at = &bytes[header.begin + i * sample];
-        copy(at, &array.real[i * number]);
-        if (header.complex) copy(at + number, &array.imaginary[i * number]);
+        const unsigned char* sample_bytes = &bytes[header.begin + i * sample];
+        copy(sample_bytes, &array.real[i * number]);
+        if (header.complex) copy(sample_bytes + number, &array.imaginary[i * number]);
     }
     return array;
 }
 
-// All arrays of numbers but those that are certainly not wanted: empty ones, and texts and objects.
+// Returns all arrays of numbers; skips empty arrays, texts and objects.
 std::vector<NumberArray> read_npz(const std::filesystem::path& path) {
     const std::vector<unsigned char> archive = all_bytes(path);
     std::vector<NumberArray> arrays;
@@ -63,12 +63,12 @@ bool is_zip(std::span<const unsigned char> start) {
     return start.size() >= 4 && std::memcmp(start.data(), "PK\3\4", 4) == 0;
 }
 
-std::unique_ptr<FieldSource> open_npz(const std::filesystem::path& path, const ExternalField& what) {
-    return open_arrays(path, what, read_npz(path));
+std::unique_ptr<FieldSource> open_npz(const std::filesystem::path& path, const ExternalField& description) {
+    return open_arrays(path, description, read_npz(path));
 }
 
-ExternalFacts npz_facts(const std::filesystem::path& path, const ExternalField& what) {
-    return facts_of_arrays(path, what, read_npz(path), "npz");
+ExternalFacts npz_facts(const std::filesystem::path& path, const ExternalField& description) {
+    return facts_of_arrays(path, description, read_npz(path), "npz");
 }
 
 }  // namespace hogel::io::arrays

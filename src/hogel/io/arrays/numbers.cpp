@@ -21,9 +21,9 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers are stored in memory as in the files");
 
 template <class T>
-double value_at(const unsigned char* at) {
+double value_at(const unsigned char* bytes) {
     T value;
-    std::memcpy(&value, at, sizeof value);
+    std::memcpy(&value, bytes, sizeof value);
     return static_cast<double>(value);
 }
 
@@ -36,67 +36,68 @@ void fail_external(const std::filesystem::path& path, const std::string& why) {
 std::vector<unsigned char> all_bytes(const std::filesystem::path& path) {
     const core::RawFile file(path, core::RawFile::Mode::read, path);
     std::vector<unsigned char> bytes(file.size());
-    for (std::size_t at = 0; at < bytes.size(); at += bytes_between_checks) {
+    for (std::size_t offset = 0; offset < bytes.size(); offset += bytes_between_checks) {
         core::throw_if_stopped();
-        file.read(at, &bytes[at], std::min(bytes_between_checks, bytes.size() - at));
+        file.read(offset, &bytes[offset], std::min(bytes_between_checks, bytes.size() - offset));
     }
     return bytes;
 }
 
 bool is_whole(Number number) { return number != Number::half && number != Number::single && number != Number::real; }
 
-double number_at(Number number, const unsigned char* at) {
+double number_at(Number number, const unsigned char* bytes) {
     switch (number) {
         case Number::boolean:
-            return *at != 0 ? 1 : 0;
+            return *bytes != 0 ? 1 : 0;
         case Number::int8:
-            return value_at<std::int8_t>(at);
+            return value_at<std::int8_t>(bytes);
         case Number::uint8:
-            return value_at<std::uint8_t>(at);
+            return value_at<std::uint8_t>(bytes);
         case Number::int16:
-            return value_at<std::int16_t>(at);
+            return value_at<std::int16_t>(bytes);
         case Number::uint16:
-            return value_at<std::uint16_t>(at);
+            return value_at<std::uint16_t>(bytes);
         case Number::int32:
-            return value_at<std::int32_t>(at);
+            return value_at<std::int32_t>(bytes);
         case Number::uint32:
-            return value_at<std::uint32_t>(at);
+            return value_at<std::uint32_t>(bytes);
         case Number::int64:
-            return value_at<std::int64_t>(at);
+            return value_at<std::int64_t>(bytes);
         case Number::uint64:
-            return value_at<std::uint64_t>(at);
+            return value_at<std::uint64_t>(bytes);
         case Number::half: {
             std::uint16_t half;
-            std::memcpy(&half, at, sizeof half);
+            std::memcpy(&half, bytes, sizeof half);
             return static_cast<double>(core::float_of(half));
         }
         case Number::single:
-            return value_at<float>(at);
+            return value_at<float>(bytes);
         case Number::real:
             break;
     }
-    return value_at<double>(at);
+    return value_at<double>(bytes);
 }
 
-SampleConverter::SampleConverter(const std::filesystem::path& path, const ExternalField& what, Content content,
+SampleConverter::SampleConverter(const std::filesystem::path& path, const ExternalField& description, Content content,
                                  Number first, Number second)
     : path_(path),
       content_(content),
-      phases_(content == Content::amplitude_phase || what.values == ExternalField::Values::phase),
-      sign_(what.conjugate ? -1 : 1),
-      code_(what.phase_code) {
+      phases_(content == Content::amplitude_phase || description.values == ExternalField::Values::phase),
+      sign_(description.conjugate ? -1 : 1),
+      code_(description.phase_code) {
     using Values = ExternalField::Values;
-    if (content != Content::real && what.values != Values::complex)
+    if (content != Content::real && description.values != Values::complex)
         throw Error(ErrorCode::usage, "values",
                     fmt::format("'{}' holds {}, not {}", path.string(),
                                 content == Content::complex ? "complex numbers" : "amplitudes and phases",
-                                what.values == Values::phase       ? "phases"
-                                : what.values == Values::amplitude ? "amplitudes"
-                                                                   : "pairs of real numbers"));
-    if (content == Content::real && what.values == Values::complex)
+                                description.values == Values::phase       ? "phases"
+                                : description.values == Values::amplitude ? "amplitudes"
+                                                                          : "pairs of real numbers"));
+    if (content == Content::real && description.values == Values::complex)
         throw Error(ErrorCode::usage, "values",
                     fmt::format("'{}' holds real numbers: are they amplitudes or phases?", path.string()));
-    if (content == Content::real && (what.values == Values::real_imaginary || what.values == Values::amplitude_phase))
+    if (content == Content::real &&
+        (description.values == Values::real_imaginary || description.values == Values::amplitude_phase))
         throw Error(ErrorCode::usage, "values",
                     fmt::format("'{}' holds one real number a sample, not pairs of them", path.string()));
     if (!phases_ && code_)
@@ -115,7 +116,7 @@ SampleConverter::SampleConverter(const std::filesystem::path& path, const Extern
 }
 
 double SampleConverter::phase_of(double number) const {
-    // A picture's levels that became floats have lost how many there were.
+    // Levels of a picture that were converted to floats have lost their number of levels.
     if (constexpr double rounding = 1e-3; code_ && largest_ == 0 && !(number >= -rounding && number <= 1 + rounding))
         fail_external(path_, fmt::format("it holds the phase {:.9g}, but in a phase code floats count from 0 to 1; "
                                          "whole numbers are read as uint8 and uint16",
@@ -131,32 +132,34 @@ std::complex<float> SampleConverter::operator()(double first, double second) con
     return std::complex<float>(std::complex<double>(value.real(), sign_ * value.imag()));
 }
 
-Content take_pairs(const std::filesystem::path& path, ExternalField& what) {
+Content take_pairs(const std::filesystem::path& path, ExternalField& description) {
     using Values = ExternalField::Values;
-    if (what.values != Values::real_imaginary && what.values != Values::amplitude_phase)
+    if (description.values != Values::real_imaginary && description.values != Values::amplitude_phase)
         throw Error(ErrorCode::usage, "values",
                     fmt::format("'{}' holds pairs of real numbers: are they real and imaginary "
                                 "parts, or amplitudes and phases?",
                                 path.string()));
-    const bool complex = what.values == Values::real_imaginary;
-    what.values = Values::complex;
+    const bool complex = description.values == Values::real_imaginary;
+    description.values = Values::complex;
     return complex ? Content::complex : Content::amplitude_phase;
 }
 
-FieldGrid external_grid(const std::filesystem::path& path, const ExternalField& what, const ExternalFacts& facts) {
+FieldGrid external_grid(const std::filesystem::path& path, const ExternalField& description,
+                        const ExternalFacts& facts) {
     if (facts.width == 0 || facts.height == 0)
         fail_external(path, fmt::format("its array of {}x{} is empty", facts.width, facts.height));
-    if (what.colour >= facts.colours)
-        throw Error(ErrorCode::usage, fmt::format("'{}' has no colour {}: it holds {}", path.string(), what.colour,
-                                                  facts.colours == 1 ? "one field" : "fewer fields"));
-    const bool has_pitch = what.pitch_x > 0 && what.pitch_y > 0;
-    if ((!has_pitch || !(what.wavelength > 0)) && !facts.complaint.empty())
+    if (description.colour >= facts.colours)
+        throw Error(ErrorCode::usage,
+                    fmt::format("'{}' has no colour {}: it holds {}", path.string(), description.colour,
+                                facts.colours == 1 ? "one field" : "fewer fields"));
+    const bool has_pitch = description.pitch_x > 0 && description.pitch_y > 0;
+    if ((!has_pitch || !(description.wavelength > 0)) && !facts.complaint.empty())
         throw Error(ErrorCode::usage, fmt::format("'{}': {}", path.string(), facts.complaint));
-    const double wavelength = what.wavelength > 0 || facts.wavelengths.size() != facts.colours
-                                  ? what.wavelength
-                                  : facts.wavelengths[what.colour];
-    const FieldGrid grid{{facts.width, facts.height, has_pitch ? what.pitch_x : facts.pitch_x,
-                          has_pitch ? what.pitch_y : facts.pitch_y, 0, 0},
+    const double wavelength = description.wavelength > 0 || facts.wavelengths.size() != facts.colours
+                                  ? description.wavelength
+                                  : facts.wavelengths[description.colour];
+    const FieldGrid grid{{facts.width, facts.height, has_pitch ? description.pitch_x : facts.pitch_x,
+                          has_pitch ? description.pitch_y : facts.pitch_y, 0, 0},
                          wavelength};
     validate(grid, ErrorCode::usage, fmt::format("'{}'", path.string()));
     return grid;

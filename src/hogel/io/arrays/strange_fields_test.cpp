@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fields as strangers have them: axes in any order, pairs of real numbers, parameters of many names, and what looks
-// like a field and cannot be read as one.
+// Fields of other programs: axes in any order, pairs of real numbers, parameters of many names, and arrays that only
+// look like fields.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -77,7 +77,7 @@ void expect_arranged(const fs::path& path, ExternalField what, std::size_t colou
     }
 }
 
-// Each name was compared with each other.
+// All pairs of names used to be compared.
 TEST(PartNames, are_paired_in_linear_time) {
     std::vector<PartName> names;
     for (std::size_t i = 0; i < 50000; ++i) {
@@ -94,7 +94,7 @@ TEST(PartNames, are_paired_in_linear_time) {
     EXPECT_EQ(pairs_of_parts(same, 2)[0].content, Content::amplitude_phase);
 }
 
-// Each of them would be unpacked.
+// All of them would be unpacked.
 TEST(ZipArchive, files_that_share_their_bytes_are_refused) {
     ZipWriter zip("x.npz");
     zip.add("a.npy", Bytes(1000));
@@ -145,7 +145,7 @@ TEST_F(StrangeFields, of_pairs_are_what_is_said) {
     expect_refused(complex, known(Values::amplitude_phase), ErrorCode::usage, "holds complex numbers");
 }
 
-// Levels whose number of levels is lost would be read as no phase at all.
+// Levels without a known maximum would be read as wrong phases.
 TEST_F(StrangeFields, of_levels_that_lost_their_type_are_refused) {
     ExternalField coded = known(Values::phase);
     coded.phase_code = parse_phase_code("odak");
@@ -186,7 +186,7 @@ TEST_F(StrangeFields, have_parameters_of_many_names) {
         ASSERT_EQ(facts.wavelengths.size(), 1u) << name;
         EXPECT_NEAR(facts.wavelengths[0], 532e-9, 1e-15) << name;
     }
-    // Millimetres and micrometres that no name tells are not metres, and other variables are no parameters.
+    // Millimetres and micrometres without a unit in the name are not metres; other variables are no parameters.
     for (const auto& [name, value] :
          {std::pair("lambda", 0.000532), std::pair("lambda", 0.532), std::pair("dx", 0.008), std::pair("pitch", 8.0)}) {
         const ExternalFacts facts =
@@ -199,7 +199,7 @@ TEST_F(StrangeFields, have_parameters_of_many_names) {
                     .complaint.empty());
 }
 
-// A data set has one pair of arrays whose names say that they are parts.
+// A data set with a single pair of arrays named as parts.
 TEST_F(StrangeFields, are_found_among_pictures) {
     const auto plane = [](double value) { return strange_npy({value, value, value, value}, {2, 2}); };
     const fs::path path =

@@ -22,7 +22,7 @@ using Complex = std::complex<float>;
 using Bytes = std::vector<unsigned char>;
 using Values = ExternalField::Values;
 
-// A test with a folder of its own.
+// Test fixture with a temporary folder.
 class FieldFiles : public testing::Test {
   protected:
     FieldFiles() { fs::create_directories(directory_); }
@@ -33,7 +33,7 @@ class FieldFiles : public testing::Test {
         return directory_ / name;
     }
 
-    // Whether this build has no pictures; then it says so.
+    // Returns whether the build lacks pictures, and then checks that writing one is refused.
     static bool without_pictures() {
         if (core::part("pictures").built_in) return false;
         try {
@@ -88,7 +88,6 @@ inline Bytes npy_rows() {
     });
 }
 
-// Expects those.
 inline void expect_example(const FieldSource& field, double sign = 1) {
     ASSERT_EQ(field.grid().plane.width, 2u);
     ASSERT_EQ(field.grid().plane.height, 3u);

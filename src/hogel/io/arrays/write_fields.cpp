@@ -29,7 +29,7 @@ std::string ending_of(const std::filesystem::path& path) {
     return ending;
 }
 
-// [y][x], or [wavelength][y][x].
+// Returns [y][x], or [wavelength][y][x].
 std::vector<std::size_t> shape_of(std::span<const Field> fields) {
     std::vector<std::size_t> shape{fields[0].grid().plane.height, fields[0].grid().plane.width};
     if (fields.size() > 1) shape.insert(shape.begin(), fields.size());
@@ -57,11 +57,11 @@ void write_npy_file(const std::filesystem::path& path, std::span<const Field> fi
     core::OutputFile output(path);
     core::RawFile file(output.temporary(), core::RawFile::Mode::create, path);
     file.write(0, start.data(), start.size());
-    std::uint64_t at = start.size();
+    std::uint64_t offset = start.size();
     for (const Field& field : fields) {
         const std::size_t bytes = field.samples.size() * sizeof(Complex);
-        file.write(at, field.samples.data(), bytes);
-        at += bytes;
+        file.write(offset, field.samples.data(), bytes);
+        offset += bytes;
     }
     file.close();
     output.commit();
@@ -101,7 +101,7 @@ void write_mat_file(const std::filesystem::path& path, std::span<const Field> fi
                 imaginary.push_back(field.samples(y, x).imag());
             }
         }
-    // MATLAB's order of colours: rows, columns, wavelengths.
+    // MATLAB's axis order: rows, columns, wavelengths.
     std::vector<std::size_t> shape{plane.height, plane.width};
     if (fields.size() > 1) shape.push_back(fields.size());
     MatWriter writer(path);

@@ -18,21 +18,21 @@ namespace {
 constexpr std::uint32_t local_mark = 0x04034b50, directory_mark = 0x02014b50, end_mark = 0x06054b50,
                         end64_mark = 0x06064b50, locator_mark = 0x07064b50;
 constexpr std::size_t local_bytes = 30, directory_bytes = 46, end_bytes = 22, locator_bytes = 20, end64_bytes = 56;
-constexpr std::uint32_t in_extra = 0xffffffff;  // the number is in the extra field of 64 bits
+constexpr std::uint32_t in_extra = 0xffffffff;  // marker: the number is in the 64-bit extra field
 
-// Numbers of an archive at offsets that are checked.
+// Bounds-checked access to the numbers of an archive.
 class Archive {
   public:
     Archive(const std::filesystem::path& path, std::span<const unsigned char> bytes) : path_(path), bytes_(bytes) {}
 
-    std::uint64_t number(std::uint64_t at, std::size_t bytes) const {
+    std::uint64_t number(std::uint64_t offset, std::size_t bytes) const {
         std::uint64_t value = 0;
-        std::memcpy(&value, part(at, bytes).data(), bytes);
+        std::memcpy(&value, part(offset, bytes).data(), bytes);
         return value;
     }
-    std::span<const unsigned char> part(std::uint64_t at, std::uint64_t bytes) const {
-        if (at > bytes_.size() || bytes > bytes_.size() - at) fail();
-        return bytes_.subspan(at, bytes);
+    std::span<const unsigned char> part(std::uint64_t offset, std::uint64_t bytes) const {
+        if (offset > bytes_.size() || bytes > bytes_.size() - offset) fail();
+        return bytes_.subspan(offset, bytes);
     }
     [[noreturn]] void fail() const { fail_external(path_, "its ZIP archive is damaged or ends too early"); }
 
@@ -47,35 +47,36 @@ struct Directory {
     std::uint64_t entries = 0, begin = 0;
 };
 
-// From the record at the end, which a comment may follow.
+// Finds the record at the end, which a comment may follow.
 Directory directory_of(const Archive& archive) {
     if (archive.size() < end_bytes) archive.fail();
     const std::uint64_t last = archive.size() - end_bytes;
-    std::uint64_t at = last;
-    while (archive.number(at, 4) != end_mark) {
-        if (at == 0 || last - at > 0xffff) archive.fail();
-        --at;
+    std::uint64_t end_record = last;
+    while (archive.number(end_record, 4) != end_mark) {
+        if (end_record == 0 || last - end_record > 0xffff) archive.fail();
+        --end_record;
     }
-    Directory directory{archive.number(at + 10, 2), archive.number(at + 16, 4)};
-    if (at < locator_bytes || archive.number(at - locator_bytes, 4) != locator_mark) return directory;
-    const std::uint64_t end64 = archive.number(at - locator_bytes + 8, 8);
+    Directory directory{archive.number(end_record + 10, 2), archive.number(end_record + 16, 4)};
+    if (end_record < locator_bytes || archive.number(end_record - locator_bytes, 4) != locator_mark) return directory;
+    const std::uint64_t end64 = archive.number(end_record - locator_bytes + 8, 8);
     if (archive.part(end64, end64_bytes).empty() || archive.number(end64, 4) != end64_mark) archive.fail();
     return {archive.number(end64 + 32, 8), archive.number(end64 + 48, 8)};
 }
 
-// Replaces those of the numbers that do not fit into 32 bits by those of the extra field.
-void read_extra(const Archive& archive, std::uint64_t at, std::uint64_t length, std::array<std::uint64_t*, 3> numbers) {
-    for (const std::uint64_t end = at + length; at + 4 <= end;) {
-        const std::uint64_t kind = archive.number(at, 2), size = archive.number(at + 2, 2);
-        at += 4;
+// Replaces numbers that do not fit 32 bits by those of the extra field.
+void read_extra(const Archive& archive, std::uint64_t position, std::uint64_t length,
+                std::array<std::uint64_t*, 3> numbers) {
+    for (const std::uint64_t end = position + length; position + 4 <= end;) {
+        const std::uint64_t kind = archive.number(position, 2), size = archive.number(position + 2, 2);
+        position += 4;
         if (kind == 1)
-            for (std::uint64_t field = at; std::uint64_t * number : numbers)
+            for (std::uint64_t field = position; std::uint64_t * number : numbers)
                 if (*number == in_extra) {
-                    if (field + 8 > at + size) archive.fail();
+                    if (field + 8 > position + size) archive.fail();
                     *number = archive.number(field, 8);
                     field += 8;
                 }
-        at += size;
+        position += size;
     }
 }
 
@@ -105,29 +106,31 @@ std::vector<ZipEntry> read_zip(const std::filesystem::path& path, std::span<cons
     const Directory directory = directory_of(archive);
     if (directory.entries > archive.size() / directory_bytes) archive.fail();
     std::vector<ZipEntry> entries;
-    std::uint64_t at = directory.begin, packed_bytes = 0;
+    std::uint64_t entry_offset = directory.begin, packed_bytes = 0;
     for (std::uint64_t i = 0; i < directory.entries; ++i) {
-        if (archive.number(at, 4) != directory_mark) archive.fail();
-        const std::uint64_t flags = archive.number(at + 8, 2), name_length = archive.number(at + 28, 2),
-                            extra_length = archive.number(at + 30, 2), comment_length = archive.number(at + 32, 2);
+        if (archive.number(entry_offset, 4) != directory_mark) archive.fail();
+        const std::uint64_t flags = archive.number(entry_offset + 8, 2),
+                            name_length = archive.number(entry_offset + 28, 2),
+                            extra_length = archive.number(entry_offset + 30, 2),
+                            comment_length = archive.number(entry_offset + 32, 2);
         ZipEntry entry;
-        entry.method = static_cast<std::uint16_t>(archive.number(at + 10, 2));
-        entry.crc = static_cast<std::uint32_t>(archive.number(at + 16, 4));
-        std::uint64_t packed = archive.number(at + 20, 4), local = archive.number(at + 42, 4);
-        entry.size = archive.number(at + 24, 4);
-        read_extra(archive, at + directory_bytes + name_length, extra_length, {&entry.size, &packed, &local});
-        const auto name = archive.part(at + directory_bytes, name_length);
+        entry.method = static_cast<std::uint16_t>(archive.number(entry_offset + 10, 2));
+        entry.crc = static_cast<std::uint32_t>(archive.number(entry_offset + 16, 4));
+        std::uint64_t packed = archive.number(entry_offset + 20, 4), local = archive.number(entry_offset + 42, 4);
+        entry.size = archive.number(entry_offset + 24, 4);
+        read_extra(archive, entry_offset + directory_bytes + name_length, extra_length, {&entry.size, &packed, &local});
+        const auto name = archive.part(entry_offset + directory_bytes, name_length);
         entry.name.assign(name.begin(), name.end());
         if ((flags & 1) != 0) fail_external(path, fmt::format("its file '{}' is encrypted", entry.name));
         if (archive.number(local, 4) != local_mark) archive.fail();
-        // The local header has extra fields of its own.
+        // The local header has its own extra fields.
         const std::uint64_t data = local + local_bytes + archive.number(local + 26, 2) + archive.number(local + 28, 2);
         entry.packed = archive.part(data, packed);
         packed_bytes += packed;
         if (packed_bytes > archive.size()) fail_external(path, "files of its ZIP archive overlap");
         if (entry.size / max_expansion > packed || (entry.method == 0 && entry.size != packed)) archive.fail();
         entries.push_back(std::move(entry));
-        at += directory_bytes + name_length + extra_length + comment_length;
+        entry_offset += directory_bytes + name_length + extra_length + comment_length;
     }
     return entries;
 }
@@ -151,7 +154,7 @@ void put(std::vector<unsigned char>& to, std::uint64_t value, std::size_t bytes)
     for (std::size_t i = 0; i < bytes; ++i, value >>= 8) to.push_back(static_cast<unsigned char>(value));
 }
 
-// What both headers of a file hold: version 2.0, no flags, stored, 1980-01-01, the sum, the sizes.
+// Writes the common part of both headers of a file: version 2.0, no flags, stored, 1980-01-01, checksum, sizes.
 void put_facts(std::vector<unsigned char>& to, const std::string& name, std::span<const unsigned char> bytes) {
     constexpr std::uint64_t version = 20, date = 0x21;
     put(to, version, 2);

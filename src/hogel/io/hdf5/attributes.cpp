@@ -9,14 +9,14 @@
 namespace hogel::io::hdf5 {
 namespace {
 
-constexpr std::size_t max_text = 60000;  // a message in an object header of HDF5 holds 64 kB
+constexpr std::size_t max_text = 60000;  // an object header message of HDF5 holds 64 kB
 constexpr hsize_t max_attributes = 1000;
 
 struct Attribute {
     Handle id, type;
 };
 
-// Opens an attribute of a single value, stored as a scalar or as an array of one element.
+// Opens an attribute with a single value: a scalar or an array of one element.
 Attribute open_attribute(hid_t object, const char* name, const std::filesystem::path& path) {
     if (!has_attribute(object, name, path)) fail(path, fmt::format("its attribute '{}' is missing", name));
     Attribute attribute;
@@ -57,16 +57,16 @@ std::string text_of(const Attribute& attribute, const char* name, const std::fil
 }  // namespace
 
 bool has_attribute(hid_t object, const char* name, const std::filesystem::path& path) {
-    const htri_t there = H5Aexists(object, name);
-    if (there < 0) fail(path, "it is damaged: " + reason());
-    return there > 0;
+    const htri_t exists = H5Aexists(object, name);
+    if (exists < 0) fail(path, "it is damaged: " + reason());
+    return exists > 0;
 }
 
 bool has_member(hid_t group, const char* name, const std::filesystem::path& path) {
-    const htri_t there = H5Lexists(group, name, H5P_DEFAULT);
-    if (there < 0) fail(path, "it is damaged: " + reason());
+    const htri_t exists = H5Lexists(group, name, H5P_DEFAULT);
+    if (exists < 0) fail(path, "it is damaged: " + reason());
     H5L_info_t link;
-    return there > 0 && H5Lget_info(group, name, &link, H5P_DEFAULT) >= 0 && link.type == H5L_TYPE_HARD;
+    return exists > 0 && H5Lget_info(group, name, &link, H5P_DEFAULT) >= 0 && link.type == H5L_TYPE_HARD;
 }
 
 double read_number(hid_t object, const char* name, const std::filesystem::path& path) {

@@ -17,15 +17,15 @@ namespace {
 using hdf5::Element;
 using hdf5::Handle;
 
-constexpr std::size_t halves_at_once = 32768;   // half floats that are converted together, few enough for the caches
-constexpr std::size_t samples_at_once = 32768;  // complex numbers that are read and looked at together, likewise
+constexpr std::size_t halves_per_block = 32768;   // half floats per conversion block, sized for the caches
+constexpr std::size_t samples_per_block = 32768;  // complex numbers per read and check, likewise
 constexpr std::size_t max_chunk = std::size_t{256} << 20;
 
 Handle open_dataset(hid_t file, const char* name, const std::filesystem::path& path) {
-    const std::string whole = name;
-    for (std::size_t slash = whole.find('/'); slash != std::string::npos; slash = whole.find('/', slash + 1))
-        if (!hdf5::has_member(file, whole.substr(0, slash).c_str(), path))
-            hdf5::fail(path, fmt::format("it has no group '{}'", whole.substr(0, slash)));
+    const std::string full_name = name;
+    for (std::size_t slash = full_name.find('/'); slash != std::string::npos; slash = full_name.find('/', slash + 1))
+        if (!hdf5::has_member(file, full_name.substr(0, slash).c_str(), path))
+            hdf5::fail(path, fmt::format("it has no group '{}'", full_name.substr(0, slash)));
     if (!hdf5::has_member(file, name, path)) hdf5::fail(path, fmt::format("it has no dataset '{}'", name));
     Handle dataset(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
     if (!dataset.valid()) hdf5::fail(path, fmt::format("its dataset '{}' is damaged: {}", name, hdf5::reason()));
@@ -118,36 +118,35 @@ bool DatasetReader::read(const Box& box, float* to) const {
         by_hdf5_->read(box, to);
         finite = all_finite({to, samples_of(box.extent)});
     } else if (half) {
-        std::vector<std::uint16_t> halves(std::min(halves_at_once, samples_of(box.extent)));
-        for_each_run(shape_, box, [&](std::size_t there, std::size_t here, std::size_t n) {
-            for (std::size_t done = 0, some = 0; done < n; done += some) {
-                some = std::min(halves.size(), n - done);
-                raw_->read(offset_ + 2 * (there + done), halves.data(), 2 * some);
-                finite = core::to_float(halves.data(), to + here + done, some) && finite;
+        std::vector<std::uint16_t> halves(std::min(halves_per_block, samples_of(box.extent)));
+        for_each_run(shape_, box, [&](std::size_t source, std::size_t target, std::size_t n) {
+            for (std::size_t done = 0, block = 0; done < n; done += block) {
+                block = std::min(halves.size(), n - done);
+                raw_->read(offset_ + 2 * (source + done), halves.data(), 2 * block);
+                finite = core::to_float(halves.data(), to + target + done, block) && finite;
             }
         });
     } else {
-        for_each_run(shape_, box, [&](std::size_t there, std::size_t here, std::size_t n) {
-            raw_->read(offset_ + sizeof(float) * there, to + here, sizeof(float) * n);
-            finite = all_finite({to + here, n}) && finite;
+        for_each_run(shape_, box, [&](std::size_t source, std::size_t target, std::size_t n) {
+            raw_->read(offset_ + sizeof(float) * source, to + target, sizeof(float) * n);
+            finite = all_finite({to + target, n}) && finite;
         });
     }
     return finite;
 }
 
 bool DatasetReader::read(const Box& box, std::complex<float>* to) const {
-    float* const numbers = reinterpret_cast<float*>(to);  // two each
+    float* const numbers = reinterpret_cast<float*>(to);  // two per sample
     if (by_hdf5_) {
         by_hdf5_->read(box, to);
         return all_finite({numbers, 2 * samples_of(box.extent)});
     }
     bool finite = true;
-    for_each_run(shape_, box, [&](std::size_t there, std::size_t here, std::size_t n) {
-        // Few enough for the caches.
-        for (std::size_t done = 0, some = 0; done < n; done += some) {
-            some = std::min(samples_at_once, n - done);
-            raw_->read(offset_ + sizeof(*to) * (there + done), to + here + done, sizeof(*to) * some);
-            finite = all_finite({numbers + 2 * (here + done), 2 * some}) && finite;
+    for_each_run(shape_, box, [&](std::size_t source, std::size_t target, std::size_t n) {
+        for (std::size_t done = 0, block = 0; done < n; done += block) {
+            block = std::min(samples_per_block, n - done);
+            raw_->read(offset_ + sizeof(*to) * (source + done), to + target + done, sizeof(*to) * block);
+            finite = all_finite({numbers + 2 * (target + done), 2 * block}) && finite;
         }
     });
     return finite;

@@ -18,20 +18,19 @@
 namespace hogel::io::hdf5 {
 namespace {
 
-constexpr std::size_t max_halves = std::size_t{1} << 24;       // of a box that is converted as a whole
-constexpr std::size_t halves_written = std::size_t{1} << 19;   // of a larger one at a time: they stay in the caches
-constexpr std::size_t samples_written = std::size_t{1} << 22;  // at a time, between two checks for a stop
-// How long the first process of a team that is stopped waits for the others to say what they have done: a stop takes
-// less than a second, and what starts the processes may kill them soon after.
-constexpr std::chrono::milliseconds patience{500};
+constexpr std::size_t max_halves = std::size_t{1} << 24;       // maximum size of a box that is converted in one piece
+constexpr std::size_t halves_written = std::size_t{1} << 19;   // per block of a larger box, sized for the caches
+constexpr std::size_t samples_written = std::size_t{1} << 22;  // per write between two stop checks
+// Time that a stopped root waits for records of other ranks. The launcher may kill ranks soon after a stop.
+constexpr std::chrono::milliseconds max_wait{500};
 
-// Lines that identify the work of writing a file.
+// Returns the lines that identify the work of writing a file.
 std::vector<std::string> describe(const Attributes& attributes, const std::vector<NewDataset>& datasets) {
     std::vector<std::string> lines;
-    const auto add = [&](const std::string& of, const Attributes& list) {
+    const auto add = [&](const std::string& prefix, const Attributes& list) {
         for (const auto& [name, value] : list)
             lines.push_back(
-                std::visit([&, &key = name](const auto& v) { return fmt::format("{}{} {}", of, key, v); }, value));
+                std::visit([&, &key = name](const auto& v) { return fmt::format("{}{} {}", prefix, key, v); }, value));
     };
     add("", attributes);
     for (const NewDataset& dataset : datasets) {
@@ -42,7 +41,7 @@ std::vector<std::string> describe(const Attributes& attributes, const std::vecto
     return lines;
 }
 
-// The offsets of the datasets in a file that was laid out by an earlier run.
+// Returns the offsets of the datasets in a file laid out by an earlier run.
 std::vector<std::uint64_t> offsets_in(const std::filesystem::path& path, const std::vector<NewDataset>& datasets) {
     const Session session;
     const Handle file = open_file(path);
@@ -58,8 +57,7 @@ std::vector<std::uint64_t> offsets_in(const std::filesystem::path& path, const s
     return offsets;
 }
 
-// What the first process of a team tells the others of a file: its temporary name, the offsets of its datasets, whether
-// it can be resumed, and the parts that are done.
+// Layout as broadcast by the root. `before` holds the parts that an earlier run finished.
 struct SharedLayout {
     std::filesystem::path temporary;
     std::vector<std::uint64_t> offsets;
@@ -107,13 +105,13 @@ DatasetFile::DatasetFile(const std::filesystem::path& path, Contents contents, c
     if (communicator_ == nullptr)
         lay_out(contents, resume);
     else
-        lay_out_together(contents, resume);
+        lay_out_shared(contents, resume);
 }
 
-void DatasetFile::lay_out_together(const Contents& contents, const std::optional<std::string>& resume) {
+void DatasetFile::lay_out_shared(const Contents& contents, const std::optional<std::string>& resume) {
     static std::atomic<std::uint64_t> files{0};
     number_ = files++;
-    communicator_->meet();  // each process has what it needs before disk space is taken
+    communicator_->meet();  // all memory is allocated before disk space
     if (communicator_->is_root()) {
         lay_out(contents, resume);
         SharedLayout layout{output_->temporary(), offsets_, journal_.has_value(), {}};
@@ -156,7 +154,7 @@ void DatasetFile::lay_out(const Contents& contents, const std::optional<std::str
     journal_->begin();
 }
 
-// A team's processes send what they have done to the first one, which has the journal.
+// The ranks send their records to the root, which keeps the journal.
 DatasetFile::~DatasetFile() {
     if (communicator_ == nullptr || !journal_ || finished_) {
         if (communicator_ != nullptr && communicator_->is_root() && journal_) communicator_->listen(number_, {});
@@ -168,11 +166,11 @@ DatasetFile::~DatasetFile() {
             communicator_->send(number_, "");
             return;
         }
-        const auto end = std::chrono::steady_clock::now() + patience;
+        const auto end = std::chrono::steady_clock::now() + max_wait;
         while (closed_ + 1 < communicator_->size() && std::chrono::steady_clock::now() < end)
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
     } catch (const Error&) {
-        // Ignored: parts that are not recorded will only be done again.
+        // Ignored: unrecorded parts are only repeated.
     }
     communicator_->listen(number_, {});
 }
@@ -194,29 +192,28 @@ std::unique_ptr<work::TileQueue> DatasetFile::share_tiles(std::size_t dataset, s
     return std::make_unique<work::TileQueue>(*communicator_, number_ * max_datasets + dataset, tiles);
 }
 
-std::uint64_t DatasetFile::total(std::uint64_t here) {
-    return communicator_ != nullptr ? communicator_->sum(here) : here;
+std::uint64_t DatasetFile::total(std::uint64_t local) {
+    return communicator_ != nullptr ? communicator_->sum(local) : local;
 }
 
 void DatasetFile::put(std::size_t dataset, std::size_t sample, const void* from, std::size_t samples) {
-    const std::uint64_t element = bytes_of(datasets_[dataset].element), at = element * sample;
+    const std::uint64_t element = bytes_of(datasets_[dataset].element), offset = element * sample;
     if (is_part_)
-        write_to_records(*raw_, offsets_[dataset], at, from, element * samples);
+        write_to_records(*raw_, offsets_[dataset], offset, from, element * samples);
     else
-        raw_->write(offsets_[dataset] + at, from, element * samples);
+        raw_->write(offsets_[dataset] + offset, from, element * samples);
 }
 
-// The system lets only one thread at a time write to a file. A lock per box makes threads wait once, instead of at each
-// of the thousands of system calls for a box.
+// The system serialises writes to a file. Wait once per box, not at each of thousands of system calls.
 void DatasetFile::write_bytes(std::size_t dataset, const Box& box, const void* from) {
     const NewDataset& to = datasets_[dataset];
     const std::size_t bytes = bytes_of(to.element);
     const std::lock_guard lock(writing_);
-    for_each_run(to.shape, box, [&](std::size_t there, std::size_t here, std::size_t n) {
-        for (std::size_t done = 0, some = 0; done < n; done += some) {
+    for_each_run(to.shape, box, [&](std::size_t destination, std::size_t source, std::size_t n) {
+        for (std::size_t done = 0, block = 0; done < n; done += block) {
             core::throw_if_stopped();
-            some = std::min(samples_written, n - done);
-            put(dataset, there + done, static_cast<const char*>(from) + bytes * (here + done), some);
+            block = std::min(samples_written, n - done);
+            put(dataset, destination + done, static_cast<const char*>(from) + bytes * (source + done), block);
         }
     });
 }
@@ -225,20 +222,20 @@ void DatasetFile::write(std::size_t dataset, const Box& box, const float* from) 
     if (datasets_[dataset].element != Element::half) return write_bytes(dataset, box, from);
     const std::size_t samples = samples_of(box.extent);
     auto halves = halves_.take();
-    // Converted outside the lock, unless the halves would be a large part of the memory that the work takes.
-    const std::size_t at_once = samples <= max_halves ? samples : halves_written;
-    if (halves->size() < at_once) halves->resize(at_once);
+    // Convert outside the lock, unless the halves would need a large part of the memory.
+    const std::size_t block_samples = samples <= max_halves ? samples : halves_written;
+    if (halves->size() < block_samples) halves->resize(block_samples);
     if (samples <= max_halves) {
         core::to_half(from, halves->data(), samples);
         return write_bytes(dataset, box, halves->data());
     }
     const std::lock_guard lock(writing_);
-    for_each_run(datasets_[dataset].shape, box, [&](std::size_t there, std::size_t here, std::size_t n) {
-        for (std::size_t done = 0, some = 0; done < n; done += some) {
+    for_each_run(datasets_[dataset].shape, box, [&](std::size_t destination, std::size_t source, std::size_t n) {
+        for (std::size_t done = 0, block = 0; done < n; done += block) {
             core::throw_if_stopped();
-            some = std::min(at_once, n - done);
-            core::to_half(from + here + done, halves->data(), some);
-            put(dataset, there + done, halves->data(), some);
+            block = std::min(block_samples, n - done);
+            core::to_half(from + source + done, halves->data(), block);
+            put(dataset, destination + done, halves->data(), block);
         }
     });
 }
@@ -249,12 +246,12 @@ void DatasetFile::write(std::size_t dataset, const Box& box, const std::complex<
 
 void DatasetFile::finish() {
     raw_->close();
-    if (communicator_ != nullptr) communicator_->meet();  // all have written
+    if (communicator_ != nullptr) communicator_->meet();  // all ranks have written
     if (output_ && is_part_) complete_part(output_->temporary(), path_);
     if (output_) output_->commit();
     if (journal_) journal_->remove();
     finished_ = true;
-    if (communicator_ != nullptr) communicator_->meet();  // the file has its name
+    if (communicator_ != nullptr) communicator_->meet();  // the file has its final name
 }
 
 }  // namespace hogel::io::hdf5

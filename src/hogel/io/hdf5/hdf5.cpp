@@ -17,13 +17,12 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "samples are written as they are in memory");
 
-// A thread may begin a session inside another. Not a recursive mutex: in a child process (rehearsal.h) that would not
-// know the thread that made the child as its owner.
+// Sessions nest in a thread. A recursive mutex would not recognise its owner in a child (rehearsal.h).
 std::mutex& process_mutex() {
     static std::mutex mutex;
     return mutex;
 }
-thread_local int sessions = 0;  // of this thread, one inside the other
+thread_local int sessions = 0;  // nesting depth in this thread
 
 std::uint64_t little_endian(const unsigned char* bytes, int n) {
     std::uint64_t value = 0;
@@ -31,9 +30,9 @@ std::uint64_t little_endian(const unsigned char* bytes, int n) {
     return value;
 }
 
-// Refuses files that could crash HDF5, which does not validate what it reads: those without checksums, which were
-// introduced by version 2 of the superblock, and those with a superblock extension, which neither hogel nor h5py
-// writes. HDF5 file format specification 3.0, II.A; all numbers little-endian.
+// Rejects files that could crash HDF5, which does not validate its input: files without checksums (superblock before
+// version 2), and files with a superblock extension, which neither hogel nor h5py writes. HDF5 file format
+// specification 3.0, II.A; all numbers are little-endian.
 void check_superblock(const std::filesystem::path& path) {
     std::array<unsigned char, 48> start{};
     std::ifstream file(path, std::ios::binary);
@@ -61,8 +60,7 @@ void check_superblock(const std::filesystem::path& path) {
 
 Session::Session() {
     if (sessions++ == 0) process_mutex().lock();
-    // Disables HDF5's shutdown at exit, because after a wrong checksum HDF5 1.10 fails there and prints errors. Every
-    // file is closed by its Handle, so nothing is lost.
+    // HDF5 1.10 fails and prints errors at exit after a wrong checksum. Handles close all files.
     static const herr_t first_call = H5dont_atexit();
     static_cast<void>(first_call);
     H5Eget_auto2(H5E_DEFAULT, &print_, &print_data_);
@@ -92,7 +90,7 @@ void fail(const std::filesystem::path& path, const std::string& why) {
 
 Handle open_unchecked_file(const std::filesystem::path& path) {
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    H5Pset_file_locking(access.id(), false, true);  // files under their final name are never modified
+    H5Pset_file_locking(access.id(), false, true);  // files with their final name are never modified
     Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
     if (!file.valid()) fail(path, fmt::format("it is damaged: {}", reason()));
     return file;

@@ -15,8 +15,8 @@
 
 namespace hogel::io::hdf5 {
 
-/// The lock on HDF5, which is not thread-safe: one session at a time in the whole process. During a session HDF5 prints
-/// no errors. Every Handle is made, used and closed during a session.
+/// Lock on HDF5, which is not thread-safe: one session at a time per process. Disables HDF5's error output. Every
+/// Handle is created, used and closed during a session.
 class Session {
   public:
     Session();
@@ -29,7 +29,7 @@ class Session {
     void* print_data_ = nullptr;
 };
 
-/// Owns an identifier of HDF5: closes it when destroyed.
+/// Owner of an HDF5 identifier; closes it when destroyed.
 class Handle {
   public:
     using Close = herr_t (*)(hid_t);
@@ -45,7 +45,7 @@ class Handle {
 
     hid_t id() const { return id_; }
     bool valid() const { return id_ >= 0; }
-    /// Closes the identifier, which for a file may write data. Returns false if HDF5 reports a failure.
+    /// Closes the identifier, which may write data for a file. Returns false if HDF5 reports a failure.
     bool close() { return id_ < 0 || close_(std::exchange(id_, -1)) >= 0; }
 
   private:
@@ -53,45 +53,42 @@ class Handle {
     Close close_ = nullptr;
 };
 
-/// The innermost reason of HDF5's last failure, one line.
+/// Returns the innermost reason of HDF5's last failure, one line.
 std::string reason();
 
 /// Throws Error(bad_input) with the file's name.
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& why);
 
-/// Opens a file for reading. HDF5 may crash on a file that is not checked. Throws Error(bad_input).
+/// Opens a file for reading without checks; HDF5 may crash on a damaged one. Throws Error(bad_input).
 Handle open_unchecked_file(const std::filesystem::path& path);
-/// The same after check_superblock().
+/// Opens a file for reading after check_superblock().
 Handle open_file(const std::filesystem::path& path);
 
-/// How samples are stored in a file, little-endian.
+/// Element types in a file, little-endian.
 enum class Element { half, single, complex_single };
 std::size_t bytes_of(Element element);
 Handle type_of(Element element);
 
-/// The value of an attribute. Functions that read attributes throw Error(bad_input), naming file and attribute, if it
-/// is missing or of another type.
+/// Functions that read attributes throw Error(bad_input), naming the file, if missing or of another type.
 using Value = std::variant<double, std::uint64_t, std::string>;
 using Attributes = std::vector<std::pair<std::string, Value>>;
 double read_number(hid_t object, const char* name, const std::filesystem::path& path);
 std::uint64_t read_count(hid_t object, const char* name, const std::filesystem::path& path);
 std::string read_text(hid_t object, const char* name, const std::filesystem::path& path);
-/// Whether the object has the attribute.
 bool has_attribute(hid_t object, const char* name, const std::filesystem::path& path);
-/// Whether the group has a link of that name to an object in the same file.
+/// Returns whether the group has a hard link of that name.
 bool has_member(hid_t group, const char* name, const std::filesystem::path& path);
 
-/// The layout version. Light fields and holograms have the attributes "format" and "format_version" at the root, beside
-/// the metadata.
+/// Version of the layout; an attribute at the root of each file, as are "format" and the metadata.
 inline constexpr std::uint64_t format_version = 1;
 inline constexpr const char* light_field_format = "hogel light field";
 inline constexpr const char* hologram_format = "hogel hologram";
-/// Throws Error(bad_input) for another format or version; the message names the `dataset` that was expected.
+/// Throws Error(bad_input), naming the expected `dataset`, for another format or version.
 void check_format(hid_t file, const char* format, const char* dataset, const std::filesystem::path& path);
 Attributes root_attributes(const char* format, const Metadata& metadata);
 Metadata read_metadata(hid_t file, const std::filesystem::path& path);
 
-/// A dataset to be created: its path in the file ("radiance" or "field0/samples"), element type, shape and attributes.
+/// A dataset to create: path in the file ("radiance" or "field0/samples"), element type, shape and attributes.
 struct NewDataset {
     std::string name;
     Element element;
@@ -99,9 +96,8 @@ struct NewDataset {
     Attributes attributes;
 };
 
-/// Creates a file with space for all samples, each dataset contiguous, and returns their offsets. The samples are then
-/// written without HDF5. Throws Error(cannot_write), naming `target`; a disk without enough space is detected if the
-/// file system reports it.
+/// Creates a file with contiguous space for each dataset, and returns the offsets of the samples, which are written
+/// without HDF5. Throws Error(cannot_write), naming `target`, also for a full disk if the file system reports it.
 std::vector<std::uint64_t> lay_out_file(const std::filesystem::path& path, const std::filesystem::path& target,
                                         const Attributes& attributes, const std::vector<NewDataset>& datasets);
 

@@ -21,7 +21,7 @@ constexpr float max_half = 65504;
 
 std::string samples_name(std::size_t field) { return fmt::format("field{}/samples", field); }
 
-// How real and imaginary parts are stored: as members of compounds, or along an additional axis.
+// Storage of real and imaginary parts: members of a compound, or an additional axis.
 enum class Parts { members, axis };
 
 Box box_of(const Region& region, Parts parts) {
@@ -56,7 +56,7 @@ class FieldReader final : public FieldSource {
         const Box box = box_of(region, parts_);
         const bool finite = parts_ == Parts::axis ? samples_.read(box, reinterpret_cast<float*>(out.data()))
                                                   : samples_.read(box, out.data());
-        if (!finite) require_finite(out, region, index_, path_);  // says which
+        if (!finite) require_finite(out, region, index_, path_);  // throws with the position
     }
 
   private:
@@ -68,7 +68,7 @@ class FieldReader final : public FieldSource {
     DatasetReader samples_;
 };
 
-// The file that several sinks share; the last one to finish gives it its name.
+// File of several sinks; the last one to finish renames it.
 struct SharedHologramFile {
     DatasetFile file;
     std::atomic<std::size_t> unfinished;
@@ -114,18 +114,18 @@ class FieldWriter final : public FieldSink, public work::SharedSink {
   private:
     work::Journal::Part part(const Region& r) const { return {index_, r.x0, r.y0, r.width, r.height}; }
 
-    // Throws for samples beyond half floats, because one infinite sample would spoil a whole photograph.
+    // Throws for samples that exceed half floats, because one infinite sample would spoil a whole photograph.
     void require_halves(std::span<const float> numbers) const {
-        // Sixteen maxima side by side, which vectors hold: one alone waits for itself at each number.
-        constexpr std::size_t together = 16;
-        std::array<float, together> maxima{};
+        // Sixteen independent maxima allow vectorisation; a single one would be a dependency chain.
+        constexpr std::size_t lanes = 16;
+        std::array<float, lanes> maxima{};
         const auto take = [&](std::size_t i, float number) {
             const float size = std::abs(number);
             maxima[i] = maxima[i] < size ? size : maxima[i];
         };
         std::size_t first = 0;
-        for (; first + together <= numbers.size(); first += together)
-            for (std::size_t i = 0; i < together; ++i) take(i, numbers[first + i]);
+        for (; first + lanes <= numbers.size(); first += lanes)
+            for (std::size_t i = 0; i < lanes; ++i) take(i, numbers[first + i]);
         for (; first < numbers.size(); ++first) take(0, numbers[first]);
         const float largest = std::ranges::max(maxima);
         if (largest > max_half)
@@ -210,7 +210,7 @@ Fields open_hologram(const std::filesystem::path& path) {
 
 namespace {
 
-// Sinks of a file or, where `part` is given, of the rows of a part file; one entry of `rows` a field.
+// Creates the sinks of a file or, if `part` is given, of the rows of a part file; `rows` has one entry per field.
 std::vector<std::unique_ptr<FieldSink>> create(const std::filesystem::path& path, std::span<const FieldGrid> grids,
                                                const HologramFileOptions& options, const PartNumber* part,
                                                std::span<const Rows> rows) {
@@ -223,8 +223,8 @@ std::vector<std::unique_ptr<FieldSink>> create(const std::filesystem::path& path
     std::vector<Band> bands;
     for (const FieldGrid& grid : grids) {
         validate(grid, ErrorCode::usage, "hologram");
-        const Rows& own = rows[bands.size()];
-        bands.push_back({0, own.first, own.count});
+        const Rows& field_rows = rows[bands.size()];
+        bands.push_back({0, field_rows.first, field_rows.count});
         contents.datasets.push_back({samples_name(contents.datasets.size()),
                                      halves ? hdf5::Element::half : hdf5::Element::complex_single,
                                      shape_of(grid, parts), field_attributes(grid, parts)});

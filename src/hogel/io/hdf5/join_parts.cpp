@@ -33,7 +33,7 @@ Part open_part(const std::filesystem::path& path) {
     throw Error(ErrorCode::bad_input, fmt::format("cannot join parts: {}", why));
 }
 
-// What two parts of different files were made with.
+// Throws unless two parts were made with the same work.
 void require_same_file(const Part& a, const Part& b) {
     if (a.header.count != b.header.count)
         fail(fmt::format("'{}' is one of {} parts, '{}' one of {}", a.path.string(), a.header.count, b.path.string(),
@@ -51,7 +51,7 @@ void require_same_file(const Part& a, const Part& b) {
         fail(fmt::format("'{}' and '{}' belong to different files", a.path.string(), b.path.string()));
 }
 
-// The parts in their order, after all checks.
+// Returns the parts in order, after all checks.
 std::vector<Part> open_parts(std::span<const std::filesystem::path> paths) {
     if (paths.empty()) fail("none was named");
     std::vector<std::optional<Part>> slots;
@@ -61,9 +61,9 @@ std::vector<Part> open_parts(std::span<const std::filesystem::path> paths) {
             if (part.header.count > 1'000'000) fail(fmt::format("'{}' is one of too many", path.string()));
             slots.resize(part.header.count);
         }
-        for (const std::optional<Part>& other : slots)
-            if (other) {
-                require_same_file(*other, part);
+        for (const std::optional<Part>& first : slots)
+            if (first) {
+                require_same_file(*first, part);
                 break;
             }
         std::optional<Part>& slot = slots[part.header.number - 1];
@@ -80,22 +80,22 @@ std::vector<Part> open_parts(std::span<const std::filesystem::path> paths) {
     return parts;
 }
 
-// Throws unless the bands of the parts follow each other and are whole datasets together.
+// Throws unless the bands of the parts are consecutive and complete.
 void require_all_rows(const std::vector<Part>& parts) {
     for (std::size_t d = 0; d < parts.front().header.datasets.size(); ++d) {
         const PartHeader::Samples& first = parts.front().header.datasets[d];
-        std::size_t at = 0;
+        std::size_t row = 0;
         for (const Part& part : parts) {
             if (part.header.datasets.size() != parts.front().header.datasets.size())
                 fail(fmt::format("'{}' has other datasets", part.path.string()));
             const PartHeader::Samples& s = part.header.datasets[d];
             if (s.shape != first.shape || s.offset != first.offset || s.band.axis != first.band.axis ||
-                s.band.first != at)
-                fail(fmt::format("'{}' begins at row {} instead of {}", part.path.string(), s.band.first, at));
-            at += s.band.count;
+                s.band.first != row)
+                fail(fmt::format("'{}' begins at row {} instead of {}", part.path.string(), s.band.first, row));
+            row += s.band.count;
         }
-        if (at != first.shape[first.band.axis])
-            fail(fmt::format("they have {} of {} rows", at, first.shape[first.band.axis]));
+        if (row != first.shape[first.band.axis])
+            fail(fmt::format("they have {} of {} rows", row, first.shape[first.band.axis]));
     }
 }
 
@@ -107,16 +107,16 @@ class Joiner {
             for (const PartHeader::Samples& s : part.header.datasets) all_ += s.bytes();
     }
 
-    // Copies the bands of a part: one run for each index of the axes before theirs.
+    // Copies the bands of a part: one run per index of the axes before the band's.
     void copy(const Part& part) {
         hdf5::PartReader in(part.path);
         for (std::size_t d = 0; d < in.header().datasets.size(); ++d) {
             const PartHeader::Samples& dataset = in.header().datasets[d];
-            for (std::uint64_t at = 0; at < dataset.bytes();) {
+            for (std::uint64_t offset = 0; offset < dataset.bytes();) {
                 core::throw_if_stopped();
-                const std::string samples = in.read(d, at);
-                write(dataset, at, samples);
-                at += samples.size();
+                const std::string samples = in.read(d, offset);
+                write(dataset, offset, samples);
+                offset += samples.size();
                 done_ += samples.size();
                 progress_.report(static_cast<double>(done_) / static_cast<double>(all_));
             }
@@ -124,15 +124,15 @@ class Joiner {
     }
 
   private:
-    // Writes bytes of a band, `at` bytes from its begin.
-    void write(const PartHeader::Samples& s, std::uint64_t at, std::string_view bytes) {
+    // Writes bytes of a band, starting at byte `offset` of the band.
+    void write(const PartHeader::Samples& s, std::uint64_t offset, std::string_view bytes) {
         std::uint64_t row = s.element_bytes;
         for (std::size_t axis = s.band.axis + 1; axis < s.shape.size(); ++axis) row *= s.shape[axis];
         const std::uint64_t run = row * s.band.count;
-        for (std::uint64_t some = 0; !bytes.empty(); bytes.remove_prefix(some), at += some) {
-            some = std::min<std::uint64_t>(bytes.size(), run - at % run);
-            const std::uint64_t rows = at / run * s.shape[s.band.axis] + s.band.first;
-            out_.write(s.offset + rows * row + at % run, bytes.data(), some);
+        for (std::uint64_t chunk = 0; !bytes.empty(); bytes.remove_prefix(chunk), offset += chunk) {
+            chunk = std::min<std::uint64_t>(bytes.size(), run - offset % run);
+            const std::uint64_t rows = offset / run * s.shape[s.band.axis] + s.band.first;
+            out_.write(s.offset + rows * row + offset % run, bytes.data(), chunk);
         }
     }
 
@@ -154,10 +154,10 @@ void join_parts(const std::filesystem::path& path, std::span<const std::filesyst
     const PartHeader& header = parts.front().header;
     out.reserve(header.whole_bytes);
     out.resize(header.whole_bytes);
-    std::uint64_t taken = 0;
+    std::uint64_t image_offset = 0;
     for (const auto& [first, end] : header.image_runs()) {
-        out.write(first, header.image.data() + taken, end - first);
-        taken += end - first;
+        out.write(first, header.image.data() + image_offset, end - first);
+        image_offset += end - first;
     }
     Joiner joiner(out, parts, progress);
     for (const Part& part : parts) joiner.copy(part);

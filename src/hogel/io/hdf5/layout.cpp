@@ -10,7 +10,7 @@
 namespace hogel::io::hdf5 {
 namespace {
 
-// Samples begin at a multiple of the page size of disk and memory.
+// Page size of disk and memory.
 constexpr hsize_t alignment = 4096;
 constexpr std::uint64_t header_bytes = std::uint64_t{1} << 20;
 
@@ -43,8 +43,7 @@ class Writer {
     void write(hid_t object, const std::string& name, std::uint64_t value) const {
         write(object, name, H5T_STD_U64LE, &value);
     }
-    // Writes a text of fixed length, which HDF5 stores in the checksummed header of the object; variable length would
-    // be in a heap without checksums.
+    // Fixed-length strings are in the checksummed object header, others in a heap without checksums.
     void write(hid_t object, const std::string& name, const std::string& value) const {
         const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
         check(H5Tset_size(type.id(), value.size() + 1));
@@ -59,7 +58,7 @@ std::uint64_t total_bytes(const std::vector<NewDataset>& datasets) {
     std::uint64_t total = header_bytes;
     for (const NewDataset& dataset : datasets) {
         std::uint64_t bytes = bytes_of(dataset.element);
-        for (std::size_t extent : dataset.shape) bytes *= extent;  // the grids have been validated: below 2^63
+        for (std::size_t extent : dataset.shape) bytes *= extent;  // validated grids: below 2^63
         total = bytes > ~std::uint64_t{0} - total ? ~std::uint64_t{0} : total + bytes;
     }
     return total;
@@ -70,8 +69,7 @@ std::uint64_t total_bytes(const std::vector<NewDataset>& datasets) {
 std::vector<std::uint64_t> lay_out_file(const std::filesystem::path& path, const std::filesystem::path& target,
                                         const Attributes& attributes, const std::vector<NewDataset>& datasets) {
     {
-        // HDF5 does not recover from a failure to close a file, so a full disk and limits on the size of files are
-        // detected first.
+        // HDF5 does not recover from a failure to close a file. Detect a full disk and file size limits first.
         core::RawFile reserved(path, core::RawFile::Mode::create, target);
         reserved.reserve(header_bytes);
         reserved.resize(total_bytes(datasets));
@@ -80,12 +78,12 @@ std::vector<std::uint64_t> lay_out_file(const std::filesystem::path& path, const
     const Session session;
     const Writer writer(target);
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose), creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-    // Uses structures of HDF5 1.8; older ones have no checksums.
+    // HDF5 1.8 structures; older ones have no checksums.
     writer.check(H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18));
     writer.check(H5Pset_alignment(access.id(), alignment, alignment));
     writer.check(H5Pset_file_locking(access.id(), false, true));
     writer.check(H5Pset_attr_phase_change(creation.id(), 65535, 0));  // all attributes in the checksummed header
-    writer.check(H5Pset_obj_track_times(creation.id(), false));       // no times, so that equal input gives equal bytes
+    writer.check(H5Pset_obj_track_times(creation.id(), false));       // no times: equal input gives equal bytes
     Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose);
     writer.check(file);
     writer.write(file.id(), attributes);

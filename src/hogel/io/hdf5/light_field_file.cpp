@@ -24,7 +24,7 @@ Box depth_box(const LightFieldGrid& grid, const HogelRange& r) {
     return {{r.t0, r.s0, 0, 0}, {r.nt, r.ns, grid.directions_v, grid.directions_u}};
 }
 
-// The front is at the root of the file, each side in a group of its name.
+// The front is at the file's root, each side in a group of its name.
 std::string dataset_name(Face face, const char* dataset) {
     return face == Face::front ? dataset : fmt::format("{}/{}", face_name(face), dataset);
 }
@@ -54,7 +54,7 @@ class LightFieldReader final : public LightFieldSource, public lightfield::Chann
         box.start[0] = channel;
         box.extent[0] = 1;
         if (radiance_->read(box, out.data())) return;
-        LightFieldTile tile(grid_, hogels, false);  // says where
+        LightFieldTile tile(grid_, hogels, false);  // throws with the position
         read(tile);
     }
 
@@ -64,7 +64,7 @@ class LightFieldReader final : public LightFieldSource, public lightfield::Chann
     std::optional<DatasetReader> radiance_, depth_;
 };
 
-// The file that several sinks share; the last one to finish gives it its name.
+// File of several sinks; the last one to finish renames it.
 struct SharedLightFieldFile {
     DatasetFile file;
     std::atomic<std::size_t> unfinished;
@@ -114,14 +114,14 @@ class LightFieldWriter final : public LightFieldSink, public work::SharedSink {
     work::Journal::Part part(const HogelRange& r) const { return {first_dataset_, r.s0, r.t0, r.ns, r.nt}; }
 
     LightFieldGrid grid_;
-    std::size_t first_dataset_;  // index of the radiance; depth is the next one
+    std::size_t first_dataset_;  // index of the radiance dataset; depth follows
     bool with_depth_;
     std::shared_ptr<SharedLightFieldFile> shared_;
     std::atomic<std::size_t> hogels_{0};
 };
 
-// The names of the attributes with half the width of a face tell what directions are uniform in: tangents, sines, or
-// points of a focal plane. A program that knows only some of these must not take one for another.
+// The attribute names of a face's half width state the quantity in which directions are uniform: tangents, sines, or
+// points of a focal plane. Thus programs that know only some of these cannot confuse them.
 struct Uniform {
     std::string_view in;
     std::string half(char axis) const { return fmt::format("{}_half_{}", in, axis); }
@@ -152,7 +152,7 @@ hdf5::Attributes light_field_attributes(const LightFieldGrid& grid) {
 
 LightFieldGrid read_face_grid(hid_t file, Face face, const std::filesystem::path& path) {
     const std::string dataset = dataset_name(face, "radiance");
-    dataset_shape(file, dataset.c_str(), path);  // throws if there is no such dataset
+    dataset_shape(file, dataset.c_str(), path);  // throws if it does not exist
     const hdf5::Handle radiance(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose);
     const auto count = [&](const char* attribute) { return hdf5::read_count(radiance.id(), attribute, path); };
     const auto number = [&](const char* attribute) { return hdf5::read_number(radiance.id(), attribute, path); };
@@ -223,7 +223,7 @@ LightField open_light_field(const std::filesystem::path& path) {
 
 namespace {
 
-// Sinks of a file or, where `part` is given, of the rows of a part file.
+// Creates the sinks of a file or, if `part` is given, of the rows of a part file.
 std::vector<std::unique_ptr<LightFieldSink>> create(const std::filesystem::path& path,
                                                     std::span<const LightFieldGrid> grids,
                                                     const LightFieldFileOptions& options, const PartNumber* part,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The child process tells of one array after the other: 'a', its head and its name; if its elements are wanted, these
-// in blocks of rows, each after a 'b' and its size; 'e' after the last array; instead of any of these 'n' and a reason.
+// Protocol of the child: for each array 'a', its head and its name. If its elements are wanted, blocks of rows follow,
+// each after 'b' and its size. 'e' ends the list. 'n' and a reason report an error at any point.
 #include "hogel/io/mat73_arrays.h"
 
 #include <fmt/format.h>
@@ -21,14 +21,14 @@ namespace {
 using core::ChildProcess;
 using hdf5::Handle;
 
-// As for other HDF5 files (rehearsal.cpp, sample_server.cpp).
+// As in rehearsal.cpp and sample_server.cpp.
 constexpr std::uint64_t spare_memory = std::uint64_t{1} << 29;
 constexpr unsigned spare_seconds = 20;
 constexpr std::uint64_t bytes_a_second = std::uint64_t{1} << 20, copies_of_chunk = 4;
 
-constexpr std::uint64_t block_bytes = std::uint64_t{4} << 20;  // of rows that are not in chunks
+constexpr std::uint64_t block_bytes = std::uint64_t{4} << 20;  // for rows without chunks
 constexpr std::size_t max_reason = 1000, max_name = 65536, max_axes = 32;
-constexpr std::uint64_t max_expansion = 1040;  // deflate expands by at most 1032
+constexpr std::uint64_t max_expansion = 1040;  // deflate expands at most 1032-fold
 
 using WantsElements = std::function<bool(const Mat73Array&)>;
 
@@ -49,7 +49,7 @@ std::optional<Number> number_of(hid_t type) {
     return {};
 }
 
-// Of an element that is a number or a compound {real, imag}; none for others.
+// Returns the types of an element: one number or a compound {real, imag}; none for others.
 std::vector<Number> numbers_of_element(hid_t type) {
     if (const auto number = number_of(type)) return {*number};
     if (H5Tget_class(type) != H5T_COMPOUND || H5Tget_nmembers(type) != 2) return {};
@@ -84,7 +84,7 @@ void require_room(const std::filesystem::path& path, const Mat73Array& array) {
         hdf5::fail(path, fmt::format("its array '{}' has more samples than the file can hold", array.name));
 }
 
-// The child's side.
+// Child side of the protocol.
 class ArraySender {
   public:
     ArraySender(const std::filesystem::path& path, int pipe)
@@ -113,7 +113,7 @@ class ArraySender {
         hdf5::fail(path_, fmt::format("its array '{}' {}", name, why));
     }
 
-    // Of the links to objects in this file.
+    // Returns the names of hard links.
     std::vector<std::string> names() const {
         std::vector<std::string> names;
         const auto take = [](hid_t, const char* name, const H5L_info_t* link, void* to) -> herr_t {
@@ -125,7 +125,7 @@ class ArraySender {
         return names;
     }
 
-    // Texts, logical arrays and cells are also stored as whole numbers.
+    // Texts, logical arrays and cells are also stored as integers.
     bool is_numeric(hid_t dataset) const {
         static constexpr const char* classes[] = {"double", "single", "int8",   "uint8", "int16",
                                                   "uint16", "int32",  "uint32", "int64", "uint64"};
@@ -165,7 +165,7 @@ class ArraySender {
         }
     }
 
-    // A chunk that was never written would be read as zeros.
+    // Throws if a chunk was never written; HDF5 would read it as zeros.
     void require_chunks(hid_t dataset, const std::string& name, const std::vector<std::size_t>& shape,
                         const std::vector<std::size_t>& chunk) const {
         if (chunk.empty()) return;
@@ -173,17 +173,17 @@ class ArraySender {
         for (std::size_t axis = 0; axis < shape.size(); ++axis)
             expected *= (shape[axis] + chunk[axis] - 1) / chunk[axis];
         const Handle space(H5Dget_space(dataset), H5Sclose);
-        hsize_t there = 0;
-        if (H5Dget_num_chunks(dataset, space.id(), &there) < 0) fail(name, "is damaged: " + hdf5::reason());
-        if (there != expected) fail(name, "is not wholly written");
+        hsize_t written = 0;
+        if (H5Dget_num_chunks(dataset, space.id(), &written) < 0) fail(name, "is damaged: " + hdf5::reason());
+        if (written != expected) fail(name, "is not wholly written");
     }
 
     void send_block(hid_t dataset, const std::string& name, hid_t type, const std::vector<hsize_t>& start,
                     const std::vector<hsize_t>& extent, std::vector<unsigned char> block) const {
-        const Handle there(H5Dget_space(dataset), H5Sclose);
-        const Handle here(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
-        if (H5Sselect_hyperslab(there.id(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr) < 0 ||
-            H5Dread(dataset, type, here.id(), there.id(), H5P_DEFAULT, block.data()) < 0)
+        const Handle file_space(H5Dget_space(dataset), H5Sclose);
+        const Handle memory_space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
+        if (H5Sselect_hyperslab(file_space.id(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr) < 0 ||
+            H5Dread(dataset, type, memory_space.id(), file_space.id(), H5P_DEFAULT, block.data()) < 0)
             fail(name, "cannot be read: " + hdf5::reason());
         const std::uint64_t bytes = block.size();
         ChildProcess::write(pipe_, "b", 1);
@@ -208,7 +208,7 @@ void serve(const std::filesystem::path& path, const WantsElements& wants_element
     ChildProcess::write(pipe, reason.c_str(), max_reason);
 }
 
-// The side of this process, which takes nothing for granted that a child says of a damaged file.
+// Parent side, which validates everything, because the child may be compromised by a damaged file.
 class ArrayReceiver {
   public:
     ArrayReceiver(ChildProcess& child, const std::filesystem::path& path) : child_(child), path_(path) {}
@@ -255,14 +255,14 @@ class ArrayReceiver {
     }
 
     void take_elements(Mat73Array& array) const {
-        const std::uint64_t all = array.samples() * array.element_bytes();
-        while (array.elements.size() < all) {
+        const std::uint64_t total = array.samples() * array.element_bytes();
+        while (array.elements.size() < total) {
             next("b");
-            const std::uint64_t there = array.elements.size(), bytes = take<std::uint64_t>();
-            require(bytes > 0 && bytes <= all - there);
-            if (there == 0) array.elements.reserve(all);
-            array.elements.resize(there + bytes);
-            child_.read(&array.elements[there], bytes);
+            const std::uint64_t filled = array.elements.size(), bytes = take<std::uint64_t>();
+            require(bytes > 0 && bytes <= total - filled);
+            if (filled == 0) array.elements.reserve(total);
+            array.elements.resize(filled + bytes);
+            child_.read(&array.elements[filled], bytes);
         }
     }
 
@@ -274,7 +274,7 @@ class ArrayReceiver {
 
 std::vector<Mat73Array> read_mat73_arrays(const std::filesystem::path& path,
                                           const std::function<bool(const Mat73Array&)>& wants_elements) {
-    const hdf5::Session session;  // no other thread is inside HDF5 when the child is made
+    const hdf5::Session session;  // no other thread is inside HDF5 during the fork
     try {
         return core::with_child(
             {.memory = spare_memory, .cpu_seconds = spare_seconds},

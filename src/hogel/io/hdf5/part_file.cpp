@@ -16,23 +16,23 @@ namespace hogel::io::hdf5 {
 namespace {
 
 constexpr std::string_view former_words = "hogel part 1 ";
-constexpr std::uint64_t max_image = std::uint64_t{64} << 20;  // kilobytes, unless options are long
+constexpr std::uint64_t max_image = std::uint64_t{64} << 20;  // typically kilobytes, more with long options
 constexpr std::size_t max_datasets = 256, max_axes = 8;
 
-// Of a band's records: so many bytes of samples each, after a head whose key is the dataset and the first byte.
+// Records of a band: sample bytes after a head, whose key is the dataset and the first byte.
 constexpr std::uint64_t record_bytes = std::uint64_t{1} << 20, head_bytes = work::checkpoint_record_head_bytes(2);
 
-// Where byte `at` of a band is in a part file.
-std::uint64_t place_of(std::uint64_t records, std::uint64_t at) {
-    return records + at + (at / record_bytes + 1) * head_bytes;
+// Returns the offset in a part file of byte `offset` of a band.
+std::uint64_t file_offset(std::uint64_t records, std::uint64_t offset) {
+    return records + offset + (offset / record_bytes + 1) * head_bytes;
 }
 
-// The places of the datasets' records, and that of the end.
-std::vector<std::uint64_t> places_of(const PartHeader& header, std::uint64_t first) {
-    std::vector<std::uint64_t> places{first};
+// Returns the offsets of the datasets' records, and of the end.
+std::vector<std::uint64_t> record_offsets(const PartHeader& header, std::uint64_t first) {
+    std::vector<std::uint64_t> offsets{first};
     for (const PartHeader::Samples& dataset : header.datasets)
-        places.push_back(place_of(places.back(), dataset.bytes() - 1) + 1);
-    return places;
+        offsets.push_back(file_offset(offsets.back(), dataset.bytes() - 1) + 1);
+    return offsets;
 }
 
 work::CheckpointRecord record_of(const PartHeader& header) {
@@ -44,13 +44,13 @@ work::CheckpointRecord record_of(const PartHeader& header) {
     return {std::move(key), header.image};
 }
 
-// Whether the numbers fit together: bands inside of datasets, and these one after the other inside of the file.
+// Returns whether bands are inside their datasets, and datasets consecutive inside the file.
 bool is_sound(const PartHeader& header) {
     constexpr std::uint64_t max_bytes = std::numeric_limits<std::int64_t>::max();
     if (header.number == 0 || header.number > header.count || header.datasets.empty() ||
         header.datasets.size() > max_datasets || header.whole_bytes > max_bytes)
         return false;
-    std::uint64_t at = 0, samples = 0;
+    std::uint64_t end = 0, samples = 0;
     for (const PartHeader::Samples& s : header.datasets) {
         if (s.shape.empty() || s.shape.size() > max_axes || s.band.axis >= s.shape.size() || s.element_bytes == 0)
             return false;
@@ -61,15 +61,15 @@ bool is_sound(const PartHeader& header) {
         }
         const std::size_t rows = s.shape[s.band.axis];
         if (budget == 0 || s.band.count == 0 || s.band.first >= rows || s.band.count > rows - s.band.first ||
-            s.offset < at || s.offset > header.whole_bytes || s.whole_bytes() > header.whole_bytes - s.offset)
+            s.offset < end || s.offset > header.whole_bytes || s.whole_bytes() > header.whole_bytes - s.offset)
             return false;
-        at = s.offset + s.whole_bytes();
+        end = s.offset + s.whole_bytes();
         samples += s.whole_bytes();
     }
     return header.whole_bytes - samples == header.image.size();
 }
 
-// Nothing if the record is no header.
+// Returns nothing if the record is not a header.
 std::optional<PartHeader> header_of(work::CheckpointRecord record) {
     constexpr std::size_t of_file = 3, of_dataset = 6;
     if (record.key.size() < of_file) return std::nullopt;
@@ -85,7 +85,7 @@ std::optional<PartHeader> header_of(work::CheckpointRecord record) {
     return header;
 }
 
-// Earlier versions had a format for part files alone.
+// Throws for the former format of part files.
 const std::filesystem::path& require_current(const std::filesystem::path& path) {
     const core::RawFile file(path, core::RawFile::Mode::read, path);
     std::string start(std::min<std::uint64_t>(file.size(), former_words.size()), ' ');
@@ -111,12 +111,12 @@ std::vector<std::pair<std::uint64_t, std::uint64_t>> PartHeader::image_runs() co
     for (const Samples& dataset : datasets)
         samples.emplace_back(dataset.offset, dataset.offset + dataset.whole_bytes());
     std::ranges::sort(samples);
-    std::uint64_t at = 0;
+    std::uint64_t position = 0;
     for (const auto& [first, end] : samples) {
-        if (first > at) runs.emplace_back(at, first);
-        at = std::max(at, end);
+        if (first > position) runs.emplace_back(position, first);
+        position = std::max(position, end);
     }
-    if (at < whole_bytes) runs.emplace_back(at, whole_bytes);
+    if (position < whole_bytes) runs.emplace_back(position, whole_bytes);
     return runs;
 }
 
@@ -127,38 +127,38 @@ std::vector<std::uint64_t> lay_out_part(const std::filesystem::path& path, const
     header.number = part.number;
     header.count = part.count;
     {
-        // The whole file without samples, all holes but for what HDF5 writes.
-        const core::OutputFile whole(target);
-        const std::vector<std::uint64_t> offsets = lay_out_file(whole.temporary(), target, attributes, datasets);
+        // The complete file without samples: sparse except for HDF5's own data.
+        const core::OutputFile complete(target);
+        const std::vector<std::uint64_t> offsets = lay_out_file(complete.temporary(), target, attributes, datasets);
         for (std::size_t i = 0; i < datasets.size(); ++i)
             header.datasets.push_back({offsets[i], bytes_of(datasets[i].element), datasets[i].shape, part.bands[i]});
-        const core::RawFile raw(whole.temporary(), core::RawFile::Mode::read, target);
+        const core::RawFile raw(complete.temporary(), core::RawFile::Mode::read, target);
         header.whole_bytes = raw.size();
         for (const auto& [first, end] : header.image_runs()) {
-            const std::size_t at = header.image.size();
-            header.image.resize(at + (end - first));
-            raw.read(first, header.image.data() + at, end - first);
+            const std::size_t image_offset = header.image.size();
+            header.image.resize(image_offset + (end - first));
+            raw.read(first, header.image.data() + image_offset, end - first);
         }
     }
     std::vector<std::string> lines{part.input};
     lines.insert(lines.end(), work.begin(), work.end());
     const std::string start = work::checkpoint_header(lines) + record_of(header).encoded();
-    std::vector<std::uint64_t> places = places_of(header, start.size());
+    std::vector<std::uint64_t> offsets = record_offsets(header, start.size());
     core::RawFile file(path, core::RawFile::Mode::create, target);
-    file.reserve(places.back());
-    file.resize(places.back());
+    file.reserve(offsets.back());
+    file.resize(offsets.back());
     file.write(0, start.data(), start.size());
     file.close();
-    places.pop_back();
-    return places;
+    offsets.pop_back();
+    return offsets;
 }
 
-void write_to_records(core::RawFile& file, std::uint64_t records, std::uint64_t at, const void* from,
+void write_to_records(core::RawFile& file, std::uint64_t records, std::uint64_t offset, const void* from,
                       std::uint64_t bytes) {
-    const auto* rest = static_cast<const char*>(from);
-    for (std::uint64_t some = 0; bytes > 0; bytes -= some, at += some, rest += some) {
-        some = std::min(bytes, record_bytes - at % record_bytes);
-        file.write(place_of(records, at), rest, some);
+    const auto* source = static_cast<const char*>(from);
+    for (std::uint64_t chunk = 0; bytes > 0; bytes -= chunk, offset += chunk, source += chunk) {
+        chunk = std::min(bytes, record_bytes - offset % record_bytes);
+        file.write(file_offset(records, offset), source, chunk);
     }
 }
 
@@ -168,11 +168,11 @@ void complete_part(const std::filesystem::path& path, const std::filesystem::pat
     for (std::size_t d = 0; d < part.records().size(); ++d) {
         const std::uint64_t bytes = part.header().datasets[d].bytes();
         work::parallel_for((bytes + record_bytes - 1) / record_bytes, [&](std::size_t i) {
-            const std::uint64_t at = i * record_bytes, place = place_of(part.records()[d], at);
-            std::string samples(std::min(record_bytes, bytes - at), '\0');
-            file.read(place, samples.data(), samples.size());
-            const std::string head = work::checkpoint_record_head({d, at}, samples);
-            file.write(place - head.size(), head.data(), head.size());
+            const std::uint64_t offset = i * record_bytes, record = file_offset(part.records()[d], offset);
+            std::string samples(std::min(record_bytes, bytes - offset), '\0');
+            file.read(record, samples.data(), samples.size());
+            const std::string head = work::checkpoint_record_head({d, offset}, samples);
+            file.write(record - head.size(), head.data(), head.size());
         });
     }
     file.close();
@@ -183,18 +183,18 @@ PartReader::PartReader(const std::filesystem::path& path) : file_(require_curren
     std::optional<PartHeader> header = record ? header_of(std::move(*record)) : std::nullopt;
     if (!header) fail(path, "it is no part of a file of hogel's");
     header_ = std::move(*header);
-    records_ = places_of(header_, file_.place());
+    records_ = record_offsets(header_, file_.place());
     if (records_.back() != file_.size())
         fail(path, fmt::format("it has {} bytes, but its header tells of {}", file_.size(), records_.back()));
     records_.pop_back();
 }
 
-std::string PartReader::read(std::size_t dataset, std::uint64_t at) {
+std::string PartReader::read(std::size_t dataset, std::uint64_t offset) {
     std::optional<work::CheckpointRecord> record = file_.read(record_bytes);
-    const std::uint64_t rest = header_.datasets[dataset].bytes() - at;
-    if (!record || record->key != std::vector<std::uint64_t>{dataset, at} ||
-        record->bytes.size() != std::min(record_bytes, rest))
-        fail(file_.name(), fmt::format("its samples are damaged, at byte {} of dataset {}", at, dataset));
+    const std::uint64_t remaining = header_.datasets[dataset].bytes() - offset;
+    if (!record || record->key != std::vector<std::uint64_t>{dataset, offset} ||
+        record->bytes.size() != std::min(record_bytes, remaining))
+        fail(file_.name(), fmt::format("its samples are damaged, at byte {} of dataset {}", offset, dataset));
     return std::move(record->bytes);
 }
 

@@ -79,8 +79,8 @@ TEST_F(PartFileTest, rows_that_overlap_or_are_missing_are_refused) {
     }
 }
 
-// Damage of any byte is refused, or has no effect: the text of the work is for messages. Each trial writes a file, so
-// that not every byte is tried.
+// Damage of any byte is rejected or has no effect (texts for messages). Tries a subset of bytes, because each trial
+// writes a file.
 TEST_F(PartFileTest, damaged_parts_are_refused) {
     write(create_light_field(folder_ / "whole.h5", {&grid_, 1}, options_), {0, 5});
     const std::string whole = bytes_of(folder_ / "whole.h5");

@@ -18,24 +18,24 @@
 namespace hogel::io::hdf5 {
 namespace {
 
-// The structure of a file is kilobytes; HDF5 itself needs a few megabytes.
+// The structure of a file takes kilobytes; HDF5 itself a few megabytes.
 constexpr core::ChildLimits limits{.memory = std::uint64_t{1} << 29, .cpu_seconds = 20};
 
 std::atomic<int> off = 0;
 
-// Notes what the HDF5 library prints on the standard error of a child process. It does so where it meets something that
-// it was never written to read (H5HF_op), which no whole file holds, and it cannot be told not to.
-class Listener {
+// Detects output of the HDF5 library on standard error in a child process. HDF5 prints there, unconditionally, if it
+// meets an unsupported structure (H5HF_op), which no intact file contains.
+class StderrMonitor {
   public:
-    Listener() {
+    StderrMonitor() {
         if (pipe2(ends_.data(), O_NONBLOCK) == 0) dup2(ends_[1], STDERR_FILENO);
     }
-    ~Listener() {
+    ~StderrMonitor() {
         for (const int end : ends_) close(end);
     }
-    Listener(const Listener&) = delete;
-    Listener& operator=(const Listener&) = delete;
-    bool spoke() const {
+    StderrMonitor(const StderrMonitor&) = delete;
+    StderrMonitor& operator=(const StderrMonitor&) = delete;
+    bool has_output() const {
         std::fflush(stderr);
         char byte = 0;
         return read(ends_[0], &byte, 1) == 1;
@@ -61,17 +61,17 @@ void rehearse(const std::filesystem::path& path, const char* name, const std::fu
     if (off > 0) return;
     const std::pair<std::string, FileIdentity> identity(name, identity_of(path));
     if (survived.contains(identity)) return;
-    const auto work_and_tell = [&](int pipe) {
-        const Listener library;
+    const auto work_and_report = [&](int pipe) {
+        const StderrMonitor monitor;
         try {
             work();
-        } catch (...) {  // the same comes in this process, where it can be reported
+        } catch (...) {  // repeated in this process, where it can be reported
         }
-        core::ChildProcess::write(pipe, library.spoke() ? "n" : "y", 1);
+        core::ChildProcess::write(pipe, monitor.has_output() ? "n" : "y", 1);
     };
     bool silent = true;
     try {
-        core::with_child(limits, work_and_tell, [&](core::ChildProcess& child) {
+        core::with_child(limits, work_and_report, [&](core::ChildProcess& child) {
             char done = 0;
             child.read(&done, 1);
             silent = done == 'y';

@@ -12,18 +12,17 @@
 
 namespace hogel::io::hdf5 {
 
-/// What tells a file from others, and from itself before it was changed.
+/// Identity of a file and its version.
 using FileIdentity = std::tuple<dev_t, ino_t, off_t, time_t, long, time_t, long>;
 FileIdentity identity_of(const std::filesystem::path& path);
 
-/// Does `work`, which reads the structure of a file with HDF5, in a child process, because the library crashes on some
-/// damaged files whose checksums are right. What it throws there does not matter. The work is told by a name: where the
-/// same was done on the same, unchanged file before, nothing is done. Throws Error(bad_input) if the child crashed,
-/// hung or took too much memory; Error(cancelled). The caller holds a Session: then no other thread is inside HDF5 when
-/// the child is made.
+/// Runs `work`, which reads the structure of a file with HDF5, in a child process, because HDF5 crashes on some damaged
+/// files with correct checksums. Exceptions of `work` are ignored there. Skips work of the same name that succeeded
+/// before on the same, unchanged file. Throws Error(bad_input) if the child crashed, hung or used too much memory;
+/// Error(cancelled). The caller holds a Session, so that no other thread is inside HDF5 during the fork.
 void rehearse(const std::filesystem::path& path, const char* name, const std::function<void()>& work);
 
-/// While it exists, rehearse() does nothing: for tests that read thousands of files whose damage HDF5 itself detects.
+/// Disables rehearse() during its lifetime, for tests with thousands of files whose damage HDF5 detects.
 class NoRehearsal {
   public:
     NoRehearsal();
@@ -32,7 +31,7 @@ class NoRehearsal {
     NoRehearsal& operator=(const NoRehearsal&) = delete;
 };
 
-/// Result of `work` in a session, after a rehearsal.
+/// Returns the result of `work` in a session, after a rehearsal.
 template <class Work>
 auto with_rehearsal(const std::filesystem::path& path, const char* name, const Work& work) {
     const Session session;

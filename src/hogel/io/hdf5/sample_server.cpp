@@ -15,17 +15,16 @@ namespace {
 using core::ChildFailure;
 using core::ChildProcess;
 
-// A child may use this much beside the box and its chunks, in memory; and in time, even if filters that unpack slowly
-// (10 MB/s and less) are applied to each chunk of the box several times.
+// Limits beside box and chunks. The time allows several passes of slow filters (10 MB/s) per chunk.
 constexpr std::uint64_t spare_memory = std::uint64_t{256} << 20;
 constexpr unsigned spare_seconds = 20;
 constexpr std::uint64_t bytes_a_second = std::uint64_t{1} << 20;
-// Copies of a chunk: packed, between two filters, unpacked, and kept.
+// Copies of a chunk: packed, between two filters, unpacked, and cached.
 constexpr std::uint64_t copies_of_chunk = 4;
 
 constexpr std::size_t max_reason = 1000;
 
-// The child's side.
+// Child side.
 class Samples {
   public:
     Samples(const std::filesystem::path& path, const std::string& name, Element element)
@@ -33,19 +32,20 @@ class Samples {
           dataset_(H5Dopen2(file_.id(), name.c_str(), H5P_DEFAULT), H5Dclose),
           type_(type_of(element)) {}
 
-    /// False if HDF5 reports a failure.
+    /// Returns false if HDF5 reports a failure.
     bool read(const std::vector<hsize_t>& start, const std::vector<hsize_t>& extent, void* to) const {
-        const Handle there(H5Dget_space(dataset_.id()), H5Sclose);
-        const Handle here(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
-        return H5Sselect_hyperslab(there.id(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr) >= 0 &&
-               H5Dread(dataset_.id(), type_.id(), here.id(), there.id(), H5P_DEFAULT, to) >= 0;
+        const Handle file_space(H5Dget_space(dataset_.id()), H5Sclose);
+        const Handle memory_space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
+        return H5Sselect_hyperslab(file_space.id(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr) >=
+                   0 &&
+               H5Dread(dataset_.id(), type_.id(), memory_space.id(), file_space.id(), H5P_DEFAULT, to) >= 0;
     }
 
   private:
     Handle file_, dataset_, type_;
 };
 
-// Answers: one byte, 'y' and the samples, or 'n' and the reason as a text of max_reason bytes.
+// Answers are 'y' and the samples, or 'n' and the reason as a text of max_reason bytes.
 void refuse(int pipe, std::string reason) {
     reason.resize(max_reason);
     ChildProcess::write(pipe, "n", 1);
@@ -83,7 +83,7 @@ SampleServer::SampleServer(std::filesystem::path file, std::string dataset, std:
       identity_(identity_of(file_)) {}
 
 void SampleServer::start() {
-    const Session session;  // no other thread is inside HDF5 when the child is made
+    const Session session;  // no other thread is inside HDF5 during the fork
     const auto work = [&](int pipe) {
         try {
             if (identity_of(file_) != identity_) return refuse(pipe, "the file has changed since it was opened");
@@ -117,10 +117,10 @@ void SampleServer::read(const Box& box, void* to) {
             return ask(box, to);
         } catch (const ChildFailure& failure) {
             child_.reset();
-            // As core::with_child(): it may have met a lock of another thread of this process.
+            // As in core::with_child(): the child may have blocked on a lock held by another thread of the parent.
             if (failure.kind() == ChildFailure::Kind::stuck && again) continue;
             fail(file_, fmt::format("the HDF5 library {} on its dataset '{}'", failure.what(), dataset_));
-        } catch (...) {  // the rest of an answer may be in the pipe
+        } catch (...) {  // the pipe may hold the rest of an answer
             child_.reset();
             throw;
         }

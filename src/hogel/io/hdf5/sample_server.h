@@ -13,23 +13,21 @@
 
 namespace hogel::io::hdf5 {
 
-/// A box of an array, by first index and extent along each axis.
+/// A box of an array: first index and extent along each axis.
 struct Box {
     std::vector<std::size_t> start, extent;
 };
 
-/// Reads samples of a dataset by HDF5 in a child process: the library finds, unpacks and converts chunks without
-/// checking them, and crashes on some that are damaged (docs/decisions/0061). The child starts with the first box and
-/// reads one box after the other, so that HDF5's cache of chunks helps.
+/// Reads samples of a dataset by HDF5 in a child process, because HDF5 processes chunks without checks and crashes on
+/// some damaged ones (docs/decisions/0061). One child serves all boxes, which keeps HDF5's chunk cache effective.
 class SampleServer {
   public:
-    /// @param chunk_bytes  of a chunk when unpacked: what the child may need beside the box
+    /// @param chunk_bytes  of an unpacked chunk: memory of the child beside the box
     SampleServer(std::filesystem::path file, std::string dataset, std::size_t axes, Element element,
                  std::size_t chunk_bytes);
 
-    /// Fills `to` with a box of samples of the element's type, row by row. May be called from several threads. Throws
-    /// Error(bad_input) if HDF5 fails, crashes or hangs, or if the file is no longer the one that it was;
-    /// Error(cancelled).
+    /// Fills `to` with a box of samples of the element's type, row-major. Thread-safe. Throws Error(bad_input) if HDF5
+    /// fails, crashes or hangs, or if the file has changed; Error(cancelled).
     void read(const Box& box, void* to);
 
   private:
