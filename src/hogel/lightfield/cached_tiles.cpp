@@ -26,8 +26,8 @@ class CachedTiles final : public LightFieldSource {
         const std::size_t first_s = r.s0 / size_.ns, end_s = (r.s0 + r.ns - 1) / size_.ns + 1;
         const std::size_t first_t = r.t0 / size_.nt, end_t = (r.t0 + r.nt - 1) / size_.nt + 1;
         const std::size_t tiles = (end_s - first_s) * (end_t - first_t);
-        // A range that consists of whole rows or whole preferred tiles suits the source, and one of many hogels across
-        // nearly. The cache must hold the tiles of two reads, because two threads may read different rows.
+        // Read whole rows, whole preferred tiles or wide ranges directly. The cache must hold the tiles of two reads,
+        // because two threads may read different rows.
         const bool suits = r.ns == grid().hogels_s || r.ns >= wide || (r.ns % size_.ns == 0 && r.nt % size_.nt == 0);
         if (suits || 2 * tiles > recent_.capacity() || (tile.depth.size() > 0 && !with_depth_)) {
             source_->read(tile);
@@ -38,8 +38,8 @@ class CachedTiles final : public LightFieldSource {
     }
 
   private:
-    // What whole rows save for so many hogels is less than what a process renders for nothing that reads few ranges of
-    // a row, as each of a team does, or that returns to a row when the cache has forgotten it.
+    // For ranges this wide, reading whole rows saves less than the wasted work of a process that reads few ranges of a
+    // row (as each rank does), or returns to a row after its eviction.
     static constexpr std::size_t wide = 8;
 
     double tile_bytes() const {
@@ -51,7 +51,7 @@ class CachedTiles final : public LightFieldSource {
         return recent_.get(std::pair(s0, t0), [&] {
             const HogelRange range{s0, t0, std::min(size_.ns, grid().hogels_s - s0),
                                    std::min(size_.nt, grid().hogels_t - t0)};
-            // The tile goes back to the pool with its last user.
+            // The tile returns to the pool with its last user.
             const std::shared_ptr<Memory::Lease> memory(new Memory::Lease(memory_.take()));
             LightFieldTile& tile = **memory;
             if (tile.range.ns != range.ns || tile.range.nt != range.nt)
@@ -65,7 +65,7 @@ class CachedTiles final : public LightFieldSource {
     LightField::Source source_;
     bool with_depth_;
     HogelRange size_;
-    // Kept from tile to tile, because the system clears new memory.
+    // Reused, because the system clears new memory.
     using Memory = core::ObjectPool<LightFieldTile>;
     mutable Memory memory_;
     mutable work::LruCache<std::pair<std::size_t, std::size_t>, LightFieldTile> recent_;

@@ -94,7 +94,7 @@ TEST(KeepTiles, forgets_what_failed) {
     expect_all_in_tiles(kept.front(), 3, 4, false);
 }
 
-// Passes a light field on and counts the tiles that are not new memory, which is zero.
+// Wraps a light field and counts tiles in reused memory; new memory is zero.
 class Used final : public LightFieldSource {
   public:
     explicit Used(std::size_t& used) : used_(used), inner_(asked_) {}

@@ -7,12 +7,11 @@
 
 namespace hogel::lightfield {
 
-/// A source that reads one channel for less than all of them: a file, which has one after the other. Holograms need one
-/// for each wavelength.
+/// A source that reads one channel cheaply: a file. Holograms need one channel per wavelength.
 class ChannelSource {
   public:
     virtual ~ChannelSource() = default;
-    /// Fills `out`, [t][s][v][u], with the radiance of a channel of some hogels, without their depth.
+    /// Fills `out`, [t][s][v][u], with the radiance of one channel of a hogel range, without depth.
     virtual void read_channel(std::size_t channel, const HogelRange& hogels, View<float, 4> out) const = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light fields with a fixed focal plane, resampled to directions that all hogels have in common.
+// Resampling of light fields with a fixed focal plane to directions common to all hogels.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -38,21 +38,20 @@ class WithCommonDirections final : public LightFieldSource {
     }
 
   private:
-    // Fills hogel (t, s) of a tile.
     void resample(const LightFieldTile& from, LightFieldTile& tile, std::size_t t, std::size_t s) const {
-        const LightFieldGrid own =
+        const LightFieldGrid hogel_grid =
             source_->grid().of_hogel(static_cast<double>(tile.range.s0 + s), static_cast<double>(tile.range.t0 + t));
         std::vector<Interpolation> u, v;
         for (std::size_t k = 0; k < grid_.directions_u; ++k)
-            u.emplace_back(keeps_u() ? 0 : own.column(grid_.u(static_cast<double>(k))), own.directions_u);
+            u.emplace_back(keeps_u() ? 0 : hogel_grid.column(grid_.u(static_cast<double>(k))), hogel_grid.directions_u);
         for (std::size_t l = 0; l < grid_.directions_v; ++l)
-            v.emplace_back(keeps_v() ? 0 : own.row(grid_.v(static_cast<double>(l))), own.directions_v);
+            v.emplace_back(keeps_v() ? 0 : hogel_grid.row(grid_.v(static_cast<double>(l))), hogel_grid.directions_v);
         for (std::size_t c = 0; c < grid_.channels; ++c)
             interpolate(from.radiance.view()[c][t][s], u, v, tile.radiance.view()[c][t][s]);
         if (from.depth.size() > 0) choose_nearest(from.depth.view()[t][s], u, v, tile.depth.view()[t][s]);
     }
 
-    // A single column or row of directions belongs to all of them: there is no parallax that way.
+    // A single column or row of directions applies to all: there is no parallax in that direction.
     bool keeps_u() const { return source_->grid().directions_u == 1 && grid_.directions_u == 1; }
     bool keeps_v() const { return source_->grid().directions_v == 1 && grid_.directions_v == 1; }
 
@@ -83,7 +82,7 @@ class WithCommonDirections final : public LightFieldSource {
     LightFieldGrid grid_;
 };
 
-// As many directions as hogels with `count` of them have together, whose middles are `shift` steps apart at the most.
+// Returns the number of directions of the union of hogels with centres up to `shift` steps apart.
 std::size_t joint_count(std::size_t count, double shift) {
     return count == 1 ? 1 : count + static_cast<std::size_t>(std::ceil(std::min(shift, 1e15) - 1e-9));
 }

@@ -29,7 +29,7 @@ LightFieldBuffer resampled(const LightField& light_field) {
     return result;
 }
 
-// At a focal plane where hogels differ by one whole step, every sample moves to its place.
+// If neighbouring hogels differ by a whole step, resampling moves samples without interpolation.
 TEST(CommonDirections, move_samples_by_whole_steps_without_a_change) {
     for (const double focal : {-5e-3, 5e-3}) {
         const LightFieldGrid grid = grid_with(focal), common = common_directions(grid);
@@ -59,7 +59,7 @@ TEST(CommonDirections, move_samples_by_whole_steps_without_a_change) {
     }
 }
 
-// Whatever the shift, what is linear in U and V comes back as it is.
+// Radiance that is linear in U and V is reproduced for any shift.
 TEST(CommonDirections, keep_what_is_linear_in_direction) {
     for (const double focal : {-31e-3, 9.7e-3}) {
         const LightFieldGrid grid = grid_with(focal), common = common_directions(grid);

@@ -10,8 +10,8 @@ namespace hogel::lightfield {
 // std::lerp would check for infinities.
 inline float mix(float a, float b, float weight) { return a + (b - a) * weight; }
 
-// Linear interpolation between two neighbours of a row of samples. A sample represents the cell around it: it extends
-// half a cell beyond the last position, and farther out the value is zero.
+// Linear interpolation between neighbours of a row of samples. A sample represents the cell around it: the row extends
+// half a cell beyond the last sample, and the value is zero beyond.
 struct Interpolation {
     std::size_t low = 0;
     float high_weight = 0;
@@ -25,9 +25,9 @@ struct Interpolation {
         low = static_cast<std::size_t>(std::clamp(std::floor(clamped), 0.0, std::max(last - 1, 0.0)));
         high_weight = static_cast<float>(clamped - static_cast<double>(low));
     }
-    // The upper neighbour; the same sample if there is only one.
+    // Returns the upper neighbour, or the same sample if there is only one.
     std::size_t high(std::size_t count) const { return std::min(low + 1, count - 1); }
-    // The nearer of the two.
+    // Returns the nearer neighbour.
     std::size_t nearest() const { return high_weight < 0.5f ? low : low + 1; }
 };
 

@@ -41,7 +41,7 @@ void require_in_front_half(const LightFieldGrid& grid, ErrorCode code, const std
                                 fmt::format("{:g} to {:g}", v_low, v_high)));
 }
 
-// Throws unless the focal plane is at a depth to which all hogels have directions.
+// Throws unless the depth of the focal plane gives all hogels finite directions.
 void require_depth(const LightFieldGrid& grid, const FocalPlane& plane, ErrorCode code, const std::string& what) {
     if (!std::isfinite(plane.depth) || plane.depth == 0)
         throw Error(code, "focal_plane",
@@ -65,28 +65,27 @@ Shape<4> depth_shape(const LightFieldGrid& grid, const HogelRange& range) {
 
 HogelRange all_hogels(const LightFieldGrid& grid) { return {0, 0, grid.hogels_s, grid.hogels_t}; }
 
-// A row of a range is contiguous both in the whole light field and in the tile.
+// Rows of a range are contiguous in the light field and in the tile.
 void copy_row(const float* from, float* to, std::size_t hogels, std::size_t directions) {
     std::copy_n(from, hogels * directions, to);
 }
 
-// The directions from the edge of a hemicube's front, which has `front` of them across 90 degrees, to the end of a full
-// angle.
+// Returns the number of directions beside a hemicube's front, which has `front` across 90 degrees.
 std::size_t directions_aside(std::size_t front, double angle) {
     using std::numbers::pi;
     if (!(angle > pi / 2 && angle <= pi))
         throw Error(ErrorCode::usage, "hemicube, fov",
                     fmt::format("a hemicube spans more than 90 degrees and at most 180, not {:.6g}", angle * 180 / pi));
     const double count = 0.5 * static_cast<double>(front) * (1 - 1 / std::tan(angle / 2));
-    const auto aside = static_cast<std::size_t>(std::ceil(count - 1e-9));
-    if (2 * aside > front)
+    const auto side = static_cast<std::size_t>(std::ceil(count - 1e-9));
+    if (2 * side > front)
         throw Error(ErrorCode::usage, "hemicube, directions",
                     fmt::format("a hemicube of {:.6g} degrees needs an even number of directions in front, not {}",
                                 angle * 180 / pi, front));
-    return std::max<std::size_t>(aside, 1);
+    return std::max<std::size_t>(side, 1);
 }
 
-// A larger hologram is one whose size was given in other units.
+// Metres; larger sizes are taken for a wrong unit.
 constexpr double max_hologram_size = 10;
 
 void require_metres(const LightFieldGrid& grid, ErrorCode code, const std::string& what) {
@@ -134,7 +133,7 @@ void validate(const LightFieldGrid& grid, ErrorCode code, const std::string& wha
             fmt::format("{}: {}x{} hogels of {}x{} directions in {} channels are more samples than can "
                         "be addressed",
                         what, grid.hogels_s, grid.hogels_t, grid.directions_u, grid.directions_v, grid.channels));
-    // A file may say what it likes; whoever asks for such a size means another unit.
+    // Files may have any size; in a request, such a size is a wrong unit.
     if (code == ErrorCode::usage) require_metres(grid, code, what);
 }
 
@@ -208,7 +207,7 @@ std::vector<LightFieldGrid> hemicube(const LightFieldGrid& grid, double across, 
     const bool square = grid.directions_v == 1;
     const std::size_t aside = directions_aside(grid.directions_u, across),
                       above = square ? 0 : directions_aside(grid.directions_v, down);
-    // The tangents ζ/|x| of a side: 1 at the front's edge, 0 in the hologram plane.
+    // Tangents ζ/|x| of a side: 1 at the front's edge, 0 in the hologram plane.
     const double half_u = static_cast<double>(aside) / static_cast<double>(grid.directions_u),
                  half_v = static_cast<double>(above) / static_cast<double>(grid.directions_v);
     std::vector<LightFieldGrid> faces;
@@ -302,7 +301,7 @@ void LightFieldBuffer::write(const LightFieldTile& tile) {
 HogelRange default_tile(const LightFieldGrid& grid) {
     const std::size_t hogel_bytes = grid.channels * grid.directions() * sizeof(float);
     HogelRange tile{0, 0, 1, 1};
-    // Sides that are powers of two (or the whole hologram) align with the chunks of a file.
+    // Power-of-two sides (or the whole hologram) align with the chunks of a file.
     while (2 * tile.hogels() <= tile_bytes / hogel_bytes && (tile.ns < grid.hogels_s || tile.nt < grid.hogels_t)) {
         const bool widen = tile.ns < grid.hogels_s && (tile.ns <= tile.nt || tile.nt >= grid.hogels_t);
         (widen ? tile.ns : tile.nt) *= 2;
@@ -336,9 +335,9 @@ void require_faces(std::span<const LightFieldGrid> faces) {
     if (faces.empty() || faces.front().face() != Face::front)
         throw Error(ErrorCode::usage, "a light field begins with its front; there is none");
     if (faces.size() > 1) require_common_directions(faces.front(), ErrorCode::usage, "a light field of several faces");
-    std::set<Face> seen;
+    std::set<Face> faces_seen;
     for (const LightFieldGrid& face : faces) {
-        if (!seen.insert(face.face()).second)
+        if (!faces_seen.insert(face.face()).second)
             throw Error(ErrorCode::usage, fmt::format("a light field has the face '{}' twice", face_name(face.face())));
         if (!same_hogels(faces.front(), face))
             throw Error(ErrorCode::usage, fmt::format("the {} face of a light field has other hogels or channels than "

@@ -20,7 +20,6 @@ class FunctionSource final : public LightFieldSource {
     }
 
   private:
-    // The hogel in column s and row t of the tile.
     void read_hogel(std::size_t s, std::size_t t, LightFieldTile& tile) const {
         const auto i = static_cast<double>(tile.range.s0 + s), j = static_cast<double>(tile.range.t0 + t);
         const LightFieldGrid directions = grid_.of_hogel(i, j);

@@ -177,7 +177,7 @@ TEST(LightFieldBuffer, rejects_ranges_outside_and_arrays_of_another_shape) {
     EXPECT_THROW(field.read(tile), Error);
 }
 
-// A size of 20 m that is asked for was meant to be in millimetres. Files keep what they say.
+// A request for 20 m meant millimetres and is rejected. Files may have any size.
 TEST(LightFieldGrid, validate_refuses_to_make_large_holograms) {
     const auto message = [](double width, ErrorCode code) -> std::string {
         LightFieldGrid g = small_grid();
@@ -284,7 +284,7 @@ TEST(FocalPlane, rays_of_all_hogels_meet_at_its_points) {
     }
 }
 
-// Cameras in front of the hologram: what the eye at the left end sees is the sample farthest to the right.
+// Cameras in front of the hologram: a viewpoint at the left end sees the rightmost sample.
 TEST(FocalPlane, in_front_of_the_hologram_is_a_plane_of_cameras) {
     LightFieldGrid g = small_grid();
     const double distance = 0.5, camera_x = -60_mm;
@@ -372,8 +372,7 @@ TEST(Hemicube, has_every_direction_behind_the_hologram_in_one_face) {
             }
 }
 
-// Away from the front a side has as many directions as the angle takes, so that it ends there or less than a direction
-// farther.
+// The number of a side's directions covers the angle, exceeding it by less than one direction.
 TEST(Hemicube, of_less_than_180_degrees_has_shorter_sides) {
     LightFieldGrid grid = small_grid();
     grid.directions_u = 9;  // odd numbers are no hindrance here
