@@ -20,8 +20,7 @@ using std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Rgb background{0.02f, 0.02f, 0.03f};
 
-/// The radiance of picture `number`, a sum of waves with whole periods across the picture so that its texture can
-/// repeat. p (right) and q (up) run from 0 to 1.
+/// Returns picture `number` at p (right) and q (up) from 0 to 1: waves of whole periods, hence tileable.
 Rgb picture(int number, double p, double q) {
     const double a = 2 * pi * p, b = 2 * pi * q;
     if (number == 0)
@@ -49,7 +48,7 @@ const Vec3 to_lamp = normalize({-0.5, 0.6, 0.7});
 
 constexpr double dot_x = 0.1, dot_y = 0.05, dot_depth = 0.15, dot_radius = 0.005;
 
-/// A picture as a texture whose bilinear interpolation is within 2e-4 of the waves.
+/// Returns a texture whose bilinear interpolation is within 2e-4 of picture().
 std::shared_ptr<const Image> picture_texture(int number) {
     constexpr std::size_t texels = 512;
     auto image = std::make_shared<Image>(texels, texels, 3);
@@ -64,7 +63,7 @@ std::shared_ptr<const Image> picture_texture(int number) {
     return image;
 }
 
-/// The panel as a mesh for ambient light of radiance 1, in which its radiance is its texture.
+/// Returns the panel as a mesh; in ambient light of radiance 1 its radiance equals its texture.
 Mesh panel_mesh(const Panel& panel, double size) {
     constexpr std::size_t cells = 8;
     MeshBuilder builder;
@@ -97,8 +96,7 @@ Scene panel_scene(std::initializer_list<Panel> panels, double size) {
     return scene;
 }
 
-// The poles of the tessellation are on the axis of the light, so the terminator is one of its rings and the kink of
-// max(0, n·l) is between triangles.
+// The terminator is a ring of vertices around the light's axis: the kink of max(0, n·l) is between triangles.
 Mesh sphere_mesh(double size) {
     constexpr std::size_t columns = 240, rows = 160;
     const Vec3 side = normalize(cross({0, 1, 0}, to_lamp)), other = cross(to_lamp, side);
@@ -131,34 +129,34 @@ Mesh sphere_mesh(double size) {
     return mesh;
 }
 
-void see_panel(const Panel& panel, double s, double t, double U, double V, AnalyticSample& seen) {
+void see_panel(const Panel& panel, double s, double t, double U, double V, AnalyticSample& sample) {
     const double x = s + U * panel.depth - panel.x, y = t + V * panel.depth - panel.y;
     const double inside = panel.half_width - std::max(std::abs(x), std::abs(y));
-    seen.clearance = std::min(seen.clearance, std::abs(inside));
-    if (inside < 0 || panel.depth > seen.depth) return;
-    seen.depth = panel.depth;
-    seen.radiance = picture(panel.picture, 0.5 + 0.5 * x / panel.half_width, 0.5 + 0.5 * y / panel.half_width);
+    sample.clearance = std::min(sample.clearance, std::abs(inside));
+    if (inside < 0 || panel.depth > sample.depth) return;
+    sample.depth = panel.depth;
+    sample.radiance = picture(panel.picture, 0.5 + 0.5 * x / panel.half_width, 0.5 + 0.5 * y / panel.half_width);
 }
 
 // The ray is (s, t, 0) + ζ (U, V, −1).
-void see_ball(double s, double t, double U, double V, AnalyticSample& seen) {
+void see_ball(double s, double t, double U, double V, AnalyticSample& sample) {
     const Vec3 origin{s, t, 0}, direction{U, V, -1};
     const double nearest = -dot(origin, direction) / dot(direction, direction);
     const double distance = length(origin + nearest * direction);
-    seen.clearance = std::abs(ball_radius - distance);
+    sample.clearance = std::abs(ball_radius - distance);
     if (distance > ball_radius) return;
-    seen.depth = nearest - std::sqrt((ball_radius * ball_radius - distance * distance) / dot(direction, direction));
-    const Vec3 normal = (origin + seen.depth * direction) / ball_radius;
-    seen.radiance =
+    sample.depth = nearest - std::sqrt((ball_radius * ball_radius - distance * distance) / dot(direction, direction));
+    const Vec3 normal = (origin + sample.depth * direction) / ball_radius;
+    sample.radiance =
         ball_color * (ball_ambient + static_cast<float>(std::max(0.0, dot(normal, to_lamp)) / pi) * ball_irradiance);
 }
 
-void see_dot(double s, double t, double U, double V, AnalyticSample& seen) {
+void see_dot(double s, double t, double U, double V, AnalyticSample& sample) {
     const double distance = std::hypot(s + U * dot_depth - dot_x, t + V * dot_depth - dot_y);
-    seen.clearance = std::abs(dot_radius - distance);
+    sample.clearance = std::abs(dot_radius - distance);
     if (distance > dot_radius) return;
-    seen.depth = dot_depth;
-    seen.radiance = {1, 1, 1};
+    sample.depth = dot_depth;
+    sample.radiance = {1, 1, 1};
 }
 
 }  // namespace
@@ -202,27 +200,27 @@ bool has_analytic_radiance(std::string_view name) {
 }
 
 AnalyticSample analytic_radiance(std::string_view name, double hologram_size, double s, double t, double U, double V) {
-    AnalyticSample seen{background, infinity, infinity};
+    AnalyticSample sample{background, infinity, infinity};
     s /= hologram_size;
     t /= hologram_size;
     if (name == "plane") {
-        see_panel(back, s, t, U, V, seen);
+        see_panel(back, s, t, U, V, sample);
     } else if (name == "two-planes") {
-        see_panel(back, s, t, U, V, seen);
-        see_panel(front, s, t, U, V, seen);
+        see_panel(back, s, t, U, V, sample);
+        see_panel(front, s, t, U, V, sample);
     } else if (name == "sphere") {
-        see_ball(s, t, U, V, seen);
+        see_ball(s, t, U, V, sample);
     } else if (name == "point") {
-        seen.radiance = {0, 0, 0};
-        see_dot(s, t, U, V, seen);
+        sample.radiance = {0, 0, 0};
+        see_dot(s, t, U, V, sample);
     } else {
         throw Error(ErrorCode::usage, fmt::format("scene '{}' has no closed form; expected plane, two-planes, sphere "
                                                   "or point",
                                                   name));
     }
-    seen.depth *= hologram_size;
-    seen.clearance *= hologram_size;
-    return seen;
+    sample.depth *= hologram_size;
+    sample.clearance *= hologram_size;
+    return sample;
 }
 
 }  // namespace hogel::scene

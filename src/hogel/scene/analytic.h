@@ -14,13 +14,13 @@ struct AnalyticSample {
     double clearance = 0;  ///< distance of the ray from the nearest silhouette, metres
 };
 
-/// Whether the light field of a built-in scene has a closed form: plane, two-planes, sphere, point.
+/// Returns whether a built-in scene has a closed-form light field: plane, two-planes, sphere, point.
 bool has_analytic_radiance(std::string_view name);
 
-/// The closed form of a built-in scene of size D, independent of its mesh, as a reference for renderers. The ray
-/// crosses the hologram at (s, t) and passes x = s + Uζ, y = t + Vζ. A correct renderer agrees wherever the clearance
-/// is more than D/1000: radiance to 1e-3, depth to 1e-3 D (plane, two-planes and point: to rounding). Throws
-/// Error(usage) for a scene without closed form.
+/// Returns the closed form of a built-in scene of size D, independent of its mesh, as a reference for renderers. The
+/// ray crosses the hologram at (s, t) and passes x = s + Uζ, y = t + Vζ. A correct renderer agrees if the clearance
+/// exceeds D/1000: radiance to 1e-3, depth to 1e-3 D (plane, two-planes and point: to rounding). Throws Error(usage)
+/// for a scene without closed form.
 ///   plane       a picture of half-width 0.425 D at ζ = 0.2 D
 ///   two-planes  the same picture behind one of half-width 0.15 D at ζ = −0.1 D, centred at (−0.05 D, 0.04 D)
 ///   sphere      of radius 0.3 D around the hologram's centre, diffuse, one directional light and ambient light

@@ -5,7 +5,7 @@
 
 namespace hogel::scene {
 
-// The built-in scenes with closed forms. All take the hologram's side in metres.
+// Built-in scenes with closed forms. The parameter is the hologram's side in metres.
 Scene make_plane(double hologram_size);
 Scene make_two_planes(double hologram_size);
 Scene make_sphere(double hologram_size);

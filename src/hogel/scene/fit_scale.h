@@ -8,7 +8,7 @@
 
 namespace hogel::scene {
 
-/// By what fit_scene() multiplies the lengths of a scene of this size; infinite without width and height.
+/// Returns the scale factor of fit_scene() for a scene of this size; infinite if width and height are 0.
 inline double fit_scale(const Vec3& size, const Fit& fit) {
     constexpr double inf = std::numeric_limits<double>::infinity();
     return fit.fill * std::min(size.x > 0 ? fit.width / size.x : inf, size.y > 0 ? fit.height / size.y : inf);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hologram as the picture of a camera of the scene's file.
+// Alignment of the hologram with a camera of the scene file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,16 +17,16 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// A camera's own frame: x to the right, y up, z towards the eye and zero there.
+/// Camera frame: x right, y up, z backwards.
 struct CameraFrame {
-    Vec3 eye, right, up, back;
+    Vec3 origin, right, up, back;
 
     explicit CameraFrame(const SceneCamera& camera)
-        : eye(camera.position), right(camera.right), up(camera.up), back(cross(camera.right, camera.up)) {}
+        : origin(camera.position), right(camera.right), up(camera.up), back(cross(camera.right, camera.up)) {}
     Vec3 turned(Vec3 v) const { return {dot(v, right), dot(v, up), dot(v, back)}; }
 };
 
-/// Cuts off what of a convex polygon is on the negative side of a plane: where `side` is less than zero.
+/// Clips a convex polygon to the half-space side >= 0.
 template <class Side>
 std::vector<Vec3> cut(const std::vector<Vec3>& polygon, const Side& side) {
     std::vector<Vec3> kept;
@@ -43,20 +43,21 @@ struct Depths {
     double nearest = infinite, farthest = -infinite;
 };
 
-/// The depths of what is in the picture, hidden or not. The scene is in the camera's frame and before its eye.
-/// @param aspect  width of the picture over its height
+/// Returns the depth range inside the picture, including hidden parts. The scene is in the camera frame, in front of
+/// it.
+/// @param aspect  width over height of the picture
 Depths depths_in_picture(const Scene& scene, const SceneCamera& camera, double aspect) {
-    const double slope = std::tan(camera.angle / 2), half = camera.height / 2;  // the one or the other is zero
+    const double slope = std::tan(camera.angle / 2), half = camera.height / 2;  // one of the two is zero
     Depths depths;
     for (const Mesh& mesh : scene.meshes)
         for (const auto& triangle : mesh.triangles) {
-            std::vector<Vec3> seen;
-            for (const std::uint32_t vertex : triangle) seen.push_back(mesh.positions[vertex]);
+            std::vector<Vec3> clipped;
+            for (const std::uint32_t vertex : triangle) clipped.push_back(mesh.positions[vertex]);
             for (const double sign : {-1.0, 1.0}) {
-                seen = cut(seen, [&](Vec3 p) { return half - slope * p.z + sign * p.y; });
-                seen = cut(seen, [&](Vec3 p) { return aspect * (half - slope * p.z) + sign * p.x; });
+                clipped = cut(clipped, [&](Vec3 p) { return half - slope * p.z + sign * p.y; });
+                clipped = cut(clipped, [&](Vec3 p) { return aspect * (half - slope * p.z) + sign * p.x; });
             }
-            for (const Vec3 p : seen) {
+            for (const Vec3 p : clipped) {
                 depths.nearest = std::min(depths.nearest, -p.z);
                 depths.farthest = std::max(depths.farthest, -p.z);
             }
@@ -64,7 +65,7 @@ Depths depths_in_picture(const Scene& scene, const SceneCamera& camera, double a
     return depths;
 }
 
-/// Cuts a mesh off at a depth before the eye.
+/// Clips a mesh at a depth in front of the camera.
 class Cutter {
   public:
     Cutter(Mesh& mesh, double nearest) : mesh_(mesh), nearest_(nearest) {}
@@ -88,11 +89,11 @@ class Cutter {
     double beyond(std::uint32_t vertex) const { return -mesh_.positions[vertex].z - nearest_; }
 
     std::uint32_t between(std::uint32_t a, std::uint32_t b, double part) {
-        const auto with = static_cast<float>(part);
+        const auto weight = static_cast<float>(part);
         const auto add = [&](auto& values, const auto& mixed) {
             if (!values.empty()) values.push_back(mixed(values[a], values[b]));
         };
-        const auto floats = [&](const auto& p, const auto& q) { return (1 - with) * p + with * q; };
+        const auto floats = [&](const auto& p, const auto& q) { return (1 - weight) * p + weight * q; };
         const auto vectors = [&](Vec3 p, Vec3 q) { return p + part * (q - p); };
         add(mesh_.positions, vectors);
         add(mesh_.normals, [&](Vec3 p, Vec3 q) {
@@ -117,21 +118,20 @@ class Cutter {
 
 void move_into(Scene& scene, const CameraFrame& view) {
     for (Mesh& mesh : scene.meshes) {
-        for (Vec3& position : mesh.positions) position = view.turned(position - view.eye);
+        for (Vec3& position : mesh.positions) position = view.turned(position - view.origin);
         for (Vec3& normal : mesh.normals) normal = view.turned(normal);
     }
     for (Light& light : scene.lights) {
-        light.position = view.turned(light.position - view.eye);
+        light.position = view.turned(light.position - view.origin);
         light.direction = view.turned(light.direction);
     }
 }
 
-/// The depth of the plane whose disparity from the eye divides that of two depths; where rays are parallel, whose depth
-/// does.
+/// Returns the depth of the plane that divides two depths by disparity, or by depth for parallel rays.
 double plane_depth(const Depths& depths, double front, bool parallel) {
     if (parallel) return depths.nearest + front * (depths.farthest - depths.nearest);
     const double disparity = (1 - front) / depths.nearest + front / depths.farthest;
-    return 1 / std::max(disparity, 0.1 / depths.farthest);  // with more than all of it in front, ten times as far
+    return 1 / std::max(disparity, 0.1 / depths.farthest);  // with everything and more in front: ten times as far
 }
 
 }  // namespace
@@ -157,7 +157,7 @@ double frame_scene(Scene& scene, const SceneCamera& camera, const Fit& fit) {
         throw Error(ErrorCode::usage,
                     fmt::format("camera: hologram of {} m x {} m; expected sizes above zero", fit.width, fit.height));
     const bool parallel = camera.angle == 0;
-    const SceneCamera used = camera;  // it may be one of the scene's
+    const SceneCamera used = camera;  // copy, because it may be one of the scene's
     move_into(scene, CameraFrame(used));
     const double least = std::max(used.nearest, 1e-6 * length(bounds(scene).high - bounds(scene).low));
     for (Mesh& mesh : scene.meshes) Cutter(mesh, least).run();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A camera of a file sees from its eye what an eye before the hologram sees in it.
+// A viewpoint before the hologram sees the picture of the file's camera.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -10,7 +10,7 @@
 
 namespace hogel::scene {
 
-/// Builds a mesh of coloured vertices without normals; add_missing_normals() adds them, joining equal positions.
+/// Builder of a mesh of coloured vertices without normals; add_missing_normals() adds them, joining equal positions.
 class MeshBuilder {
   public:
     using Index = std::uint32_t;
@@ -26,8 +26,8 @@ class MeshBuilder {
         triangle(a, c, d);
     }
 
-    /// A patch of columns × rows quads with vertices at(i, k), 0 <= i <= columns, 0 <= k <= rows. Its front is the side
-    /// from which i runs to the right and k up. If `wraps`, column `columns` is column 0.
+    /// Adds a patch of columns × rows quads with vertices at(i, k), 0 <= i <= columns, 0 <= k <= rows. Seen from its
+    /// front, i runs to the right and k up. If `wraps`, column `columns` is column 0.
     void patch(std::size_t columns, std::size_t rows, bool wraps,
                const std::function<Vec3(std::size_t, std::size_t)>& at, const std::function<Rgb(Vec3)>& color) {
         const std::size_t across = wraps ? columns : columns + 1;
@@ -45,8 +45,7 @@ class MeshBuilder {
                 quad(index(i, k), index(i + 1, k), index(i + 1, k + 1), index(i, k + 1));
     }
 
-    /// A surface of revolution about the vertical through `foot`: profile(k) gives radius and height, from bottom to
-    /// top for a surface that is seen from outside.
+    /// Adds a surface about the vertical through `foot`: profile(k) is (radius, height), upwards for an outer surface.
     void revolve(Vec3 foot, std::size_t columns, std::size_t rows,
                  const std::function<std::pair<double, double>(std::size_t)>& profile,
                  const std::function<Rgb(Vec3)>& color) {
@@ -63,7 +62,7 @@ class MeshBuilder {
     Mesh mesh;
 };
 
-/// A pseudo-random number in 0..1 that depends only on the three integers.
+/// Returns a pseudorandom number in 0..1 that depends only on the three integers.
 inline double hashed(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     std::uint32_t h = a * 0x9E3779B1u ^ b * 0x85EBCA77u ^ c * 0xC2B2AE3Du;
     h = (h ^ (h >> 15)) * 0x2C1B3C6Du;
@@ -78,8 +77,7 @@ inline Rgb mix(Rgb a, Rgb b, double weight) {
     return (1 - w) * a + w * b;
 }
 
-/// Rotates a scene with its lights by `about_y` (radians) about the vertical axis, then by `about_x` about the x axis
-/// (positive: its top towards the viewer).
+/// Rotates scene and lights, in radians, about the vertical, then about x (positive: top towards the viewer).
 inline void rotate(Scene& scene, double about_y, double about_x) {
     const double cy = std::cos(about_y), sy = std::sin(about_y), cx = std::cos(about_x), sx = std::sin(about_x);
     const auto rotated = [&](Vec3 p) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of the folder mesh_files in a build without assimp.
+// Replaces the folder mesh_files in a build without assimp.
 #include "hogel/core/part.h"
 #include "hogel/scene.h"
 

@@ -27,7 +27,7 @@ class Groups {
         i = find(i), j = find(j);
         parent_[std::max(i, j)] = std::min(i, j);
     }
-    /// The group of every corner: its lowest-numbered one. A parent comes before its children, so one pass is enough.
+    /// Returns the lowest-numbered corner of each group. Parents precede children, so that one pass suffices.
     std::vector<Index> all() && {
         for (Index& parent : parent_) parent = parent_[parent];
         return std::move(parent_);
@@ -37,7 +37,7 @@ class Groups {
     std::vector<Index> parent_;
 };
 
-/// Twice the area times the unit normal of every triangle.
+/// Returns twice the area times the unit normal of every triangle.
 std::vector<Vec3> area_normals(const Mesh& mesh) {
     std::vector<Vec3> normals;
     normals.reserve(mesh.triangles.size());
@@ -46,20 +46,19 @@ std::vector<Vec3> area_normals(const Mesh& mesh) {
     return normals;
 }
 
-/// Calls `visit` with every two edges between the same positions that follow each other.
+/// Calls `visit` with consecutive pairs of edges between the same positions.
 template <class Visit>
 void for_neighbors(const std::vector<scene::TriangleEdge>& edges, const Visit& visit) {
     for (std::size_t i = 1; i < edges.size(); ++i) {
         if (i % scene::between_checks == 0) core::throw_if_stopped();
-        if (edges[i - 1].joins_the_same(edges[i])) visit(edges[i - 1], edges[i]);
+        if (edges[i - 1].has_same_ends(edges[i])) visit(edges[i - 1], edges[i]);
     }
 }
 
-/// Which triangles are folded: decimated scans have some that lie with their back upwards on a surface, between
-/// neighbours that all face the other way and agree with each other. None of most meshes, which have no triangle with
-/// two opposite neighbours: then the list is empty.
+/// Finds folded triangles of decimated scans: upside down between consistent neighbours. Returns an empty vector if no
+/// triangle has two opposite neighbours, as in most meshes.
 std::vector<char> find_folds(const std::vector<scene::TriangleEdge>& edges, const std::vector<Vec3>& faces) {
-    constexpr double agreeing = 0.8;  // length of the mean of unit normals: within about 37 degrees of it
+    constexpr double agreeing = 0.8;  // minimum length of the mean unit normal: within about 37 degrees
     std::vector<std::uint8_t> opposite(faces.size());
     for_neighbors(edges, [&](const scene::TriangleEdge& a, const scene::TriangleEdge& b) {
         if (!(dot(faces[a.triangle()], faces[b.triangle()]) < 0)) return;
@@ -88,8 +87,7 @@ std::vector<char> find_folds(const std::vector<scene::TriangleEdge>& edges, cons
     return folds;
 }
 
-/// Joins the corners of neighbouring triangles that meet at an angle of at most `crease` radians, and those of folds
-/// with all neighbours.
+/// Joins the corners of neighbours that meet at up to `crease` radians, and those of folds with all neighbours.
 std::vector<Index> smoothing_groups(const std::vector<scene::TriangleEdge>& edges, const std::vector<Vec3>& faces,
                                     const std::vector<char>& folds, double crease) {
     Groups groups(3 * faces.size());
@@ -104,8 +102,8 @@ std::vector<Index> smoothing_groups(const std::vector<scene::TriangleEdge>& edge
             const double both = lengths[a.triangle()] * lengths[b.triangle()];
             if (both == 0 || dot(na, nb) < cosine * both) return;
         }
-        groups.join(a.at_low, b.at_low);
-        groups.join(a.at_high, b.at_high);
+        groups.join(a.low_corner, b.low_corner);
+        groups.join(a.high_corner, b.high_corner);
     });
     return std::move(groups).all();
 }
@@ -120,7 +118,7 @@ void scene::add_normals(Mesh& mesh, const std::vector<TriangleEdge>& edges, doub
     for (Index corner = 0; corner < sums.size(); ++corner)
         if (folds.empty() || !folds[corner / 3]) sums[groups[corner]] += faces[corner / 3];
 
-    // A vertex keeps its index for the first group that uses it and is copied for every further group.
+    // A vertex keeps its index for the first group and is copied for each further group.
     constexpr Index none = ~Index{0};
     struct Use {
         Index group = none, next_copy = none;

@@ -11,7 +11,7 @@
 namespace hogel {
 namespace {
 
-/// A rotation: where the axes go.
+/// A rotation, by the images of the axes.
 struct Rotation {
     Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
 
@@ -30,8 +30,7 @@ Rotation about_axes(Vec3 angles) {
     return after(z, after(y, x));
 }
 
-/// By quarter turns, so that coordinates stay what they are. With z upwards −y faces the viewer, as it faces the user
-/// of a program for design.
+/// Quarter turns keep coordinates exact. With z up, −y faces the viewer, as in CAD programs.
 Rotation with_up(Vec3 up) {
     if (up == Vec3{0, 1, 0}) return {};
     if (up == Vec3{0, -1, 0}) return {{1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
@@ -71,7 +70,6 @@ void color(Scene& scene, const ScenePose& pose) {
                     fmt::format("scene '{}': no texture coordinates; expected some for a texture", scene.name));
 }
 
-/// A level sheet of squares under the scene.
 Mesh level_ground(const Bounds& box, double hologram_width, Rgb base_color) {
     constexpr std::uint32_t squares = 96;  // along each side
     const double width = std::max(hologram_width, 1.5 * (box.high.x - box.low.x)),

@@ -15,7 +15,7 @@ inline std::uint64_t mix_bits(std::uint64_t bits) {
     return bits ^ (bits >> 31);
 }
 
-/// A number that depends on the position alone; −0 and 0 are one position.
+/// Returns a hash of the position; −0 equals 0.
 inline std::uint64_t position_hash(const Vec3& p) {
     const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };
     return mix_bits(mix_bits(mix_bits(bits(p.x)) + bits(p.y)) + bits(p.z));

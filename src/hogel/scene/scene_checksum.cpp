@@ -9,10 +9,10 @@
 namespace hogel {
 namespace {
 
-// Combines the checksums and lengths of several arrays.
+// Combined checksum of several arrays and their lengths.
 class Checksums {
   public:
-    // Adds an array. T must have no padding.
+    // T must have no padding.
     template <class T>
     void add(std::span<const T> values) {
         sums_.push_back(core::checksum({reinterpret_cast<const std::uint8_t*>(values.data()), values.size_bytes()}));
@@ -24,7 +24,7 @@ class Checksums {
             sums_.push_back(0);
             return;
         }
-        // Meshes may share a picture, whose checksum is computed once.
+        // Cached: meshes may share a picture.
         const auto [known, is_new] = pictures_.try_emplace(picture.get());
         if (is_new) {
             const std::span<const float> pixels = picture->pixels.elements();
@@ -42,8 +42,8 @@ class Checksums {
     std::map<const Image*, std::uint32_t> pictures_;
 };
 
-// What most scenes do not have; it adds nothing to the checksums of those.
-void add_looks(Checksums& sums, const Mesh& mesh) {
+// Adds attributes that most scenes do not have; absent ones do not change the checksum.
+void add_optional_attributes(Checksums& sums, const Mesh& mesh) {
     const Material& m = mesh.material;
     const auto add = [&](const TextureSampling& sampling) {
         if (sampling == TextureSampling{}) return;
@@ -95,7 +95,7 @@ std::uint32_t checksum(const Scene& scene) {
         sums.add({m.base_color.r, m.base_color.g, m.base_color.b, m.reflectance, m.metallic, m.roughness, m.emission.r,
                   m.emission.g, m.emission.b});
         sums.add(m.base_color_texture);
-        add_looks(sums, mesh);
+        add_optional_attributes(sums, mesh);
     }
     for (const Light& l : scene.lights) {
         sums.add({static_cast<double>(l.kind), l.position.x, l.position.y, l.position.z, l.direction.x, l.direction.y,

@@ -19,8 +19,8 @@ double angle_of(std::size_t i, std::size_t columns) {
 }  // namespace
 
 Across across(Vec3 along) {
-    const Vec3 other = std::abs(along.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 0, 1};  // far from parallel
-    const Vec3 first = normalize(cross(other, along));
+    const Vec3 helper = std::abs(along.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 0, 1};  // far from parallel
+    const Vec3 first = normalize(cross(helper, along));
     return {first, cross(along, first)};
 }
 
@@ -49,12 +49,13 @@ void add_ball(MeshBuilder& builder, Vec3 center, double radius, std::size_t colu
     add_ball(builder, center, radius, {0, 1, 0}, columns, rings);
 }
 
-void add_tube(MeshBuilder& builder, std::size_t columns, std::size_t steps, const std::function<Vec3(std::size_t)>& at,
-              const std::function<double(std::size_t)>& radius, const std::function<Rgb(Vec3)>& color) {
-    // The frame is transported along the path without twist.
+void add_tube(MeshBuilder& builder, std::size_t columns, std::size_t steps,
+              const std::function<Vec3(std::size_t)>& point, const std::function<double(std::size_t)>& radius,
+              const std::function<Rgb(Vec3)>& color) {
+    // Transport the frame along the path without twist.
     std::vector<Across> frames;
     for (std::size_t k = 0; k <= steps; ++k) {
-        const Vec3 along = normalize(at(std::min(k + 1, steps)) - at(k > 0 ? k - 1 : 0));
+        const Vec3 along = normalize(point(std::min(k + 1, steps)) - point(k > 0 ? k - 1 : 0));
         if (k == 0) {
             frames.push_back(across(along));
             continue;
@@ -67,9 +68,9 @@ void add_tube(MeshBuilder& builder, std::size_t columns, std::size_t steps, cons
         columns, steps + 2, true,
         [&](std::size_t i, std::size_t row) {
             const std::size_t k = std::clamp<std::size_t>(row, 1, steps + 1) - 1;
-            if (row == 0 || row == steps + 2) return at(k);
+            if (row == 0 || row == steps + 2) return point(k);
             const double angle = angle_of(i, columns);
-            return at(k) + radius(k) * (std::cos(angle) * frames[k].first + std::sin(angle) * frames[k].second);
+            return point(k) + radius(k) * (std::cos(angle) * frames[k].first + std::sin(angle) * frames[k].second);
         },
         color);
 }
@@ -104,18 +105,18 @@ void add_box(MeshBuilder& builder, Vec3 low, Vec3 high, double patch, const std:
     std::array<std::size_t, 3> parts{};
     for (std::size_t axis = 0; axis < 3; ++axis)
         parts[axis] = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(size[axis] / patch - 1e-9)));
-    // A face for each axis and end. Faces have bit for bit the same points on shared edges.
+    // One face per axis and end. Faces have bit-identical points on shared edges.
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (const bool far : {false, true}) {
             const std::size_t right = (axis + (far ? 1 : 2)) % 3, up = (axis + (far ? 2 : 1)) % 3;
             builder.patch(
                 parts[right], parts[up], false,
                 [&](std::size_t i, std::size_t k) {
-                    std::array<std::size_t, 3> at{};
-                    at[axis] = far ? parts[axis] : 0, at[right] = i, at[up] = k;
+                    std::array<std::size_t, 3> steps{};
+                    steps[axis] = far ? parts[axis] : 0, steps[right] = i, steps[up] = k;
                     std::array<double, 3> p{};
                     for (std::size_t j = 0; j < 3; ++j)
-                        p[j] = from[j] + size[j] * (static_cast<double>(at[j]) / static_cast<double>(parts[j]));
+                        p[j] = from[j] + size[j] * (static_cast<double>(steps[j]) / static_cast<double>(parts[j]));
                     return Vec3{p[0], p[1], p[2]};
                 },
                 color);

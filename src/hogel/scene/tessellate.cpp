@@ -21,31 +21,33 @@ Rgb weighted_sum(Rgb a, Rgb b, Rgb c, float wa, float wb, float wc) { return wa 
 
 float weighted_sum(float a, float b, float c, float wa, float wb, float wc) { return wa * a + wb * b + wc * c; }
 
-/// Cuts the triangles of one mesh. Vertices keep their indices; new ones on edges and inside triangles are appended.
+/// Subdivides the triangles of a mesh. Vertices keep their indices; new ones are appended.
 class Cutter {
   public:
-    Cutter(const Mesh& mesh, std::size_t n) : from_(mesh), n_(n) {
-        to_ = mesh;
-        to_.triangles.clear();
+    Cutter(const Mesh& mesh, std::size_t n) : source_(mesh), n_(n) {
+        result_ = mesh;
+        result_.triangles.clear();
     }
 
     Mesh cut() {
         std::vector<Index> grid((n_ + 1) * (n_ + 1));
-        for (const auto& triangle : from_.triangles) {
+        for (const auto& triangle : source_.triangles) {
             for (std::size_t j = 0; j <= n_; ++j)
                 for (std::size_t i = 0; i + j <= n_; ++i) grid[j * (n_ + 1) + i] = vertex(triangle, i, j);
-            const auto at = [&](std::size_t i, std::size_t j) { return grid[j * (n_ + 1) + i]; };
+            const auto grid_vertex = [&](std::size_t i, std::size_t j) { return grid[j * (n_ + 1) + i]; };
             for (std::size_t j = 0; j < n_; ++j)
                 for (std::size_t i = 0; i + j < n_; ++i) {
-                    to_.triangles.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
-                    if (i + j + 1 < n_) to_.triangles.push_back({at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+                    result_.triangles.push_back({grid_vertex(i, j), grid_vertex(i + 1, j), grid_vertex(i, j + 1)});
+                    if (i + j + 1 < n_)
+                        result_.triangles.push_back(
+                            {grid_vertex(i + 1, j), grid_vertex(i + 1, j + 1), grid_vertex(i, j + 1)});
                 }
         }
-        return std::move(to_);
+        return std::move(result_);
     }
 
   private:
-    /// The vertex i steps from the first corner towards the second and j steps towards the third.
+    /// Returns the vertex i steps from the first corner towards the second and j steps towards the third.
     Index vertex(const std::array<Index, 3>& corners, std::size_t i, std::size_t j) {
         const std::size_t k = n_ - i - j;
         const auto& [a, b, c] = corners;
@@ -58,13 +60,12 @@ class Cutter {
         return add(a, b, c, k, i, j);
     }
 
-    /// The vertex `step` steps from a to b. It is made once for both triangles at the edge, from the lower-numbered
-    /// end.
+    /// Returns the vertex `step` steps from a to b. Created once for both triangles, from the lower-numbered end.
     Index on_edge(Index a, Index b, std::size_t step) {
         if (a > b) return on_edge(b, a, n_ - step);
         const auto [known, is_new] = edges_.try_emplace(std::uint64_t{a} << 32 | b, Index{0});
         if (is_new) {
-            known->second = static_cast<Index>(to_.positions.size());
+            known->second = static_cast<Index>(result_.positions.size());
             for (std::size_t i = 1; i < n_; ++i) add(a, b, b, n_ - i, i, 0);
         }
         return known->second + static_cast<Index>(step - 1);
@@ -80,31 +81,31 @@ class Cutter {
         const auto sum = [&](const std::vector<Vec3>& p) {
             return part(na) * p[a] + part(nb) * p[b] + part(nc) * p[c];
         };
-        to_.positions.push_back(sum(from_.positions));
-        if (!from_.normals.empty()) {
-            const Vec3 normal = sum(from_.normals);
+        result_.positions.push_back(sum(source_.positions));
+        if (!source_.normals.empty()) {
+            const Vec3 normal = sum(source_.normals);
             const double size = length(normal);
-            to_.normals.push_back(size > 0 ? normal / size : from_.normals[a]);
+            result_.normals.push_back(size > 0 ? normal / size : source_.normals[a]);
         }
-        append(to_.colors, from_.colors);
-        append(to_.radiance, from_.radiance);
-        append(to_.alphas, from_.alphas);
-        append(to_.texture_coordinates, from_.texture_coordinates);
-        append(to_.emission_coordinates, from_.emission_coordinates);
-        append(to_.metallic_roughness_coordinates, from_.metallic_roughness_coordinates);
-        append(to_.normal_coordinates, from_.normal_coordinates);
-        append(to_.occlusion_coordinates, from_.occlusion_coordinates);
-        if (to_.positions.size() > std::numeric_limits<Index>::max())
+        append(result_.colors, source_.colors);
+        append(result_.radiance, source_.radiance);
+        append(result_.alphas, source_.alphas);
+        append(result_.texture_coordinates, source_.texture_coordinates);
+        append(result_.emission_coordinates, source_.emission_coordinates);
+        append(result_.metallic_roughness_coordinates, source_.metallic_roughness_coordinates);
+        append(result_.normal_coordinates, source_.normal_coordinates);
+        append(result_.occlusion_coordinates, source_.occlusion_coordinates);
+        if (result_.positions.size() > std::numeric_limits<Index>::max())
             throw Error(ErrorCode::usage, "tessellate",
                         fmt::format("mesh '{}' with triangles cut {} times along an edge: more than 2^32 vertices",
-                                    from_.name, n_));
-        return static_cast<Index>(to_.positions.size() - 1);
+                                    source_.name, n_));
+        return static_cast<Index>(result_.positions.size() - 1);
     }
 
-    const Mesh& from_;
+    const Mesh& source_;
     std::size_t n_;
-    Mesh to_;
-    std::unordered_map<std::uint64_t, Index> edges_;  // key: both ends; value: the first of its n − 1 vertices
+    Mesh result_;
+    std::unordered_map<std::uint64_t, Index> edges_;  // key: both ends; value: the first of n − 1 vertices
 };
 
 }  // namespace

@@ -5,9 +5,8 @@
 
 namespace hogel::scene {
 
-/// Cuts every triangle into n² congruent ones. Vertex attributes are interpolated, and normals made unit length again.
-/// Triangles that share two vertices share the new ones between them. Throws Error(usage) for n = 0 and for a mesh that
-/// would have more than 2^32 vertices.
+/// Cuts every triangle into n² congruent ones. Interpolates vertex attributes and normalises normals. Triangles that
+/// share an edge share its new vertices. Throws Error(usage) for n = 0 and for a mesh with more than 2^32 vertices.
 Scene tessellate(const Scene& scene, std::size_t n);
 
 }  // namespace hogel::scene

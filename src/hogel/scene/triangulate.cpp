@@ -14,7 +14,7 @@ struct Point {
 /// Twice the signed area: positive if the corners run counterclockwise.
 double orientation(Point a, Point b, Point c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
-/// Projects a polygon along the axis closest to its normal, so that it runs counterclockwise.
+/// Projects a polygon along the axis closest to its normal, counterclockwise.
 std::vector<Point> flatten(std::span<const Vec3> polygon) {
     Vec3 normal;
     for (std::size_t i = 0; i < polygon.size(); ++i)
@@ -60,7 +60,7 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const Vec3> poly
     while (ring.size() > 3) {
         std::size_t tries = 0;
         while (tries < ring.size() && !is_ear(points, ring, i % ring.size())) ++i, ++tries;
-        i %= ring.size();  // without an ear the polygon is degenerate, and any corner may be clipped
+        i %= ring.size();  // degenerate polygon without an ear: clip any corner
         const std::size_t n = ring.size();
         triangles.push_back({ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]});
         ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(i));

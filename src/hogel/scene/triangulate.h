@@ -10,9 +10,8 @@
 
 namespace hogel::scene {
 
-/// Divides a simple polygon in space into n − 2 triangles of its n corners (indices into `polygon`, in the polygon's
-/// orientation) by clipping ears in its mean plane. Polygons may be concave; for a polygon that crosses itself the
-/// triangles are arbitrary. Cost: O(n²).
+/// Triangulates a simple, possibly concave polygon of n corners into n − 2 index triples of the same orientation, by
+/// ear clipping in its mean plane. Results for self-intersecting polygons are arbitrary. Cost: O(n²).
 std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const Vec3> polygon);
 
 }  // namespace hogel::scene

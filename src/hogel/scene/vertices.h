@@ -7,7 +7,7 @@
 
 namespace hogel::scene {
 
-/// Appends a copy of a vertex, with all attributes that the mesh has, and returns its index.
+/// Appends a copy of a vertex with all its attributes, and returns its index.
 inline std::uint32_t add_copy_of_vertex(Mesh& mesh, std::uint32_t vertex) {
     const auto append = [vertex](auto& values) {
         if (values.empty()) return;

@@ -19,11 +19,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Constants of the glTF 2.0 specification.
 constexpr int floats = 5126, unsigned_ints = 5125, vertex_data = 34962, index_data = 34963;
 constexpr std::uint32_t magic = 0x46546C67, version = 2, json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
 
-/// Builds a glTF file: its JSON part and the data that it describes.
+/// Builder of a glTF file: JSON and binary data.
 class Gltf {
   public:
     Gltf() {
@@ -32,7 +31,7 @@ class Gltf {
         json["scene"] = 0;
     }
 
-    /// Adds an array of elements of `components` numbers each. Returns the index of its accessor.
+    /// Adds an array of elements of `components` numbers each, and returns the index of its accessor.
     template <class T>
     std::size_t accessor(const std::vector<T>& numbers, std::size_t components, int target) {
         const std::size_t view = buffer_view(numbers.data(), numbers.size() * sizeof(T), target);
@@ -44,7 +43,6 @@ class Gltf {
         return json["accessors"].size() - 1;
     }
 
-    /// Adds a texture. Returns its index.
     std::size_t texture(const Image& image) {
         const std::vector<unsigned char> png = encode_png(image);
         json["images"].push_back({{"bufferView", buffer_view(png.data(), png.size(), 0)}, {"mimeType", "image/png"}});
@@ -52,7 +50,7 @@ class Gltf {
         return json["textures"].size() - 1;
     }
 
-    /// The finished file.
+    /// Returns the complete file.
     std::vector<unsigned char> bytes() {
         json["buffers"] = {{{"byteLength", data_.size()}}};
         std::string text = json.dump();
@@ -101,7 +99,7 @@ std::vector<float> packed(const std::vector<Vec3>& values) {
     return list;
 }
 
-/// Adds positions, with the box around them that glTF requires. Returns their accessor.
+/// Adds positions with the bounds that glTF requires, and returns their accessor.
 std::size_t add_positions(Gltf& gltf, const std::vector<float>& positions) {
     const std::size_t accessor = gltf.accessor(positions, 3, vertex_data);
     Json& box = gltf.json["accessors"].back();

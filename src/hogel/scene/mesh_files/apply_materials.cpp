@@ -8,20 +8,20 @@ namespace {
 
 using image::TexturePixels;
 
-/// The coordinates of a mesh on a texture; empty if the mesh has none of that set.
+/// Returns the coordinates of a mesh on a texture; empty if the mesh lacks that set.
 std::vector<TextureCoordinate> coordinates_on(const GltfTexture& texture, const std::vector<TextureCoordinate>& first,
                                               const std::vector<TextureCoordinate>& second) {
     std::vector<TextureCoordinate> coordinates = texture.set == 0 ? first : second;
     if (texture.matrix != GltfTexture().matrix)
-        for (TextureCoordinate& at : coordinates) at = texture.at(at);
+        for (TextureCoordinate& coordinate : coordinates) coordinate = texture.at(coordinate);
     return coordinates;
 }
 
 }  // namespace
 
-void apply_materials(const GltfMaterials& looks, ImportedMesh& part, Textures& textures) {
-    if (part.material >= looks.materials.size()) return;  // that of primitives without one, which assimp knows
-    const GltfMaterial& source = looks.materials[part.material];
+void apply_materials(const GltfMaterials& materials, ImportedMesh& part, Textures& textures) {
+    if (part.material >= materials.materials.size()) return;  // assimp's default material of primitives without one
+    const GltfMaterial& source = materials.materials[part.material];
     Mesh& mesh = part.mesh;
     Material& material = mesh.material = source.material;
     part.is_unlit = source.is_unlit;
@@ -36,27 +36,28 @@ void apply_materials(const GltfMaterials& looks, ImportedMesh& part, Textures& t
             material.base_color_sampling = source.color->sampling;
         }
     }
-    // The same coordinates are kept once.
-    const auto place = [&](const GltfTexture& texture, std::vector<TextureCoordinate>& coordinates) {
+    // Do not store the coordinates of the base-colour texture twice.
+    const auto assign_coordinates = [&](const GltfTexture& texture, std::vector<TextureCoordinate>& coordinates) {
         if (material.base_color_texture && texture.lies_like(*source.color)) return true;
         coordinates = coordinates_on(texture, first, part.second_coordinates);
         return !coordinates.empty();
     };
-    if (source.emission && place(*source.emission, mesh.emission_coordinates)) {
+    if (source.emission && assign_coordinates(*source.emission, mesh.emission_coordinates)) {
         material.emission_texture = textures.get(source.emission->image);
         material.emission_sampling = source.emission->sampling;
     } else if (material.emission != Rgb{0, 0, 0} && material.base_color_texture) {
-        material.emission_texture = white_picture();  // so that the base-colour texture does not multiply the emission
+        material.emission_texture = white_picture();  // prevents the base-colour texture from multiplying the emission
     }
-    if (source.metallic_roughness && place(*source.metallic_roughness, mesh.metallic_roughness_coordinates)) {
+    if (source.metallic_roughness &&
+        assign_coordinates(*source.metallic_roughness, mesh.metallic_roughness_coordinates)) {
         material.metallic_roughness_texture = textures.get(source.metallic_roughness->image, TexturePixels::numbers);
         material.metallic_roughness_sampling = source.metallic_roughness->sampling;
     }
-    if (source.normal && place(*source.normal, mesh.normal_coordinates)) {
+    if (source.normal && assign_coordinates(*source.normal, mesh.normal_coordinates)) {
         material.normal_texture = textures.get(source.normal->image, TexturePixels::numbers);
         material.normal_sampling = source.normal->sampling;
     }
-    if (source.occlusion && place(*source.occlusion, mesh.occlusion_coordinates)) {
+    if (source.occlusion && assign_coordinates(*source.occlusion, mesh.occlusion_coordinates)) {
         material.occlusion_texture = textures.get(source.occlusion->image, TexturePixels::numbers);
         material.occlusion_sampling = source.occlusion->sampling;
     }

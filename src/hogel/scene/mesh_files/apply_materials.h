@@ -7,7 +7,7 @@
 
 namespace hogel::scene::mesh_files {
 
-/// Gives a mesh that assimp read the material that the document has for it, with its textures.
-void apply_materials(const GltfMaterials& looks, ImportedMesh& part, Textures& textures);
+/// Assigns the material of the glTF document, with its textures, to a mesh read by assimp.
+void apply_materials(const GltfMaterials& materials, ImportedMesh& part, Textures& textures);
 
 }  // namespace hogel::scene::mesh_files

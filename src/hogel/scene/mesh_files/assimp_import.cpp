@@ -34,7 +34,7 @@ struct Placed {
     aiMatrix4x4 to_world;
 };
 
-/// Bytes of a mesh as hogel keeps it; 0 for one without a surface.
+/// Returns the size of a converted mesh; 0 without a surface.
 std::uint64_t converted_bytes(const aiMesh& mesh) {
     if (mesh.mNumFaces == 0 || !mesh.HasPositions()) return 0;
     std::uint64_t vertex = sizeof(Vec3);
@@ -47,8 +47,7 @@ std::uint64_t converted_bytes(const aiMesh& mesh) {
     return mesh.mNumVertices * vertex + triangles * 3 * sizeof(std::uint32_t) + sizeof(ImportedMesh);
 }
 
-/// Lists every mesh of the node hierarchy with its transform. Bytes are counted before anything is copied, because a
-/// small file can request billions of copies.
+/// Lists all mesh instances with transforms. Counts bytes first: a small file can request billions of copies.
 std::vector<Placed> place_meshes(const aiScene& source, const std::string& file, std::uint64_t max_bytes) {
     struct Visit {
         const aiNode* node;
@@ -82,14 +81,14 @@ std::vector<Placed> place_meshes(const aiScene& source, const std::string& file,
     return placed;
 }
 
-// In double precision, because matrices are products over the hierarchy.
+// Double precision, because matrices are products over the hierarchy.
 Vec3 transform_point(const aiMatrix4x4& m, const aiVector3D& p) {
     const double x = p.x, y = p.y, z = p.z;
     return {m.a1 * x + m.a2 * y + m.a3 * z + m.a4, m.b1 * x + m.b2 * y + m.b3 * z + m.b4,
             m.c1 * x + m.c2 * y + m.c3 * z + m.c4};
 }
 
-/// The columns of the cofactor matrix, by which normals transform up to the determinant. Finite for any scale.
+/// Cofactor matrix by columns, which transforms normals up to the determinant. Finite for any scale.
 struct NormalTransform {
     Vec3 x, y, z;
     double determinant;
@@ -105,7 +104,7 @@ struct NormalTransform {
     }
 };
 
-/// Returns false if a normal of the file is zero; then new normals are made.
+/// Returns false if a normal is zero; normals are then recomputed.
 bool import_normals(const aiMesh& source, const NormalTransform& transform, Mesh& mesh) {
     mesh.normals.reserve(source.mNumVertices);
     for (unsigned i = 0; i < source.mNumVertices; ++i) {
@@ -153,7 +152,7 @@ Mesh import_mesh(const Placed& placed, bool linear_colors, const std::string& fi
     return mesh;
 }
 
-/// The alphas of vertex colours; none where they are all 0, which is what assimp makes of colours without alpha.
+/// Returns the alphas of vertex colours; none if all are 0, as assimp reads colours without alpha.
 std::vector<float> import_alphas(const aiMesh& source) {
     std::vector<float> alphas;
     if (!source.HasVertexColors(0)) return alphas;
@@ -162,15 +161,15 @@ std::vector<float> import_alphas(const aiMesh& source) {
     return alphas;
 }
 
-/// Sends meshes, and before the first mesh that needs it each texture.
+/// Sends meshes, each texture before the first mesh that needs it.
 class Conversion {
   public:
-    /// @param numbered  whether materials are only the numbers of those of GltfMaterials
-    /// @param mtl       the materials of an OBJ file; lives longer than this
+    /// @param numbered  whether materials are only indices into GltfMaterials
+    /// @param mtl       the materials of an OBJ file; must outlive this
     Conversion(const aiScene& source, const std::string& file, bool linear_colors, bool numbered,
                const std::vector<MtlMaterial>& mtl, int pipe)
         : source_(source), file_(file), linear_colors_(linear_colors), numbered_(numbered), sender_(pipe) {
-        for (const MtlMaterial& material : mtl) mtl_.emplace(material.name, &material);  // the first of a name
+        for (const MtlMaterial& material : mtl) mtl_.emplace(material.name, &material);  // the first one of a name
     }
 
     void run(std::uint64_t max_bytes) {
@@ -184,7 +183,7 @@ class Conversion {
                 imported.is_unlit = is_unlit(material);
                 imported.texture = send_texture(base_color_texture(material));
                 add_mtl(material, imported);
-                if (numbered_) add_looks(*placed.mesh, material, imported);
+                if (numbered_) add_gltf_material(*placed.mesh, material, imported);
             }
             sender_.send(imported);
         }
@@ -192,7 +191,7 @@ class Conversion {
     }
 
   private:
-    static void add_looks(const aiMesh& mesh, const aiMaterial& material, ImportedMesh& imported) {
+    static void add_gltf_material(const aiMesh& mesh, const aiMaterial& material, ImportedMesh& imported) {
         aiString name;
         if (material.Get(AI_MATKEY_NAME, name) == AI_SUCCESS)
             if (const auto number = material_number(name.C_Str()))
@@ -201,7 +200,7 @@ class Conversion {
         imported.second_coordinates = import_coordinates(mesh, 1);
     }
 
-    // What the material library says that assimp did not read.
+    // Adds statements of the material library that assimp did not read.
     void add_mtl(const aiMaterial& source, ImportedMesh& imported) {
         aiString name;
         if (source.Get(AI_MATKEY_NAME, name) != AI_SUCCESS) return;
@@ -224,7 +223,8 @@ class Conversion {
         const auto moved = [&](float value, std::size_t i) {
             return static_cast<float>(found->color.scale[i] * double{value} + found->color.offset[i]);
         };
-        for (TextureCoordinate& at : imported.mesh.texture_coordinates) at = {moved(at.u, 0), moved(at.v, 1)};
+        for (TextureCoordinate& coordinate : imported.mesh.texture_coordinates)
+            coordinate = {moved(coordinate.u, 0), moved(coordinate.v, 1)};
     }
 
     std::uint32_t send_texture(const std::string& name) {
@@ -242,19 +242,18 @@ class Conversion {
     std::map<std::string, std::uint32_t> textures_;
 };
 
-/// The materials of the libraries that assimp opened. Pictures are named relative to the folder of the mesh; a library
-/// in another folder may name them relative to its own.
+/// Reads the libraries that assimp opened. Picture names are relative to the folder of mesh or library.
 std::vector<MtlMaterial> read_libraries(const FolderFiles& files, const std::filesystem::path& folder,
                                         const std::string& file) {
     std::vector<MtlMaterial> materials;
     for (const std::filesystem::path& path : files.opened())
         if (has_extension(path, {".mtl"})) {
-            const std::filesystem::path own = path.parent_path().lexically_relative(folder);
+            const std::filesystem::path library_folder = path.parent_path().lexically_relative(folder);
             std::vector<MtlMaterial> read = parse_mtl(read_file(path, std::filesystem::file_size(path), file));
             for (MtlMaterial& material : read)
                 for (MtlTexture* map : {&material.color, &material.opacity, &material.emission_map})
-                    if (const std::string beside = (own / map->name).string();
-                        !map->name.empty() && own != "." && find_in_folder(folder, beside))
+                    if (const std::string beside = (library_folder / map->name).string();
+                        !map->name.empty() && library_folder != "." && find_in_folder(folder, beside))
                         map->name = beside;
             materials.insert(materials.end(), read.begin(), read.end());
         }
@@ -267,10 +266,10 @@ const char* const readable = "a mesh file that assimp can read";
     reject_file(file, "needs more memory than a file of its size should", "a smaller or undamaged mesh");
 }
 
-/// A message of assimp in a line, in which the file has no folders.
+/// Reduces a message of assimp to one line without the folder of the file.
 std::string without_folder(std::string message, const std::filesystem::path& path) {
-    for (std::size_t at = 0; (at = message.find(path.string(), at)) != message.npos;)
-        message.replace(at, path.string().size(), path.filename().string());
+    for (std::size_t position = 0; (position = message.find(path.string(), position)) != message.npos;)
+        message.replace(position, path.string().size(), path.filename().string());
     return one_line(message);
 }
 
@@ -279,7 +278,7 @@ void import_or_throw(const std::filesystem::path& path, const std::string& file,
     auto* files = new FolderFiles(path, contents);
     Assimp::Importer importer;
     importer.SetIOHandler(files);
-    // Read by off.cpp. assimp takes any text with "off" near its start for such a file, and counts for true.
+    // off.cpp reads OFF files. assimp's reader accepts any text with "off" near its start, and trusts counts.
     importer.UnregisterLoader(importer.GetImporter("off"));
     const aiScene* source = importer.ReadFile(path.string(), 0);
     if (!source || !source->mRootNode) {
@@ -297,7 +296,7 @@ void import_or_throw(const std::filesystem::path& path, const std::string& file,
         for (const std::string& note : notes_of(*source, !is_obj)) Sender(pipe).send_note(note);
     Conversion(*source, file, is_gltf(path) || numbered, numbered, mtl, pipe)
         .run(max_scene_bytes(files->bytes_opened()));
-    // The process ends: nothing is freed one by one, where a damaged structure would be found.
+    // Exit without freeing objects one by one, which could touch a damaged structure.
     _exit(0);
 }
 

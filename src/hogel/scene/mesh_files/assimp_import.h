@@ -7,12 +7,11 @@
 
 namespace hogel::scene::mesh_files {
 
-/// In a child process: reads a mesh file by assimp and sends what it holds (transfer.h), or the reason why not, into
-/// the pipe. Ends the process.
-/// @param path  canonical
-/// @param file  name of the mesh for messages, as the caller gave it
-/// @param contents  read instead of what the file holds, unless it is empty
-/// @param numbered  whether materials are only the numbers of those of GltfMaterials: of CheckedGltf::contents
+/// Runs in a child process: reads a mesh file by assimp, sends its contents (transfer.h) or an error, and exits.
+/// @param path      canonical
+/// @param file      name of the mesh for messages, as given by the caller
+/// @param contents  replaces the contents of the file unless empty
+/// @param numbered  whether materials are only indices into GltfMaterials, as in CheckedGltf::contents
 [[noreturn]] void import_with_assimp(const std::filesystem::path& path, const std::string& file,
                                      std::string_view contents, bool numbered, int pipe) noexcept;
 

@@ -8,8 +8,8 @@
 
 namespace hogel::scene::mesh_files {
 
-/// What assimp read of a file that hogel does not show; a note each.
-/// @param materials  whether materials are looked at, which for some formats are read elsewhere
+/// Returns a note for each feature of a file that assimp read but hogel does not show.
+/// @param materials  whether to include materials, which are read elsewhere for some formats
 std::vector<std::string> notes_of(const aiScene& scene, bool materials);
 
 }  // namespace hogel::scene::mesh_files

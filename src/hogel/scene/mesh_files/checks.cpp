@@ -46,9 +46,10 @@ std::string read_file(const std::filesystem::path& path, std::uintmax_t size, co
     constexpr std::size_t bytes_between_checks = std::size_t{16} << 20;
     std::string bytes(size, '\0');
     std::ifstream stream(path, std::ios::binary);
-    for (std::size_t at = 0; at < size; at += bytes_between_checks) {
+    for (std::size_t offset = 0; offset < size; offset += bytes_between_checks) {
         core::throw_if_stopped();
-        if (!stream.read(bytes.data() + at, static_cast<std::streamsize>(std::min(bytes_between_checks, size - at))))
+        if (!stream.read(bytes.data() + offset,
+                         static_cast<std::streamsize>(std::min(bytes_between_checks, size - offset))))
             reject_file(file, fmt::format("{} cannot be read", one_line(path.filename().string())), "a readable file");
     }
     if (starts_with_mark(bytes)) bytes.erase(0, 3);

@@ -15,21 +15,21 @@ namespace hogel::scene::mesh_files {
 /// Throws Error(bad_input) "file: what; expected ...".
 [[noreturn]] void reject_file(const std::string& file, const std::string& what, const std::string& expected);
 
-/// Shortens a message of another library to a single line of moderate length.
+/// Shortens a message of another library to one line.
 std::string one_line(const std::string& message);
 
-/// Whether the name ends in one of these, in letters of any case.
+/// Returns whether the name has one of these extensions, ignoring case.
 bool has_extension(const std::filesystem::path& path, std::initializer_list<std::string_view> extensions);
 bool is_gltf(const std::filesystem::path& path);
 bool starts_like_ply(std::string_view bytes);
 
-/// Whether a text begins with the byte order mark of UTF-8, which some editors write.
+/// Returns whether a text begins with the byte order mark of UTF-8.
 bool starts_with_mark(std::string_view bytes);
 
-/// All bytes of a file but such a mark. Throws Error(bad_input), which names `file`.
+/// Reads a file without such a mark. Throws Error(bad_input), naming `file`.
 std::string read_file(const std::filesystem::path& path, std::uintmax_t size, const std::string& file);
 
-/// Throws Error(bad_input) for a file that is missing, not regular, empty or larger than any mesh.
+/// Returns the size. Throws Error(bad_input) for a file that is missing, not regular, empty or larger than 4 GiB.
 std::uintmax_t check_regular_file(const std::filesystem::path& path);
 
 }  // namespace hogel::scene::mesh_files

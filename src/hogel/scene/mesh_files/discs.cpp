@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a point cloud to a mesh of discs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,14 +18,14 @@
 namespace hogel::scene::mesh_files {
 namespace {
 
-constexpr std::size_t neighbours = 8;  // of a plane through a point's surroundings
-constexpr std::size_t radius_of = 6;   // the neighbour whose distance is a disc's radius
+constexpr std::size_t neighbours = 8;  // of a fitted plane
+constexpr std::size_t radius_of = 6;   // index of the neighbour at the distance of a disc's radius
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t points_per_task = 1024;
 
 using Nearest = std::array<std::uint32_t, neighbours>;
 
-/// Points in a tree: each node is a range of a list, cut at the median of its longest side (Bentley's k-d tree, 1975).
+/// k-d tree of points: each node is a range of a list, split at the median of its longest side (Bentley, 1975).
 class PointTree {
   public:
     explicit PointTree(const std::vector<Vec3>& points) : points_(points), order_(points.size()) {
@@ -35,7 +34,7 @@ class PointTree {
         build(0, order_.size());
     }
 
-    /// The nearest other points, nearest first and of equal ones the first; `none` where there are no more.
+    /// Returns the nearest other points, by distance, then index; padded with `none`.
     Nearest nearest(std::uint32_t point) const {
         Found found;
         search(0, order_.size(), point, found);
@@ -46,16 +45,16 @@ class PointTree {
 
   private:
     struct Found {
-        std::array<std::pair<double, std::uint32_t>, neighbours> best;  // squared distance and point, in order
+        std::array<std::pair<double, std::uint32_t>, neighbours> best;  // squared distance and point, sorted
         std::size_t count = 0;
 
         bool is_too_far(double squared) const { return count == neighbours && squared > best.back().first; }
-        void add(const std::pair<double, std::uint32_t>& one) {
-            if (count == neighbours && !(one < best.back())) return;
+        void add(const std::pair<double, std::uint32_t>& candidate) {
+            if (count == neighbours && !(candidate < best.back())) return;
             if (count < neighbours) ++count;
             std::size_t i = count - 1;
-            for (; i > 0 && one < best[i - 1]; --i) best[i] = best[i - 1];
-            best[i] = one;
+            for (; i > 0 && candidate < best[i - 1]; --i) best[i] = best[i - 1];
+            best[i] = candidate;
         }
     };
 
@@ -72,8 +71,8 @@ class PointTree {
         const Vec3 size = high - low;
         const std::uint8_t axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
         const std::size_t middle = begin + (end - begin) / 2;
-        const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-        std::nth_element(at(begin), at(middle), at(end), [&](std::uint32_t a, std::uint32_t b) {
+        const auto iterator = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+        std::nth_element(iterator(begin), iterator(middle), iterator(end), [&](std::uint32_t a, std::uint32_t b) {
             const double pa = along(points_[a], axis), pb = along(points_[b], axis);
             return pa != pb ? pa < pb : a < b;
         });
@@ -88,7 +87,7 @@ class PointTree {
         const std::uint32_t other = order_[middle];
         const Vec3 d = points_[other] - points_[point];
         if (other != point) found.add({dot(d, d), other});
-        const double beyond = -along(d, axes_[middle]);  // how far the point is on the far side of the cut
+        const double beyond = -along(d, axes_[middle]);  // distance of the point beyond the splitting plane
         const bool first_high = beyond > 0;
         if (first_high)
             search(middle + 1, end, point, found);
@@ -103,11 +102,10 @@ class PointTree {
 
     const std::vector<Vec3>& points_;
     std::vector<std::uint32_t> order_;
-    std::vector<std::uint8_t> axes_;  // of the cut at the middle of each node
+    std::vector<std::uint8_t> axes_;  // axis of the split at the middle of each node
 };
 
-/// The direction in which points lie closest together: the eigenvector of the smallest eigenvalue of their covariance,
-/// by Jacobi's rotations.
+/// Returns the direction of least variance, an eigenvector of the covariance, by Jacobi rotations.
 Vec3 thinnest_direction(const std::vector<Vec3>& points) {
     Vec3 mean{0, 0, 0};
     for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
@@ -139,12 +137,12 @@ Vec3 thinnest_direction(const std::vector<Vec3>& points) {
     return {v[0][least], v[1][least], v[2][least]};
 }
 
-/// Turns normals to one side: from the point of each connected part that is farthest from the middle, whose normal
-/// points outwards, along the tree in which the normals of neighbours differ least.
+/// Orients normals consistently: starts at the point of each connected part farthest from the centroid, with an outward
+/// normal, and follows the tree of least normal difference.
 void orient(const std::vector<Vec3>& points, const std::vector<Nearest>& nearest, std::vector<Vec3>& normals) {
     Vec3 middle{0, 0, 0};
     for (const Vec3& p : points) middle += p / static_cast<double>(points.size());
-    std::vector<std::vector<std::uint32_t>> around(points.size());  // both ways
+    std::vector<std::vector<std::uint32_t>> around(points.size());  // symmetric
     for (std::uint32_t i = 0; i < points.size(); ++i)
         for (const std::uint32_t other : nearest[i])
             if (other != none) {
@@ -160,7 +158,7 @@ void orient(const std::vector<Vec3>& points, const std::vector<Nearest>& nearest
     struct Edge {
         double difference;
         std::uint32_t to, from;
-        bool operator<(const Edge& other) const {  // the least difference first
+        bool operator<(const Edge& other) const {  // least difference first
             return difference != other.difference ? difference > other.difference : to > other.to;
         }
     };
@@ -182,7 +180,7 @@ void orient(const std::vector<Vec3>& points, const std::vector<Nearest>& nearest
     }
 }
 
-/// A hexagon across the normal.
+/// Adds a hexagon perpendicular to the normal.
 void add_disc(Vec3 middle, Vec3 normal, double radius, Mesh& mesh) {
     const Vec3 other = std::abs(normal.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
     const Vec3 across = normalize(cross(normal, other)), up = cross(normal, across);
@@ -224,7 +222,7 @@ Mesh discs(const Points& points, double size) {
     Mesh mesh;
     mesh.name = points_name;
     for (std::size_t i = 0; i < count; ++i) {
-        std::size_t last = radius_of;  // of fewer points the farthest
+        std::size_t last = radius_of;  // the farthest, if there are fewer points
         while (last > 1 && nearest[i][last - 1] == none) --last;
         const std::uint32_t far = nearest[i][last - 1];
         const double radius = far == none ? 0 : length(points.positions[far] - points.positions[i]);

@@ -11,9 +11,8 @@
 
 namespace hogel::scene::mesh_files {
 
-/// What KHR_draco_mesh_compression packs of one primitive.
+/// A primitive compressed by KHR_draco_mesh_compression.
 struct DracoMesh {
-    /// The numbers of an accessor.
     struct Values {
         unsigned component_type = 0;  ///< as in glTF
         std::size_t components = 1;   ///< of an element
@@ -25,13 +24,12 @@ struct DracoMesh {
     std::optional<Values> indices;
 };
 
-/// Decodes a stream by libdraco: the bytes of each attribute, and behind these those of the indices. Returns none for a
-/// stream that is damaged or holds other numbers of elements. Called in a child process.
+/// Decodes a stream by libdraco into the bytes of each attribute, followed by those of the indices. Returns nothing if
+/// the stream is damaged or its numbers of elements differ. Called in a child process.
 std::optional<std::vector<std::string>> decode(const DracoMesh& mesh);
 
-/// Gives the accessors of each primitive with KHR_draco_mesh_compression what is packed there, in a buffer of their
-/// own; accessors that have data keep them. Throws Error(bad_input) for streams and numbers that are not as the
-/// extension has them, and Error(not_built_in) where the build lacks the decoder and accessors have no data.
+/// Decodes KHR_draco_mesh_compression into new buffers for accessors without data. Throws Error(bad_input) for
+/// violations of the extension, and Error(not_built_in) in a build without the decoder.
 void unpack_draco(Gltf& gltf);
 
 }  // namespace hogel::scene::mesh_files

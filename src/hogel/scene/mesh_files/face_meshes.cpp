@@ -4,7 +4,7 @@
 namespace hogel::scene::mesh_files {
 namespace {
 
-bool are_equal(const CornerLook& a, const CornerLook& b) {
+bool are_equal(const CornerAttributes& a, const CornerAttributes& b) {
     return a.coordinate.u == b.coordinate.u && a.coordinate.v == b.coordinate.v && a.color == b.color;
 }
 
@@ -23,33 +23,34 @@ Mesh& FaceMeshes::mesh(std::size_t picture) {
     return mesh;
 }
 
-std::uint32_t FaceMeshes::corner(std::size_t vertex, std::size_t picture, const CornerLook& look) {
+std::uint32_t FaceMeshes::corner(std::size_t vertex, std::size_t picture, const CornerAttributes& attributes) {
     if (!from_faces_.any()) return static_cast<std::uint32_t>(vertex);
-    constexpr int max_search = 32;  // so that no file takes quadratic time
+    constexpr int max_search = 32;  // bounds the time, which would be quadratic
     std::uint32_t copy = newest_[vertex];
     for (int i = 0; copy != none && i < max_search; copy = copies_[copy].older, ++i)
-        if (copies_[copy].picture == picture && are_equal(copies_[copy].look, look)) return copies_[copy].index;
+        if (copies_[copy].picture == picture && are_equal(copies_[copy].attributes, attributes))
+            return copies_[copy].index;
     Mesh& to = mesh(picture);
     const auto index = static_cast<std::uint32_t>(to.positions.size());
-    copies_.push_back({look, picture, index, newest_[vertex]});
+    copies_.push_back({attributes, picture, index, newest_[vertex]});
     newest_[vertex] = static_cast<std::uint32_t>(copies_.size() - 1);
-    append(vertex, look, to);
+    append(vertex, attributes, to);
     return index;
 }
 
-void FaceMeshes::append(std::size_t vertex, const CornerLook& look, Mesh& to) const {
+void FaceMeshes::append(std::size_t vertex, const CornerAttributes& attributes, Mesh& to) const {
     const auto copy = [vertex](const auto& from, auto& list) {
         if (!from.empty()) list.push_back(from[vertex]);
     };
     copy(vertices_.positions, to.positions);
     copy(vertices_.normals, to.normals);
-    // What faces have replaces what vertices have.
+    // Attributes of faces replace those of vertices.
     if (from_faces_.colors)
-        to.colors.push_back(look.color);
+        to.colors.push_back(attributes.color);
     else
         copy(vertices_.colors, to.colors);
     if (from_faces_.coordinates)
-        to.texture_coordinates.push_back(look.coordinate);
+        to.texture_coordinates.push_back(attributes.coordinate);
     else
         copy(vertices_.coordinates, to.texture_coordinates);
 }

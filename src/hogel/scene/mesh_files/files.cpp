@@ -31,31 +31,32 @@ std::string percent_decoded(const std::string& text) {
     return decoded;
 }
 
-/// A path in a folder with letters of either case; the first by name where several fit. None: there is none.
+/// Finds a path in a folder ignoring case; the first by name if several match.
 std::optional<std::filesystem::path> find_in_other_case(const std::filesystem::path& folder,
                                                         const std::filesystem::path& name) {
     const auto lower = [](std::string text) {
         std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
         return text;
     };
-    std::filesystem::path at = folder;
+    std::filesystem::path current = folder;
     for (const std::filesystem::path& part : name) {
         std::error_code error;
-        if (std::filesystem::exists(at / part, error)) {
-            at /= part;
+        if (std::filesystem::exists(current / part, error)) {
+            current /= part;
             continue;
         }
         std::optional<std::filesystem::path> found;
-        for (std::filesystem::directory_iterator entry(at, error), end; !error && entry != end; entry.increment(error))
+        for (std::filesystem::directory_iterator entry(current, error), end; !error && entry != end;
+             entry.increment(error))
             if (lower(entry->path().filename().string()) == lower(part.string()) && (!found || entry->path() < *found))
                 found = entry->path();
         if (!found) return std::nullopt;
-        at = *found;
+        current = *found;
     }
-    return at;
+    return current;
 }
 
-/// The regular file that a path leads to, if it is in the folder or below.
+/// Returns the regular file of a path if it is in the folder or below.
 std::optional<std::filesystem::path> regular_file(const std::filesystem::path& folder,
                                                   const std::filesystem::path& path) {
     std::error_code error;
@@ -66,7 +67,7 @@ std::optional<std::filesystem::path> regular_file(const std::filesystem::path& f
     return real;
 }
 
-/// A file without the byte order mark of UTF-8 that it begins with; null for one that does not begin so.
+/// Opens a file without its UTF-8 byte order mark; null if it has none.
 Assimp::IOStream* open_without_mark(const std::filesystem::path& path) {
     std::string start(3, '\0');
     std::ifstream(path, std::ios::binary).read(start.data(), 3);
@@ -94,7 +95,7 @@ std::optional<std::filesystem::path> find_in_folder(const std::filesystem::path&
     return std::nullopt;
 }
 
-/// assimp asks for paths that begin with the folder.
+/// assimp requests paths that begin with the folder.
 std::optional<std::filesystem::path> FolderFiles::find(const char* file) const {
     const std::filesystem::path path(file);
     const auto [in_folder, rest] = std::mismatch(folder_.begin(), folder_.end(), path.begin(), path.end());
@@ -115,7 +116,7 @@ Assimp::IOStream* FolderFiles::Open(const char* file, const char* mode) {
         const std::uintmax_t size = std::filesystem::file_size(*real, error);
         if (error) return nullptr;
         bytes_ += size;
-        // The limits begin with those for the first file, which is the mesh itself.
+        // The initial limits include the first file, the mesh itself.
         if (opened_.size() > 1) core::ChildProcess::raise_limits(further_limits(size));
     }
     if (*real == mesh_ && !contents_.empty())

@@ -11,25 +11,24 @@
 
 namespace hogel::scene::mesh_files {
 
-/// The file that a mesh file means by a relative path or URI ("my%20wood.png" is "my wood.png" where no file has the
-/// undecoded name), after following symbolic links: a regular file in the folder or below, or none. Where there is no
-/// such file, letters may be of the other case. Paths in a mesh file are not trusted.
+/// Resolves an untrusted relative path or URI to a regular file in the folder or below, following symbolic links. Tries
+/// the name, then URI decoding ("my%20wood.png"), then other case. Returns nothing if there is no such file.
 /// @param folder  canonical
 std::optional<std::filesystem::path> find_in_folder(const std::filesystem::path& folder, const std::string& name);
 
-/// Restricts assimp to regular files in one folder and below, in the child process that it runs in.
-/// With each file that it opens, the child may use more memory and time: in proportion to what there is to read.
+/// File access of assimp, restricted to regular files in one folder and below, in the child process. Raises the child's
+/// memory and time limits in proportion to the size of each opened file.
 class FolderFiles final : public Assimp::DefaultIOSystem {
   public:
-    /// @param mesh      the file that assimp is to read, canonical
-    /// @param contents  what is read instead of what that file holds, unless it is empty; lives longer than this
+    /// @param mesh      the mesh file, canonical
+    /// @param contents  replaces the contents of that file unless empty; must outlive this
     FolderFiles(const std::filesystem::path& mesh, std::string_view contents)
         : folder_(mesh.parent_path()), mesh_(mesh), contents_(contents) {}
     bool Exists(const char* file) const override;
     Assimp::IOStream* Open(const char* file, const char* mode) override;
 
     const std::set<std::filesystem::path>& opened() const { return opened_; }
-    /// Bytes of all files opened, each counted once.
+    /// Bytes of all opened files, each counted once.
     std::uint64_t bytes_opened() const { return bytes_; }
 
   private:

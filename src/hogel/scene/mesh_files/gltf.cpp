@@ -16,8 +16,7 @@
 namespace hogel::scene::mesh_files {
 namespace {
 
-// Extensions that a file may require: those that hogel shows, and those of looks that a note names. Packed
-// pictures are not among them.
+// Extensions that a file may require: supported, or reported in a note. No compressed pictures.
 constexpr std::array supported_extensions{
     "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression",   "EXT_texture_webp",
     "KHR_draco_mesh_compression", "KHR_lights_punctual",       "KHR_materials_anisotropy",
@@ -27,13 +26,13 @@ constexpr std::array supported_extensions{
     "KHR_materials_unlit",        "KHR_materials_variants",    "KHR_materials_volume",
     "KHR_mesh_quantization",      "KHR_texture_transform",     "KHR_xmp_json_ld"};
 
-std::uint32_t read_u32(std::string_view bytes, std::size_t at) {
+std::uint32_t read_u32(std::string_view bytes, std::size_t offset) {
     std::uint32_t value = 0;  // little-endian, like this machine
-    std::memcpy(&value, bytes.data() + at, sizeof value);
+    std::memcpy(&value, bytes.data() + offset, sizeof value);
     return value;
 }
 
-/// A value as a message shows it.
+/// Formats a value for a message.
 std::string shown(const Json& value) {
     constexpr std::size_t longest = 40;
     if (value.is_structured()) return value.is_array() ? "an array" : "an object";
@@ -41,8 +40,7 @@ std::string shown(const Json& value) {
     return text.size() > longest ? text.substr(0, longest) + " ..." : text;
 }
 
-/// The JSON part of a .gltf or .glb file. Throws unless the chunks of a .glb file are inside it, because assimp
-/// allocates the sizes that they state.
+/// Returns the JSON part. Throws unless .glb chunks are inside the file: assimp allocates their stated sizes.
 std::string_view split_chunks(std::string_view bytes, Gltf& gltf) {
     gltf.is_binary = bytes.starts_with("glTF");
     if (!gltf.is_binary) return bytes;
@@ -54,13 +52,13 @@ std::string_view split_chunks(std::string_view bytes, Gltf& gltf) {
         reject_file(gltf.file, fmt::format("is a .glb file of version {}", read_u32(bytes, 4)), "version 2");
     std::string_view json;
     std::size_t chunk = 0;
-    for (std::size_t at = 12; at < bytes.size(); ++chunk) {
-        const std::size_t left = bytes.size() - at;
-        const std::uint32_t size = left >= 8 ? read_u32(bytes, at) : 0;
-        if (left < 8 || size > left - 8)
-            reject_file(gltf.file, fmt::format("a chunk of {} bytes at byte {}", size, at),
+    for (std::size_t offset = 12; offset < bytes.size(); ++chunk) {
+        const std::size_t remaining = bytes.size() - offset;
+        const std::uint32_t size = remaining >= 8 ? read_u32(bytes, offset) : 0;
+        if (remaining < 8 || size > remaining - 8)
+            reject_file(gltf.file, fmt::format("a chunk of {} bytes at byte {}", size, offset),
                         "one that ends in the file");
-        const std::string_view type = bytes.substr(at + 4, 4), content = bytes.substr(at + 8, size);
+        const std::string_view type = bytes.substr(offset + 4, 4), content = bytes.substr(offset + 8, size);
         if (chunk == 0 && (type != "JSON" || size % 4 != 0))
             reject_file(gltf.file, "does not begin with a JSON chunk of whole words", "a .glb file");
         if (chunk == 0) json = content;
@@ -68,7 +66,7 @@ std::string_view split_chunks(std::string_view bytes, Gltf& gltf) {
             gltf.binary = content;
             gltf.has_binary = true;
         }
-        at += 8 + std::size_t{size};
+        offset += 8 + std::size_t{size};
     }
     return json;
 }
@@ -93,9 +91,8 @@ void check_extensions(const Gltf& gltf) {
                         "a file that needs no such extension; convert it, for instance without compression");
 }
 
-/// What moves a model, cameras, lights and looks, which assimp is not to read (read_materials() does). It crashes on
-/// skins that lack what glTF does not ask for, and numbers materials in an order of its own; so each gets its number as
-/// name.
+/// Removes the parts that assimp must not read (see read_materials()). assimp crashes on skins without optional parts,
+/// and reorders materials: their names become their indices.
 void drop_unused(Json& json) {
     for (const char* name : {"animations", "cameras", "skins", "textures", "images", "samplers", "extensions",
                              "extensionsUsed", "extensionsRequired"})
@@ -116,12 +113,12 @@ void drop_unused(Json& json) {
     }
 }
 
-/// The texts in asset.extras.hogel. Other programs may keep what they like there, which is passed over.
+/// Returns the texts in asset.extras.hogel; ignores other contents.
 Metadata stored_provenance(const Json& json) {
     Metadata provenance;
-    const Json::json_pointer place("/asset/extras/hogel");
-    if (!json.contains(place) || !json[place].is_object()) return provenance;
-    for (const auto& [key, text] : json[place].items())
+    const Json::json_pointer location("/asset/extras/hogel");
+    if (!json.contains(location) || !json[location].is_object()) return provenance;
+    for (const auto& [key, text] : json[location].items())
         if (text.is_string()) provenance.emplace_back(key, text.get<std::string>());
     return provenance;
 }
@@ -131,7 +128,7 @@ void append_chunk(std::string& bytes, std::string_view type, std::string_view co
     bytes.append(reinterpret_cast<const char*>(&size), sizeof size).append(type).append(content);
 }
 
-/// The file anew, as a .glb file if it was one.
+/// Reassembles the file, as .glb if it was one.
 std::string assemble(const Gltf& gltf) {
     std::string json = gltf.json.dump();
     if (!gltf.is_binary) return json;
@@ -160,7 +157,7 @@ std::optional<std::size_t> material_number(std::string_view name) {
 }
 
 bool is_known_extension(const std::string& name) {
-    // Of KHR_texture_basisu the document itself holds what to show without it.
+    // For KHR_texture_basisu the document contains the fallback.
     return std::ranges::count(supported_extensions, name) > 0 || name == "KHR_texture_basisu";
 }
 
@@ -182,15 +179,15 @@ const Json& Gltf::object(const Json& array, std::size_t i, const std::string& wh
 }
 
 std::uint64_t Gltf::number(const Json& object, const std::string& where, const char* name, std::uint64_t max,
-                           std::optional<std::uint64_t> otherwise) const {
+                           std::optional<std::uint64_t> fallback) const {
     const auto found = object.find(name);
-    const std::string place = where + "." + name;
+    const std::string location = where + "." + name;
     if (found == object.end()) {
-        if (!otherwise) reject(place, "missing", "a whole number");
-        return *otherwise;
+        if (!fallback) reject(location, "missing", "a whole number");
+        return *fallback;
     }
     if (!found->is_number_unsigned() || found->get<std::uint64_t>() > max)
-        reject(place, "is " + shown(*found), fmt::format("a whole number from 0 to {}", max));
+        reject(location, "is " + shown(*found), fmt::format("a whole number from 0 to {}", max));
     return *found;
 }
 
@@ -218,8 +215,7 @@ Gltf parse_gltf(const std::string& file, const std::filesystem::path& folder, st
     return gltf;
 }
 
-// assimp 5.2 drops faces with indices that do not exist, wraps offsets around, allocates what counts and indexed names
-// announce, and walks trees recursively.
+// assimp 5.2 drops faces with bad indices, wraps offsets, allocates untrusted counts and recurses over trees.
 CheckedGltf check_gltf(const std::string& file, const std::filesystem::path& folder, std::string_view bytes) {
     Gltf gltf = parse_gltf(file, folder, bytes);
     if (!gltf.is_version_2) return {};
@@ -232,7 +228,7 @@ CheckedGltf check_gltf(const std::string& file, const std::filesystem::path& fol
         const std::vector<GltfAccessor> accessors = check_accessors(gltf, buffers);
         check_primitives(gltf, accessors);
         check_nodes(gltf);
-        checked.looks = read_materials(gltf, buffers);
+        checked.materials = read_materials(gltf, buffers);
         place_instances(gltf, accessors);
         make_floats(gltf, accessors);
     }

@@ -15,43 +15,43 @@ namespace hogel::scene::mesh_files {
 
 using Json = nlohmann::json;
 
-/// A glTF file as far as it is checked before assimp reads it. All functions throw Error(bad_input), which names the
-/// place in the document, such as "accessors[3].byteOffset", and what was expected there.
+/// A glTF file, checked before assimp reads it. All functions throw Error(bad_input), naming the position in the
+/// document, such as "accessors[3].byteOffset", and the expected value.
 struct Gltf {
     std::string file;              ///< name for messages
-    std::filesystem::path folder;  ///< canonical; buffers lie in it or below
+    std::filesystem::path folder;  ///< canonical; contains the buffers
     std::uint64_t file_size = 0;
     Json json;                  ///< an object
     std::string_view binary;    ///< the BIN chunk of a .glb file
     bool is_binary = false;     ///< whether it is a .glb file
     bool has_binary = false;    ///< whether there is a BIN chunk
-    bool is_version_2 = false;  ///< assimp reads version 1 too, whose documents are built otherwise
+    bool is_version_2 = false;  ///< assimp also reads version 1, with another structure
 
-    /// An array of the document; an empty one where it is missing.
+    /// Returns an array of the document; empty if missing.
     const Json& list(const char* name) const;
-    /// A whole number from 0 to `max` of an object; `otherwise`, if any, where it is missing.
+    /// Returns an integer from 0 to `max` of an object, or `fallback`, if given, if it is missing.
     std::uint64_t number(const Json& object, const std::string& where, const char* name, std::uint64_t max,
-                         std::optional<std::uint64_t> otherwise = std::nullopt) const;
-    /// The number of an element of list(name); none where it is missing.
+                         std::optional<std::uint64_t> fallback = std::nullopt) const;
+    /// Returns the index of an element of list(name); nothing if missing.
     std::optional<std::size_t> reference(const Json& object, const std::string& where, const char* name,
                                          const char* list) const;
-    /// The object that an element of an array is.
+    /// Returns an element of an array, which must be an object.
     const Json& object(const Json& array, std::size_t i, const std::string& where) const;
 
     [[noreturn]] void reject(const std::string& where, const std::string& what, const std::string& expected) const;
 };
 
-/// Splits a .glb file, parses the document without trusting its depth, and refuses keys that occur twice in an object
-/// (readers differ in which they take), versions and required extensions that are not supported.
-/// @param bytes  the whole file, which must live as long as the result
+/// Splits a .glb file, parses the document without trusting its depth, and rejects duplicate keys (readers differ in
+/// their choice), unsupported versions and unsupported required extensions.
+/// @param bytes  the complete file; must outlive the result
 Gltf parse_gltf(const std::string& file, const std::filesystem::path& folder, std::string_view bytes);
 
-/// The bytes of all buffers, each at least as long as it says.
+/// The bytes of all buffers, each at least as long as stated.
 class GltfBuffers {
   public:
     explicit GltfBuffers(const Gltf& gltf);
     std::string_view operator[](std::size_t i) const { return buffers_[i]; }
-    /// The bytes that there are. Buffers may share them.
+    /// Total size of the data, which buffers may share.
     std::uint64_t bytes() const { return bytes_; }
 
   private:
@@ -63,28 +63,28 @@ class GltfBuffers {
     std::vector<std::pair<std::filesystem::path, std::string_view>> files_;
 };
 
-/// An accessor whose elements lie inside its buffers.
+/// An accessor with elements inside its buffers.
 struct GltfAccessor {
     std::string type;  ///< such as "VEC3"
     unsigned component_type = 0;
     std::size_t component_size = 0, element_size = 0, stride = 0;
     std::uint64_t count = 0;
     std::string_view data;                ///< from the first element; empty: zeros
-    std::vector<std::uint64_t> replaced;  ///< sparse: numbers of elements
+    std::vector<std::uint64_t> replaced;  ///< sparse: indices of elements
     std::string_view replacements;        ///< sparse: their values
     static constexpr unsigned f32 = 5126, u8 = 5121, u16 = 5123, u32 = 5125;
 
-    /// The elements of a scalar accessor of whole numbers.
+    /// Returns the elements of a scalar integer accessor.
     std::vector<std::uint32_t> whole_numbers() const;
-    /// The components of all elements, one element after the other.
-    /// @param normalized  whether whole numbers are shares of the largest of their type
+    /// Returns the components of all elements, interleaved.
+    /// @param normalized  whether integers are fractions of the maximum of their type
     std::vector<float> floats(bool normalized) const;
 };
 
-/// Bytes of a component of a type as glTF numbers them; 0 for a type that does not exist.
+/// Returns the size in bytes of a glTF component type; 0 for an unknown type.
 std::size_t component_size(unsigned type);
 
-/// What an accessor says of its elements: their type, size and number; no data.
+/// Returns the type, size and number of an accessor's elements, without data.
 GltfAccessor read_accessor_type(const Gltf& gltf, const Json& object, const std::string& where);
 
 /// Checks views and accessors: sizes, offsets, alignment, strides, sparse elements.
@@ -93,24 +93,22 @@ std::vector<GltfAccessor> check_accessors(const Gltf& gltf, const GltfBuffers& b
 /// Checks the attributes and indices of all primitives.
 void check_primitives(const Gltf& gltf, const std::vector<GltfAccessor>& accessors);
 
-/// The bytes of a "data:" URI. Throws for one without data or in wrong base64.
+/// Returns the bytes of a "data:" URI. Throws if it has no data or invalid base64.
 std::string decode_data_uri(const Gltf& gltf, const std::string& uri, const std::string& where);
 
-/// A "data:" URI of bytes.
+/// Returns a "data:" URI of bytes.
 std::string data_uri(std::string_view bytes);
 
-/// Whether hogel shows what an extension adds, or says that it does not.
+/// Returns whether hogel supports an extension or reports it in a note.
 bool is_known_extension(const std::string& name);
 
-/// Makes of each node with EXT_mesh_gpu_instancing one node for each instance. Nodes and accessors must have been
-/// checked.
+/// Replaces each node with EXT_mesh_gpu_instancing by one node per instance. Requires checked nodes and accessors.
 void place_instances(Gltf& gltf, const std::vector<GltfAccessor>& accessors);
 
-/// Makes floats of positions, normals and texture coordinates that are stored as whole numbers, which assimp 5.2 takes
-/// for the bytes of floats.
+/// Converts integer positions, normals and texture coordinates to floats; assimp 5.2 reads their bytes as floats.
 void make_floats(Gltf& gltf, const std::vector<GltfAccessor>& accessors);
 
-/// Checks that nodes form strict trees that are not too deep, and that scenes name no node twice.
+/// Checks that nodes form strict trees of limited depth, and that scenes list no node twice.
 void check_nodes(const Gltf& gltf);
 
 }  // namespace hogel::scene::mesh_files

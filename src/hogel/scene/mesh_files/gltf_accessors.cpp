@@ -19,7 +19,7 @@ constexpr std::uint64_t max_size = ~std::uint32_t{0};
 struct View {
     std::string_view data;
     std::size_t offset = 0;  ///< in its buffer
-    std::size_t stride = 0;  ///< 0: elements follow each other
+    std::size_t stride = 0;  ///< 0: contiguous elements
 };
 
 struct ElementType {
@@ -63,7 +63,7 @@ GltfAccessor read_accessor_type(const Gltf& gltf, const Json& object, const std:
         gltf.reject(where + ".type", "is unknown", "SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4");
     accessor.type = found->name;
     std::size_t column = found->rows * accessor.component_size;
-    if (found->columns > 1) column = (column + 3) / 4 * 4;  // columns of matrices begin at whole words
+    if (found->columns > 1) column = (column + 3) / 4 * 4;  // matrix columns are aligned to 4 bytes
     accessor.element_size = found->columns * column;
     accessor.count = gltf.number(object, where, "count", max_size);
     if (accessor.count == 0) gltf.reject(where + ".count", "is 0", "at least 1");
@@ -72,13 +72,13 @@ GltfAccessor read_accessor_type(const Gltf& gltf, const Json& object, const std:
 
 namespace {
 
-std::uint64_t read_whole_number(const char* at, std::size_t size) {
+std::uint64_t read_whole_number(const char* bytes, std::size_t size) {
     std::uint64_t value = 0;  // little-endian, like this machine
-    std::memcpy(&value, at, size);
+    std::memcpy(&value, bytes, size);
     return value;
 }
 
-/// Offsets are multiples of the components' size, in the view and in the buffer.
+/// Throws unless offsets in the view and in the buffer are multiples of the component size.
 void check_alignment(const Gltf& gltf, const std::string& where, std::size_t offset, const View& view,
                      std::size_t size) {
     if (offset % size != 0 || (view.offset + offset) % size != 0)
@@ -108,7 +108,7 @@ class Accessors {
                     "a larger byteStride of its view");
             accessor.data = part(where, view, offset, accessor.count, accessor.stride, accessor.element_size);
         } else if (accessor.count > gltf_.file_size) {
-            // Without data its elements are zero, so that a few bytes could request any number of them.
+            // Elements without data are zeros, of which a few bytes could request any number.
             gltf_.reject(where, fmt::format("has {} elements without data", accessor.count),
                          "no more than the file has bytes");
         }
@@ -159,34 +159,34 @@ class Accessors {
     void read_sparse(const Json& object, const std::string& where, GltfAccessor& accessor) {
         const auto sparse = object.find("sparse");
         if (sparse == object.end()) return;
-        const std::string place = where + ".sparse";
-        if (!sparse->is_object()) gltf_.reject(place, "is not an object", "one");
-        const std::uint64_t count = gltf_.number(*sparse, place, "count", accessor.count);
-        if (count == 0) gltf_.reject(place + ".count", "is 0", "at least 1");
-        // Thousands of accessors of the same indices would be thousands of copies.
+        const std::string location = where + ".sparse";
+        if (!sparse->is_object()) gltf_.reject(location, "is not an object", "one");
+        const std::uint64_t count = gltf_.number(*sparse, location, "count", accessor.count);
+        if (count == 0) gltf_.reject(location + ".count", "is 0", "at least 1");
+        // Limit the copies of shared indices by thousands of accessors.
         sparse_count_ += count;
         if (sparse_count_ > max_shared * buffer_bytes_)
-            gltf_.reject(place, fmt::format("and those before it replace {} elements", sparse_count_),
+            gltf_.reject(location, fmt::format("and those before it replace {} elements", sparse_count_),
                          fmt::format("at most {} times the {} bytes of all buffers", max_shared, buffer_bytes_));
-        const View& indices = sparse_view(*sparse, place, "indices");
-        const View& values = sparse_view(*sparse, place, "values");
+        const View& indices = sparse_view(*sparse, location, "indices");
+        const View& values = sparse_view(*sparse, location, "values");
         const Json &index = (*sparse)["indices"], &value = (*sparse)["values"];
-        const std::string at = place + ".indices", value_at = place + ".values";
-        const auto type = static_cast<unsigned>(gltf_.number(index, at, "componentType", max_size));
+        const std::string index_location = location + ".indices", value_location = location + ".values";
+        const auto type = static_cast<unsigned>(gltf_.number(index, index_location, "componentType", max_size));
         if (type != GltfAccessor::u8 && type != GltfAccessor::u16 && type != GltfAccessor::u32)
-            gltf_.reject(at + ".componentType", fmt::format("is {}", type), "5121, 5123 or 5125");
+            gltf_.reject(index_location + ".componentType", fmt::format("is {}", type), "5121, 5123 or 5125");
         const std::size_t size = component_size(type);
-        const std::uint64_t offset = gltf_.number(index, at, "byteOffset", max_size, 0);
-        const std::uint64_t value_offset = gltf_.number(value, value_at, "byteOffset", max_size, 0);
-        check_alignment(gltf_, at, offset, indices, size);
-        check_alignment(gltf_, value_at, value_offset, values, accessor.component_size);
-        const std::string_view numbers = part(at, indices, offset, count, size, size);
+        const std::uint64_t offset = gltf_.number(index, index_location, "byteOffset", max_size, 0);
+        const std::uint64_t value_offset = gltf_.number(value, value_location, "byteOffset", max_size, 0);
+        check_alignment(gltf_, index_location, offset, indices, size);
+        check_alignment(gltf_, value_location, value_offset, values, accessor.component_size);
+        const std::string_view numbers = part(index_location, indices, offset, count, size, size);
         accessor.replacements =
-            part(value_at, values, value_offset, count, accessor.element_size, accessor.element_size);
+            part(value_location, values, value_offset, count, accessor.element_size, accessor.element_size);
         for (std::uint64_t i = 0; i < count; ++i) {
             const std::uint64_t number = read_whole_number(numbers.data() + i * size, size);
             if (number >= accessor.count || (i > 0 && number <= accessor.replaced.back()))
-                gltf_.reject(at, fmt::format("has element {} at place {}", number, i),
+                gltf_.reject(index_location, fmt::format("has element {} at place {}", number, i),
                              fmt::format("increasing numbers less than {}", accessor.count));
             accessor.replaced.push_back(number);
         }

@@ -24,15 +24,15 @@ std::optional<std::string> decode_base64(std::string_view text) {
     for (int i = 0; i < 2 && text.ends_with('='); ++i) text.remove_suffix(1);
     std::string bytes;
     bytes.reserve(text.size() / 4 * 3 + 2);
-    unsigned bits = 0, held = 0;
+    unsigned bits = 0, bit_count = 0;
     for (const char c : text) {
         const auto value = digit(c);
         if (!value) return std::nullopt;
         bits = (bits << 6 | *value) & 0xffff;
-        held += 6;
-        if (held < 8) continue;
-        held -= 8;
-        bytes += static_cast<char>(bits >> held & 0xff);
+        bit_count += 6;
+        if (bit_count < 8) continue;
+        bit_count -= 8;
+        bytes += static_cast<char>(bits >> bit_count & 0xff);
     }
     return bytes;
 }

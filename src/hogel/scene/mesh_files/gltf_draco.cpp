@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Primitives that are packed: KHR_draco_mesh_compression.
+// Decoding of KHR_draco_mesh_compression.
 #include <fmt/format.h>
 
 #include "hogel/core/child_process.h"
@@ -14,11 +14,11 @@ namespace {
 
 constexpr const char* draco_extension = "KHR_draco_mesh_compression";
 
-/// A primitive whose accessors have no data.
+/// A primitive with accessors without data.
 struct PackedPrimitive {
     std::string where;
     DracoMesh mesh;
-    std::vector<std::size_t> accessors;  ///< of the attributes, and behind these of the indices
+    std::vector<std::size_t> accessors;  ///< of the attributes, followed by that of the indices
 
     std::uint64_t bytes(std::size_t list) const {
         const DracoMesh::Values& values = list < mesh.attributes.size() ? mesh.attributes[list] : mesh.indices.value();
@@ -41,13 +41,13 @@ std::string_view packed_bytes(const Gltf& gltf, const GltfBuffers& buffers, cons
                               const std::string& where) {
     const auto number = gltf.reference(packed, where, "bufferView", "bufferViews");
     if (!number) gltf.reject(where + ".bufferView", "missing", "the number of a view");
-    const std::string place = fmt::format("bufferViews[{}]", *number);
-    const Json& view = gltf.object(gltf.list("bufferViews"), *number, place);
-    const auto buffer = gltf.reference(view, place, "buffer", "buffers");
-    if (!buffer) gltf.reject(place + ".buffer", "missing", "the number of a buffer");
+    const std::string location = fmt::format("bufferViews[{}]", *number);
+    const Json& view = gltf.object(gltf.list("bufferViews"), *number, location);
+    const auto buffer = gltf.reference(view, location, "buffer", "buffers");
+    if (!buffer) gltf.reject(location + ".buffer", "missing", "the number of a buffer");
     const std::string_view data = buffers[*buffer];
-    const std::uint64_t offset = gltf.number(view, place, "byteOffset", data.size(), 0);
-    return data.substr(offset, gltf.number(view, place, "byteLength", data.size() - offset));
+    const std::uint64_t offset = gltf.number(view, location, "byteOffset", data.size(), 0);
+    return data.substr(offset, gltf.number(view, location, "byteLength", data.size() - offset));
 }
 
 PackedPrimitive read_primitive(const Gltf& gltf, const GltfBuffers& buffers, const Json& primitive, const Json& packed,
@@ -84,13 +84,13 @@ bool has_data(const Gltf& gltf, const Json& primitive) {
     return true;
 }
 
-/// Calls `visit` with each packed primitive, its extension, and where it is.
+/// Calls `visit` with each compressed primitive, its extension, and its position.
 template <class Visit>
 void for_packed(const Gltf& gltf, const Visit& visit) {
     const Json& meshes = gltf.list("meshes");
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         const auto list = gltf.object(meshes, i, fmt::format("meshes[{}]", i)).find("primitives");
-        if (list == meshes[i].end() || !list->is_array()) continue;  // check_primitives() refuses it
+        if (list == meshes[i].end() || !list->is_array()) continue;  // check_primitives() rejects it
         for (std::size_t k = 0; k < list->size(); ++k) {
             const std::string where = fmt::format("meshes[{}].primitives[{}]", i, k);
             const Json& primitive = gltf.object(*list, k, where);
@@ -115,20 +115,20 @@ std::vector<std::vector<std::string>> decode_in_child(const Gltf& gltf,
         }
     };
     const auto receive = [&](core::ChildProcess& child) {
-        std::vector<std::vector<std::string>> all;
+        std::vector<std::vector<std::string>> decoded;
         for (const PackedPrimitive& primitive : primitives) {
             char is_whole = 0;
             child.read(&is_whole, 1);
             if (is_whole == 0)
                 gltf.reject(primitive.where, "is damaged or holds other numbers of vertices and indices",
                             "a stream of what its accessors announce");
-            std::vector<std::string>& lists = all.emplace_back();
+            std::vector<std::string>& lists = decoded.emplace_back();
             for (std::size_t i = 0; i < primitive.accessors.size(); ++i) {
                 lists.emplace_back(primitive.bytes(i), '\0');
                 child.read(lists.back().data(), lists.back().size());
             }
         }
-        return all;
+        return decoded;
     };
     try {
         return core::with_child(child_limits(bytes), work, receive);
@@ -138,7 +138,6 @@ std::vector<std::vector<std::string>> decode_in_child(const Gltf& gltf,
     }
 }
 
-/// Gives an accessor data of its own.
 void set_data(Gltf& gltf, std::size_t accessor, const std::string& bytes) {
     Json& views = gltf.json["bufferViews"];
     Json& object = gltf.json["accessors"][accessor];

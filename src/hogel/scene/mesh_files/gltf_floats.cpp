@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Attributes stored as whole numbers: texture coordinates, and with KHR_mesh_quantization positions and normals.
+// Conversion of integer attributes: texture coordinates, and with KHR_mesh_quantization positions and normals.
 #include <fmt/format.h>
 
 #include <cstring>
@@ -23,7 +23,7 @@ std::string encode_base64(std::string_view bytes) {
     return text;
 }
 
-/// An accessor of floats with the values of another one, in a buffer of its own. Returns its number.
+/// Adds an accessor with the values of another one converted to floats. Returns its index.
 std::size_t add_floats(Gltf& gltf, const GltfAccessor& accessor, std::size_t number) {
     Json& json = gltf.json;
     const Json& old = json["accessors"][number];
@@ -36,7 +36,7 @@ std::size_t add_floats(Gltf& gltf, const GltfAccessor& accessor, std::size_t num
                {"bufferView", json["bufferViews"].size()}};
     json["bufferViews"].push_back({{"buffer", json["buffers"].size()}, {"byteLength", bytes.size()}});
     json["buffers"].push_back({{"byteLength", bytes.size()}, {"uri", data_uri(bytes)}});
-    if (accessor.type == "VEC3") {  // positions must have bounds, which nobody looks at
+    if (accessor.type == "VEC3") {  // positions require bounds, but no reader uses them
         added["min"] = {0, 0, 0};
         added["max"] = {0, 0, 0};
     }

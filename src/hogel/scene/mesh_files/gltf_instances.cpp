@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Copies of a mesh at many places: EXT_mesh_gpu_instancing.
+// Mesh instances: EXT_mesh_gpu_instancing.
 #include <fmt/format.h>
 
 #include <optional>
@@ -20,29 +20,29 @@ struct Attribute {
 constexpr std::array attributes{Attribute{"TRANSLATION", "translation", "VEC3"},
                                 Attribute{"ROTATION", "rotation", "VEC4"}, Attribute{"SCALE", "scale", "VEC3"}};
 
-/// A node for each instance of a node, under that node.
+/// Returns a child node for each instance of a node.
 std::vector<Json> instances_of(const Gltf& gltf, const Json& extension, const std::string& where, const Json& mesh,
                                const std::vector<GltfAccessor>& accessors) {
     static const Json none = Json::object();
-    const Json* given = find_object(gltf, extension, where, {"attributes"});
-    if (given == nullptr) given = &none;
+    const Json* attribute_accessors = find_object(gltf, extension, where, {"attributes"});
+    if (attribute_accessors == nullptr) attribute_accessors = &none;
     std::vector<Json> instances;
     std::optional<std::uint64_t> count;
     for (const Attribute& attribute : attributes) {
-        const auto number = gltf.reference(*given, where + ".attributes", attribute.name, "accessors");
+        const auto number = gltf.reference(*attribute_accessors, where + ".attributes", attribute.name, "accessors");
         if (!number) continue;
         const GltfAccessor& accessor = accessors[*number];
-        const std::string place = where + ".attributes." + attribute.name;
-        if (accessor.type != attribute.type) gltf.reject(place, "is " + accessor.type, attribute.type);
+        const std::string location = where + ".attributes." + attribute.name;
+        if (accessor.type != attribute.type) gltf.reject(location, "is " + accessor.type, attribute.type);
         if (count && accessor.count != *count)
-            gltf.reject(place, fmt::format("has {} elements", accessor.count),
+            gltf.reject(location, fmt::format("has {} elements", accessor.count),
                         fmt::format("{}, as the other attributes", *count));
         if (accessor.count > max_instances)
-            gltf.reject(place, fmt::format("has {} elements", accessor.count),
+            gltf.reject(location, fmt::format("has {} elements", accessor.count),
                         fmt::format("at most {}", max_instances));
         count = accessor.count;
         instances.resize(accessor.count, Json{{"mesh", mesh}});
-        const std::vector<float> values = accessor.floats(true);  // of whole numbers only rotations
+        const std::vector<float> values = accessor.floats(true);  // the only integer attributes are rotations
         const std::size_t size = values.size() / accessor.count;
         for (std::size_t i = 0; i < accessor.count; ++i)
             instances[i][attribute.property] =
@@ -64,13 +64,13 @@ void place_instances(Gltf& gltf, const std::vector<GltfAccessor>& accessors) {
         if (extension == nullptr || !node.contains("mesh")) continue;
         std::vector<Json> instances =
             instances_of(gltf, *extension, where + ".extensions.EXT_mesh_gpu_instancing", node["mesh"], accessors);
-        Json& all = gltf.json["nodes"];
-        if (all.size() + instances.size() > nodes + max_instances)
+        Json& all_nodes = gltf.json["nodes"];
+        if (all_nodes.size() + instances.size() > nodes + max_instances)
             gltf.reject(where, "has too many instances with those before it", fmt::format("at most {}", max_instances));
-        all[i].erase("mesh");
+        all_nodes[i].erase("mesh");
         for (Json& instance : instances) {
-            all[i]["children"].push_back(all.size());
-            all.push_back(std::move(instance));
+            all_nodes[i]["children"].push_back(all_nodes.size());
+            all_nodes.push_back(std::move(instance));
         }
     }
 }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights of glTF files (KHR_lights_punctual), and notes of what is not shown.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -42,7 +41,7 @@ Affine transform_of(const Gltf& gltf, const Json& node, const std::string& where
             {t[0], t[1], t[2]}};
 }
 
-/// The unit direction in which a light or a camera of a node looks.
+/// Returns the unit viewing or light direction of a node.
 Vec3 forward(const Gltf& gltf, const std::string& where, const Affine& to_world) {
     const Vec3 direction = -to_world.axes[2];
     if (!(length(direction) > 0)) gltf.reject(where, "has no direction", "a node that is not flat");
@@ -52,12 +51,13 @@ Vec3 forward(const Gltf& gltf, const std::string& where, const Affine& to_world)
 void read_cone(const Gltf& gltf, const Json& json, const std::string& where, const Affine& to_world, Light& light) {
     static const Json none = Json::object();
     const Json* spot = find_object(gltf, json, where, {"spot"});
-    const std::string place = where + ".spot";
+    const std::string location = where + ".spot";
     constexpr double right = std::numbers::pi / 2;
     light.direction = forward(gltf, where, to_world);
-    light.outer_cone = std::clamp(number_or(gltf, spot ? *spot : none, place, "outerConeAngle", right / 2), 0.0, right);
+    light.outer_cone =
+        std::clamp(number_or(gltf, spot ? *spot : none, location, "outerConeAngle", right / 2), 0.0, right);
     light.inner_cone =
-        std::clamp(number_or(gltf, spot ? *spot : none, place, "innerConeAngle", 0), 0.0, light.outer_cone);
+        std::clamp(number_or(gltf, spot ? *spot : none, location, "innerConeAngle", 0), 0.0, light.outer_cone);
 }
 
 SceneCamera read_camera(const Gltf& gltf, const Json& json, const std::string& where, const Json& node,
@@ -71,21 +71,21 @@ SceneCamera read_camera(const Gltf& gltf, const Json& json, const std::string& w
     if (!(length(side) > 0)) gltf.reject(where, "has no upward direction", "a node that is not flat");
     camera.right = normalize(side);
     camera.up = cross(camera.right, ahead);
-    const auto of = [&](const char* name, const char* part) {
+    const auto positive_value = [&](const char* name, const char* part) {
         const Json* object = find_object(gltf, json, where, {name});
-        const std::string place = where + "." + name;
-        if (object == nullptr) gltf.reject(place, "missing", "an object");
-        camera.nearest = std::max(0.0, number_or(gltf, *object, place, "znear", 0));
-        const double value = number_or(gltf, *object, place, part, 0);
-        if (!(value > 0)) gltf.reject(place + "." + part, "is not above zero", "a positive number");
+        const std::string location = where + "." + name;
+        if (object == nullptr) gltf.reject(location, "missing", "an object");
+        camera.nearest = std::max(0.0, number_or(gltf, *object, location, "znear", 0));
+        const double value = number_or(gltf, *object, location, part, 0);
+        if (!(value > 0)) gltf.reject(location + "." + part, "is not above zero", "a positive number");
         return value;
     };
     const auto type = json.find("type");
     if (type != json.end() && *type == "perspective") {
-        camera.angle = of("perspective", "yfov");
+        camera.angle = positive_value("perspective", "yfov");
         if (!(camera.angle < std::numbers::pi)) gltf.reject(where + ".perspective.yfov", "is π or more", "less");
     } else if (type != json.end() && *type == "orthographic") {
-        camera.height = 2 * of("orthographic", "ymag") * length(to_world.axes[1]);
+        camera.height = 2 * positive_value("orthographic", "ymag") * length(to_world.axes[1]);
     } else {
         gltf.reject(where + ".type", "is unknown", "perspective or orthographic");
     }
@@ -94,7 +94,7 @@ SceneCamera read_camera(const Gltf& gltf, const Json& json, const std::string& w
 }
 
 Light read_light(const Gltf& gltf, const Json& json, const std::string& where, const Affine& to_world,
-                 GltfMaterials& looks) {
+                 GltfMaterials& materials) {
     const auto color = numbers_or(gltf, json, where, "color", {1, 1, 1});
     const double intensity = std::clamp(number_or(gltf, json, where, "intensity", 1), 0.0, 1e9);
     Light light;
@@ -102,7 +102,8 @@ Light read_light(const Gltf& gltf, const Json& json, const std::string& where, c
     light.intensity = {part(0), part(1), part(2)};
     const auto type = json.find("type");
     if (json.contains("range"))
-        looks.notes.push_back(fmt::format("{} has a range, which is left out: its light reaches everywhere", where));
+        materials.notes.push_back(
+            fmt::format("{} has a range, which is left out: its light reaches everywhere", where));
     const bool is_spot = type != json.end() && *type == "spot";
     if (is_spot || (type != json.end() && *type == "point")) {
         light.kind = Light::Kind::point;
@@ -117,7 +118,7 @@ Light read_light(const Gltf& gltf, const Json& json, const std::string& where, c
     return light;
 }
 
-/// The nodes of the scene that is shown, each with its transform. Nodes are strict trees (check_nodes()).
+/// Visits the nodes of the displayed scene with their transforms. Nodes are strict trees (check_nodes()).
 template <class Visit>
 void for_nodes(const Gltf& gltf, const Visit& visit) {
     const Json &scenes = gltf.list("scenes"), &nodes = gltf.list("nodes");
@@ -130,23 +131,23 @@ void for_nodes(const Gltf& gltf, const Visit& visit) {
     std::vector<Todo> todo;
     const auto add = [&](const Json& owner, const char* name, const Affine& parent) {
         if (const auto list = owner.find(name); list != owner.end())
-            for (std::size_t i = list->size(); i-- > 0;)  // the first is on top
+            for (std::size_t i = list->size(); i-- > 0;)  // reversed: the first is on top
                 todo.push_back({(*list)[i].get<std::size_t>(), parent});
     };
     add(scenes[shown], "nodes", {});
     while (!todo.empty()) {
-        const Todo at = todo.back();
+        const Todo current = todo.back();
         todo.pop_back();
-        const std::string where = fmt::format("nodes[{}]", at.node);
-        const Json& node = nodes[at.node];
-        const Affine to_world = at.parent * transform_of(gltf, node, where);
+        const std::string where = fmt::format("nodes[{}]", current.node);
+        const Json& node = nodes[current.node];
+        const Affine to_world = current.parent * transform_of(gltf, node, where);
         visit(node, where, to_world);
         add(node, "children", to_world);
     }
 }
 
-/// What the materials of a document have of which nothing is shown, and in how many.
-void note_materials(const Gltf& gltf, GltfMaterials& looks) {
+/// Adds a note for each unsupported material feature, with the number of materials.
+void note_materials(const Gltf& gltf, GltfMaterials& materials) {
     static const std::map<std::string, std::string> names{
         {"KHR_materials_anisotropy", "anisotropy (KHR_materials_anisotropy)"},
         {"KHR_materials_clearcoat", "clear coats (KHR_materials_clearcoat)"},
@@ -177,10 +178,11 @@ void note_materials(const Gltf& gltf, GltfMaterials& looks) {
     }
     for (const auto& [text, count] : counts)
         if (count > 0)
-            looks.notes.push_back(fmt::format("{} of {} material{} are left out", text, count, count == 1 ? "" : "s"));
+            materials.notes.push_back(
+                fmt::format("{} of {} material{} are left out", text, count, count == 1 ? "" : "s"));
 }
 
-void note_geometry(const Gltf& gltf, GltfMaterials& looks) {
+void note_geometry(const Gltf& gltf, GltfMaterials& materials) {
     std::size_t thin = 0, morphed = 0;
     for (const Json& mesh : gltf.list("meshes"))
         for (const Json& primitive : mesh["primitives"]) {
@@ -188,22 +190,23 @@ void note_geometry(const Gltf& gltf, GltfMaterials& looks) {
             thin += mode != primitive.end() && mode->get<std::uint64_t>() < 4 ? 1 : 0;
             morphed += primitive.contains("targets") ? 1 : 0;
         }
-    if (thin > 0) looks.notes.push_back(fmt::format("{} primitives of points or lines are left out", thin));
-    if (morphed > 0) looks.notes.push_back("morph targets are left out: meshes have the shape that they begin with");
+    if (thin > 0) materials.notes.push_back(fmt::format("{} primitives of points or lines are left out", thin));
+    if (morphed > 0)
+        materials.notes.push_back("morph targets are left out: meshes have the shape that they begin with");
     if (!gltf.list("skins").empty())
-        looks.notes.push_back("skins are left out: meshes have the pose in which they were modelled");
-    if (!gltf.list("animations").empty()) looks.notes.push_back("animations are left out: it stands still");
+        materials.notes.push_back("skins are left out: meshes have the pose in which they were modelled");
+    if (!gltf.list("animations").empty()) materials.notes.push_back("animations are left out: it stands still");
 }
 
 }  // namespace
 
-void read_lights(const Gltf& gltf, GltfMaterials& looks) {
+void read_lights(const Gltf& gltf, GltfMaterials& materials) {
     for_nodes(gltf, [&](const Json& node, const std::string& where, const Affine& to_world) {
         const auto number = gltf.reference(node, where, "camera", "cameras");
         if (!number) return;
         const std::string camera = fmt::format("cameras[{}]", *number);
         const Json& json = gltf.object(gltf.list("cameras"), *number, camera);
-        looks.cameras.push_back(read_camera(gltf, json, camera, node, to_world));
+        materials.cameras.push_back(read_camera(gltf, json, camera, node, to_world));
     });
     const Json* extension = find_object(gltf, gltf.json, "document", {"extensions", "KHR_lights_punctual"});
     if (extension == nullptr) return;
@@ -211,26 +214,26 @@ void read_lights(const Gltf& gltf, GltfMaterials& looks) {
     if (list == extension->end() || !list->is_array())
         gltf.reject("extensions.KHR_lights_punctual.lights", "missing", "an array");
     for_nodes(gltf, [&](const Json& node, const std::string& where, const Affine& to_world) {
-        const Json* held = find_object(gltf, node, where, {"extensions", "KHR_lights_punctual"});
-        if (held == nullptr) return;
-        const std::string place = where + ".extensions.KHR_lights_punctual";
-        if (list->empty()) gltf.reject(place, "names a light", "lights in the document");
-        const std::uint64_t number = gltf.number(*held, place, "light", list->size() - 1);
+        const Json* light_reference = find_object(gltf, node, where, {"extensions", "KHR_lights_punctual"});
+        if (light_reference == nullptr) return;
+        const std::string location = where + ".extensions.KHR_lights_punctual";
+        if (list->empty()) gltf.reject(location, "names a light", "lights in the document");
+        const std::uint64_t number = gltf.number(*light_reference, location, "light", list->size() - 1);
         const std::string light = fmt::format("lights[{}]", number);
-        looks.lights.push_back(read_light(gltf, gltf.object(*list, number, light), light, to_world, looks));
+        materials.lights.push_back(read_light(gltf, gltf.object(*list, number, light), light, to_world, materials));
     });
 }
 
-void note_what_is_left_out(const Gltf& gltf, GltfMaterials& looks) {
-    note_materials(gltf, looks);
-    note_geometry(gltf, looks);
+void note_what_is_left_out(const Gltf& gltf, GltfMaterials& materials) {
+    note_materials(gltf, materials);
+    note_geometry(gltf, materials);
     if (find_object(gltf, gltf.json, "document", {"extensions", "KHR_materials_variants"}) != nullptr)
-        looks.notes.push_back("variants of materials (KHR_materials_variants) are left out: the first is shown");
+        materials.notes.push_back("variants of materials (KHR_materials_variants) are left out: the first is shown");
     std::set<std::string> unknown;
     for (const Json& name : gltf.list("extensionsUsed"))
         if (name.is_string() && !is_known_extension(name.get<std::string>())) unknown.insert(one_line(name));
     if (!unknown.empty())
-        looks.notes.push_back(
+        materials.notes.push_back(
             fmt::format("extensions that hogel does not know are left out: {}", fmt::join(unknown, ", ")));
 }
 

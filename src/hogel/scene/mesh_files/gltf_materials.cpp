@@ -15,21 +15,21 @@ float unit(double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)
 float finite_float(double value) { return static_cast<float>(std::clamp(value, -1e3, 1e3)); }
 float radiance(double value) { return static_cast<float>(std::clamp(value, 0.0, 1e6)); }
 
-class Looks {
+class MaterialReader {
   public:
-    Looks(const Gltf& gltf, const GltfBuffers& buffers, GltfMaterials& looks)
-        : gltf_(gltf), buffers_(buffers), looks_(looks) {}
+    MaterialReader(const Gltf& gltf, const GltfBuffers& buffers, GltfMaterials& result)
+        : gltf_(gltf), buffers_(buffers), result_(result) {}
 
     void read() {
         const Json& images = gltf_.list("images");
         for (std::size_t i = 0; i < images.size(); ++i) {
             const std::string where = fmt::format("images[{}]", i);
-            looks_.images.push_back(read_image(gltf_.object(images, i, where), where));
+            result_.images.push_back(read_image(gltf_.object(images, i, where), where));
         }
         const Json& materials = gltf_.list("materials");
         for (std::size_t i = 0; i < materials.size(); ++i) {
             const std::string where = fmt::format("materials[{}]", i);
-            looks_.materials.push_back(read_material(gltf_.object(materials, i, where), where));
+            result_.materials.push_back(read_material(gltf_.object(materials, i, where), where));
         }
     }
 
@@ -40,7 +40,7 @@ class Looks {
         if (const auto view = gltf_.reference(image, where, "bufferView", "bufferViews")) {
             source.kind = TextureSource::Kind::encoded;
             const std::string_view bytes = buffer_view(*view);
-            // Thousands of pictures of the same bytes would be thousands of copies.
+            // Limit the copies of shared data by thousands of pictures.
             picture_bytes_ += bytes.size();
             if (picture_bytes_ > max_shared * buffers_.bytes())
                 gltf_.reject(where, fmt::format("and those before it have {} bytes", picture_bytes_),
@@ -62,7 +62,7 @@ class Looks {
         return source;
     }
 
-    // Inside its buffer, which check_accessors() has seen.
+    // Returns a buffer view, which check_accessors() has checked.
     std::string_view buffer_view(std::size_t number) const {
         const std::string where = fmt::format("bufferViews[{}]", number);
         const Json& view = gltf_.object(gltf_.list("bufferViews"), number, where);
@@ -102,20 +102,20 @@ class Looks {
         return read;
     }
 
-    // The older description of a material, which replaces the other.
+    // Reads the older material model, which replaces the other.
     void read_specular_glossiness(const Json& json, const std::string& where, GltfMaterial& read) {
         const Json* old = find_object(gltf_, json, where, {"extensions", "KHR_materials_pbrSpecularGlossiness"});
         if (old == nullptr) return;
-        const std::string place = where + ".extensions.KHR_materials_pbrSpecularGlossiness";
-        const auto diffuse = numbers_or(gltf_, *old, place, "diffuseFactor", {1, 1, 1, 1});
-        const auto specular = numbers_or(gltf_, *old, place, "specularFactor", {1, 1, 1});
+        const std::string location = where + ".extensions.KHR_materials_pbrSpecularGlossiness";
+        const auto diffuse = numbers_or(gltf_, *old, location, "diffuseFactor", {1, 1, 1, 1});
+        const auto specular = numbers_or(gltf_, *old, location, "specularFactor", {1, 1, 1});
         Material& material = read.material;
         material.base_color = {unit(diffuse[0]), unit(diffuse[1]), unit(diffuse[2])};
         material.alpha = unit(diffuse[3]);
         material.metallic = 0;
         material.reflectance = unit((specular[0] + specular[1] + specular[2]) / 3);
-        material.roughness = 1 - unit(number_or(gltf_, *old, place, "glossinessFactor", 1));
-        read.color = read_texture(*old, place, "diffuseTexture");
+        material.roughness = 1 - unit(number_or(gltf_, *old, location, "glossinessFactor", 1));
+        read.color = read_texture(*old, location, "diffuseTexture");
         read.metallic_roughness.reset();
     }
 
@@ -170,22 +170,22 @@ class Looks {
         GltfTexture texture;
         std::uint64_t set = gltf_.number(*info, where, "texCoord", 1u << 16, 0);
         if (const Json* transform = find_object(gltf_, *info, where, {"extensions", "KHR_texture_transform"})) {
-            const std::string place = where + ".extensions.KHR_texture_transform";
-            texture.matrix = read_transform(*transform, place);
-            set = gltf_.number(*transform, place, "texCoord", 1u << 16, set);
+            const std::string transform_location = where + ".extensions.KHR_texture_transform";
+            texture.matrix = read_transform(*transform, transform_location);
+            set = gltf_.number(*transform, transform_location, "texCoord", 1u << 16, set);
         }
         if (set > 1) {
-            looks_.notes.push_back(
+            result_.notes.push_back(
                 fmt::format("{} has coordinates TEXCOORD_{}, of which only 0 and 1 are read: left out", where, set));
             return std::nullopt;
         }
         texture.set = static_cast<unsigned>(set);
-        const std::string place = fmt::format("textures[{}]", *number);
-        const Json& object = gltf_.object(gltf_.list("textures"), *number, place);
-        const auto image = image_of(object, place);
+        const std::string texture_location = fmt::format("textures[{}]", *number);
+        const Json& object = gltf_.object(gltf_.list("textures"), *number, texture_location);
+        const auto image = image_of(object, texture_location);
         if (!image) return std::nullopt;
         texture.image = static_cast<std::uint32_t>(*image);
-        if (const auto sampler = gltf_.reference(object, place, "sampler", "samplers"))
+        if (const auto sampler = gltf_.reference(object, texture_location, "sampler", "samplers"))
             texture.sampling = read_sampler(*sampler);
         return texture;
     }
@@ -198,13 +198,13 @@ class Looks {
         return {c * scale[0], s * scale[1], offset[0], -s * scale[0], c * scale[1], offset[1]};
     }
 
-    // None, with a note: the texture has only a picture in a form that is not read.
+    // Returns nothing, with a note, if all pictures of the texture have an unsupported format.
     std::optional<std::size_t> image_of(const Json& texture, const std::string& where) {
         if (const auto image = gltf_.reference(texture, where, "source", "images")) return image;
         if (const Json* webp = find_object(gltf_, texture, where, {"extensions", "EXT_texture_webp"}))
             return gltf_.reference(*webp, where + ".extensions.EXT_texture_webp", "source", "images");
         const bool ktx = find_object(gltf_, texture, where, {"extensions", "KHR_texture_basisu"}) != nullptr;
-        looks_.notes.push_back(fmt::format(
+        result_.notes.push_back(fmt::format(
             "{} {}: left out", where,
             ktx ? "is a KTX2 picture (KHR_texture_basisu), which is not read" : "has no picture that is read"));
         return std::nullopt;
@@ -229,7 +229,7 @@ class Looks {
     static constexpr std::uint64_t max_shared = 16;
     const Gltf& gltf_;
     const GltfBuffers& buffers_;
-    GltfMaterials& looks_;
+    GltfMaterials& result_;
     std::uint64_t picture_bytes_ = 0;  // of pictures in views
 };
 
@@ -241,44 +241,44 @@ TextureCoordinate GltfTexture::at(TextureCoordinate mesh) const {
             static_cast<float>(1 - (matrix[3] * u + matrix[4] * v + matrix[5]))};
 }
 
-double number_or(const Gltf& gltf, const Json& object, const std::string& where, const char* name, double otherwise) {
+double number_or(const Gltf& gltf, const Json& object, const std::string& where, const char* name, double fallback) {
     const auto found = object.find(name);
-    if (found == object.end()) return otherwise;
+    if (found == object.end()) return fallback;
     if (!found->is_number() || !std::isfinite(found->get<double>()))
         gltf.reject(where + "." + name, "is not a number", "a finite one");
     return found->get<double>();
 }
 
 std::vector<double> numbers_or(const Gltf& gltf, const Json& object, const std::string& where, const char* name,
-                               std::vector<double> otherwise) {
+                               std::vector<double> fallback) {
     const auto found = object.find(name);
-    if (found == object.end()) return otherwise;
+    if (found == object.end()) return fallback;
     const auto is_finite = [](const Json& value) { return value.is_number() && std::isfinite(value.get<double>()); };
-    if (!found->is_array() || found->size() != otherwise.size() || !std::ranges::all_of(*found, is_finite))
-        gltf.reject(where + "." + name, "is no such list", fmt::format("{} finite numbers", otherwise.size()));
+    if (!found->is_array() || found->size() != fallback.size() || !std::ranges::all_of(*found, is_finite))
+        gltf.reject(where + "." + name, "is no such list", fmt::format("{} finite numbers", fallback.size()));
     return found->get<std::vector<double>>();
 }
 
 const Json* find_object(const Gltf& gltf, const Json& object, const std::string& where,
                         std::initializer_list<const char*> path) {
-    const Json* at = &object;
-    std::string place = where;
+    const Json* current = &object;
+    std::string location = where;
     for (const char* name : path) {
-        const auto found = at->find(name);
-        if (found == at->end()) return nullptr;
-        place += std::string(".") + name;
-        if (!found->is_object()) gltf.reject(place, "is not an object", "one");
-        at = &*found;
+        const auto found = current->find(name);
+        if (found == current->end()) return nullptr;
+        location += std::string(".") + name;
+        if (!found->is_object()) gltf.reject(location, "is not an object", "one");
+        current = &*found;
     }
-    return at;
+    return current;
 }
 
 GltfMaterials read_materials(const Gltf& gltf, const GltfBuffers& buffers) {
-    GltfMaterials looks;
-    Looks(gltf, buffers, looks).read();
-    read_lights(gltf, looks);
-    note_what_is_left_out(gltf, looks);
-    return looks;
+    GltfMaterials result;
+    MaterialReader(gltf, buffers, result).read();
+    read_lights(gltf, result);
+    note_what_is_left_out(gltf, result);
+    return result;
 }
 
 }  // namespace hogel::scene::mesh_files

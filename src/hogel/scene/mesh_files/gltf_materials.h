@@ -13,18 +13,18 @@
 
 namespace hogel::scene::mesh_files {
 
-/// A texture as a material of a glTF file refers to it.
+/// Reference of a glTF material to a texture.
 struct GltfTexture {
-    std::uint32_t image = 0;  ///< number of GltfMaterials::images
+    std::uint32_t image = 0;  ///< index in GltfMaterials::images
     TextureSampling sampling;
     unsigned set = 0;  ///< of texture coordinates: TEXCOORD_0 or TEXCOORD_1
-    /// From the mesh's coordinates to those of the texture (KHR_texture_transform), v downwards as in glTF: u' = m[0] u
-    /// + m[1] v + m[2], v' = m[3] u + m[4] v + m[5].
+    /// Map from the mesh's coordinates to the texture's (KHR_texture_transform), v downwards as in glTF: u' = m[0] u +
+    /// m[1] v + m[2], v' = m[3] u + m[4] v + m[5].
     std::array<double, 6> matrix{1, 0, 0, 0, 1, 0};
 
-    /// Where a point of the mesh is on the texture; v upwards on both sides.
+    /// Returns the texture coordinate of a mesh coordinate; v upwards in both.
     TextureCoordinate at(TextureCoordinate mesh) const;
-    /// Whether both have the same coordinates.
+    /// Returns whether both use the same coordinates.
     bool lies_like(const GltfTexture& other) const { return set == other.set && matrix == other.matrix; }
 };
 
@@ -34,49 +34,47 @@ struct GltfMaterial {
     std::optional<GltfTexture> color, emission, metallic_roughness, normal, occlusion;
 };
 
-/// What a glTF file says of looks, which is read here and not by assimp.
+/// Materials, lights and cameras of a glTF file, which are read here instead of by assimp.
 struct GltfMaterials {
     std::vector<GltfMaterial> materials;
     std::vector<TextureSource> images;
-    std::vector<Light> lights;         ///< of the scene that is shown, in its world frame
+    std::vector<Light> lights;         ///< of the displayed scene, in its world frame
     std::vector<SceneCamera> cameras;  ///< the same
     std::vector<std::string> notes;    ///< Scene::notes
 };
 
-/// A glTF file that was checked before assimp reads it.
+/// A glTF file after the checks.
 struct CheckedGltf {
-    /// What assimp is to read instead: what was checked, without what hogel does not use or reads itself. Empty for a
-    /// document of glTF 1, which is not checked.
+    /// Document for assimp: the checked parts that hogel uses and assimp reads. Empty for glTF 1, which is not checked.
     std::string contents;
-    Metadata provenance;  ///< what write_baked_scene() stored there, if anything
-    GltfMaterials looks;
+    Metadata provenance;  ///< stored by write_baked_scene()
+    GltfMaterials materials;
 };
 
-/// Checks a glTF file, whose buffers lie in `folder` (canonical). `bytes` is the whole file. Throws Error(bad_input).
+/// Checks a complete glTF file with its buffers in `folder` (canonical). Throws Error(bad_input).
 CheckedGltf check_gltf(const std::string& file, const std::filesystem::path& folder, std::string_view bytes);
 
-/// The name that a material has in CheckedGltf::contents, and its number again.
+/// Convert between the index of a material and its name in CheckedGltf::contents.
 std::string numbered_material(std::size_t number);
 std::optional<std::size_t> material_number(std::string_view name);
 
-/// Throws Error(bad_input), naming the place, for what is not as glTF has it. Nodes and accessors must have been
-/// checked.
+/// Reads materials, lights and cameras of checked nodes and accessors. Throws Error(bad_input).
 GltfMaterials read_materials(const Gltf& gltf, const GltfBuffers& buffers);
 
-/// The lights of KHR_lights_punctual and the cameras that the nodes of the scene hold.
-void read_lights(const Gltf& gltf, GltfMaterials& looks);
+/// Reads the lights (KHR_lights_punctual) and cameras of the displayed scene's nodes.
+void read_lights(const Gltf& gltf, GltfMaterials& materials);
 
-/// Adds to the notes what of the document is not shown.
-void note_what_is_left_out(const Gltf& gltf, GltfMaterials& looks);
+/// Adds a note for each unsupported feature of the document.
+void note_what_is_left_out(const Gltf& gltf, GltfMaterials& materials);
 
-/// A finite number of an object; `otherwise` where it is missing.
-double number_or(const Gltf& gltf, const Json& object, const std::string& where, const char* name, double otherwise);
+/// Returns a finite number of an object, or `fallback` if it is missing.
+double number_or(const Gltf& gltf, const Json& object, const std::string& where, const char* name, double fallback);
 
-/// `size` finite numbers; `otherwise` where they are missing.
+/// Returns fallback.size() finite numbers of an object, or `fallback` if they are missing.
 std::vector<double> numbers_or(const Gltf& gltf, const Json& object, const std::string& where, const char* name,
-                               std::vector<double> otherwise);
+                               std::vector<double> fallback);
 
-/// An object inside of another one, by a path such as {"extensions", "KHR_materials_ior"}; null where it is missing.
+/// Returns a nested object by a path such as {"extensions", "KHR_materials_ior"}; null if it is missing.
 const Json* find_object(const Gltf& gltf, const Json& object, const std::string& where,
                         std::initializer_list<const char*> path);
 

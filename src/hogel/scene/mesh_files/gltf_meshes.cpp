@@ -11,10 +11,10 @@
 namespace hogel::scene::mesh_files {
 namespace {
 
-/// "TEXCOORD_12" is number 12 of a set; assimp makes room for all numbers below. None: not a number.
+/// Returns 12 for "TEXCOORD_12", 0 for names without number; nothing if invalid. assimp allocates all lower numbers.
 std::optional<std::size_t> set_number(std::string_view attribute) {
     const std::size_t underscore = attribute.find('_');
-    if (underscore == attribute.npos || underscore == 0) return 0;  // not of a set, or of the program that wrote it
+    if (underscore == attribute.npos || underscore == 0) return 0;  // not numbered, or application-specific
     const std::string_view digits = attribute.substr(underscore + 1);
     std::size_t number = 0;
     const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
@@ -38,8 +38,8 @@ class Primitives {
         if (const auto targets = primitive.find("targets"); targets != primitive.end()) {
             if (!targets->is_array()) gltf_.reject(where + ".targets", "is not an array", "one");
             for (std::size_t i = 0; i < targets->size(); ++i) {
-                const std::string place = fmt::format("{}.targets[{}]", where, i);
-                check_attributes(gltf_.object(*targets, i, place), place, vertices);
+                const std::string location = fmt::format("{}.targets[{}]", where, i);
+                check_attributes(gltf_.object(*targets, i, location), location, vertices);
             }
         }
         gltf_.reference(primitive, where, "material", "materials");
@@ -59,21 +59,21 @@ class Primitives {
         for (const auto& [name, value] : attributes.items()) {
             const auto number = gltf_.reference(attributes, where, name.c_str(), "accessors");
             const GltfAccessor& accessor = accessors_[*number];
-            const std::string place = where + "." + one_line(name);
+            const std::string location = where + "." + one_line(name);
             if (set_number(name).value_or(attributes.size()) >= attributes.size())
-                gltf_.reject(place, "skips numbers of its set", "numbers that begin with 0 and follow each other");
+                gltf_.reject(location, "skips numbers of its set", "numbers that begin with 0 and follow each other");
             const bool has_floats = accessor.component_type == GltfAccessor::f32 ||
                                     (is_quantized_ && accessor.component_type < GltfAccessor::u32);
             if ((name == "POSITION" || name == "NORMAL") && (accessor.type != "VEC3" || !has_floats))
-                gltf_.reject(place, "is not three floats", "VEC3 of component type 5126");
+                gltf_.reject(location, "is not three floats", "VEC3 of component type 5126");
             if (vertices && accessor.count != *vertices)
-                gltf_.reject(place, fmt::format("has {} elements", accessor.count),
+                gltf_.reject(location, fmt::format("has {} elements", accessor.count),
                              fmt::format("{}, as the other attributes", *vertices));
             vertices = accessor.count;
         }
     }
 
-    /// Several primitives may share an accessor; it is read once, and its largest value kept.
+    /// Accessors may be shared; caches the largest index of each.
     void check_indices(std::size_t number, const std::string& where, std::uint64_t vertices) {
         const GltfAccessor& accessor = accessors_[number];
         const unsigned type = accessor.component_type;
@@ -93,14 +93,13 @@ class Primitives {
 
     const Gltf& gltf_;
     const std::vector<GltfAccessor>& accessors_;
-    bool is_quantized_ = false;  // whether positions and normals may be whole numbers
+    bool is_quantized_ = false;  // whether positions and normals may be integers
     std::map<std::size_t, std::uint32_t> largest_;
 };
 
 constexpr std::size_t no_node = ~std::size_t{0};
 
-/// Each node's parent. glTF: "the node hierarchy MUST be a set of disjoint strict trees". assimp copies a node once for
-/// every parent.
+/// Returns each node's parent. glTF requires "disjoint strict trees"; assimp copies a node per parent.
 std::vector<std::size_t> find_parents(const Gltf& gltf, const Json& nodes) {
     std::vector<std::size_t> parent(nodes.size(), no_node);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -124,8 +123,7 @@ std::vector<std::size_t> find_parents(const Gltf& gltf, const Json& nodes) {
     return parent;
 }
 
-/// A root that a scene names a thousand times would be a thousand copies. That some programs name children too, which
-/// then appear twice, is accepted.
+/// Rejects duplicate roots (copies). Accepts children as roots, which appear twice; some programs write them.
 void check_scenes(const Gltf& gltf, std::size_t nodes) {
     const Json& scenes = gltf.list("scenes");
     if (scenes.empty()) gltf.reject("scenes", "is missing or empty", "a scene to show");
@@ -158,8 +156,8 @@ void check_primitives(const Gltf& gltf, const std::vector<GltfAccessor>& accesso
         const auto list = mesh.find("primitives");
         if (list == mesh.end() || !list->is_array()) gltf.reject(where + ".primitives", "missing", "an array");
         for (std::size_t k = 0; k < list->size(); ++k) {
-            const std::string place = fmt::format("{}.primitives[{}]", where, k);
-            primitives.check(gltf.object(*list, k, place), place);
+            const std::string location = fmt::format("{}.primitives[{}]", where, k);
+            primitives.check(gltf.object(*list, k, location), location);
         }
     }
 }
@@ -167,11 +165,10 @@ void check_primitives(const Gltf& gltf, const std::vector<GltfAccessor>& accesso
 void check_nodes(const Gltf& gltf) {
     constexpr std::size_t max_depth = 1000;
     const auto parent = find_parents(gltf, gltf.list("nodes"));
-    // Each node has at most one parent, so a node is too deep or on a cycle exactly if the path upwards does not end
-    // within the limit.
+    // With at most one parent, a node is too deep or on a cycle if and only if its path upwards exceeds the limit.
     for (std::size_t i = 0; i < parent.size(); ++i) {
         std::size_t depth = 0;
-        for (std::size_t at = i; at != no_node; at = parent[at])
+        for (std::size_t node = i; node != no_node; node = parent[node])
             if (++depth > max_depth)
                 gltf.reject(fmt::format("nodes[{}]", i), fmt::format("lies below more than {} others", max_depth),
                             "a flatter tree");

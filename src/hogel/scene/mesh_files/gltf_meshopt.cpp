@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Buffer views that are packed: EXT_meshopt_compression.
+// Decoding of EXT_meshopt_compression.
 #include <fmt/format.h>
 
 #include <utility>
@@ -17,8 +17,7 @@ namespace {
 constexpr const char* extension = "EXT_meshopt_compression";
 constexpr std::uint64_t max_size = ~std::uint32_t{0};
 
-/// The shortest streams: two bits for each byte of sixteen attributes, a byte for a triangle, a byte for an index. What
-/// announces more elements than its bytes can hold is refused before room is made for it.
+/// Minimum sizes: two bits per byte of 16 attributes, a byte per triangle or index. Checked before allocation.
 constexpr std::uint64_t max_ratio = 64;
 std::uint64_t shortest_stream(const PackedView& view) {
     switch (view.mode) {
@@ -94,13 +93,12 @@ PackedView read_packed(const Gltf& gltf, const GltfBuffers& buffers, const Json&
     return view;
 }
 
-/// The extension of a buffer view or of a buffer; null where it has none.
+/// Returns the extension of a buffer view or buffer; null if there is none.
 const Json* packing(const Gltf& gltf, const Json& object, const std::string& where) {
     return find_object(gltf, object, where, {"extensions", extension});
 }
 
-/// A buffer that only says how long what is packed would be gets a byte, so that it can be read like the others.
-/// Returns which they are.
+/// Replaces placeholder buffers, which have no data, by one byte. Returns a flag for each buffer.
 std::vector<bool> fill_placeholders(Gltf& gltf) {
     std::vector<bool> empty;
     for (std::size_t i = 0; i < gltf.list("buffers").size(); ++i) {
@@ -115,11 +113,11 @@ std::vector<bool> fill_placeholders(Gltf& gltf) {
 }
 
 struct Packed {
-    std::size_t number;  ///< of the buffer view
+    std::size_t number;  ///< index of the buffer view
     PackedView view;
 };
 
-/// What the views hold, from a child process.
+/// Returns the contents of the views, decoded in a child process.
 std::vector<std::string> unpack_in_child(const Gltf& gltf, const std::vector<Packed>& views, std::uint64_t bytes) {
     const auto work = [&](int pipe) {
         for (const Packed& packed : views) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF files that announce what they do not hold. Most of these were accepted without a word once.
+// glTF files that announce missing contents. Most of these used to be accepted silently.
 #include <tuple>
 #include <vector>
 
@@ -145,7 +145,7 @@ TEST_F(Gltf, json_nests_only_so_deep) {
                    "nests deeper");
 }
 
-// What assimp recognises as glTF whatever its name is.
+// assimp recognises these as glTF under any name.
 TEST_F(Gltf, other_names_are_checked_as_well) {
     expect_refusal("deep.unknown", std::string(1, '{') + "\"a\":" + std::string(200000, '['), "nests deeper than");
     expect_refusal("index.unknown", replaced(quad(), R"("indices":2)", R"("indices":3)"), "indices is 3");

@@ -34,7 +34,7 @@ namespace {
 
 constexpr double crease = 60 * std::numbers::pi / 180;  // missing normals are smooth up to this angle
 
-/// What assimp makes of the file, in a child process: it crashes on damaged files of many formats.
+/// Imports a file by assimp in a child process, because it crashes on damaged files of many formats.
 Imported import_in_child(const std::filesystem::path& path, const std::string& file, std::string_view contents,
                          bool numbered = false) {
     const std::uint64_t bytes = std::filesystem::file_size(path);
@@ -47,11 +47,11 @@ Imported import_in_child(const std::filesystem::path& path, const std::string& f
     }
 }
 
-/// A file of known kind, with what is to be known of its looks.
+/// Contents of a file; materials only for glTF.
 struct Read {
     Imported imported;
-    GltfMaterials looks;
-    bool has_looks = false;
+    GltfMaterials materials;
+    bool has_materials = false;
 };
 
 Mesh discs_of(const Points& points, const ImportOptions& options, const std::string& file) {
@@ -62,7 +62,7 @@ Mesh discs_of(const Points& points, const ImportOptions& options, const std::str
     }
 }
 
-/// assimp chooses its reader by the name, and by the first bytes where it knows no such name.
+/// Dispatches by extension and first bytes; assimp chooses its reader likewise.
 Read import_file(const std::filesystem::path& path, std::uintmax_t size, const std::string& file,
                  const ImportOptions& options) {
     std::string start(4096, '\0');
@@ -76,10 +76,10 @@ Read import_file(const std::filesystem::path& path, std::uintmax_t size, const s
         read.imported = read_off(file, read_file(path, size, file));
     } else if (is_gltf(path) || start.starts_with("glTF") || (first != start.npos && start[first] == '{')) {
         CheckedGltf checked = check_gltf(file, path.parent_path(), read_file(path, size, file));
-        read.has_looks = !checked.contents.empty();
-        read.imported = import_in_child(path, file, checked.contents, read.has_looks);
+        read.has_materials = !checked.contents.empty();
+        read.imported = import_in_child(path, file, checked.contents, read.has_materials);
         read.imported.provenance = std::move(checked.provenance);
-        read.looks = std::move(checked.looks);
+        read.materials = std::move(checked.materials);
     } else if (has_extension(path, {".obj"})) {
         std::string text = read_file(path, size, file);
         std::vector<std::string> notes = notes_of_obj(text, path.parent_path());
@@ -121,15 +121,14 @@ void show_unlit(ImportedMesh& part) {
         mesh.radiance[i] = mesh.radiance[i] * mesh.colors[i];
 }
 
-/// What was turned of meshes whose files do not say which side is the front.
 struct Turned {
     std::size_t closed = 0;     ///< surfaces that enclose a volume
-    std::size_t bodies = 0;     ///< those of them that are turned as a whole
-    std::size_t triangles = 0;  ///< because their neighbours faced the other way
+    std::size_t bodies = 0;     ///< flipped as a whole
+    std::size_t triangles = 0;  ///< flipped to agree with their neighbours
 };
 
-/// Only glTF says which side is the front. In other files neighbours agree and bodies face outwards; sheets show the
-/// light on either side. Missing normals are made as well, from the same list of edges.
+/// Orients a mesh of a format other than glTF, which does not define the front: makes neighbours consistent and closed
+/// surfaces face outwards; open ones become double-sided. Adds missing normals from the same edge list.
 void face_outwards(Mesh& mesh, bool has_facet_normals, Turned& turned) {
     if (mesh.name == points_name || mesh.triangles.empty()) return;
     if (has_facet_normals) mesh.normals.clear();
@@ -157,7 +156,7 @@ void note(const Turned& turned, std::vector<std::string>& notes) {
                                       turned.bodies, turned.closed));
 }
 
-/// Vertices that no triangle uses may have any coordinates in a file; they get those of one that is used.
+/// Unused vertices may have any coordinates in a file; moves them to a used one.
 void place_unused_vertices(Mesh& mesh) {
     std::vector<bool> is_used(mesh.positions.size());
     for (const auto& corners : mesh.triangles)
@@ -168,7 +167,7 @@ void place_unused_vertices(Mesh& mesh) {
         if (!is_used[i]) mesh.positions[i] = mesh.positions[first];
 }
 
-/// Some programs write black for a colour that they leave to another.
+/// Replaces black if all surfaces are black, which some programs write for an unset colour.
 void show_black_as_white(Scene& scene) {
     const auto is_black = [](const Mesh& mesh) {
         const Material& material = mesh.material;
@@ -181,8 +180,7 @@ void show_black_as_white(Scene& scene) {
     scene.notes.push_back("all its surfaces are black: they are shown in grey");
 }
 
-/// Coordinates are read in single precision, whose steps show on what lies far from the origin, as in maps of a
-/// country.
+/// Adds a note if the steps of single-precision coordinates are visible far from the origin, as in maps.
 void note_distance(const Scene& scene, std::vector<std::string>& notes) {
     const Bounds box = bounds(scene);
     const double sizes = std::max(length(box.low), length(box.high)) / length(box.high - box.low),
@@ -196,22 +194,22 @@ void note_distance(const Scene& scene, std::vector<std::string>& notes) {
 
 Scene convert(Read read, const std::filesystem::path& path, const std::string& file) {
     Imported& imported = read.imported;
-    Textures textures(read.has_looks ? std::move(read.looks.images) : std::move(imported.textures), path.parent_path(),
-                      file);
-    if (!read.has_looks) textures.leave_out_missing();
+    Textures textures(read.has_materials ? std::move(read.materials.images) : std::move(imported.textures),
+                      path.parent_path(), file);
+    if (!read.has_materials) textures.leave_out_missing();
     Scene scene;
     scene.name = path.stem().string();
     scene.provenance = std::move(imported.provenance);
-    scene.lights = std::move(read.looks.lights);
-    // Programs for design and printing have z upwards, and these formats do not say otherwise.
+    scene.lights = std::move(read.materials.lights);
+    // CAD and printing programs have z up; these formats do not state an axis.
     if (has_extension(path, {".stl", ".3mf", ".amf"})) scene.up = {0, 0, 1};
-    scene.cameras = std::move(read.looks.cameras);
-    scene.notes = std::move(read.looks.notes);
+    scene.cameras = std::move(read.materials.cameras);
+    scene.notes = std::move(read.materials.notes);
     scene.notes.insert(scene.notes.end(), imported.notes.begin(), imported.notes.end());
     for (ImportedMesh& part : imported.meshes) {
         Mesh& mesh = part.mesh;
-        if (read.has_looks) {
-            apply_materials(read.looks, part, textures);
+        if (read.has_materials) {
+            apply_materials(read.materials, part, textures);
         } else {
             mesh.material.base_color_texture = textures.get(part.texture);
             if (mesh.texture_coordinates.empty()) mesh.material.base_color_texture = nullptr;
@@ -222,7 +220,7 @@ Scene convert(Read read, const std::filesystem::path& path, const std::string& f
     }
     for (const std::string& name : textures.missing())
         scene.notes.push_back(fmt::format("its texture '{}' is not found: surfaces have none", one_line(name)));
-    if (!read.has_looks) show_black_as_white(scene);
+    if (!read.has_materials) show_black_as_white(scene);
     for (Mesh& mesh : scene.meshes) place_unused_vertices(mesh);
     if (scene.meshes.empty())
         reject_file(file,
@@ -233,7 +231,7 @@ Scene convert(Read read, const std::filesystem::path& path, const std::string& f
     } catch (const Error& error) {
         throw Error(error.code(), fmt::format("{}: {}", file, error.what()));
     }
-    if (!read.has_looks) {
+    if (!read.has_materials) {
         Turned turned;
         for (Mesh& mesh : scene.meshes) face_outwards(mesh, has_extension(path, {".stl"}), turned);
         note(turned, scene.notes);

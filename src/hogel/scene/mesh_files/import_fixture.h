@@ -32,7 +32,7 @@ class Import : public testing::Test {
         std::ofstream(path, std::ios::binary) << bytes;
         return path;
     }
-    /// The message of an import that must fail: one line that begins with the file's name.
+    /// Returns the message of an import that must fail: one line that begins with the file's name.
     static std::string refusal(const fs::path& path) {
         try {
             import_scene(path);
@@ -55,7 +55,7 @@ class Import : public testing::Test {
     fs::path folder_;
 };
 
-/// The start of a PLY file as text: vertices of three floats, with what further lines say of them.
+/// Returns the start of an ASCII PLY file: vertices of three floats, and further header lines.
 inline std::string ply_vertices(int count, const std::string& further = {}) {
     return fmt::format(
         "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n{}", count,
@@ -63,7 +63,7 @@ inline std::string ply_vertices(int count, const std::string& further = {}) {
 }
 inline const std::string ply_colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
 
-/// The first byte of a list of n vertices in a PLY file.
+/// Returns the first byte of a list of n vertices in a PLY file.
 inline std::string face_of(int n) { return std::string(1, static_cast<char>(n)); }
 
 inline std::string base64(const std::string& bytes) {
@@ -85,7 +85,7 @@ std::string raw(std::initializer_list<T> values) {
     return bytes;
 }
 
-/// One triangle with vertex colours; `nodes` and `roots` are JSON.
+/// Returns a document of one triangle with vertex colours; `nodes` and `roots` are JSON.
 inline std::string gltf(const std::string& nodes, const std::string& roots, const std::string& material = "{}") {
     const std::string bytes =
         raw<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}) + raw<float>({0.5f, 0.25f, 1, 0.5f, 0.25f, 1, 0.5f, 0.25f, 1});

@@ -48,7 +48,7 @@ TEST_F(Import, gltf_materials_are_glossy_and_others_matt) {
     EXPECT_EQ(matt.meshes[0].material.metallic, 0.0f);
 }
 
-// Bodies of which a program has turned the triangles; and open sheets and rooms, which nobody has.
+// Closed surfaces with flipped triangles, and unflipped open sheets and rooms.
 TEST_F(Import, bodies_that_are_inside_out_are_turned) {
     const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 2 0\nv 0 2 0\nv 0 0 3\nv 1 0 3\nv 1 2 3\nv 0 2 3\n";
     const std::string outside = "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\n", last = "f 4 1 5 8\n",

@@ -51,8 +51,8 @@ Material read_material(const aiMaterial& source) {
          source.Get(AI_MATKEY_COLOR_DIFFUSE, color) == AI_SUCCESS))
         material.base_color = {reflectance(color.r), reflectance(color.g), reflectance(color.b)};
 
-    // Only glTF's materials are glossy. Those of glTF 2 are read by read_materials(); of glTF 1, metallic-roughness
-    // textures are not, and materials with one are treated as not metallic.
+    // Only glTF materials are glossy. read_materials() reads those of glTF 2. In glTF 1, materials with a
+    // metallic-roughness texture, which is not supported, are not metallic.
     float metallic = 1;
     if (source.Get(AI_MATKEY_METALLIC_FACTOR, metallic) == AI_SUCCESS) {
         material.reflectance = 0.04f;
@@ -61,8 +61,7 @@ Material read_material(const aiMaterial& source) {
         if (source.Get(AI_MATKEY_ROUGHNESS_FACTOR, roughness) == AI_SUCCESS) material.roughness = unit(roughness);
     }
 
-    // With an emission texture, which is not supported, the factor is ignored, because it would make the whole surface
-    // emit.
+    // Ignore the factor of an emission texture, which is not supported; the whole surface would emit.
     aiColor3D emission;
     if (source.GetTextureCount(aiTextureType_EMISSIVE) == 0 &&
         source.Get(AI_MATKEY_COLOR_EMISSIVE, emission) == AI_SUCCESS)
@@ -90,7 +89,7 @@ TextureSource find_texture(const aiScene& source, const std::string& name, const
     if (!embedded) return texture;
     if (!embedded->pcData || embedded->mWidth == 0)
         throw Error(ErrorCode::bad_input, where(file, texture) + ": empty; expected a picture");
-    if (embedded->mHeight == 0) {  // then the width is the size of a picture file in memory
+    if (embedded->mHeight == 0) {  // then the width is the size of an embedded picture file
         texture.kind = TextureSource::Kind::encoded;
         const auto* bytes = reinterpret_cast<const unsigned char*>(embedded->pcData);
         texture.bytes.assign(bytes, bytes + embedded->mWidth);
@@ -125,27 +124,27 @@ std::shared_ptr<const Image> Textures::with_opacity(std::uint32_t color, std::ui
                                        brightness = has_alpha ? alphas : get(opacity, image::TexturePixels::numbers);
     const std::size_t width = picture ? picture->width() : alphas->width(),
                       height = picture ? picture->height() : alphas->height();
-    auto whole = std::make_shared<Image>(width, height, 4);
+    auto combined = std::make_shared<Image>(width, height, 4);
     for (std::size_t y = 0; y < height; ++y)
         for (std::size_t x = 0; x < width; ++x) {
             for (std::size_t c = 0; c < 3; ++c)
-                whole->pixels(y, x, c) = picture ? picture->pixels(y, x, std::min(c, picture->channels() - 1)) : 1;
+                combined->pixels(y, x, c) = picture ? picture->pixels(y, x, std::min(c, picture->channels() - 1)) : 1;
             const std::size_t row = (2 * y + 1) * brightness->height() / (2 * height),
                               column = (2 * x + 1) * brightness->width() / (2 * width);
             if (has_alpha) {
-                whole->pixels(y, x, 3) = brightness->pixels(row, column, 3);
+                combined->pixels(y, x, 3) = brightness->pixels(row, column, 3);
                 continue;
             }
             float sum = 0;
             for (std::size_t c = 0; c < brightness->channels(); ++c) sum += brightness->pixels(row, column, c);
-            whole->pixels(y, x, 3) = sum / static_cast<float>(brightness->channels());
+            combined->pixels(y, x, 3) = sum / static_cast<float>(brightness->channels());
         }
-    return known = std::move(whole);
+    return known = std::move(combined);
 }
 
 namespace {
 
-/// Whether nearly all texels are there or not there, as those of leaves and fences.
+/// Returns whether nearly all texels are opaque or transparent, as for leaves and fences.
 bool is_cut_out(const Image& picture) {
     std::size_t between = 0;
     const std::size_t texels = picture.width() * picture.height();
@@ -172,11 +171,11 @@ void apply_obj_materials(ImportedMesh& part, Textures& textures) {
     // The base-colour texture does not multiply emission.
     if (has_coordinates) material.emission_texture = textures.get(part.emission_texture);
     if (part.emission_texture != ImportedMesh::no_texture && has_coordinates && !material.emission_texture)
-        material.emission = {0, 0, 0};  // the map is missing: it does not shine all over
+        material.emission = {0, 0, 0};  // the map is missing: do not let the whole surface emit
     if (!material.emission_texture && material.base_color_texture) material.emission_texture = white_picture();
 }
 
-/// By its name or, where that is a path on another machine, by the longest end of it that exists.
+/// Finds a picture by its name or, for a path on another machine, by the longest suffix that exists.
 std::optional<std::filesystem::path> Textures::find(const TextureSource& source) const {
     constexpr int max_parts = 32;
     std::string name = source.name;

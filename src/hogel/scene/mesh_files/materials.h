@@ -18,38 +18,36 @@
 
 namespace hogel::scene::mesh_files {
 
-/// assimp's material, without its texture.
+/// Converts assimp's material, without its texture.
 Material read_material(const aiMaterial& source);
 
-/// Whether the material's colour is its radiance, independent of lights (glTF: KHR_materials_unlit).
+/// Returns whether the material's colour is its radiance, independent of lights (glTF: KHR_materials_unlit).
 bool is_unlit(const aiMaterial& source);
 
-/// What the file calls the base-colour texture of a material; empty: there is none.
+/// Returns the name of a material's base-colour texture; empty if there is none.
 std::string base_color_texture(const aiMaterial& source);
 
-/// The texture of that name, which may lie in the mesh file itself. Throws Error(bad_input) for an empty one.
-/// @param file  name of the mesh for messages, as the caller gave it
+/// Returns the texture of that name, which may be embedded in the mesh file. Throws Error(bad_input) for an empty one.
+/// @param file  name of the mesh for messages, as given by the caller
 TextureSource find_texture(const aiScene& source, const std::string& name, const std::string& file);
 
-/// One white texel.
 std::shared_ptr<const Image> white_picture();
 
-/// Decodes textures, each when it is first asked for.
+/// Textures, decoded on first use.
 class Textures {
   public:
     /// @param folder  of the mesh, canonical
-    /// @param file    name of the mesh for messages, as the caller gave it
+    /// @param file    name of the mesh for messages, as given by the caller
     Textures(std::vector<TextureSource> sources, std::filesystem::path folder, std::string file);
-    /// From now on missing pictures are left out.
+    /// Ignores missing pictures from now on.
     void leave_out_missing() { leaves_out_ = true; }
-    /// The names of those that were.
+    /// Names of the ignored pictures.
     const std::set<std::string>& missing() const { return missing_; }
-    /// Null for a number that does not exist, and for a picture that is left out. Throws Error(bad_input) for a missing
-    /// or damaged one.
+    /// Returns null for ignored pictures and invalid indices. Throws Error(bad_input) for missing or damaged ones.
     std::shared_ptr<const Image> get(std::uint32_t number, image::TexturePixels pixels = image::TexturePixels::color);
 
-    /// A picture with the opacity of another as its fourth channel: that one's alpha, or its brightness where it has
-    /// none. White where there is no picture of that number; null where there is none of the opacity.
+    /// Returns a picture with the opacity of another as its fourth channel: the other's alpha, or its brightness
+    /// without alpha. The colour is white if `color` does not exist. Returns null if `opacity` does not exist.
     std::shared_ptr<const Image> with_opacity(std::uint32_t color, std::uint32_t opacity);
 
   private:
@@ -66,7 +64,7 @@ class Textures {
     std::set<std::string> missing_;
 };
 
-/// Gives a mesh of an OBJ file its opacity and its emission by pictures. `part` has its base-colour texture.
+/// Applies the opacity and emission pictures to a mesh of an OBJ file. `part` has its base-colour texture.
 void apply_obj_materials(ImportedMesh& part, Textures& textures);
 
 }  // namespace hogel::scene::mesh_files

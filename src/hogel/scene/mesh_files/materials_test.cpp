@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What glTF files say of looks, by small files that are made here: each feature is read, or a note or refusal names it.
+// glTF materials: small generated files; each feature is read, noted or rejected.
 #include <algorithm>
 #include <numbers>
 #include <vector>

@@ -10,26 +10,24 @@
 
 namespace hogel::scene::mesh_files {
 
-/// What EXT_meshopt_compression packs into one buffer view.
+/// A buffer view compressed by EXT_meshopt_compression.
 struct PackedView {
     enum class Mode { attributes, triangles, indices };
     enum class Filter { none, octahedral, quaternion, exponential };
     Mode mode = Mode::attributes;
     Filter filter = Filter::none;
     std::uint64_t count = 0;   ///< of elements
-    std::uint64_t stride = 0;  ///< bytes of an element, as the mode and the filter allow
+    std::uint64_t stride = 0;  ///< bytes of an element, valid for the mode and the filter
     std::string_view packed;
 
     std::uint64_t bytes() const { return count * stride; }
 };
 
-/// Decodes a view by libmeshoptimizer. Returns false if the stream is damaged. Called in a child process.
-/// @param to  of view.bytes() bytes
+/// Decodes into `to`, of view.bytes() bytes. Returns false for damage. Called in a child process.
 bool unpack(const PackedView& view, std::vector<unsigned char>& to);
 
-/// Replaces each buffer view with EXT_meshopt_compression by one of what is packed there, in a buffer of its own.
-/// Throws Error(bad_input) for streams and numbers that are not as the extension has them, and Error(not_built_in)
-/// where the build lacks the decoder and the file holds nothing in place of what is packed.
+/// Decodes each view with EXT_meshopt_compression into a new buffer. Throws Error(bad_input) for violations of the
+/// extension, and Error(not_built_in) if neither decoder nor uncompressed fallback exists.
 void unpack_views(Gltf& gltf);
 
 }  // namespace hogel::scene::mesh_files

@@ -18,7 +18,6 @@ namespace {
 
 constexpr std::string_view spaces = " \t\r";
 
-/// A line that is taken apart from its left end.
 class Line {
   public:
     explicit Line(std::string_view text) : rest_(text) { trim(); }
@@ -39,7 +38,7 @@ class Line {
         word();
         return value;
     }
-    /// What is left, without spaces at its ends.
+    /// Returns the rest without leading and trailing spaces.
     std::string_view rest() const { return rest_; }
 
   private:
@@ -126,11 +125,11 @@ class Parser {
             if (model && *model <= 1) material.left_out.erase("highlights (Ks, Ns)");
             if (model && *model >= 3) material.left_out.insert("mirrors and glass (illum 3 and above)");
         } else {
-            other(key, line, material);
+            note_unsupported(key, line, material);
         }
     }
 
-    static void other(const std::string& key, Line line, MtlMaterial& material) {
+    static void note_unsupported(const std::string& key, Line line, MtlMaterial& material) {
         static const std::map<std::string, std::string> words{{"map_bump", "bump maps"},
                                                               {"map_Bump", "bump maps"},
                                                               {"bump", "bump maps"},
@@ -156,7 +155,7 @@ class Parser {
         }
     }
 
-    // One number is that of all three channels.
+    // A single number applies to all three channels.
     static std::optional<Rgb> color(Line line) {
         const auto r = line.number();
         if (!r) return std::nullopt;
@@ -199,10 +198,10 @@ std::vector<std::string> notes_of(const std::vector<MtlMaterial>& materials) {
 std::vector<std::string> notes_of_obj(std::string_view text, const std::filesystem::path& folder) {
     std::set<std::string> missing;
     bool has_curves = false;
-    for_lines(text, [&](std::string_view all) {
-        // Only these statements begin so; vertices and faces are passed over at once.
-        if (all.empty() || (all[0] != 'm' && all[0] != 'c' && all[0] != 's')) return;
-        Line line(all);
+    for_lines(text, [&](std::string_view text_line) {
+        // Fast path: skip vertices and faces.
+        if (text_line.empty() || (text_line[0] != 'm' && text_line[0] != 'c' && text_line[0] != 's')) return;
+        Line line(text_line);
         const std::string_view key = line.word();
         if (key == "curv" || key == "curv2" || key == "surf") has_curves = true;
         if (key == "mtllib" && !line.rest().empty() && !find_in_folder(folder, std::string(line.rest())))

@@ -13,7 +13,7 @@
 
 namespace hogel::scene::mesh_files {
 
-/// A picture that a material library names, with what its options say.
+/// A picture of a material library with its options.
 struct MtlTexture {
     std::string name;    ///< empty: none
     bool clamp = false;  ///< -clamp on
@@ -23,27 +23,26 @@ struct MtlTexture {
     bool is_moved() const { return scale != MtlTexture().scale || offset != MtlTexture().offset; }
 };
 
-/// A material of a Wavefront material library (.mtl), as far as assimp 5.2 does not read it or misreads it.
+/// Statements of a material in a Wavefront library (.mtl) that assimp 5.2 does not read or misreads.
 struct MtlMaterial {
     std::string name;
     std::optional<double> dissolve;           ///< d: the opacity
     std::optional<double> transparency;       ///< Tr: 1 − opacity
     std::optional<Rgb> emission;              ///< Ke
     MtlTexture color, opacity, emission_map;  ///< map_Kd, map_d, map_Ke
-    std::set<std::string> left_out;           ///< what else it says, in words for a note
+    std::set<std::string> left_out;           ///< unsupported statements, in words for a note
 
-    /// d before Tr; between 0 and 1.
+    /// Returns the opacity, 0 to 1; d takes precedence over Tr.
     double alpha() const;
 };
 
-/// What cannot be parsed is passed over, as assimp does.
+/// Parses a library. Skips invalid statements, as assimp does.
 std::vector<MtlMaterial> parse_mtl(std::string_view text);
 
-/// What of the materials is left out, and of how many of them; a note each.
+/// Returns a note for each unsupported feature of the materials, with the number of materials.
 std::vector<std::string> notes_of(const std::vector<MtlMaterial>& materials);
 
-/// What an OBJ file says that is not shown: curves and free-form surfaces, and material libraries that are missing.
-/// @param folder  of the file, canonical
+/// Returns notes: free-form curves and surfaces, libraries that are missing in `folder` (canonical).
 std::vector<std::string> notes_of_obj(std::string_view text, const std::filesystem::path& folder);
 
 }  // namespace hogel::scene::mesh_files

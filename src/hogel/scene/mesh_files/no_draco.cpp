@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In a build without libdraco; unpack_draco() refuses before.
+// Replaces draco.cpp in a build without libdraco; unpack_draco() throws before.
 #include "hogel/scene/mesh_files/draco.h"
 
 namespace hogel::scene::mesh_files {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In a build without libmeshoptimizer; unpack_views() refuses before.
+// Replaces meshopt.cpp in a build without libmeshoptimizer; unpack_views() throws before.
 #include "hogel/scene/mesh_files/meshopt.h"
 
 namespace hogel::scene::mesh_files {

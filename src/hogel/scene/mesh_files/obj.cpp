@@ -19,12 +19,13 @@ namespace {
 bool is_space(char c) { return c == ' ' || c == '\t'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Where the next number of a line begins with its point, from a place on; npos: nowhere.
+/// Returns the position of the next number that begins with its decimal point; npos if there is none.
 std::size_t find_bare_point(std::string_view line, std::size_t from) {
-    for (std::size_t at = from; (at = line.find('.', at)) != line.npos; ++at) {
-        std::size_t before = at;
+    for (std::size_t point = from; (point = line.find('.', point)) != line.npos; ++point) {
+        std::size_t before = point;
         if (before > 0 && (line[before - 1] == '-' || line[before - 1] == '+')) --before;
-        if (before > 0 && is_space(line[before - 1]) && at + 1 < line.size() && is_digit(line[at + 1])) return at;
+        if (before > 0 && is_space(line[before - 1]) && point + 1 < line.size() && is_digit(line[point + 1]))
+            return point;
     }
     return line.npos;
 }
@@ -32,7 +33,7 @@ std::size_t find_bare_point(std::string_view line, std::size_t from) {
 }  // namespace
 
 std::string with_leading_zeros(std::string text) {
-    std::string whole;
+    std::string result;
     std::size_t done = 0, end = 0, lines = 0;
     for (std::size_t begin = 0; begin < text.size(); begin = end + 1) {
         if (lines++ % between_checks == 0) core::throw_if_stopped();
@@ -41,44 +42,45 @@ std::string with_leading_zeros(std::string text) {
         line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
         if (!line.starts_with('v')) continue;
         const auto first = static_cast<std::size_t>(line.data() - text.data());
-        for (std::size_t at = find_bare_point(line, 0); at != line.npos; at = find_bare_point(line, at + 1)) {
-            if (whole.empty()) whole.reserve(text.size() + text.size() / 8);
-            whole.append(text, done, first + at - done).push_back('0');
-            done = first + at;
+        for (std::size_t point = find_bare_point(line, 0); point != line.npos;
+             point = find_bare_point(line, point + 1)) {
+            if (result.empty()) result.reserve(text.size() + text.size() / 8);
+            result.append(text, done, first + point - done).push_back('0');
+            done = first + point;
         }
     }
-    return done == 0 ? text : whole.append(text, done);
+    return done == 0 ? text : result.append(text, done);
 }
 
 namespace {
 
 struct ObjVertex {
     Vec3 position;
-    std::size_t begin = 0, end = 0;  ///< of the three numbers, in the line
+    std::size_t begin = 0, end = 0;  ///< range of the three numbers in the line
 };
 
-/// The vertex of a line "v x y z ...".
+/// Parses a line "v x y z ...".
 std::optional<ObjVertex> parse_vertex(std::string_view line) {
     const std::size_t key = std::min(line.find_first_not_of(" \t"), line.size());
     if (line.size() < key + 2 || line[key] != 'v' || !is_space(line[key + 1])) return std::nullopt;
     ObjVertex vertex;
-    std::size_t at = key + 1;
+    std::size_t position = key + 1;
     double values[3] = {};
     for (double& value : values) {
-        at = line.find_first_not_of(" \t", at);
-        if (at == line.npos) return std::nullopt;
-        if (vertex.begin == 0) vertex.begin = at;
-        if (line[at] == '+') ++at;
-        const auto [end, status] = std::from_chars(line.data() + at, line.data() + line.size(), value);
+        position = line.find_first_not_of(" \t", position);
+        if (position == line.npos) return std::nullopt;
+        if (vertex.begin == 0) vertex.begin = position;
+        if (line[position] == '+') ++position;
+        const auto [end, status] = std::from_chars(line.data() + position, line.data() + line.size(), value);
         if (status != std::errc{}) return std::nullopt;
-        at = static_cast<std::size_t>(end - line.data());
+        position = static_cast<std::size_t>(end - line.data());
     }
     vertex.position = {values[0], values[1], values[2]};
-    vertex.end = at;
+    vertex.end = position;
     return vertex;
 }
 
-/// Calls `visit` with each line, its end included, and its vertex if it has one, until `visit` returns false.
+/// Calls `visit` with each line, including its newline, and its vertex if any, until `visit` returns false.
 template <class Visit>
 void for_vertices(std::string_view text, const Visit& visit) {
     for (std::size_t lines = 0; !text.empty(); ++lines) {
@@ -94,7 +96,7 @@ double max_coordinate(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), s
 }  // namespace
 
 std::string about_the_origin(std::string text, Vec3& offset) {
-    constexpr double far = 1000;  // times the size; single floats then have 13 bits and fewer for it
+    constexpr double far = 1000;  // times the size, which then has at most 13 bits in single floats
     std::optional<Vec3> low, high;
     for_vertices(text, [&](std::string_view, const std::optional<ObjVertex>& vertex) {
         if (!vertex) return true;

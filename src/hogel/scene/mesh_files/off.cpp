@@ -17,12 +17,12 @@ namespace {
 
 constexpr std::string_view off_spaces = " \t\r\f\v";
 
-/// Lines without comments; empty ones are skipped.
+/// Lines without comments; skips empty ones.
 class Lines {
   public:
     Lines(const std::string& file, std::string_view bytes) : file_(&file), rest_(bytes) {}
 
-    /// False at the end of the file.
+    /// Returns false at the end of the file.
     bool next() {
         while (!rest_.empty()) {
             const std::size_t end = std::min(rest_.find('\n'), rest_.size());
@@ -34,7 +34,6 @@ class Lines {
         }
         return false;
     }
-    /// Whether the line has no further word.
     bool at_end() {
         line_.remove_prefix(std::min(line_.find_first_not_of(off_spaces), line_.size()));
         return line_.empty();
@@ -55,12 +54,11 @@ class Lines {
             reject(fmt::format("has '{}'", one_line(std::string(text.substr(0, 40)))), expected);
         return value;
     }
-    /// A number that may be the first of a further line.
+    /// Reads a number, which may be on the next line.
     std::uint32_t count() {
         if (at_end() && !next()) reject("is the last", "the numbers of vertices and faces");
         return number<std::uint32_t>("a whole number");
     }
-    /// Takes a word off the start of the line if it is there.
     bool take(std::string_view start) {
         if (!line_.starts_with(start)) return false;
         line_.remove_prefix(start.size());
@@ -84,7 +82,7 @@ struct OffHeader {
     std::uint32_t vertices = 0, faces = 0;
 };
 
-/// The letters before "OFF".
+/// Parses the letters before "OFF".
 bool take_keyword(Lines& lines, OffHeader& header) {
     header.has_texture = lines.take("ST");
     header.has_colors = lines.take("C");
@@ -97,7 +95,7 @@ bool take_keyword(Lines& lines, OffHeader& header) {
 OffHeader read_header(Lines& lines) {
     OffHeader header;
     if (!lines.next()) reject_file(lines.file(), "has no line", "an OFF file");
-    // The keyword may be missing; then the first line begins with the number of vertices.
+    // Without keyword, the first line begins with the number of vertices.
     Lines first = lines;
     if (take_keyword(first, header)) {
         lines = first;
@@ -110,7 +108,7 @@ OffHeader read_header(Lines& lines) {
         lines.reject("says more than three dimensions", "at most three");
     header.vertices = lines.count();
     header.faces = lines.count();
-    // "0\n" is the shortest line of a vertex or a face.
+    // The shortest line of a vertex or a face is "0\n".
     if (header.vertices > lines.bytes_left() / 2 || header.faces > lines.bytes_left() / 2)
         lines.reject(fmt::format("announces {} vertices and {} faces", header.vertices, header.faces),
                      fmt::format("what {} further bytes can hold", lines.bytes_left()));
@@ -120,10 +118,11 @@ OffHeader read_header(Lines& lines) {
 void read_vertex(Lines& lines, const OffHeader& header, Vertices& vertices) {
     const auto number = [&] { return lines.number<float>("a number"); };
     const auto coordinate = [&] { return lines.number<double>("a number"); };
-    double at[4] = {0, 0, 0, 1};
-    for (unsigned i = 0; i < header.dimensions; ++i) at[i] = coordinate();
-    if (header.has_weight) at[3] = coordinate();
-    vertices.positions.push_back({at[0] / at[3], at[1] / at[3], at[2] / at[3]});
+    double coordinates[4] = {0, 0, 0, 1};
+    for (unsigned i = 0; i < header.dimensions; ++i) coordinates[i] = coordinate();
+    if (header.has_weight) coordinates[3] = coordinate();
+    vertices.positions.push_back(
+        {coordinates[0] / coordinates[3], coordinates[1] / coordinates[3], coordinates[2] / coordinates[3]});
     if (header.has_normals) {
         const float x = number(), y = number(), z = number();
         vertices.normals.push_back({x, y, z});
@@ -131,7 +130,7 @@ void read_vertex(Lines& lines, const OffHeader& header, Vertices& vertices) {
     if (header.has_colors) {
         const float r = number(), g = number(), b = number();
         vertices.colors.push_back({r, g, b});
-        // Opacity may follow, which texture coordinates hide.
+        // An opacity may follow; with texture coordinates it is ambiguous.
         if (!header.has_texture) return;
     }
     if (header.has_texture) {
@@ -145,7 +144,7 @@ void read_vertex(Lines& lines, const OffHeader& header, Vertices& vertices) {
     }
 }
 
-/// Colours are display values, 0 to 1 or 0 to 255.
+/// Converts display values, 0 to 1 or 0 to 255, to linear light.
 void decode(std::vector<Rgb>& colors) {
     float largest = 0;
     for (const Rgb& c : colors) largest = std::max({largest, c.r, c.g, c.b});
@@ -153,15 +152,15 @@ void decode(std::vector<Rgb>& colors) {
     for (Rgb& c : colors) c = {srgb_decode(c.r / scale), srgb_decode(c.g / scale), srgb_decode(c.b / scale)};
 }
 
-constexpr Rgb grey{0.6f, 0.6f, 0.6f};  // where a file has no colour
+constexpr Rgb grey{0.6f, 0.6f, 0.6f};  // default colour
 
-/// The faces of a file, one behind the other.
+/// Faces of a file, concatenated.
 struct Faces {
     std::vector<std::uint32_t> corners;
     std::vector<std::size_t> ends;  ///< of each face, in `corners`
     std::vector<bool> have_color;   ///< of each face
     std::vector<Rgb> colors;        ///< of the faces that have one
-    std::size_t numbered = 0;       ///< whose colour is a number in a table of another file
+    std::size_t numbered = 0;       ///< number of faces with an index into an external colour table
 };
 
 void read_face(Lines& lines, std::uint32_t vertices, Faces& faces) {
@@ -186,13 +185,13 @@ Mesh mesh_of(const Vertices& vertices, const Faces& faces, const std::string& fi
     Mesh& mesh = parts.mesh(0);
     if (!from_faces && vertices.colors.empty()) mesh.material.base_color = grey;
     std::vector<std::uint32_t> polygon;
-    std::size_t at = 0;
+    std::size_t next = 0;
     auto color = faces.colors.begin();
     for (std::size_t i = 0; i < faces.ends.size(); ++i) {
-        CornerLook look;
-        if (from_faces) look.color = faces.have_color[i] ? *color++ : grey;
+        CornerAttributes attributes;
+        if (from_faces) attributes.color = faces.have_color[i] ? *color++ : grey;
         polygon.clear();
-        for (; at < faces.ends[i]; ++at) polygon.push_back(parts.corner(faces.corners[at], 0, look));
+        for (; next < faces.ends[i]; ++next) polygon.push_back(parts.corner(faces.corners[next], 0, attributes));
         add_polygon(polygon, false, file, mesh);
     }
     return std::move(mesh);

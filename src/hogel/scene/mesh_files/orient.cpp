@@ -13,8 +13,7 @@
 namespace hogel::scene::mesh_files {
 namespace {
 
-/// Triangles that are connected, and which of them face the other way than the one that stands for them all: a
-/// union-find forest whose links have a sign.
+/// Connected triangles with their relative orientation: a union-find forest with signed links.
 class Surfaces {
   public:
     explicit Surfaces(std::size_t triangles) : links_(triangles) {
@@ -22,59 +21,59 @@ class Surfaces {
     }
     struct Link {
         std::uint32_t to = 0;
-        bool is_turned = false;     ///< relative to that one
-        bool has_one_side = false;  ///< of one that stands for itself
-        bool is_mixed = false;      ///< the same: some of its triangles face the other way than their neighbours
+        bool is_turned = false;     ///< relative to `to`
+        bool has_one_side = false;  ///< roots only
+        bool is_mixed = false;      ///< roots only: some triangles are inconsistent with their neighbours
     };
 
     Link find(std::uint32_t triangle) {
         bool turned = false;
-        std::uint32_t at = triangle;
-        for (; links_[at].to != at; at = links_[at].to) turned ^= links_[at].is_turned;
-        const std::uint32_t root = at;
-        // The path becomes as short as it can be.
-        for (bool rest = turned; links_[triangle].to != triangle;) {
+        std::uint32_t node = triangle;
+        for (; links_[node].to != node; node = links_[node].to) turned ^= links_[node].is_turned;
+        const std::uint32_t root = node;
+        // Path compression.
+        for (bool parity = turned; links_[triangle].to != triangle;) {
             Link& link = links_[triangle];
             const std::uint32_t next = link.to;
-            const bool after = rest ^ link.is_turned;
-            link.to = root, link.is_turned = rest;
-            triangle = next, rest = after;
+            const bool after = parity ^ link.is_turned;
+            link.to = root, link.is_turned = parity;
+            triangle = next, parity = after;
         }
         return {root, turned, links_[root].has_one_side, links_[root].is_mixed};
     }
     void join(std::uint32_t a, std::uint32_t b, bool opposite) {
-        const Link of_a = find(a), of_b = find(b);
-        Link& root = links_[of_a.to];
-        root.is_mixed |= opposite || of_b.is_mixed;
-        if (of_a.to == of_b.to) {
-            root.has_one_side |= (of_a.is_turned ^ of_b.is_turned) != opposite;
+        const Link link_a = find(a), link_b = find(b);
+        Link& root = links_[link_a.to];
+        root.is_mixed |= opposite || link_b.is_mixed;
+        if (link_a.to == link_b.to) {
+            root.has_one_side |= (link_a.is_turned ^ link_b.is_turned) != opposite;
             return;
         }
-        root.has_one_side |= of_b.has_one_side;
-        links_[of_b.to] = {of_a.to, (of_a.is_turned ^ of_b.is_turned) != opposite, false, false};
+        root.has_one_side |= link_b.has_one_side;
+        links_[link_b.to] = {link_a.to, (link_a.is_turned ^ link_b.is_turned) != opposite, false, false};
     }
 
   private:
     std::vector<Link> links_;
 };
 
-/// Calls `visit` with the triangles on both sides of every edge of just two, and whether they face other sides.
+/// Calls `visit` with the two triangles of every edge of exactly two, and whether their orientations differ.
 template <class Visit>
 void for_neighbors(const std::vector<TriangleEdge>& edges, const Visit& visit) {
     for (std::size_t first = 0, end = 0, n = 0; first < edges.size(); first = end) {
         if (n++ % between_checks == 0) core::throw_if_stopped();
-        while (end < edges.size() && edges[end].joins_the_same(edges[first])) ++end;
+        while (end < edges.size() && edges[end].has_same_ends(edges[first])) ++end;
         if (end - first == 2 && edges[first].low != edges[first].high)
             visit(edges[first].triangle(), edges[first + 1].triangle(),
                   edges[first].is_upward() == edges[first + 1].is_upward());
     }
 }
 
-/// What the triangles of one surface sum up to, all turned as the one that stands for them.
+/// Sums over the triangles of a surface, all oriented as its root.
 struct Sums {
-    Vec3 open{};  ///< areas as vectors
+    Vec3 open{};  ///< vector area
     double area = 0, turned_area = 0, volume = 0;
-    double agreement = 0;  ///< of the normals of vertices with the areas; below zero: they point to the other side
+    double agreement = 0;  ///< of vertex normals with face areas; negative: opposite sides
 
     Sums& operator+=(const Sums& other) {
         open += other.open;
@@ -84,10 +83,10 @@ struct Sums {
         agreement += other.agreement;
         return *this;
     }
-    /// Whether the surface is that of a body: closed but for small holes, and around a volume.
+    /// Returns whether the surface is closed, except for small holes, and encloses a volume.
     bool is_body() const {
-        constexpr double max_open = 0.1;  // by the area; an open box has a fifth of its area left
-        // By the area to 3/2: 0.094 for a sphere, 0.007 for a plate fifty times as wide as thick.
+        constexpr double max_open = 0.1;  // relative to the area; an open box has one fifth
+        // Relative to the area to the power 3/2: 0.094 for a sphere, 0.007 for a plate fifty times as wide as thick.
         constexpr double min_volume = 0.003;
         return std::abs(volume) > min_volume * std::pow(area, 1.5) && length(open) <= max_open * area;
     }
@@ -95,7 +94,6 @@ struct Sums {
     bool has_normals_inwards() const { return is_body() && agreement * volume < 0; }
 };
 
-/// The surface that each triangle belongs to.
 std::vector<Surfaces::Link> find_surfaces(Surfaces& surfaces, std::size_t triangles) {
     std::vector<Surfaces::Link> links(triangles);
     for (std::uint32_t t = 0; t < triangles; ++t) {
@@ -140,8 +138,8 @@ std::size_t orient_neighbors(Mesh& mesh, const std::vector<TriangleEdge>& edges)
         const Surfaces::Link& link = links[t];
         const Sums& sum = sums[link.to];
         if (!link.is_mixed || link.has_one_side) continue;
-        const bool other = sum.is_body() ? sum.volume < 0 : 2 * sum.turned_area > sum.area;
-        if (link.is_turned == other) continue;
+        const bool flipped = sum.is_body() ? sum.volume < 0 : 2 * sum.turned_area > sum.area;
+        if (link.is_turned == flipped) continue;
         std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
         ++turned;
     }
@@ -150,7 +148,7 @@ std::size_t orient_neighbors(Mesh& mesh, const std::vector<TriangleEdge>& edges)
 
 namespace {
 
-/// Turns the triangles and the normals of the surfaces whose sums say so.
+/// Flips the triangles and normals of surfaces according to their sums.
 void turn_surfaces(Mesh& mesh, const std::vector<Surfaces::Link>& links, const std::vector<Sums>& sums) {
     std::vector<bool> has_normal_inwards(mesh.normals.size());
     for (std::size_t t = 0; t < links.size(); ++t) {
@@ -171,7 +169,7 @@ Sides turn_inside_out(Mesh& mesh, const std::vector<TriangleEdge>& edges) {
     for_neighbors(edges, [&](std::uint32_t a, std::uint32_t b, bool) { surfaces.join(a, b, false); });
     const std::vector<Surfaces::Link> links = find_surfaces(surfaces, mesh.triangles.size());
     std::vector<Sums> sums = sum_surfaces(mesh, links);
-    // Surfaces that are no bodies by themselves may be the sides of one.
+    // Open surfaces may jointly be the sides of a body.
     Sums sides, bodies;
     for (const Sums& sum : sums) (sum.is_body() ? bodies : sides) += sum;
     Sides result;

@@ -9,22 +9,20 @@
 
 namespace hogel::scene::mesh_files {
 
-/// Turns triangles so that neighbours face the same side of their surface, as many programs do not care to write them.
-/// A connected surface takes the side that more of it has or, if it encloses a volume, the outer one. One that has only
-/// one side, as Möbius' strip, stays as it is, and so does one whose neighbours agree. Returns how many were turned.
-/// @param edges  sorted_edges() of the mesh as it was
+/// Flips triangles for consistent neighbours. A connected surface takes the outward orientation if closed, otherwise
+/// that of most of its area. Leaves one-sided surfaces (Möbius strip). Returns the number of flipped triangles.
+/// @param edges  sorted_edges() of the unmodified mesh
 std::size_t orient_neighbors(Mesh& mesh, const std::vector<TriangleEdge>& edges);
 
-/// What turn_inside_out() finds.
+/// Result of turn_inside_out().
 struct Sides {
     bool is_body = false;    ///< nearly all of the mesh encloses volumes
     std::size_t bodies = 0;  ///< surfaces that enclose a volume
-    std::size_t turned = 0;  ///< those of them of which triangles or normals were turned
+    std::size_t turned = 0;  ///< those with flipped triangles or normals
 };
 
-/// Turns bodies whose triangles face inwards, as some programs write scans: their corners, and normals that agree with
-/// them. Normals of a body that face inwards alone are turned as well. Each connected surface is decided by itself;
-/// those that enclose no volume alone, together.
+/// Flips closed surfaces that face inwards, as in some scans: their triangles and consistent normals. Also flips
+/// normals that alone face inwards. Each connected surface is decided separately; open surfaces are decided jointly.
 /// @param edges  sorted_edges() of the mesh, before or after orient_neighbors()
 Sides turn_inside_out(Mesh& mesh, const std::vector<TriangleEdge>& edges);
 

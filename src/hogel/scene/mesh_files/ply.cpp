@@ -29,10 +29,10 @@ constexpr std::array types{Type{"char", "int8", 1, true},      Type{"uchar", "ui
 
 std::vector<std::string_view> split(std::string_view line) {
     std::vector<std::string_view> words;
-    for (std::size_t at = 0; (at = line.find_first_not_of(" \t\r", at)) != line.npos;) {
-        const std::size_t end = std::min(line.find_first_of(" \t\r", at), line.size());
-        words.push_back(line.substr(at, end - at));
-        at = end;
+    for (std::size_t position = 0; (position = line.find_first_not_of(" \t\r", position)) != line.npos;) {
+        const std::size_t end = std::min(line.find_first_of(" \t\r", position), line.size());
+        words.push_back(line.substr(position, end - position));
+        position = end;
     }
     return words;
 }
@@ -78,19 +78,19 @@ Header ply::parse_header(const std::string& file, std::string_view bytes) {
     constexpr std::size_t max_size = std::size_t{1} << 20;
     Header header;
     bool has_format = false;
-    std::size_t at = 0;
-    while (at < std::min(bytes.size(), max_size)) {
-        const std::size_t end = bytes.find_first_of("\r\n", at);
+    std::size_t position = 0;
+    while (position < std::min(bytes.size(), max_size)) {
+        const std::size_t end = bytes.find_first_of("\r\n", position);
         if (end == bytes.npos) break;
-        const std::string_view line = bytes.substr(at, end - at);
-        at = end + (bytes.substr(end, 2) == "\r\n" ? 2 : 1);
+        const std::string_view line = bytes.substr(position, end - position);
+        position = end + (bytes.substr(end, 2) == "\r\n" ? 2 : 1);
         const auto words = split(line);
         if (words.size() > 2 && words[0] == "comment" && words[1] == "TextureFile")
             header.textures.emplace_back(line.substr(static_cast<std::size_t>(words[2].data() - line.data())));
         if (words.empty() || words[0] == "comment" || words[0] == "obj_info" || words[0] == "ply") continue;
         if (words[0] == "end_header") {
             if (!has_format) reject_file(file, "no format in the header", "ascii or binary");
-            header.size = at;
+            header.size = position;
             return header;
         }
         if (words[0] == "format" && words.size() == 3) {

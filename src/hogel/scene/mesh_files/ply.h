@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-/// PLY files as their headers describe them.
+/// Headers and rows of PLY files.
 namespace hogel::scene::mesh_files::ply {
 
 struct Type {
@@ -39,14 +39,14 @@ struct Header {
     std::size_t size = 0;               ///< bytes up to the data
 };
 
-/// Throws Error(bad_input), which names the line.
+/// Parses the header. Throws Error(bad_input), naming the line.
 Header parse_header(const std::string& file, std::string_view bytes);
 
-/// The words of a line, one after the other.
+/// Sequential reader of the words of a line.
 class Words {
   public:
     explicit Words(std::string_view line) : rest_(line) {}
-    /// Empty at the end of the line.
+    /// Returns the next word; empty at the end of the line.
     std::string_view next();
     std::size_t bytes_left() const { return rest_.size(); }
 
@@ -59,26 +59,24 @@ struct Row {
     std::vector<double> values;
     std::vector<std::size_t> ends;  ///< of each property's values
 
-    /// The value of a property, or the values of its list.
+    /// Returns the value of a property, or the values of its list.
     std::span<const double> operator[](std::size_t property) const {
         const std::size_t begin = property == 0 ? 0 : ends[property - 1];
         return std::span(values).subspan(begin, ends[property] - begin);
     }
 };
 
-/// Reads the rows of elements in the order of the file. Throws Error(bad_input), which names the element and the row,
-/// where the data end early or hold no number.
+/// Sequential reader of rows. Throws Error(bad_input), naming element and row, for invalid or missing data.
 class RowReader {
   public:
-    /// @param file  for messages; this and `data` live longer than the reader
-    /// @param data  what follows the header
+    /// @param file, data  must outlive the reader; `data` follows the header
     RowReader(const std::string& file, Format format, std::string_view data)
         : file_(&file), format_(format), data_(data) {}
-    /// Throws unless the rest of the data may hold all rows of an element, so that memory for them can be reserved.
+    /// Throws unless the remaining data can hold all rows of an element. Called before memory is reserved.
     void check_room(const Element& element) const;
-    /// @param number  of the row in its element
+    /// @param number  index of the row in its element
     void read(const Element& element, std::size_t number, Row& row);
-    /// Passes over all rows of an element, and checks them.
+    /// Skips and checks all rows of an element.
     void skip(const Element& element);
 
   private:
@@ -92,7 +90,7 @@ class RowReader {
     std::string_view data_;
 };
 
-/// The number that a word is; none if it is none.
+/// Parses a word as a number; nothing if it is not one.
 std::optional<double> parse_number(std::string_view word);
 
 }  // namespace hogel::scene::mesh_files::ply

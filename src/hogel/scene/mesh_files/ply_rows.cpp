@@ -16,8 +16,8 @@ namespace {
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 bool ends_line(char c) { return c == '\r' || c == '\n'; }
 
-/// Removes the part of a text up to the first character for which `is_end` holds, and returns it. The searches of
-/// std::string_view look up a list for each character, which takes longer than all other checks.
+/// Removes and returns the part of a text before the first character for which `is_end` holds. std::string_view
+/// searches a character list instead, which dominates the time of parsing.
 template <class IsEnd>
 std::string_view take_until(std::string_view& text, const IsEnd& is_end) {
     const auto end = std::ranges::find_if(text, is_end);
@@ -41,7 +41,7 @@ double binary_number(const char* from, const Type& type, Format format) {
     return is_unsigned ? as(std::uint32_t{}) : as(std::int32_t{});
 }
 
-/// Bytes of a row whose lists are empty.
+/// Returns the bytes of a row with empty lists.
 std::size_t min_bytes(const Element& element) {
     std::size_t bytes = 0;
     for (const Property& property : element.properties)
@@ -73,7 +73,7 @@ void RowReader::reject_end(const Element& element, std::size_t rows) const {
 }
 
 void RowReader::check_room(const Element& element) const {
-    // Rows of binary data without properties have no bytes, those of text a line.
+    // Rows without properties take no bytes in binary data, and a line in text.
     const std::size_t least = format_ == Format::ascii ? 1 : std::max<std::size_t>(min_bytes(element), 1);
     if (element.count > data_.size() / least) reject_end(element, format_ == Format::ascii ? 0 : data_.size() / least);
 }
@@ -109,7 +109,7 @@ void RowReader::read_text(const Element& element, std::size_t number, Row& row) 
     const auto reject_line = [&](const std::string& what, const char* expected) {
         reject_file(*file_, fmt::format("element '{}' {}: {}", element.name, number, what), expected);
     };
-    constexpr const char* whole = "a line with all values that the header promises";
+    constexpr const char* complete_line = "a line with all values that the header promises";
     const auto quoted = [](std::string_view word) { return one_line(std::string(word.substr(0, 40))); };
     for (const Property& property : element.properties) {
         std::size_t values = 1;
@@ -117,11 +117,11 @@ void RowReader::read_text(const Element& element, std::size_t number, Row& row) 
             const std::string_view word = words.next();
             const auto [end, status] = std::from_chars(word.data(), word.data() + word.size(), values);
             if (status != std::errc{} || end != word.data() + word.size() || values > words.bytes_left())
-                reject_line(fmt::format("list length '{}'", quoted(word)), whole);
+                reject_line(fmt::format("list length '{}'", quoted(word)), complete_line);
         }
         for (; values > 0; --values) {
             const std::string_view word = words.next();
-            if (word.empty()) reject_line("ends early", whole);
+            if (word.empty()) reject_line("ends early", complete_line);
             const auto value = parse_number(word);
             if (!value) reject_line(fmt::format("has '{}'", quoted(word)), "a number");
             // As in binary data.
@@ -148,8 +148,8 @@ void RowReader::read_binary(const Element& element, std::size_t number, Row& row
         }
         const std::size_t size = property.type.size;
         const std::string_view raw = take(element, number, static_cast<std::size_t>(values) * size);
-        for (std::size_t at = 0; at < raw.size(); at += size)
-            row.values.push_back(binary_number(raw.data() + at, property.type, format_));
+        for (std::size_t offset = 0; offset < raw.size(); offset += size)
+            row.values.push_back(binary_number(raw.data() + offset, property.type, format_));
         row.ends.push_back(row.values.size());
     }
 }

@@ -11,7 +11,7 @@
 namespace hogel::scene::mesh_files {
 namespace {
 
-constexpr std::size_t max_corners = 4096;  // because triangulation takes quadratic time
+constexpr std::size_t max_corners = 4096;  // triangulation takes quadratic time
 
 bool is_flat(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
     const Vec3 a = mesh.positions[t[0]];

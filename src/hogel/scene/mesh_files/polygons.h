@@ -9,9 +9,9 @@
 
 namespace hogel::scene::mesh_files {
 
-/// Adds the triangles of a polygon that have an area. Throws Error(bad_input) for a corner that does not exist and for
-/// more corners than a polygon may have.
-/// @param mirrored  whether the front is where the corners go clockwise
+/// Adds the non-degenerate triangles of a polygon. Throws Error(bad_input) for a corner that does not exist and for too
+/// many corners.
+/// @param mirrored  whether the corners run clockwise, seen from the front
 void add_polygon(std::span<const std::uint32_t> corners, bool mirrored, const std::string& file, Mesh& mesh);
 
 }  // namespace hogel::scene::mesh_files

@@ -22,7 +22,7 @@ using namespace ply;
 
 namespace {
 
-/// The number of a property in its element; none for one that is missing.
+/// Index of a property in its element; none if missing.
 using Column = std::optional<std::size_t>;
 
 enum class Kind { value, list };
@@ -47,7 +47,7 @@ std::array<Column, 3> color_columns(const Element& element) {
             find_column(element, Kind::value, {"blue", "b", "diffuse_blue"})};
 }
 
-/// A display value as linear light; whole numbers as shares of their largest.
+/// Converts a display value to linear light; integers are fractions of their maximum.
 float light_of(double value, const Type& type) {
     const double largest = !type.is_integer ? 1 : type.size == 1 ? 255 : 65535;
     return srgb_decode(static_cast<float>(value / largest));
@@ -74,13 +74,13 @@ Vertices read_vertices(const std::string& file, const Element& element, RowReade
     Row row;
     for (std::size_t i = 0; i < element.count; ++i) {
         reader.read(element, i, row);
-        const auto at = [&](const Column& column) { return row[*column][0]; };
-        vertices.positions.push_back({at(position[0]), at(position[1]), at(position[2])});
-        if (has(normal)) vertices.normals.push_back({at(normal[0]), at(normal[1]), at(normal[2])});
+        const auto component = [&](const Column& column) { return row[*column][0]; };
+        vertices.positions.push_back({component(position[0]), component(position[1]), component(position[2])});
+        if (has(normal)) vertices.normals.push_back({component(normal[0]), component(normal[1]), component(normal[2])});
         if (has(color)) vertices.colors.push_back(color_of(row, element, color));
         if (has(coordinate))
             vertices.coordinates.push_back(
-                {static_cast<float>(at(coordinate[0])), static_cast<float>(at(coordinate[1]))});
+                {static_cast<float>(component(coordinate[0])), static_cast<float>(component(coordinate[1]))});
     }
     normalize_or_clear(vertices.normals);
     return vertices;
@@ -99,7 +99,7 @@ struct FaceColumns {
     }
 };
 
-/// The surfaces of a PLY file, from the rows of its faces and strips.
+/// Builder of the surfaces of a PLY file, from the rows of its faces and strips.
 class PlySurfaces {
   public:
     PlySurfaces(const std::string& file, const Header& header, const Vertices& vertices)
@@ -124,20 +124,20 @@ class PlySurfaces {
                                         coordinates.size()),
                             "two for each corner");
             const std::size_t picture = picture_of(row);
-            CornerLook look;
-            if (from_faces_.colors) look.color = color_of(row, element, columns_.color);
+            CornerAttributes attributes;
+            if (from_faces_.colors) attributes.color = color_of(row, element, columns_.color);
             polygon_.clear();
             for (std::size_t k = 0; k < indices.size(); ++k) {
                 if (!coordinates.empty())
-                    look.coordinate = {static_cast<float>(coordinates[2 * k]),
-                                       static_cast<float>(coordinates[2 * k + 1])};
-                polygon_.push_back(parts_.corner(vertex(indices[k], element, i), picture, look));
+                    attributes.coordinate = {static_cast<float>(coordinates[2 * k]),
+                                             static_cast<float>(coordinates[2 * k + 1])};
+                polygon_.push_back(parts_.corner(vertex(indices[k], element, i), picture, attributes));
             }
             add_polygon(polygon_, false, file_, parts_.mesh(picture));
         }
     }
 
-    /// Every vertex of a strip after its second one ends a triangle; −1 begins a new strip.
+    /// Each vertex of a strip after the second ends a triangle; −1 begins a new strip.
     void add_strips(const Element& element, RowReader reader) {
         const std::size_t corners = indices_of(element);
         Row row;
@@ -197,7 +197,6 @@ class PlySurfaces {
 
 bool is_surface(const Element& element) { return element.name == "face" || element.name == "tristrips"; }
 
-/// What is not shown of the file.
 std::vector<std::string> notes_of(const Header& header, const Vertices& vertices, bool are_points) {
     std::vector<std::string> notes;
     for (const Element& element : header.elements) {
@@ -217,7 +216,7 @@ PlyContents read_ply(const std::string& file, std::string_view bytes) {
     const Header header = parse_header(file, bytes);
     Vertices vertices;
     const Element* vertex = nullptr;
-    std::vector<std::pair<const Element*, RowReader>> shapes;  // from where they start: vertices may follow
+    std::vector<std::pair<const Element*, RowReader>> shapes;  // readers at their first row: vertices may follow
     RowReader reader(file, header.format, bytes.substr(header.size));
     for (const Element& element : header.elements) {
         for (const Property& property : element.properties)

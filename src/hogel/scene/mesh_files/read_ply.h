@@ -10,17 +10,15 @@
 
 namespace hogel::scene::mesh_files {
 
-/// A PLY file: a point cloud where it has neither faces nor strips, or one mesh for each picture that its faces name.
+/// A point cloud if the file has neither faces nor strips, otherwise one mesh per picture of its faces.
 struct PlyContents {
     std::optional<Points> points;
-    Imported surfaces;  ///< meshes, textures and notes; with points only notes
+    Imported surfaces;  ///< meshes, textures and notes; only notes for a point cloud
 };
 
-/// Reads a PLY file of text or of bytes in either order; elements and properties may come in any order. Throws
-/// Error(bad_input), which names the element, for data that end early or contradict the header, for an index of a
-/// vertex that does not exist, for Gaussian splats, and for a file without vertices.
-/// @param file   for messages
-/// @param bytes  the whole file
+/// Reads a complete ASCII or binary PLY file; elements and properties may come in any order. Throws Error(bad_input),
+/// naming `file` and the element, for data that end early or contradict the header, for invalid vertex indices, for
+/// Gaussian splats, and for a file without vertices.
 PlyContents read_ply(const std::string& file, std::string_view bytes);
 
 }  // namespace hogel::scene::mesh_files

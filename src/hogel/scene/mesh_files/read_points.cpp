@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Point clouds as texts of coordinates.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,13 +14,13 @@ namespace hogel::scene::mesh_files {
 
 namespace {
 
-/// The numbers of a line, separated by blanks, commas or semicolons; none for a comment or an empty line.
+/// Parses the numbers of a line, separated by blanks, commas or semicolons; none for a comment or an empty line.
 std::vector<double> numbers_of(const std::string& file, std::string_view line, std::size_t number, bool& has_points) {
     constexpr std::string_view separators = " \t,;\r";
     std::vector<double> values;
-    for (std::size_t at = 0; (at = line.find_first_not_of(separators, at)) != line.npos;) {
-        const std::size_t end = std::min(line.find_first_of(separators, at), line.size());
-        const std::string_view word = line.substr(at, end - at);
+    for (std::size_t position = 0; (position = line.find_first_not_of(separators, position)) != line.npos;) {
+        const std::size_t end = std::min(line.find_first_of(separators, position), line.size());
+        const std::string_view word = line.substr(position, end - position);
         if (word.starts_with('#') || word.starts_with("//")) break;
         const auto value = ply::parse_number(word);
         if (!value)
@@ -29,12 +28,12 @@ std::vector<double> numbers_of(const std::string& file, std::string_view line, s
                         "numbers: x y z and a colour or a normal");
         has_points |= word.find('.') != word.npos;
         values.push_back(*value);
-        at = end;
+        position = end;
     }
     return values;
 }
 
-/// What the numbers behind the coordinates of a text mean, from all of its lines.
+/// Adds colours or normals from the columns after the coordinates, decided by all lines.
 void add_attributes(const std::vector<std::array<double, 3>>& values, bool are_fractions, Points& points) {
     bool unit = true, is_light = true;
     double largest = 0;
@@ -83,7 +82,7 @@ Points read_xyz(const std::string& file, std::string_view bytes) {
                         width < 3 ? "three or more" : fmt::format("{}, as the lines before", width));
         points.positions.push_back({values[0], values[1], values[2]});
         if (width >= 6) {
-            const std::size_t first = width == 7 ? 4 : 3;  // an intensity stands before the colour
+            const std::size_t first = width == 7 ? 4 : 3;  // an intensity precedes the colour
             attributes.push_back({values[first], values[first + 1], values[first + 2]});
             have_points |= has_points;
         }

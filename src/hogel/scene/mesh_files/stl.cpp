@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t header_size = 84, triangle_size = 50;  // of binary files; the last 4 bytes are the count
 
-/// Binary files may begin with "solid", too, but not with that and a facet in words.
+/// Binary files may begin with "solid" too, but not with "solid" and a facet as text.
 bool is_text(std::string_view bytes) {
     const std::string_view start = bytes.substr(0, 4096);
     return start.find('\0') == start.npos && start.find("solid") != start.npos &&
@@ -30,12 +30,14 @@ std::uint64_t announced_triangles(std::string_view bytes) {
 
 std::string with_counted_triangles(const std::string& file, std::string bytes, std::vector<std::string>& notes) {
     if (bytes.size() < header_size || is_text(bytes)) return bytes;
-    const std::uint64_t announced = announced_triangles(bytes), held = (bytes.size() - header_size) / triangle_size,
-                        rest = (bytes.size() - header_size) % triangle_size;
-    constexpr std::uint64_t unknown = 0xFFFFFFFF;  // of programs that write the count before they know it
-    if (announced > held && announced != unknown)
-        reject_file(file, fmt::format("announces {} triangles and holds {}", announced, held), "an undamaged STL file");
-    const std::uint64_t count = rest == 0 || announced == unknown ? held : announced;
+    const std::uint64_t announced = announced_triangles(bytes),
+                        complete_triangles = (bytes.size() - header_size) / triangle_size,
+                        extra_bytes = (bytes.size() - header_size) % triangle_size;
+    constexpr std::uint64_t unknown = 0xFFFFFFFF;  // written by programs that do not update the count
+    if (announced > complete_triangles && announced != unknown)
+        reject_file(file, fmt::format("announces {} triangles and holds {}", announced, complete_triangles),
+                    "an undamaged STL file");
+    const std::uint64_t count = extra_bytes == 0 || announced == unknown ? complete_triangles : announced;
     if (count != announced)
         notes.push_back(fmt::format("it announces {} triangles: all {} that it holds are shown", announced, count));
     if (const std::size_t extra = bytes.size() - header_size - count * triangle_size; extra > 0) {

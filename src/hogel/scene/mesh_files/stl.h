@@ -6,10 +6,8 @@
 
 namespace hogel::scene::mesh_files {
 
-/// The bytes of an STL file, with the number of triangles that it holds where its header announces none or fewer than
-/// whole triangles follow. assimp refuses such a file. Throws Error(bad_input) for binary data with fewer triangles
-/// than announced.
-/// @param notes  receives a line for each such mistake
+/// Corrects the triangle count of a binary STL file, on which assimp relies, if it is 0, unknown or too small. Throws
+/// Error(bad_input) if there are fewer triangles than announced. `notes` receives a line for each correction.
 std::string with_counted_triangles(const std::string& file, std::string bytes, std::vector<std::string>& notes);
 
 }  // namespace hogel::scene::mesh_files

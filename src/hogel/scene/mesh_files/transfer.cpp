@@ -17,7 +17,7 @@ namespace {
 enum class Tag : std::uint32_t { end, error, file, note, texture, mesh };
 constexpr std::size_t max_text = 1 << 16;
 
-/// Everything that goes before the arrays of a mesh or texture, as it lies in memory: both sides are one program.
+/// Header of a mesh or texture, copied as in memory: both sides are the same program.
 struct Head {
     Tag tag = Tag::end;
     std::uint32_t texture = 0, opacity_texture = 0, emission_texture = 0;
@@ -31,7 +31,6 @@ struct Head {
 };
 static_assert(std::is_trivially_copyable_v<Head>);
 
-/// Calls f(i, array) for the arrays of a mesh.
 template <class M, class F>
 void for_arrays(M& imported, const F& f) {
     auto& mesh = imported.mesh;
@@ -62,18 +61,18 @@ class Receiver {
         array(head.text, text);
         return text;
     }
-    /// A file that was read allows a larger scene.
+    /// Raises the limit for an opened file.
     void file(const Head& head) {
         const std::string name = text(head);
         const auto path = find_in_folder(folder_, name);
         if (!path || !counted_.insert(*path).second) return;
-        left_ += max_scene_bytes(std::filesystem::file_size(*path)) - max_scene_bytes(0);
+        remaining_ += max_scene_bytes(std::filesystem::file_size(*path)) - max_scene_bytes(0);
     }
     template <class Array>
     void array(std::uint64_t count, Array& array) {
         using Element = typename Array::value_type;
         static_assert(std::is_trivially_copyable_v<Element>);
-        if (count > left_ / sizeof(Element)) too_large();
+        if (count > remaining_ / sizeof(Element)) too_large();
         take(count * sizeof(Element));
         array.resize(count);
         child_.read(array.data(), count * sizeof(Element));
@@ -81,8 +80,8 @@ class Receiver {
 
   private:
     void take(std::uint64_t bytes) {
-        if (bytes > left_) too_large();
-        left_ -= bytes;
+        if (bytes > remaining_) too_large();
+        remaining_ -= bytes;
     }
     [[noreturn]] void too_large() const {
         reject_file(file_, "makes more geometry than a file of its size should", "an undamaged mesh file");
@@ -92,7 +91,7 @@ class Receiver {
     const std::filesystem::path& folder_;
     const std::string& file_;
     std::set<std::filesystem::path> counted_;
-    std::uint64_t left_ = max_scene_bytes(0) + (std::uint64_t{1} << 20);  // with messages and heads
+    std::uint64_t remaining_ = max_scene_bytes(0) + (std::uint64_t{1} << 20);  // includes messages and heads
 };
 
 TextureSource receive_texture(Receiver& from, const Head& head) {

@@ -11,8 +11,7 @@
 
 namespace hogel::scene::mesh_files {
 
-/// A texture as a mesh file names or holds it. The child process sends it undecoded, because the library that decodes
-/// pictures works on several threads.
+/// A texture, named or embedded. The child sends it encoded: the picture decoder is multithreaded.
 struct TextureSource {
     enum class Kind : std::uint32_t { file, encoded, texels };
     Kind kind = Kind::file;
@@ -26,46 +25,45 @@ struct TextureSource {
 struct ImportedMesh {
     static constexpr std::uint32_t no_texture = ~std::uint32_t{0};
     Mesh mesh;
-    std::uint32_t texture = no_texture;  ///< number of a TextureSource that was sent before
-    /// OBJ: the pictures of opacity and of emission, the same.
+    std::uint32_t texture = no_texture;  ///< index of a TextureSource sent before
+    /// OBJ: opacity and emission pictures, likewise.
     std::uint32_t opacity_texture = no_texture, emission_texture = no_texture;
     bool is_unlit = false;  ///< the material's colour is its radiance (glTF: KHR_materials_unlit)
     static constexpr std::uint32_t no_material = ~std::uint32_t{0};
-    std::uint32_t material = no_material;                    ///< number in GltfMaterials::materials
+    std::uint32_t material = no_material;                    ///< index in GltfMaterials::materials
     std::vector<TextureCoordinate> second_coordinates = {};  ///< TEXCOORD_1
 };
 
 struct Imported {
     std::vector<ImportedMesh> meshes;
     std::vector<TextureSource> textures;
-    Metadata provenance;             ///< which the parent reads
+    Metadata provenance;             ///< read by the parent
     std::vector<std::string> notes;  ///< Scene::notes
     bool has_singles = true;         ///< coordinates are single floats
 };
 
-/// In the child: sends what was read, piece by piece, so that it is not held twice.
+/// Child side: sends the contents piecewise, to avoid a second copy in memory.
 class Sender {
   public:
     explicit Sender(int pipe) : pipe_(pipe) {}
-    /// A file that was read, before what was in it: the parent looks up its size.
+    /// Sends an opened file before its contents; the parent looks up its size.
     void send_file(const std::filesystem::path& path) const;
     void send(const TextureSource& texture) const;
     void send(const ImportedMesh& mesh) const;
-    /// For Scene::notes.
+    /// Sends a line of Scene::notes.
     void send_note(const std::string& note) const;
-    /// Instead of anything further: what import_scene() is to say.
+    /// Sends the error of import_scene(), in place of any further data.
     void send_error(const std::string& message) const;
-    /// After the last piece.
+    /// Ends the transfer.
     void send_end() const;
 
   private:
     int pipe_;
 };
 
-/// Receives what a Sender sends. The child may have been taken over by a hostile file: sizes are checked before memory
-/// is reserved, against those of the files that were read; indices by validate() later. Throws Error(bad_input) with
-/// the message that was sent, and ChildFailure.
-/// @param folder  of the mesh, canonical
+/// Receives the data of a Sender, which may be compromised by a hostile file. Checks sizes against those of the opened
+/// files before allocation; validate() checks indices later. Throws Error(bad_input) with the child's message, and
+/// ChildFailure.
 Imported receive(core::ChildProcess& child, const std::filesystem::path& folder, const std::string& file);
 
 }  // namespace hogel::scene::mesh_files
