@@ -101,7 +101,7 @@ void take_matrix(const fs::path& file, const Json& frame, const std::string& whe
     for (std::size_t a = 0; a < 3; ++a)
         for (std::size_t b = a; b < 3; ++b)
             if (!(std::abs(dot(camera.axes[a], camera.axes[b]) - (a == b ? 1 : 0)) < rounding))
-                fail_source(file, fmt::format("{}: its transform_matrix is no rotation and shift", where));
+                fail_source(file, fmt::format("{}: its transform_matrix is not a rotation with a translation", where));
     if (dot(cross(camera.axes[0], camera.axes[1]), camera.axes[2]) < 0)
         fail_source(file, fmt::format("{}: its transform_matrix mirrors the scene", where));
 }

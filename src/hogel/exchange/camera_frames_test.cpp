@@ -134,7 +134,7 @@ TEST(CameraFrames, TurnedCamerasAreRefusedWithTheAngle) {
 
 TEST(CameraFrames, WhatIsNoGridIsRefused) {
     expect_error([](auto& frames) { frames[5].z += 0.03; }, "shot12.png: its camera stands 0.0");
-    expect_error([](auto& frames) { frames[5].x += 0.035; }, "of the spacing beside its place");
+    expect_error([](auto& frames) { frames[5].x += 0.035; }, "spacings away from its grid position");
     expect_error([](auto& frames) { frames[5] = frames[2]; }, "stands where that of");
     expect_error([](auto& frames) { frames.erase(frames.begin() + 5); },
                  "no camera stands in row 1 from the top and column 1 from the left; there are 11 of 4x3");

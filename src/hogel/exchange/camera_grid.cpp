@@ -99,7 +99,7 @@ class Arrangement {
 
     void put(const std::vector<std::size_t>& row, const std::vector<std::size_t>& column) {
         if (grid_.rows * grid_.columns > 2 * frames_.size() + 2)
-            fail_source(file_, fmt::format("its {} cameras stand in no rows and columns", frames_.size()));
+            fail_source(file_, fmt::format("its {} cameras do not form a grid of rows and columns", frames_.size()));
         constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
         grid_.frames.assign(grid_.rows * grid_.columns, none);
         for (std::size_t i = 0; i < frames_.size(); ++i) {
@@ -150,8 +150,7 @@ class Arrangement {
             if (beside > uneven) uneven = beside, farthest = i;
         }
         if (uneven > max_beside)
-            fail(farthest,
-                 fmt::format("its camera stands {:.2f} of the spacing beside its place in rows and columns", uneven));
+            fail(farthest, fmt::format("its camera is {:.2f} spacings away from its grid position", uneven));
         if (uneven > noted_beside)
             grid_.notes.push_back(fmt::format(
                 "cameras stand up to {:.2f} of their spacing beside even steps, at which they are taken to be",
@@ -184,7 +183,7 @@ class Arrangement {
         }
         if (max_off > max_pixels_off)
             fail(worst,
-                 fmt::format("its centre (cx, cy) is {:.3g} pixels beside what makes all pictures agree on a plane",
+                 fmt::format("its centre (cx, cy) is {:.3g} pixels away from that of a common zero-parallax plane",
                              max_off));
         ViewGeometry& geometry = grid_.geometry;
         constexpr double no_shift = 1e-3;  // pixels

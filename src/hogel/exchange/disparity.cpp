@@ -127,7 +127,7 @@ std::optional<DisparityMap> read_codes(const fs::path& path, double scale) {
                 return value == 0 ? NAN : static_cast<float>(std::round(value * code) / scale);
             });
             if (std::ranges::all_of(map.elements(), [](float value) { return std::isnan(value); }))
-                fail_source(path, "is a map of which no pixel is known: all are 0");
+                fail_source(path, "is a map without known pixels: all are 0");
             return map;
         },
         picture.samples);
@@ -146,7 +146,8 @@ DisparityMap read_map(const fs::path& path) {
 // Converts depth Z to the disparity (1/Z - 1/D) b/a.
 void to_disparity(const fs::path& path, const ViewGeometry& g, DisparityMap& map) {
     if (!(g.spacing > 0 && g.pixel_tangent > 0 && g.distance > 0))
-        fail_source(path, "depth becomes disparity by the distances of the cameras, which this set does not say");
+        fail_source(path,
+                    "depth cannot be converted to disparity: this set does not state the camera spacing and distance");
     for (float& value : map.elements()) {
         if (std::isnan(value)) continue;  // unknown
         if (!(value > 0)) fail_source(path, "holds a depth that is not positive");

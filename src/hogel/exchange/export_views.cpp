@@ -83,7 +83,8 @@ void require_views(const LightField& light_field, const ViewLayout& layout) {
     if (layout.create == nullptr)
         throw Error(ErrorCode::usage, "layout", fmt::format("the layout '{}' is read, but not written", layout.name));
     if (light_field.has_sides())
-        throw Error(ErrorCode::usage, "layout", "a hemicube's sides are no views of one set; its front alone would do");
+        throw Error(ErrorCode::usage, "layout",
+                    "a hemicube cannot be exported as one set of views; export its front alone");
     if (grid.focal_plane() == nullptr && layout.cameras_only)
         throw Error(
             ErrorCode::usage, "layout",
@@ -215,7 +216,7 @@ ExportedViews export_views(const LightField& light_field, const std::filesystem:
                     fmt::format("the exposure is {}, but must be positive and finite", options.exposure));
     if (options.bits != 0 && (options.bits < 8 || options.bits > 16))
         throw Error(ErrorCode::usage, "bits",
-                    fmt::format("{} bits a sample were asked for, but 8 to 16 can be written", options.bits));
+                    fmt::format("{} bits per sample were requested; expected 8 to 16", options.bits));
     const LightFieldGrid& grid = light_field.grid();
     ViewTarget target = target_of(grid, path);
     target.texts = with_history(options.metadata, to_metadata(light_field.provenance()));

@@ -63,7 +63,7 @@ void place_orthographic(const ViewSet& set, const ViewImportOptions& options, Pl
                     "orthographic views have directions instead of a distance and spacing of cameras");
     if (options.disparity != 0)
         throw Error(ErrorCode::usage, "disparity",
-                    "orthographic views show the plane at infinity alike everywhere; no disparity selects another");
+                    "orthographic views have no zero-parallax plane that a disparity could select");
     double step = set.geometry.spacing;
     if (options.field_of_view || step == 0) {
         const double field = field_of_view(options);
@@ -89,7 +89,7 @@ double distance_in_set(const ViewGeometry& g, const ViewImportOptions& options) 
     if (!(inverse > 0))
         throw Error(
             ErrorCode::usage, "disparity",
-            fmt::format("a disparity of {} pixels belongs to no plane in front of the cameras", options.disparity));
+            fmt::format("a disparity of {} pixels corresponds to no plane in front of the cameras", options.disparity));
     return 1 / inverse;
 }
 
@@ -97,7 +97,7 @@ void place_cameras(const ViewSet& set, const ViewImportOptions& options, Placeme
     const ViewGeometry& g = set.geometry;
     if (options.spacing && options.field_of_view)
         throw Error(ErrorCode::usage, "spacing, fov",
-                    "the spacing of cameras and the field of view say the same; one of them is enough");
+                    "camera spacing and field of view are both given; expected one of them");
     const double set_distance = distance_in_set(g, options);
     const auto columns = static_cast<double>(std::max(set.columns, set.rows));
     double& distance = placement.distance;

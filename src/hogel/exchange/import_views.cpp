@@ -32,8 +32,7 @@ std::shared_ptr<const Disparities> disparities_of(const std::filesystem::path& s
     const double map_bytes = static_cast<double>(set.width * set.height) * sizeof(float);
     const auto kept = static_cast<std::size_t>(std::clamp(options.memory / map_bytes, 16.0, 1e4));
     if (options.mirror_columns || options.mirror_rows)
-        throw Error(ErrorCode::usage, "mirror",
-                    "maps of disparity belong to views in the order of the layout, not to mirrored ones");
+        throw Error(ErrorCode::usage, "mirror", "disparity maps cannot be used with mirrored views");
     std::error_code none;
     if (std::filesystem::is_directory(source, none) || source.extension() == ".json")
         if (auto disparities = find_disparities(source, set, kept, options.depth_scale)) return disparities;

@@ -307,8 +307,9 @@ TEST(ImportViews, SparseViewsAreToldToEveryMethod) {
     LightFieldGrid grid{96, 80, 0.5e-3, 3, 3, FocalPlane{{0.05, 0.05, 0, 0}, -0.3}, 3};
     const std::vector<std::string> few = sparse_views(grid, 3.3);
     ASSERT_EQ(few.size(), 2u);
-    EXPECT_NE(few[0].find("up to 3.3 hogels from a view to the next; 8x8 views over the same angle would do, 4 times"),
-              std::string::npos)
+    EXPECT_NE(
+        few[0].find("up to 3.3 hogels from a view to the next; 8x8 views over the same angle would suffice, 4 times"),
+        std::string::npos)
         << few[0];
     // 2 x 0.05 over 532 nm / 0.5 mm.
     EXPECT_NE(few[1].find("olas, with hogels of one sample: these do; phase-added: refuses fewer than 94x94"),
@@ -318,7 +319,7 @@ TEST(ImportViews, SparseViewsAreToldToEveryMethod) {
     grid.directions_u = 101;
     grid.directions_v = 1;
     const std::vector<std::string> row = sparse_views(grid, 8);
-    EXPECT_NE(row[1].find("double below 801x1; olas, with hogels of one sample: side lobes below 201x1; phase-added: "
+    EXPECT_NE(row[1].find("hogels below 801x1; olas, with hogels of one sample: side lobes below 201x1; phase-added: "
                           "these do"),
               std::string::npos)
         << row[1];

@@ -246,7 +246,7 @@ void require_rectified(ViewSet& set, const ParallaxEvidence& evidence) {
         constexpr double noticed = 0.5;
         if (worst->found.blocks > 0 && worst->rest() > noticed)
             set.notes.push_back(
-                fmt::format("things move {} by up to {:.2g} pixels from {} to {}, which they do not in rectified views",
+                fmt::format("the views are not rectified: points move {} by up to {:.2g} pixels from {} to {}",
                             along_y ? "sideways" : "up or down", worst->rest(),
                             std::filesystem::path(worst->first).filename().string(),
                             std::filesystem::path(worst->second).filename().string()));

@@ -120,7 +120,7 @@ TEST(Rectified, OtherDisagreementIsNoted) {
     write_set(folder, {}, 0.6);
     const ImportedViews views = import_views(folder.path(), options_of());
     EXPECT_TRUE(std::ranges::any_of(views.notes, [](const std::string& note) {
-        return note.starts_with("things move up or down by up to 1.") &&
+        return note.starts_with("the views are not rectified: points move up or down by up to 1.") &&
                note.find(" from input_Cam0") != std::string::npos;
     })) << fmt::format("{}", views.notes.empty() ? "no notes" : views.notes.front());
 }

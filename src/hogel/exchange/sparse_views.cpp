@@ -31,8 +31,8 @@ std::vector<std::string> sparse_views(const LightFieldGrid& grid, double paralla
     const std::string dense = in_steps_of(1);
     std::vector<std::string> lines;
     lines.push_back(fmt::format(
-        "views are sparse: things are seen to jump by up to {:.2g} hogels from a view to the next; {} views "
-        "over the same angle would do, {:.0f} times as many each way",
+        "views are sparse: points jump by up to {:.2g} hogels from a view to the next; {} views over the same angle "
+        "would suffice, {:.0f} times as many each way",
         parallax, dense, std::ceil(parallax)));
     const std::string overlapping = parallax <= max_overlap_parallax
                                         ? std::string("these do")
@@ -40,9 +40,8 @@ std::vector<std::string> sparse_views(const LightFieldGrid& grid, double paralla
     const double step = green / grid.pitch;
     const bool enough = std::max(grid.step_u(), grid.directions_v > 1 ? grid.step_v() : 0.0) <= step;
     lines.push_back(fmt::format(
-        "what that does by method: fourier, basis, lines and photographs show what is off the hologram up to {:.2g} "
-        "hogels "
-        "wide or double below {}; olas, with hogels of one sample: {}; phase-added: {}",
+        "effects by method: fourier, basis, lines and photographs blur or double points off the hologram by up to "
+        "{:.2g} hogels below {}; olas, with hogels of one sample: {}; phase-added: {}",
         parallax, dense, overlapping,
         enough ? std::string("these do")
                : fmt::format("refuses fewer than {} at {:.0f} nm",

@@ -165,7 +165,7 @@ double frame_scene(Scene& scene, const SceneCamera& camera, const Fit& fit) {
     const Depths depths = depths_in_picture(scene, used, fit.width / fit.height);
     if (!(depths.nearest <= depths.farthest))
         throw Error(ErrorCode::bad_input, fmt::format("scene '{}': its camera '{}' sees nothing; expected a camera "
-                                                      "before which something stands",
+                                                      "with surfaces in its view",
                                                       scene.name, used.name));
     const double plane = plane_depth(depths, fit.front, parallel);
     const double scale = fit.height / (parallel ? used.height : 2 * plane * std::tan(used.angle / 2));

@@ -38,7 +38,7 @@ Rotation with_up(Vec3 up) {
     if (up == Vec3{0, 0, -1}) return {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
     if (up == Vec3{1, 0, 0}) return {{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}};
     if (up == Vec3{-1, 0, 0}) return {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
-    throw Error(ErrorCode::usage, "up", "up: no axis; expected x, y or z, or its opposite");
+    throw Error(ErrorCode::usage, "up", "up: not an axis; expected x, y, z, -x, -y or -z");
 }
 
 void scale_and_move(Scene& scene, double scale, Vec3 shift) {

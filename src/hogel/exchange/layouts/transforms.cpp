@@ -100,9 +100,8 @@ std::vector<std::string> off_centre_notes(const ViewTarget& target) {
     const auto [across, down] = off_centre(target);
     if (std::max(across, down) < 0.5) return {};
     return {
-        fmt::format("pictures are off centre by up to {:.4g} pixels across and {:.4g} down, which is cx and cy of each "
-                    "frame; a program that ignores them, as Gaussian splatting's first one does, puts things in wrong "
-                    "places",
+        fmt::format("pictures are off centre by up to {:.4g} pixels across and {:.4g} down (cx and cy of each frame); "
+                    "programs that ignore these, such as the original Gaussian splatting, misplace the scene",
                     across, down)};
 }
 

@@ -61,11 +61,11 @@ std::shared_ptr<const FieldSource> open_external_field(const std::filesystem::pa
     if (format == Format::picture) return open_picture_field(path, description);
     if (!description.imaginary.empty() || !description.phases.empty())
         throw Error(ErrorCode::usage, description.phases.empty() ? "imaginary" : "phases",
-                    fmt::format("'{}' holds whole fields; {} of their own go with a picture", path.string(),
+                    fmt::format("'{}' holds complete fields; separate {} are for pictures only", path.string(),
                                 description.phases.empty() ? "imaginary parts" : "phases"));
     if (description.zero)
         throw Error(ErrorCode::usage, "zero",
-                    fmt::format("'{}' holds whole fields; a zero level is one of pictures", path.string()));
+                    fmt::format("'{}' holds complete fields; a zero level is for pictures only", path.string()));
     switch (format) {
         case Format::npy:
             return open_npy(path, description);

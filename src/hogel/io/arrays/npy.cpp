@@ -141,7 +141,7 @@ NpyHeader parse_npy_header(const std::filesystem::path& path, std::span<const un
     const std::string_view order = value_of(text, "fortran_order");
     header.by_columns = order.starts_with("True");
     if (!parse_shape(value_of(text, "shape"), header.shape) || (!header.by_columns && !order.starts_with("False")))
-        fail_external(path, "its header says nothing of the array's shape or order");
+        fail_external(path, "its header does not state the array's shape and order");
     require_numbers(path, size, header);
     return header;
 }

@@ -106,9 +106,10 @@ SampleConverter::SampleConverter(const std::filesystem::path& path, const Extern
     const Number number = content == Content::real ? first : second;
     if (!phases_ || !is_whole(number)) return;
     if (number != Number::boolean && number != Number::uint8 && number != Number::uint16)
-        fail_external(path,
-                      "whole numbers with a sign or of more than 16 bits do not say which one is a whole turn of "
-                      "phase; uint8, uint16 and floats from 0 to 1 do");
+        fail_external(
+            path,
+            "phases in signed integers or more than 16 bits have no known full turn; expected uint8, uint16, or "
+            "floats from 0 to 1");
     if (!code_)
         throw Error(ErrorCode::usage, "phase_code",
                     fmt::format("'{}' holds phases as whole numbers: in which phase code are they?", path.string()));

@@ -48,8 +48,7 @@ void read_kinds(const std::filesystem::path& path, std::span<const unsigned char
     if (type != singles && type != doubles)
         fail_external(path, fmt::format("its numbers are of type {}; single and double floats are read", type));
     if (stored > directly) fail_external(path, "its samples are in other files, which are not read");
-    if (parts == 0 || parts > last_kind)
-        fail_external(path, fmt::format("its way to store fields, {}, is not known", parts));
+    if (parts == 0 || parts > last_kind) fail_external(path, fmt::format("its field encoding {} is unknown", parts));
     file.number = type == singles ? Number::single : Number::real;
     file.parts = Parts{parts};
     file.side_by_side = arrangement != each_colour;
@@ -104,7 +103,8 @@ std::unique_ptr<FieldSource> open_ohc(const std::filesystem::path& path, const E
     const std::vector<unsigned char> bytes = all_bytes(path);
     const OhcFile file = parse(path, bytes);
     if (description.values != ExternalField::Values::complex || description.phase_code)
-        throw Error(ErrorCode::usage, "values", fmt::format("'{}' says itself what its numbers are", path.string()));
+        throw Error(ErrorCode::usage, "values",
+                    fmt::format("'{}' states the meaning of its numbers; do not specify it", path.string()));
     ExternalField resolved = description;
     if (file.parts == Parts::amplitude) resolved.values = ExternalField::Values::amplitude;
     if (file.parts == Parts::phase) resolved.values = ExternalField::Values::phase;

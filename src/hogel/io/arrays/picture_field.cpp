@@ -94,7 +94,7 @@ std::unique_ptr<FieldSource> open_picture_field(const std::filesystem::path& pat
     const bool two = !second_path.empty();
     if (description.zero && description.imaginary.empty())
         throw Error(ErrorCode::usage, "zero",
-                    fmt::format("'{}': a zero level is one of real and imaginary parts", path.string()));
+                    fmt::format("'{}': a zero level applies to real and imaginary parts only", path.string()));
     const RawChannels first = read_raw_channels(path), second = two ? read_raw_channels(second_path) : first;
     if (second.values.extent(0) != first.values.extent(0) || second.values.extent(1) != first.values.extent(1))
         fail_external(second_path, fmt::format("it has {}x{} pixels, but '{}' has {}x{}", second.values.extent(1),

@@ -88,7 +88,7 @@ void DatasetReader::fail(const std::string& why) const {
 DatasetReader::DatasetReader(hid_t file, const char* name, std::vector<std::size_t> shape, bool complex,
                              std::shared_ptr<const core::RawFile> raw)
     : name_(name), shape_(std::move(shape)), raw_(std::move(raw)) {
-    if (dataset_shape(file, name, raw_->name()) != shape_) fail("does not have the shape that its attributes tell");
+    if (dataset_shape(file, name, raw_->name()) != shape_) fail("does not have the shape given by its attributes");
     Handle dataset = open_dataset(file, name, raw_->name());
     const Handle type(H5Dget_type(dataset.id()), H5Tclose), properties(H5Dget_create_plist(dataset.id()), H5Pclose);
     if (!type.valid() || !properties.valid()) fail("is damaged: " + hdf5::reason());

@@ -46,7 +46,7 @@ void check_superblock(const std::filesystem::path& path) {
     if (start[9] != 8 || start[10] != 8) fail(path, "its HDF5 superblock is damaged: addresses are not of 8 bytes");
     constexpr std::uint64_t undefined = ~std::uint64_t{0};
     if (little_endian(&start[12], 8) != 0 || little_endian(&start[20], 8) != undefined)
-        fail(path, "its HDF5 superblock has a base address or an extension, which hogel files have not");
+        fail(path, "its HDF5 superblock has a base address or an extension; expected neither");
     const std::uint64_t size = std::filesystem::file_size(path), end = little_endian(&start[28], 8),
                         root = little_endian(&start[36], 8);
     if (size < end) fail(path, fmt::format("it is truncated: {} bytes instead of {}", size, end));

@@ -206,7 +206,7 @@ Imported receive(core::ChildProcess& child, const std::filesystem::path& folder,
             case Tag::error:
                 throw Error(ErrorCode::bad_input, from.text(head));
             default:
-                reject_file(file, "misleads the mesh reader", "an undamaged mesh file");
+                reject_file(file, "makes the mesh reader send invalid data", "an undamaged mesh file");
         }
     }
 }
