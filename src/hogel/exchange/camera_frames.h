@@ -24,8 +24,8 @@ struct CameraFrame {
            center_y = 0;  ///< the point of the picture on the optical axis, pixels from its top left corner
 };
 
-/// Reads transforms.json of nerfstudio and instant-ngp. Throws Error(bad_input), naming the file and the position in
-/// it, for missing or non-numeric values, missing pictures and cameras that are not pinholes.
+/// Reads transforms.json of nerfstudio and instant-ngp. Throws Error(bad_input), naming file and position, for missing
+/// or non-numeric values, missing pictures and cameras that are not pinholes.
 std::vector<CameraFrame> read_camera_frames(const std::filesystem::path& file);
 
 struct CameraGrid {

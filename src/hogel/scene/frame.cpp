@@ -43,8 +43,7 @@ struct Depths {
     double nearest = infinite, farthest = -infinite;
 };
 
-/// Returns the depth range inside the picture, including hidden parts. The scene is in the camera frame, in front of
-/// it.
+/// Returns the depth range inside the picture, including hidden parts, of a scene in the camera frame.
 /// @param aspect  width over height of the picture
 Depths depths_in_picture(const Scene& scene, const SceneCamera& camera, double aspect) {
     const double slope = std::tan(camera.angle / 2), half = camera.height / 2;  // one of the two is zero

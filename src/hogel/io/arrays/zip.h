@@ -17,8 +17,7 @@ struct ZipEntry {
     std::span<const unsigned char> packed;  ///< as stored in the archive
 };
 
-/// Returns the files in the central directory (APPNOTE.TXT 6.3). Throws Error(bad_input) for damage and impossible
-/// sizes.
+/// Returns the files in the central directory (APPNOTE.TXT 6.3). Throws Error(bad_input) for damaged archives.
 std::vector<ZipEntry> read_zip(const std::filesystem::path& path, std::span<const unsigned char> archive);
 
 /// Returns the bytes of a file. Throws Error(bad_input) if it is damaged, encrypted or compressed by another method,

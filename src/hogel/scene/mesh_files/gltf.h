@@ -102,7 +102,7 @@ std::string data_uri(std::string_view bytes);
 /// Returns whether hogel supports an extension or reports it in a note.
 bool is_known_extension(const std::string& name);
 
-/// Replaces each node with EXT_mesh_gpu_instancing by one node per instance. Requires checked nodes and accessors.
+/// Moves the mesh of each node with EXT_mesh_gpu_instancing to a child per instance. Requires checked accessors.
 void place_instances(Gltf& gltf, const std::vector<GltfAccessor>& accessors);
 
 /// Converts integer positions, normals and texture coordinates to floats; assimp 5.2 reads their bytes as floats.

@@ -9,8 +9,7 @@
 
 namespace hogel::scene::mesh_files {
 
-/// Adds the non-degenerate triangles of a polygon. Throws Error(bad_input) for a corner that does not exist and for too
-/// many corners.
+/// Adds the non-degenerate triangles. Throws Error(bad_input) for an invalid corner index and for too many corners.
 /// @param mirrored  whether the corners run clockwise, seen from the front
 void add_polygon(std::span<const std::uint32_t> corners, bool mirrored, const std::string& file, Mesh& mesh);
 

@@ -62,8 +62,8 @@ class Sender {
 };
 
 /// Receives the data of a Sender, which may be compromised by a hostile file. Checks sizes against those of the opened
-/// files before allocation; validate() checks indices later. Throws Error(bad_input) with the child's message, and
-/// ChildFailure.
+/// files before allocation; validate() checks indices later. Throws Error(bad_input) from the child, and ChildFailure.
+/// @param folder  of the mesh, canonical
 Imported receive(core::ChildProcess& child, const std::filesystem::path& folder, const std::string& file);
 
 }  // namespace hogel::scene::mesh_files
