@@ -20,7 +20,7 @@ bool Access::is_own_name(std::string_view host) const {
 }
 
 std::string Access::refusal_of_page(const Caller& caller) const {
-    // With a token the name does not matter: a machine has many, and a page that was rebound does not know the token.
+    // With a token the host name is not checked: a machine has many names, and a rebound page does not know the token.
     if (token_.empty() && !is_own_name(caller.host)) return "this server has another name";
     return "";
 }

@@ -6,25 +6,25 @@
 
 namespace hogel::view {
 
-/// What a request says of where it comes from.
+/// Headers and token that identify the origin of a request.
 struct Caller {
     std::string_view host;        ///< header Host
     std::string_view origin;      ///< header Origin; empty: none
     std::string_view fetch_site;  ///< header Sec-Fetch-Site, which browsers send; empty: none
-    std::string_view token;       ///< the word `token` of the query; empty: none
+    std::string_view token;       ///< query parameter `token`; empty: none
 };
 
-/// Who may see pictures. Without a token, pages that this server sent to a browser on this machine: a page from
-/// elsewhere that makes the browser ask here is known by its Origin or Sec-Fetch-Site, and by its Host where its own
-/// name resolves to this machine (DNS rebinding). With a token whoever knows it, but from no other page either.
+/// Access control. Without a token, only pages that this server sent may request pictures. Requests of pages from other
+/// servers are recognised by Origin or Sec-Fetch-Site, and DNS rebinding by Host. With a token, every client that sends
+/// the token is admitted, but again no page of another server.
 class Access {
   public:
-    /// @param host  the address that is listened on
+    /// @param host  listening address
     Access(std::string host, unsigned short port, std::string token);
 
-    /// Why a request for pictures or facts about them is refused; empty if it is not.
+    /// Returns the reason for refusing a request for pictures or facts; empty if the request is admitted.
     std::string refusal(const Caller& caller) const;
-    /// The same for the page's own files, which are no secret: a link from elsewhere may lead to them.
+    /// Returns the same for the page's static files. They are public: links from other pages may lead to them.
     std::string refusal_of_page(const Caller& caller) const;
 
   private:
@@ -33,7 +33,7 @@ class Access {
     std::string host_, port_, token_;
 };
 
-/// Whether two texts are equal, in a time that does not depend on where they differ.
+/// Compares two texts in a time that does not depend on the position of the first difference.
 bool equal_in_constant_time(std::string_view a, std::string_view b);
 
 }  // namespace hogel::view

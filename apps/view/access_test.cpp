@@ -17,7 +17,7 @@ TEST(Access, the_own_page_sees_pictures) {
     }
 }
 
-// A name of somebody else's that resolves to this machine, so that the browser takes the page for theirs.
+// DNS rebinding: a foreign host name resolves to this machine.
 TEST(Access, a_rebound_name_is_refused) {
     for (const char* host : {"evil.example:8080", "evil.example", "127.0.0.1", "127.0.0.1:80", "127.0.0.1:18080", "",
                              "127.0.0.1:8080.evil.example", "evil127.0.0.1:8080", "127.0.0.1:8080:8080"}) {
@@ -32,7 +32,7 @@ TEST(Access, a_page_from_elsewhere_is_refused) {
         EXPECT_NE(local.refusal({"127.0.0.1:8080", origin, "", ""}), "") << origin;
     for (const char* site : {"cross-site", "same-site"})
         EXPECT_NE(local.refusal({"127.0.0.1:8080", "", site, ""}), "") << site;
-    // But its links may lead here.
+    // Links from other pages are allowed.
     EXPECT_EQ(local.refusal_of_page({"127.0.0.1:8080", "", "cross-site", ""}), "");
 }
 

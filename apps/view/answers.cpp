@@ -15,7 +15,7 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-// An EXR file is written as a file, in a folder that no other user can enter.
+// Returns the bytes of an EXR file. The library writes EXR only to disk, hence a temporary folder of mode 0700.
 std::string exr_file(const Image& picture) {
     std::string name = (std::filesystem::temp_directory_path() / "hogel-view-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr)
@@ -52,29 +52,29 @@ Response failure(const Error& error) {
 
 Response answer_with(const Json& json) { return {200, json_type, dump(json)}; }
 
-std::string encode(const Photograph& photograph, const View& view) {
-    if (view.format == "exr") return exr_file(photograph.picture);
-    const std::vector<unsigned char> file = view.format == "png"
+std::string encode(const Photograph& photograph, const PictureQuery& query) {
+    if (query.format == "exr") return exr_file(photograph.picture);
+    const std::vector<unsigned char> file = query.format == "png"
                                                 ? encode_png(photograph.picture, photograph.exposure)
-                                                : encode_jpeg(photograph.picture, photograph.exposure, view.quality);
+                                                : encode_jpeg(photograph.picture, photograph.exposure, query.quality);
     return {file.begin(), file.end()};
 }
 
-std::string type_of(const View& view) {
-    return view.format == "exr" ? "image/x-exr" : view.format == "png" ? "image/png" : "image/jpeg";
+std::string type_of(const PictureQuery& query) {
+    return query.format == "exr" ? "image/x-exr" : query.format == "png" ? "image/png" : "image/jpeg";
 }
 
-Json to_json(const Photograph& photograph, const View& view, const Viewable& viewable, double seconds) {
+Json to_json(const Photograph& photograph, const PictureQuery& query, const Viewable& viewable, double seconds) {
     Json json{{"type", "picture"},
-              {"id", view.id},
-              {"format", view.format},
+              {"id", query.id},
+              {"format", query.format},
               {"width", photograph.picture.width()},
               {"height", photograph.picture.height()},
               {"exposure", photograph.exposure},
-              {"pupil_samples", view.pupil_samples},
+              {"pupil_samples", query.pupil_samples},
               {"seconds", seconds}};
     if (photograph.looks > 0) {
-        const std::size_t all = view.looks > 0 ? std::min(view.looks, viewable.looks()) : viewable.looks();
+        const std::size_t all = query.looks > 0 ? std::min(query.looks, viewable.looks()) : viewable.looks();
         json["looks"] = photograph.looks;
         json["of_looks"] = all;
     }
@@ -97,7 +97,7 @@ Json to_json(const Reading& reading, const std::string& id) {
     return json;
 }
 
-// The contrasts that are told are that of edges and that of the size of squares that shows the clearest plane.
+// Reports two contrast curves: of edges, and of the cell size in which the first plane stands out.
 Json to_json(const FocusSearch& search) {
     Json planes = Json::array(), edges = Json::array(), squares = Json::array();
     std::size_t kind = 0;

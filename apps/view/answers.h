@@ -16,26 +16,26 @@ using Json = nlohmann::ordered_json;
 
 inline constexpr const char* json_type = "application/json";
 
-/// A line.
+/// Serialises to one line.
 std::string dump(const Json& json);
 
-/// @param parameter  names of Error::parameter(), by which the page marks its controls
+/// @param parameter  names from Error::parameter(); the page marks their controls
 Response failure(unsigned status, const std::string& why, const std::vector<std::string>& parameter = {});
 Response failure(const Error& error);
-/// An answer of a job, by which a page learns of it too.
+/// Returns a successful response.
 Response answer_with(const Json& json);
 
-/// The file of a picture in the view's format.
-std::string encode(const Photograph& photograph, const View& view);
-/// The type of that file: "image/png".
-std::string type_of(const View& view);
-/// What the page is told of it. @param seconds  that it took so far
-Json to_json(const Photograph& photograph, const View& view, const Viewable& viewable, double seconds);
+/// Encodes a picture as a file in the format of the query.
+std::string encode(const Photograph& photograph, const PictureQuery& query);
+/// Returns the media type of that file, such as "image/png".
+std::string type_of(const PictureQuery& query);
+/// Describes a picture for the page. @param seconds  computing time so far
+Json to_json(const Photograph& photograph, const PictureQuery& query, const Viewable& viewable, double seconds);
 Json to_json(const Reading& reading, const std::string& id);
 Json to_json(const FocusSearch& search);
 Json to_json(const LevelCounts& levels);
 
-/// Does the work of a job, which throws nothing then; gives `refuse` the answer that says what went wrong.
+/// Calls `work`; passes an error response to `refuse` if it throws.
 template <class Work, class Refuse>
 void attempt(const Work& work, const Refuse& refuse) {
     try {

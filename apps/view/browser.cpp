@@ -18,7 +18,7 @@ bool open_browser(const std::string& address) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     for (const int stream : {0, 1, 2}) posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_RDWR, 0);
-    // This program's signals are blocked, which a child would inherit, and in its group a stop would reach the browser.
+    // A child would inherit the blocked signals, and in the same process group it would receive Ctrl+C.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     sigset_t none;

@@ -5,7 +5,7 @@
 
 namespace hogel::view {
 
-/// Opens an address in the desktop's browser with xdg-open, where there is a desktop. Returns whether it was asked to.
+/// Opens an address with xdg-open. Returns false if there is no display or xdg-open cannot be started.
 bool open_browser(const std::string& address);
 
 }  // namespace hogel::view

@@ -31,7 +31,7 @@ DropFolder::~DropFolder() {
 std::filesystem::path DropFolder::destination_for(const std::string& name) {
     const bool plain = !name.empty() && name.size() <= max_name && name.front() != '.' && name.front() != '-' &&
                        name.find('/') == std::string::npos && name.find('\0') == std::string::npos;
-    if (!plain) throw Error(ErrorCode::usage, fmt::format("name: '{}' is no name of a file", name.substr(0, 40)));
+    if (!plain) throw Error(ErrorCode::usage, fmt::format("name: '{}' is not a plain file name", name.substr(0, 40)));
     if (coming_.empty()) {
         std::string folder = (std::filesystem::temp_directory_path() / "hogel-view-XXXXXX").string();
         if (mkdtemp(folder.data()) == nullptr)
@@ -45,7 +45,7 @@ void DropFolder::opened() {
     if (earlier_.empty())
         earlier_ = std::exchange(open_, {});
     else
-        remove(open_);  // which was not shown
+        remove(open_);  // was never shown
     open_ = std::exchange(coming_, {});
 }
 

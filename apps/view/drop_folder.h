@@ -6,22 +6,21 @@
 
 namespace hogel::view {
 
-/// Where files lie that were dropped on a page: folders below that of temporary files that no other user can enter, one
-/// for the files that are shown and one for those that come.
+/// Temporary folders (mode 0700) of the files dropped on a page: one for the open files, one for incoming files.
 class DropFolder {
   public:
     DropFolder() = default;
-    /// Removes all of it.
+    /// Removes all folders.
     ~DropFolder();
     DropFolder(const DropFolder&) = delete;
     DropFolder& operator=(const DropFolder&) = delete;
 
-    /// Where a file of that name is to be put. Throws Error(usage) for what is no plain name of a file,
-    /// Error(cannot_write).
+    /// Returns the path for an incoming file. Throws Error(usage) unless `name` is a plain file name,
+    /// Error(cannot_write) if no folder can be created.
     std::filesystem::path destination_for(const std::string& name);
-    /// The files that came are opened now; the next ones get a folder of their own.
+    /// Marks the incoming files as open. The next files get a new folder.
     void opened();
-    /// What was opened before them is no longer shown.
+    /// Removes the files that were open before.
     void forget_earlier();
 
   private:

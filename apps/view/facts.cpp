@@ -9,12 +9,12 @@ namespace hogel::view {
 nlohmann::ordered_json facts_of_scene(const Settings& settings, const std::vector<Advice>& advice, bool is_file) {
     const LightFieldParameters& render = settings.options().render;
     const HologramRequest hologram = settings.options().hologram.request(render.request().grids(), settings.seed(), 1);
-    // As they were typed, without what the conversion to radians and back adds.
+    // Removes the rounding error of the conversion to radians and back.
     const auto degrees = [](double radians) { return std::round(radians * 180 / std::numbers::pi * 1e9) / 1e9; };
     const Vec3 turn = render.scene.pose.rotation, move = render.scene.pose.shift;
-    nlohmann::ordered_json told = nlohmann::ordered_json::array();
+    nlohmann::ordered_json advice_json = nlohmann::ordered_json::array();
     for (const Advice& each : advice)
-        told.push_back(
+        advice_json.push_back(
             {{"option", each.parameter}, {"text", each.text}, {"enough", each.enough}, {"refused", each.refused}});
     return {{"hogels", {render.hogels.columns, render.hogels.rows}},
             {"directions", {render.directions.columns, render.directions.rows}},
@@ -27,7 +27,7 @@ nlohmann::ordered_json facts_of_scene(const Settings& settings, const std::vecto
             {"pitch_m", hologram.pitch},
             {"is_file", is_file},
             {"make", settings.make_command()},
-            {"advice", told}};
+            {"advice", advice_json}};
 }
 
 nlohmann::ordered_json facts_of_stream(const StreamFacts& stream) {

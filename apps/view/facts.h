@@ -12,15 +12,15 @@
 
 namespace hogel::view {
 
-/// What is known of a compressed light field.
+/// Facts about a compressed light field.
 struct StreamFacts {
-    std::size_t layers = 0, of_layers = 0;  ///< shown, and in the file
-    double bytes = 0;                       ///< that those layers take
-    std::string original;                   ///< beside what errors are; empty: the whole file
-    std::optional<double> sqnr, psnr;       ///< decibels, once they are measured; infinite where nothing differs
+    std::size_t layers = 0, of_layers = 0;  ///< layers shown, and layers in the file
+    double bytes = 0;                       ///< size of the shown layers
+    std::string original;                   ///< reference of the errors; empty: all layers of the file
+    std::optional<double> sqnr, psnr;       ///< decibels, once measured; infinite without errors
 };
 
-/// For the page, in SI units and degrees: what its sliders show of a scene, and what cannot be.
+/// Returns the slider values of a scene and the advice, for the page, in SI units and degrees.
 nlohmann::ordered_json facts_of_scene(const Settings& settings, const std::vector<Advice>& advice, bool is_file);
 nlohmann::ordered_json facts_of_stream(const StreamFacts& stream);
 

@@ -8,7 +8,7 @@
 namespace hogel::view {
 namespace {
 
-// Seven colours of Matplotlib's map viridis (van der Walt and Smith, public domain), display values.
+// Seven colours of Matplotlib's colour map viridis (van der Walt and Smith, public domain), sRGB values.
 constexpr std::array<std::array<float, 3>, 7> colours{{{0.267f, 0.005f, 0.329f},
                                                        {0.268f, 0.228f, 0.512f},
                                                        {0.191f, 0.407f, 0.556f},
@@ -24,11 +24,11 @@ Image heat_map(const Array<double, 2>& numbers, double low, double high) {
     const double range = high > low ? high - low : 1;
     for (std::size_t y = 0; y < picture.height(); ++y)
         for (std::size_t x = 0; x < picture.width(); ++x) {
-            const double at = std::clamp((numbers(y, x) - low) / range, 0.0, 1.0) * (colours.size() - 1);
-            const auto i = std::min(static_cast<std::size_t>(at), colours.size() - 2);
-            const auto part = static_cast<float>(at - static_cast<double>(i));
+            const double position = std::clamp((numbers(y, x) - low) / range, 0.0, 1.0) * (colours.size() - 1);
+            const auto i = std::min(static_cast<std::size_t>(position), colours.size() - 2);
+            const auto fraction = static_cast<float>(position - static_cast<double>(i));
             for (std::size_t c = 0; c < 3; ++c)
-                picture.pixels(y, x, c) = srgb_decode(std::lerp(colours[i][c], colours[i + 1][c], part));
+                picture.pixels(y, x, c) = srgb_decode(std::lerp(colours[i][c], colours[i + 1][c], fraction));
         }
     return picture;
 }

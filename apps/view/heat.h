@@ -6,8 +6,8 @@
 
 namespace hogel::view {
 
-/// Numbers as colours from dark blue over green to yellow, whose lightness rises evenly, so that they are told apart
-/// without colours too. @param low, high  the numbers of the first colour and the last
+/// Maps numbers to colours from dark blue over green to yellow with evenly rising lightness.
+/// @param low, high  numbers of the first and the last colour
 Image heat_map(const Array<double, 2>& numbers, double low, double high);
 
 }  // namespace hogel::view

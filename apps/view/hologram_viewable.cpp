@@ -18,8 +18,8 @@
 namespace hogel::view {
 namespace {
 
-// In memory, where every eye reads them.
-Fields kept(Fields fields, std::size_t memory, const Progress& progress) {
+// Copies fields into memory if they fit, because every viewpoint reads them.
+Fields read_into_memory(Fields fields, std::size_t memory, const Progress& progress) {
     double bytes = 0;
     for (const auto& field : fields)
         bytes += static_cast<double>(field->looks() * field->grid().plane.samples() * sizeof(std::complex<float>));
@@ -36,20 +36,21 @@ Fields kept(Fields fields, std::size_t memory, const Progress& progress) {
 
 Region region_around(const Grid& plane, double x, double y, std::size_t side) {
     const auto first = [side](double middle, std::size_t count) {
-        const double most = static_cast<double>(count) - static_cast<double>(std::min(side, count));
-        return static_cast<std::size_t>(std::clamp(std::round(middle - 0.5 * static_cast<double>(side)), 0.0, most));
+        const double max_first = static_cast<double>(count) - static_cast<double>(std::min(side, count));
+        return static_cast<std::size_t>(
+            std::clamp(std::round(middle - 0.5 * static_cast<double>(side)), 0.0, max_first));
     };
     return {first(plane.column(x), plane.width), first(plane.row(y), plane.height), std::min(side, plane.width),
             std::min(side, plane.height)};
 }
 
-bool holds(const Grid& plane, double x, double y) {
+bool is_inside_grid(const Grid& plane, double x, double y) {
     const double column = std::round(plane.column(x)), row = std::round(plane.row(y));
     return column >= 0 && row >= 0 && column < static_cast<double>(plane.width) &&
            row < static_cast<double>(plane.height);
 }
 
-// The samples as the page names what it shows of them. Of intensities the brightest is white.
+// Returns the intensity, phase or real part of samples. The highest intensity becomes white.
 Image samples_of(const Field& field, const std::string& what) {
     const auto samples = field.samples.view();
     if (what == "phase") return picture_of(samples, FieldQuantity::phase);
@@ -62,7 +63,7 @@ Image samples_of(const Field& field, const std::string& what) {
     return picture;
 }
 
-// The power spectrum behind Hann's window, so that the edges of the samples do not show.
+// Returns the power spectrum with a Hann window, which suppresses the edges of the region.
 Image spectrum_of(Field field) {
     const std::size_t width = field.grid().plane.width, height = field.grid().plane.height;
     const auto window = [](std::size_t i, std::size_t n) {
@@ -80,16 +81,16 @@ HologramViewable::HologramViewable(Fields fields, std::size_t memory, const Prog
     if (fields.size() != 1 && fields.size() != 3)
         throw Error(ErrorCode::bad_input,
                     fmt::format("has {} wavelengths; a photograph takes one or three", fields.size()));
-    fields_ = kept(std::move(fields), memory, progress);
+    fields_ = read_into_memory(std::move(fields), memory, progress);
     measure(progress);
     waves_ = std::make_unique<Waves>([this] { return fields_; }, fields_.front()->looks(), memory, Progress());
-    View front;
-    front.by = By::waves;
+    PictureQuery front;
+    front.by = PictureMethod::waves;
     front.camera.resolution = {128, 0};
     exposure_ = automatic_exposure(Viewable::photograph(front, progress).picture);
 }
 
-// Rows of the first wavelength: a few hundred tell the mean; the brightest sample is that of them.
+// Estimates the mean and the maximum of |F|² from up to 256 rows of the first wavelength.
 void HologramViewable::measure(const Progress& progress) {
     const Grid& plane = fields_.front()->grid().plane;
     constexpr std::size_t max_rows = 256;
@@ -112,8 +113,8 @@ double HologramViewable::height() const { return fields_.front()->grid().plane.s
 
 nlohmann::ordered_json HologramViewable::facts() const {
     const FieldGrid& grid = fields_.front()->grid();
-    // The eye may go as far as the pitch of the samples diffracts.
-    const auto reach = [&](double pitch) {
+    // The diffraction angle at the sample pitch limits the viewpoints.
+    const auto max_tangent = [&](double pitch) {
         const double sine = std::min(grid.wavelength / (2 * pitch), 0.95);
         return sine / std::sqrt(1 - sine * sine);
     };
@@ -124,8 +125,8 @@ nlohmann::ordered_json HologramViewable::facts() const {
             {"samples_y", grid.plane.height},
             {"pitch_m", grid.plane.pitch_x},
             {"wavelengths_m", wavelengths},
-            {"tan_half_u", reach(grid.plane.pitch_x)},
-            {"tan_half_v", reach(grid.plane.pitch_y)},
+            {"tan_half_u", max_tangent(grid.plane.pitch_x)},
+            {"tan_half_v", max_tangent(grid.plane.pitch_y)},
             {"center_u", 0},
             {"center_v", 0},
             {"channels", fields_.size()},
@@ -134,32 +135,34 @@ nlohmann::ordered_json HologramViewable::facts() const {
             {"depth", false}};
 }
 
-Image HologramViewable::by_rays(const View&, const Progress&) {
-    throw Error(ErrorCode::usage, "by", "by: a hologram has no rays to follow; by=waves would do");
+Image HologramViewable::by_rays(const PictureQuery&, const Progress&) {
+    throw Error(ErrorCode::usage, "by", "by: a hologram has no rays; use by=waves");
 }
 
-void HologramViewable::by_waves(const View& view, std::size_t looks, const OnLooks& shown, const Progress& progress) {
-    const Camera camera = this->camera(view);
+void HologramViewable::by_waves(const PictureQuery& query, std::size_t looks, const OnLooks& shown,
+                                const Progress& progress) {
+    const Camera camera = this->camera(query);
     for (const auto& field : fields_) require_light_towards(field->grid(), camera);
-    waves_->photograph(camera, looks, view.preview, shown, progress);
+    waves_->photograph(camera, looks, query.preview, shown, progress);
 }
 
-Reading HologramViewable::read(const View& view, const PickPoint& point) const {
-    if (view.eyes > 0)
-        return std::apply([&](const View& one, const PickPoint& at) { return read(one, at); },
-                          in_one_picture(view, point));
-    Reading reading = ray_at(camera(view), point);
-    if (!holds(fields_.front()->grid().plane, reading.x, reading.y)) return reading;
+Reading HologramViewable::read(const PictureQuery& query, const PickPoint& point) const {
+    if (query.eyes > 0)
+        return std::apply(
+            [&](const PictureQuery& single, const PickPoint& single_point) { return read(single, single_point); },
+            single_picture(query, point));
+    Reading reading = ray_at(camera(query), point);
+    if (!is_inside_grid(fields_.front()->grid().plane, reading.x, reading.y)) return reading;
     reading.inside = true;
     for (std::size_t c = 0; c < 3; ++c) {
-        const std::complex<float> sample = around(reading, std::min(c, fields_.size() - 1), 1).samples(0, 0);
+        const std::complex<float> sample = samples_around(reading, std::min(c, fields_.size() - 1), 1).samples(0, 0);
         reading.radiance[c] = std::norm(sample);
         if (c == 0) reading.phase = std::arg(sample);
     }
     return reading;
 }
 
-Field HologramViewable::around(const Reading& point, std::size_t colour, std::size_t side) const {
+Field HologramViewable::samples_around(const Reading& point, std::size_t colour, std::size_t side) const {
     const FieldSource& source = *fields_[std::min(colour, fields_.size() - 1)];
     const Region region = region_around(source.grid().plane, point.x, point.y, side);
     Field field({part(source.grid().plane, region), source.grid().wavelength});
@@ -167,21 +170,24 @@ Field HologramViewable::around(const Reading& point, std::size_t colour, std::si
     return field;
 }
 
-double HologramViewable::focus(const View& view, const PickPoint& point, const Progress& progress) {
-    if (view.eyes > 0)
-        return std::apply([&](const View& one, const PickPoint& at) { return focus(one, at, progress); },
-                          in_one_picture(view, point));
-    constexpr std::size_t side = 256, planes = 96;  // samples, and depths as far as those of the whole
-    const Field field = around(ray_at(camera(view), point), 0, side);
-    const FocusSearch search = hogel::find_focus(field, depths(planes), progress);
+double HologramViewable::focus(const PictureQuery& query, const PickPoint& point, const Progress& progress) {
+    if (query.eyes > 0)
+        return std::apply([&](const PictureQuery& single,
+                              const PickPoint& single_point) { return focus(single, single_point, progress); },
+                          single_picture(query, point));
+    constexpr std::size_t side = 256,
+                          planes = 96;  // samples of the region; depths over the range of the entire hologram
+    const Field field = samples_around(ray_at(camera(query), point), 0, side);
+    const FocusSearch search = hogel::find_focus(field, search_options(planes), progress);
     for (const FocusPlane& plane : search.planes)
-        if (plane.depth > -0.9 * view.camera.eye.z) return plane.depth;
-    throw Error(ErrorCode::usage, "no depth stands out here; the plot of sharpness may know one");
+        if (plane.depth > -0.9 * query.camera.eye.z) return plane.depth;
+    throw Error(ErrorCode::usage,
+                "no depth is in focus at this point; see the sharpness plot for depths of the entire hologram");
 }
 
 FocusSearch HologramViewable::find_focus(const Progress& progress) {
-    constexpr std::size_t planes = 192;  // coarse beside the depth of focus; around what stands out the search is finer
-    return hogel::find_focus(fields_, depths(planes), progress);
+    constexpr std::size_t planes = 192;  // coarser than the depth of focus; the search refines around peaks
+    return hogel::find_focus(fields_, search_options(planes), progress);
 }
 
 LevelCounts HologramViewable::count_levels(const std::string& encoding, const Progress& progress) {
@@ -197,24 +203,25 @@ LevelCounts HologramViewable::count_levels(const std::string& encoding, const Pr
     return levels;
 }
 
-// As far as samples and size resolve alike, at no more depths than one waits for.
-FocusOptions HologramViewable::depths(std::size_t planes) const {
+// Depths up to N pitch²/λ, where sample pitch and aperture limit the resolution equally, in at most `planes` planes.
+FocusOptions HologramViewable::search_options(std::size_t planes) const {
     const FieldGrid& grid = fields_.front()->grid();
     const std::size_t side = std::max(grid.plane.width, grid.plane.height);
     const double pitch = std::max(grid.plane.pitch_x, grid.plane.pitch_y);
-    const double reach = static_cast<double>(side) * pitch * pitch / grid.wavelength;
-    return {.from = -reach, .to = reach, .planes = std::clamp<std::size_t>(side, 8, planes)};
+    const double max_depth = static_cast<double>(side) * pitch * pitch / grid.wavelength;
+    return {.from = -max_depth, .to = max_depth, .planes = std::clamp<std::size_t>(side, 8, planes)};
 }
 
-Photograph HologramViewable::inside(const View& view, const PickPoint& point, const Inside& inside, const Progress&) {
-    if (view.eyes > 0) {
-        const auto [one, at] = in_one_picture(view, point);
-        return this->inside(one, at, inside, {});
+Photograph HologramViewable::inside(const PictureQuery& query, const PickPoint& point, const InsideQuery& inside,
+                                    const Progress&) {
+    if (query.eyes > 0) {
+        const auto [single, single_point] = single_picture(query, point);
+        return this->inside(single, single_point, inside, {});
     }
     if (std::ranges::count(std::to_array<std::string_view>({"intensity", "phase", "real", "spectrum"}), inside.what) ==
         0)
         throw Error(ErrorCode::usage, fmt::format("what: '{}' is not intensity, phase, real or spectrum", inside.what));
-    Field field = around(ray_at(camera(view), point), inside.colour, inside.side);
+    Field field = samples_around(ray_at(camera(query), point), inside.colour, inside.side);
     return {inside.what == "spectrum" ? spectrum_of(std::move(field)) : samples_of(field, inside.what), 1, 0, {}};
 }
 

@@ -44,21 +44,21 @@ Fields tilted() {
     return {field};
 }
 
-View view() {
-    View view;
-    view.camera.eye = {0, 0, 0.1};
-    view.camera.pupil = 3e-3;
-    view.camera.resolution = {64, 64};
-    view.by = By::waves;
-    return view;
+PictureQuery query() {
+    PictureQuery query;
+    query.camera.eye = {0, 0, 0.1};
+    query.camera.pupil = 3e-3;
+    query.camera.resolution = {64, 64};
+    query.by = PictureMethod::waves;
+    return query;
 }
 
 TEST(HologramViewable, pictures_equal_those_of_photograph) {
     const Fields fields = points(3e-3);
     HologramViewable one(fields, std::size_t{1} << 30, {});
-    const Camera camera = one.camera(view());
+    const Camera camera = one.camera(query());
     const Image expected = photograph_colours(fields, {&camera, 1}).front();
-    EXPECT_TRUE(std::ranges::equal(one.photograph(view(), {}).picture.pixels.elements(), expected.pixels.elements()));
+    EXPECT_TRUE(std::ranges::equal(one.photograph(query(), {}).picture.pixels.elements(), expected.pixels.elements()));
     EXPECT_EQ(one.looks(), 1u);
 }
 
@@ -68,13 +68,13 @@ TEST(HologramViewable, finds_the_planes_in_focus) {
     const FocusSearch search = one.find_focus({});
     ASSERT_FALSE(search.planes.empty());
     EXPECT_NEAR(search.planes.front().depth, depth, 0.3e-3);
-    EXPECT_NEAR(one.focus(view(), {0.5, 0.5}, {}), depth, 0.5e-3);
+    EXPECT_NEAR(one.focus(query(), {0.5, 0.5}, {}), depth, 0.5e-3);
 }
 
 TEST(HologramViewable, shows_fringes_to_the_sample) {
     const Fields fields = tilted();
     HologramViewable one(fields, std::size_t{1} << 30, {});
-    const Photograph phase = one.inside(view(), {0.5, 0.5}, {"phase", 0, 32}, {});
+    const Photograph phase = one.inside(query(), {0.5, 0.5}, {"phase", 0, 32}, {});
     ASSERT_EQ(phase.picture.width(), 32u);
     const auto& samples = dynamic_cast<const Field&>(*fields.front()).samples;
     for (std::size_t y = 0; y < 32; ++y)
@@ -82,15 +82,15 @@ TEST(HologramViewable, shows_fringes_to_the_sample) {
             const double cycles = std::arg(samples(side / 2 - 16 + y, side / 2 - 16 + x)) / (2 * pi);
             EXPECT_NEAR(srgb_encode(phase.picture.pixels(y, x, 0)), 0.5 + cycles, 1e-3);
         }
-    EXPECT_THROW(one.inside(view(), {0.5, 0.5}, {"hogel", 0, 32}, {}), Error);
+    EXPECT_THROW(one.inside(query(), {0.5, 0.5}, {"hogel", 0, 32}, {}), Error);
     // At the edge it stays on the hologram.
-    EXPECT_EQ(one.inside(view(), {1, 1}, {"real", 0, 32}, {}).picture.height(), 32u);
+    EXPECT_EQ(one.inside(query(), {1, 1}, {"real", 0, 32}, {}).picture.height(), 32u);
 }
 
 // The brightest frequency is that of the wave: x to the right, y upwards.
 TEST(HologramViewable, shows_the_local_spectrum) {
     HologramViewable one(tilted(), std::size_t{1} << 30, {});
-    const Image spectrum = one.inside(view(), {0.5, 0.5}, {"spectrum", 0, 128}, {}).picture;
+    const Image spectrum = one.inside(query(), {0.5, 0.5}, {"spectrum", 0, 128}, {}).picture;
     ASSERT_EQ(spectrum.width(), 128u);
     const auto all = spectrum.pixels.elements();
     const auto brightest = static_cast<std::size_t>(std::ranges::max_element(all) - all.begin());
@@ -102,7 +102,7 @@ TEST(HologramViewable, shows_the_local_spectrum) {
 
 TEST(HologramViewable, reads_the_sample_under_the_pointer) {
     HologramViewable one(tilted(), std::size_t{1} << 30, {});
-    const Reading reading = one.read(view(), {0.5, 0.5});
+    const Reading reading = one.read(query(), {0.5, 0.5});
     ASSERT_TRUE(reading.inside);
     EXPECT_NEAR(reading.radiance[0], 4, 1e-4);
     EXPECT_TRUE(reading.phase);

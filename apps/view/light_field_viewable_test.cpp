@@ -33,11 +33,11 @@ LightField stripes(bool with_depth) {
 
 LightFieldViewable viewable(bool with_depth) { return {stripes(with_depth), stripes(with_depth), 1 << 28, {}}; }
 
-View view_from(Vec3 eye) {
-    View view;
-    view.camera.eye = eye;
-    view.camera.resolution = {80, 60};
-    return view;
+PictureQuery view_from(Vec3 eye) {
+    PictureQuery query;
+    query.camera.eye = eye;
+    query.camera.resolution = {80, 60};
+    return query;
 }
 
 TEST(LightFieldViewable, focuses_at_the_depth_that_is_known) {
@@ -53,10 +53,10 @@ TEST(LightFieldViewable, focuses_where_pixels_are_sharpest_otherwise) {
 // The ray through a pixel is that of the camera: from the eye to the pixel's point of the hologram.
 TEST(LightFieldViewable, reads_the_ray_that_a_pixel_shows) {
     LightFieldViewable one = viewable(true);
-    const View view = view_from({4e-3, -2e-3, 0.1});
-    const Camera camera = one.camera(view);
+    const PictureQuery query = view_from({4e-3, -2e-3, 0.1});
+    const Camera camera = one.camera(query);
     for (const auto& [column, row] : {std::pair{0.0, 0.0}, {40.0, 30.0}, {79.0, 59.0}, {12.0, 50.0}}) {
-        const Reading reading = one.read(view, {(column + 0.5) / 80, (row + 0.5) / 60});
+        const Reading reading = one.read(query, {(column + 0.5) / 80, (row + 0.5) / 60});
         EXPECT_NEAR(reading.x, camera.picture.x(column), 1e-12);
         EXPECT_NEAR(reading.y, camera.picture.y(row), 1e-12);
         EXPECT_NEAR(std::tan(reading.across), (reading.x - 4e-3) / 0.1, 1e-12);
@@ -72,17 +72,17 @@ TEST(LightFieldViewable, reads_the_ray_that_a_pixel_shows) {
 
 TEST(LightFieldViewable, pictures_equal_those_of_photograph) {
     LightFieldViewable one = viewable(false);
-    View view = view_from({3e-3, 1e-3, 0.12});
-    view.pupil_samples = 7;
-    const Camera camera = one.camera(view);
+    PictureQuery query = view_from({3e-3, 1e-3, 0.12});
+    query.pupil_samples = 7;
+    const Camera camera = one.camera(query);
     const Image expected = photograph(stripes(false), {&camera, 1}, {.pupil_samples = 7}).front();
     EXPECT_TRUE(
-        std::ranges::equal(one.photograph(view, Progress()).picture.pixels.elements(), expected.pixels.elements()));
+        std::ranges::equal(one.photograph(query, Progress()).picture.pixels.elements(), expected.pixels.elements()));
 }
 
 TEST(LightFieldViewable, two_eyes_see_two_pictures) {
     LightFieldViewable one = viewable(true);
-    View both = view_from({3e-3, 1e-3, 0.12});
+    PictureQuery both = view_from({3e-3, 1e-3, 0.12});
     both.eyes = 4e-3;
     const Image pair = one.photograph(both, Progress()).picture;
     ASSERT_EQ(pair.width(), 160u);
@@ -102,9 +102,9 @@ TEST(LightFieldViewable, two_eyes_see_two_pictures) {
 }
 
 TEST(LightFieldViewable, refuses_pictures_beyond_any_screen) {
-    View view = view_from({0, 0, 0.1});
-    view.camera.resolution = {4096, 4096};
-    EXPECT_THROW(viewable(false).camera(view), Error);
+    PictureQuery query = view_from({0, 0, 0.1});
+    query.camera.resolution = {4096, 4096};
+    EXPECT_THROW(viewable(false).camera(query), Error);
     std::stop_source stopped;
     stopped.request_stop();
     LightFieldViewable one = viewable(false);

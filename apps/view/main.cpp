@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// hogel-view: what `hogel view` becomes. It has this one command, whose options are read as hogel reads them.
+// hogel-view: the program that `hogel view` executes. It has only this command, parsed as in hogel.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -20,7 +20,7 @@ namespace {
 
 using cli::Session;
 
-// Whether a command of hogel takes an option.
+// Returns whether a command of hogel has an option.
 bool takes(const std::string& command, std::string_view option) {
     static Session none;
     static const cli::CommandLine line(cli::commands(), none);

@@ -6,14 +6,14 @@
 
 namespace hogel::view {
 
-/// A file of the page, apps/view/web, which the build turns into an array (embed.cmake).
+/// A static file of the page, from apps/view/web, embedded as an array by embed.cmake.
 struct PageFile {
-    std::string_view path;  ///< of its address: "/view.js"
-    std::string_view type;  ///< "text/javascript; charset=utf-8"
+    std::string_view path;  ///< URL path: "/view.js"
+    std::string_view type;  ///< media type: "text/javascript; charset=utf-8"
     std::string_view bytes;
 };
 
-/// All files of the page. These are all addresses that there are besides those of viewer.cpp; no file system is read.
+/// Returns all files of the page. Together with the paths in viewer.cpp they are all URLs; no file system is read.
 std::span<const PageFile> page_files();
 
 }  // namespace hogel::view

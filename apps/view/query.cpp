@@ -17,10 +17,10 @@ namespace hogel::view {
 namespace {
 
 constexpr std::size_t max_query = 2048, max_words = 64, max_text = 100;
-// A picture's cost: a screen of 3840x2160 with 64 points of the pupil takes seconds, and stops when the next is asked.
+// Limits on the cost of a picture: 3840x2160 pixels with 64 pupil samples take seconds; the next request cancels it.
 constexpr std::size_t max_side = 4096, max_samples = 1024, max_looks = 1024;
-// Words that stand beside those of a view.
-constexpr std::string_view of_others[] = {"token", "x", "y", "what", "colour", "side", "encoding"};
+// Names that other parsers read from the same query.
+constexpr std::string_view other_words[] = {"token", "x", "y", "what", "colour", "side", "encoding"};
 
 using Words = std::map<std::string, std::string>;
 
@@ -42,18 +42,19 @@ std::string decode(std::string_view text) {
         if (c == '%') {
             const unsigned high = i + 2 < text.size() ? hex_digit(text[i + 1]) : 16;
             const unsigned low = i + 2 < text.size() ? hex_digit(text[i + 2]) : 16;
-            if (high > 15 || low > 15) throw Error(ErrorCode::usage, "query: a '%' is followed by two digits 0 to f");
+            if (high > 15 || low > 15)
+                throw Error(ErrorCode::usage, "query: '%' must be followed by two hexadecimal digits");
             c = static_cast<char>(16 * high + low);
             i += 2;
         }
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-            throw Error(ErrorCode::usage, "query: holds a control character");
+            throw Error(ErrorCode::usage, "query: contains a control character");
         decoded += c;
     }
     return decoded;
 }
 
-std::size_t whole(const std::string& name, const std::string& text, std::size_t max) {
+std::size_t parse_count(const std::string& name, const std::string& text, std::size_t max) {
     std::size_t number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (text.empty() || error != std::errc() || end != text.data() + text.size() || number == 0 || number > max)
@@ -68,15 +69,16 @@ double exposure(const std::string& text) {
     return *number;
 }
 
-constexpr std::pair<const char*, By> methods[] = {{"rays", By::rays},         {"waves", By::waves},
-                                                  {"side", By::side},         {"difference", By::difference},
-                                                  {"original", By::original}, {"error", By::error}};
+constexpr std::pair<const char*, PictureMethod> methods[] = {
+    {"rays", PictureMethod::rays},         {"waves", PictureMethod::waves},
+    {"side", PictureMethod::side},         {"difference", PictureMethod::difference},
+    {"original", PictureMethod::original}, {"error", PictureMethod::error}};
 
-By method(std::string_view text) {
+PictureMethod method_named(std::string_view text) {
     return std::ranges::find(methods, text, [](const auto& row) { return std::string_view(row.first); })->second;
 }
 
-double fraction(const Words& words, const std::string& name) {
+double parse_fraction(const Words& words, const std::string& name) {
     const auto found = words.find(name);
     const std::optional<double> number = found == words.end() ? std::nullopt : parse_number(found->second);
     if (!number || !(*number >= 0 && *number <= 1))
@@ -84,32 +86,32 @@ double fraction(const Words& words, const std::string& name) {
     return *number;
 }
 
-// The words of a view, and those values that it has in another form.
-struct ViewWords {
-    View view;
+// Table of the parameters of a PictureQuery, with the values that are converted afterwards.
+struct PictureQueryReader {
+    PictureQuery query;
     std::string by = "rays", exposure = "auto", display = "intensity";
     std::size_t quality = 90;
     Parameters table;
 
-    ViewWords() {
-        view.camera.resolution = {512, 0};
+    PictureQueryReader() {
+        query.camera.resolution = {512, 0};
         std::vector<std::string> names;
         for (const auto& row : methods) names.emplace_back(row.first);
-        view.camera.declare(table);
+        query.camera.declare(table);
         table.choice("--by", by, names, "", "");
-        table.count("--looks", view.looks, "").range(1, max_looks);
-        table.flag("--preview", view.preview, "");
-        table.positive_length("--eyes", view.eyes, "");
-        table.count("--pupil-samples", view.pupil_samples, "").range(1, max_samples);
+        table.count("--looks", query.looks, "").range(1, max_looks);
+        table.flag("--preview", query.preview, "");
+        table.positive_length("--eyes", query.eyes, "");
+        table.count("--pupil-samples", query.pupil_samples, "").range(1, max_samples);
         table.text("--exposure", exposure, "", "");
         table.choice("--display", display, {"intensity", "log"}, "", "");
-        table.choice("--format", view.format, {"jpeg", "png", "exr"}, "", "");
+        table.choice("--format", query.format, {"jpeg", "png", "exr"}, "", "");
         table.count("--quality", quality, "").range(1, 100);
-        table.flag("--moving", view.moving, "");
-        table.text("--id", view.id, "", "");
+        table.flag("--moving", query.moving, "");
+        table.text("--id", query.id, "", "");
     }
 
-    // Takes a word; false for one of something else.
+    // Reads a parameter; returns false if the name is unknown.
     bool read(const std::string& name, const std::string& text) {
         Parameter* const word = table.look_up(name);
         if (word == nullptr) return false;
@@ -117,13 +119,13 @@ struct ViewWords {
         return true;
     }
 
-    View complete() {
+    PictureQuery complete() {
         table.require_compatible();
-        view.by = method(by);
-        view.logarithmic = display == "log";
-        view.quality = static_cast<int>(quality);
-        view.id.resize(std::min<std::size_t>(view.id.size(), 40));
-        return view;
+        query.by = method_named(by);
+        query.logarithmic = display == "log";
+        query.quality = static_cast<int>(quality);
+        query.id.resize(std::min<std::size_t>(query.id.size(), 40));
+        return query;
     }
 
   private:
@@ -132,9 +134,9 @@ struct ViewWords {
         if (name != "id" && text.size() > max_text)
             refuse(name, text.substr(0, 40), fmt::format("a text of at most {} characters", max_text));
         word.read({text}, name);
-        if (std::max(view.camera.resolution.columns, view.camera.resolution.rows) > max_side)
+        if (std::max(query.camera.resolution.columns, query.camera.resolution.rows) > max_side)
             refuse(name, text, fmt::format("at most {} pixels on a side", max_side));
-        if (name == "exposure") view.exposure = hogel::view::exposure(text);
+        if (name == "exposure") query.exposure = hogel::view::exposure(text);
     }
 };
 
@@ -153,37 +155,37 @@ Words parse_query(std::string_view query) {
         std::string name = decode(word.substr(0, equals));
         std::string value = equals < word.size() ? decode(word.substr(equals + 1)) : "";
         if (!words.emplace(name, std::move(value)).second)
-            throw Error(ErrorCode::usage, fmt::format("query: '{}' is there twice", name.substr(0, 40)));
-        if (words.size() > max_words) throw Error(ErrorCode::usage, "query: too many words");
+            throw Error(ErrorCode::usage, fmt::format("query: '{}' occurs twice", name.substr(0, 40)));
+        if (words.size() > max_words) throw Error(ErrorCode::usage, "query: too many parameters");
     }
     return words;
 }
 
-View parse_view(const Words& words) {
-    ViewWords view;
+PictureQuery parse_picture_query(const Words& words) {
+    PictureQueryReader query;
     for (const auto& word : words) {
         const std::string& name = word.first;
-        if (!view.read(name, word.second) && !std::ranges::count(of_others, name))
+        if (!query.read(name, word.second) && !std::ranges::count(other_words, name))
             throw Error(ErrorCode::usage, fmt::format("query: '{}' is unknown", name.substr(0, 40)));
     }
-    return view.complete();
+    return query.complete();
 }
 
-View of_eye(View view, int side) {
-    view.camera.eye.x += 0.5 * side * view.eyes;
-    view.eyes = 0;
-    return view;
+PictureQuery query_of_eye(PictureQuery query, int side) {
+    query.camera.eye.x += 0.5 * side * query.eyes;
+    query.eyes = 0;
+    return query;
 }
 
-PickPoint parse_pick_point(const Words& words) { return {fraction(words, "x"), fraction(words, "y")}; }
+PickPoint parse_pick_point(const Words& words) { return {parse_fraction(words, "x"), parse_fraction(words, "y")}; }
 
-Inside parse_inside(const Words& words) {
+InsideQuery parse_inside(const Words& words) {
     constexpr std::size_t max_inside = 1024, max_colours = 3;
-    Inside inside;
+    InsideQuery inside;
     for (const auto& [name, text] : words) {
         if (name == "what") inside.what = text.substr(0, 40);
-        if (name == "colour") inside.colour = whole(name, text, max_colours) - 1;
-        if (name == "side") inside.side = whole(name, text, max_inside);
+        if (name == "colour") inside.colour = parse_count(name, text, max_colours) - 1;
+        if (name == "side") inside.side = parse_count(name, text, max_inside);
     }
     return inside;
 }

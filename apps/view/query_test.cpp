@@ -11,7 +11,7 @@ namespace {
 
 std::string refusal(std::string_view query) {
     try {
-        parse_view(parse_query(query));
+        parse_picture_query(parse_query(query));
         return "";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::usage);
@@ -20,22 +20,21 @@ std::string refusal(std::string_view query) {
 }
 
 TEST(Query, words_are_those_of_the_command_line) {
-    const View view =
-        parse_view(parse_query("eye=-30,0.5,300mm&focus=-4mm&pupil=0.5cm&resolution=640x480&pupil-samples=4&exposure=1."
-                               "5&display=log&format=png&"
-                               "moving=yes&id=17"));
-    EXPECT_DOUBLE_EQ(view.camera.eye.x, -0.03);
-    EXPECT_DOUBLE_EQ(view.camera.eye.z, 0.3);
-    EXPECT_DOUBLE_EQ(view.camera.focus, -0.004);
-    EXPECT_DOUBLE_EQ(view.camera.pupil, 0.005);
-    EXPECT_EQ(view.camera.resolution.columns, 640u);
-    EXPECT_EQ(view.camera.resolution.rows, 480u);
-    EXPECT_EQ(view.pupil_samples, 4u);
-    EXPECT_EQ(view.exposure, 1.5);
-    EXPECT_TRUE(view.logarithmic);
-    EXPECT_TRUE(view.moving);
-    EXPECT_EQ(view.format, "png");
-    EXPECT_EQ(view.id, "17");
+    const PictureQuery query = parse_picture_query(
+        parse_query("eye=-30,0.5,300mm&focus=-4mm&pupil=0.5cm&resolution=640x480&pupil-samples=4&exposure=1.5&"
+                    "display=log&format=png&moving=yes&id=17"));
+    EXPECT_DOUBLE_EQ(query.camera.eye.x, -0.03);
+    EXPECT_DOUBLE_EQ(query.camera.eye.z, 0.3);
+    EXPECT_DOUBLE_EQ(query.camera.focus, -0.004);
+    EXPECT_DOUBLE_EQ(query.camera.pupil, 0.005);
+    EXPECT_EQ(query.camera.resolution.columns, 640u);
+    EXPECT_EQ(query.camera.resolution.rows, 480u);
+    EXPECT_EQ(query.pupil_samples, 4u);
+    EXPECT_EQ(query.exposure, 1.5);
+    EXPECT_TRUE(query.logarithmic);
+    EXPECT_TRUE(query.moving);
+    EXPECT_EQ(query.format, "png");
+    EXPECT_EQ(query.id, "17");
 }
 
 TEST(Query, percent_stands_for_any_character) {
@@ -86,7 +85,7 @@ TEST(Query, what_makes_no_sense_is_refused) {
 TEST(Query, errors_name_the_word_as_a_parameter) {
     const auto parameter = [](std::string_view query) {
         try {
-            parse_view(parse_query(query));
+            parse_picture_query(parse_query(query));
         } catch (const Error& error) {
             return error.parameter();
         }

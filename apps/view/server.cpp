@@ -29,22 +29,22 @@ using tcp = asio::ip::tcp;
 using Code = beast::error_code;
 using HttpRequest = http::request<http::empty_body>;
 
-constexpr std::size_t max_texts = 64;  // that wait on a socket whose other end does not read
+constexpr std::size_t max_texts = 64;  // queued on a socket before it is closed
 
-std::string text_of(beast::string_view view) { return {view.data(), view.size()}; }
+std::string text_of(beast::string_view text) { return {text.data(), text.size()}; }
 
-Request request_of(const HttpRequest& from) {
-    const std::string target = text_of(from.target());
+Request request_of(const HttpRequest& http_request) {
+    const std::string target = text_of(http_request.target());
     const std::size_t query = std::min(target.find('?'), target.size());
-    return {text_of(from.method_string()),
+    return {text_of(http_request.method_string()),
             target.substr(0, query),
             query < target.size() ? target.substr(query + 1) : "",
-            text_of(from[http::field::host]),
-            text_of(from[http::field::origin]),
-            text_of(from["Sec-Fetch-Site"])};
+            text_of(http_request[http::field::host]),
+            text_of(http_request[http::field::origin]),
+            text_of(http_request["Sec-Fetch-Site"])};
 }
 
-// What every answer says: nothing is kept, nothing may be embedded, and the page may use nothing from elsewhere.
+// Headers of all responses: no caching, no embedding, and no resources from other origins.
 template <class Message>
 void add_headers(Message& message, const std::string& type) {
     message.set(http::field::content_type, type);
@@ -62,11 +62,11 @@ void add_headers(Message& message, const std::string& type) {
 class BeastSocket final : public Socket, public std::enable_shared_from_this<BeastSocket> {
   public:
     BeastSocket(beast::tcp_stream stream, HttpRequest request, const ServerLimits& limits,
-                std::shared_ptr<void> counted)
-        : socket_(std::move(stream)), request_(std::move(request)), counted_(std::move(counted)) {
+                std::shared_ptr<void> connection_count)
+        : socket_(std::move(stream)), request_(std::move(request)), connection_count_(std::move(connection_count)) {
         beast::get_lowest_layer(socket_).expires_never();
         websocket::stream_base::timeout timeout = websocket::stream_base::timeout::suggested(beast::role_type::server);
-        timeout.idle_timeout = std::chrono::seconds(limits.idle_seconds);  // with pings, so that a silent page stays
+        timeout.idle_timeout = std::chrono::seconds(limits.idle_seconds);  // with pings: keeps silent pages open
         socket_.set_option(timeout);
         socket_.read_message_max(limits.message);
     }
@@ -115,17 +115,17 @@ class BeastSocket final : public Socket, public std::enable_shared_from_this<Bea
         if (writing_ || ended_) return;
         const bool picture = texts_.empty() && picture_;
         if (picture) {
-            going_ = std::move(*picture_);
+            outgoing_ = std::move(*picture_);
             picture_.reset();
         } else if (!texts_.empty()) {
-            going_ = std::move(texts_.front());
+            outgoing_ = std::move(texts_.front());
             texts_.pop_front();
         } else {
             return;
         }
         writing_ = true;
         socket_.binary(picture);
-        socket_.async_write(asio::buffer(going_), [self = shared_from_this(), picture](Code error, std::size_t) {
+        socket_.async_write(asio::buffer(outgoing_), [self = shared_from_this(), picture](Code error, std::size_t) {
             self->writing_ = false;
             if (error) return self->end();
             if (picture && --self->unsent_ == 1 && self->conversation_) self->conversation_->resume();
@@ -135,7 +135,7 @@ class BeastSocket final : public Socket, public std::enable_shared_from_this<Bea
 
     void close() { beast::get_lowest_layer(socket_).close(); }
 
-    // The conversation knows this socket, so that it goes first.
+    // The conversation refers to this socket: destroy it first.
     void end() {
         ended_ = true;
         conversation_.reset();
@@ -143,28 +143,28 @@ class BeastSocket final : public Socket, public std::enable_shared_from_this<Bea
 
     websocket::stream<beast::tcp_stream> socket_;
     HttpRequest request_;
-    std::shared_ptr<void> counted_;
+    std::shared_ptr<void> connection_count_;
     std::shared_ptr<Conversation> conversation_;
     beast::flat_buffer buffer_;
     std::deque<std::string> texts_;
     std::optional<std::string> picture_;
-    std::string going_;
+    std::string outgoing_;
     std::atomic<int> unsent_ = 0;
     bool writing_ = false, ended_ = false;
 };
 
 class Connection;
 
-// What the connections share. Used on the server's thread alone.
+// State shared by all connections. Used only on the server's thread.
 struct Shared {
     ServerLimits limits;
     Site* site = nullptr;
-    std::size_t open = 0;                             // connections and sockets
-    std::list<std::weak_ptr<Connection>> expendable;  // without a whole request that the site trusts; oldest first
+    std::size_t open = 0;                            // number of connections and sockets
+    std::list<std::weak_ptr<Connection>> evictable;  // no trusted request yet; oldest first
 };
 
-// Counts one connection for as long as it or its socket lives.
-std::shared_ptr<void> count(const std::shared_ptr<Shared>& shared) {
+// Counts a connection while the returned pointer lives.
+std::shared_ptr<void> count_connection(const std::shared_ptr<Shared>& shared) {
     ++shared->open;
     return {nullptr, [shared](void*) { --shared->open; }};
 }
@@ -172,8 +172,8 @@ std::shared_ptr<void> count(const std::shared_ptr<Shared>& shared) {
 class Connection final : public std::enable_shared_from_this<Connection> {
   public:
     Connection(tcp::socket socket, std::shared_ptr<Shared> shared)
-        : stream_(std::move(socket)), shared_(std::move(shared)), counted_(count(shared_)) {}
-    ~Connection() { keep(); }
+        : stream_(std::move(socket)), shared_(std::move(shared)), connection_count_(count_connection(shared_)) {}
+    ~Connection() { protect(); }
     Connection(const Connection&) = delete;
     Connection& operator=(const Connection&) = delete;
 
@@ -181,8 +181,8 @@ class Connection final : public std::enable_shared_from_this<Connection> {
         parser_.emplace();
         parser_->header_limit(static_cast<std::uint32_t>(shared_->limits.header));
         parser_->body_limit(shared_->limits.body);
-        keep();
-        place_ = shared_->expendable.insert(shared_->expendable.end(), weak_from_this());
+        protect();
+        eviction_position_ = shared_->evictable.insert(shared_->evictable.end(), weak_from_this());
         stream_.expires_after(std::chrono::seconds(seconds));
         http::async_read_header(stream_, buffer_, *parser_, [self = shared_from_this()](Code error, std::size_t) {
             if (error) return self->received(error);
@@ -192,37 +192,37 @@ class Connection final : public std::enable_shared_from_this<Connection> {
     }
 
     void close() {
-        keep();
+        protect();
         stream_.close();
-        counted_.reset();  // an answer that is still made may hold this object
+        connection_count_.reset();  // a pending answer may keep this object alive
     }
 
   private:
-    // No longer gives way to a new connection.
-    void keep() {
-        if (place_) shared_->expendable.erase(*place_);
-        place_.reset();
+    // Excludes this connection from eviction.
+    void protect() {
+        if (eviction_position_) shared_->evictable.erase(*eviction_position_);
+        eviction_position_.reset();
     }
 
-    // What follows a header that announces no body; a body makes this an error.
+    // Completes a request without a body; a body is an error.
     void read_nothing() {
         http::async_read(stream_, buffer_, *parser_,
                          [self = shared_from_this()](Code error, std::size_t) { self->received(error); });
     }
 
-    // The body of a POST becomes a file, if the site has a place for it.
+    // Writes the body of a POST to a file, if the site accepts it.
     void read_file() {
         const Request request = request_of(parser_->get());
-        auto place = shared_->site->destination_for(request);
-        if (std::holds_alternative<Response>(place)) return respond(std::get<Response>(place), false);
-        keep();
-        const auto file = std::get<std::filesystem::path>(place);
+        auto destination = shared_->site->destination_for(request);
+        if (std::holds_alternative<Response>(destination)) return respond(std::get<Response>(destination), false);
+        protect();
+        const auto file = std::get<std::filesystem::path>(destination);
         auto body = std::make_shared<http::request_parser<http::file_body>>(std::move(*parser_));
         body->body_limit(shared_->limits.body);
         Code error;
         body->get().body().open(file.c_str(), beast::file_mode::write, error);
         if (error)
-            return respond({500, "text/plain; charset=utf-8", "the file cannot be kept: " + error.message() + "\n"},
+            return respond({500, "text/plain; charset=utf-8", "the file cannot be written: " + error.message() + "\n"},
                            false);
         stream_.expires_after(std::chrono::seconds(shared_->limits.body_seconds));
         http::async_read(
@@ -238,57 +238,58 @@ class Connection final : public std::enable_shared_from_this<Connection> {
 
     void received(Code error) {
         if (error) {
-            // What is no HTTP is told so; who has gone or is too slow is not.
+            // Answer malformed HTTP, but not closed or slow connections.
             if (error.category() == http::make_error_code(http::error::bad_method).category() &&
                 error != http::error::end_of_stream && error != http::error::partial_message)
-                respond({400, "text/plain; charset=utf-8", "not a request without a body of HTTP/1.1\n"}, false);
+                respond({400, "text/plain; charset=utf-8", "expected an HTTP/1.1 request without a body\n"}, false);
             return;
         }
-        HttpRequest from = parser_->release();
-        const Request request = request_of(from);
-        if (shared_->site->trusts(request)) keep();
-        if (websocket::is_upgrade(from)) {
-            const Response verdict = shared_->site->admit(request);
-            if (verdict.status != 101) return respond(verdict, false);
-            std::make_shared<BeastSocket>(std::move(stream_), std::move(from), shared_->limits, std::move(counted_))
+        HttpRequest http_request = parser_->release();
+        const Request request = request_of(http_request);
+        if (shared_->site->trusts(request)) protect();
+        if (websocket::is_upgrade(http_request)) {
+            const Response admission = shared_->site->admit(request);
+            if (admission.status != 101) return respond(admission, false);
+            std::make_shared<BeastSocket>(std::move(stream_), std::move(http_request), shared_->limits,
+                                          std::move(connection_count_))
                 ->open(*shared_->site);
             return;
         }
-        stream_.expires_never();  // while the answer is made
-        const bool again = from.keep_alive();
-        give_up_ = shared_->site->answer(request, [self = shared_from_this(), again](Response response) {
-            asio::post(self->stream_.get_executor(), [self, again, response = std::move(response)]() mutable {
-                self->give_up_ = nullptr;
-                self->respond(std::move(response), again);
+        stream_.expires_never();  // while the answer is computed
+        const bool keep_alive = http_request.keep_alive();
+        cancel_ = shared_->site->answer(request, [self = shared_from_this(), keep_alive](Response response) {
+            asio::post(self->stream_.get_executor(), [self, keep_alive, response = std::move(response)]() mutable {
+                self->cancel_ = nullptr;
+                self->respond(std::move(response), keep_alive);
             });
         });
-        if (give_up_) watch();
+        if (cancel_) watch();
     }
 
-    // Stops the work on an answer whose asker closes the connection. One that sends more before it has the answer is
-    // not watched further.
+    // Cancels the answer if the client closes the connection. Stops watching a client that sends more data before it
+    // has the answer.
     void watch() {
         stream_.socket().async_wait(tcp::socket::wait_read, [watched = weak_from_this()](Code) {
             const auto self = watched.lock();
-            if (!self || !self->give_up_) return;
+            if (!self || !self->cancel_) return;
             Code error;
             if (self->stream_.socket().available(error) > 0) return;
-            std::exchange(self->give_up_, nullptr)();
+            std::exchange(self->cancel_, nullptr)();
             self->close();
         });
     }
 
-    void respond(Response response, bool again) {
+    void respond(Response response, bool keep_alive) {
         auto message = std::make_shared<http::response<http::string_body>>();
         message->version(11);
         message->result(response.status);
         add_headers(*message, response.type);
-        message->keep_alive(again);
+        message->keep_alive(keep_alive);
         message->body() = std::move(response.body);
         message->prepare_payload();
         stream_.expires_after(std::chrono::seconds(shared_->limits.idle_seconds));
-        http::async_write(stream_, *message, [self = shared_from_this(), message, again](Code error, std::size_t) {
-            if (!error && again) return self->read(self->shared_->limits.idle_seconds);
+        http::async_write(stream_, *message, [self = shared_from_this(), message, keep_alive](Code error, std::size_t) {
+            if (!error && keep_alive) return self->read(self->shared_->limits.idle_seconds);
             Code none;
             self->stream_.socket().shutdown(tcp::socket::shutdown_send, none);
         });
@@ -296,11 +297,11 @@ class Connection final : public std::enable_shared_from_this<Connection> {
 
     beast::tcp_stream stream_;
     std::shared_ptr<Shared> shared_;
-    std::shared_ptr<void> counted_;
+    std::shared_ptr<void> connection_count_;
     beast::flat_buffer buffer_{65536};
     std::optional<http::request_parser<http::empty_body>> parser_;
-    std::optional<std::list<std::weak_ptr<Connection>>::iterator> place_;  // among those that give way
-    std::function<void()> give_up_;                                        // stops the work on the answer
+    std::optional<std::list<std::weak_ptr<Connection>>::iterator> eviction_position_;  // in Shared::evictable
+    std::function<void()> cancel_;                                                     // cancels the answer
 };
 
 }  // namespace
@@ -315,12 +316,12 @@ struct Server::Impl {
         acceptor.async_accept([this](Code error, tcp::socket socket) {
             if (error == asio::error::operation_aborted) return;
             if (error) return accept_later();
-            greet(std::move(socket));
+            start_connection(std::move(socket));
             accept();
         });
     }
 
-    // No file number is left, for instance.
+    // After errors such as no free file descriptor.
     void accept_later() {
         pause.expires_after(std::chrono::milliseconds(100));
         pause.async_wait([this](Code error) {
@@ -328,10 +329,10 @@ struct Server::Impl {
         });
     }
 
-    void greet(tcp::socket socket) {
+    void start_connection(tcp::socket socket) {
         if (shared->open >= shared->limits.connections) {
-            const auto oldest = shared->expendable.empty() ? nullptr : shared->expendable.front().lock();
-            if (!oldest) return;  // all are at work for those who are trusted; this one is closed
+            const auto oldest = shared->evictable.empty() ? nullptr : shared->evictable.front().lock();
+            if (!oldest) return;  // all connections are trusted: refuse the new one
             oldest->close();
         }
         Code none;
@@ -346,7 +347,8 @@ Server::Server(const std::string& host, unsigned short port, const ServerLimits&
     Code error;
     const asio::ip::address address = asio::ip::make_address(host == "localhost" ? "127.0.0.1" : host, error);
     if (error)
-        throw Error(ErrorCode::usage, "host", fmt::format("{} is no address such as 127.0.0.1 or 192.168.1.5", host));
+        throw Error(ErrorCode::usage, "host",
+                    fmt::format("{} is not an IP address such as 127.0.0.1 or 192.168.1.5", host));
     const tcp::endpoint endpoint(address, port);
     tcp::acceptor& acceptor = impl_->acceptor;
     acceptor.open(endpoint.protocol(), error);
@@ -356,7 +358,7 @@ Server::Server(const std::string& host, unsigned short port, const ServerLimits&
     if (error)
         throw Error(
             ErrorCode::usage,
-            fmt::format("{} {}: cannot listen there: {}; another --port would do, or --port 0 for a free one",
+            fmt::format("{} {}: cannot listen: {}; choose another --port, or --port 0 for a free one",
                         port == 0 ? "--host" : "--port", port == 0 ? host : std::to_string(port), error.message()));
 }
 

@@ -45,7 +45,7 @@ class Caller {
     int socket_;
 };
 
-// Trusts who asks for "/own", which is never answered but for "/own/now".
+// Trusts requests for "/own", which get no response, and for "/own/now", which get one.
 class OwnSite final : public Site {
   public:
     bool trusts(const Request& request) const override { return request.path.starts_with("/own"); }
@@ -92,7 +92,7 @@ class OwnSite final : public Site {
     std::size_t given_up_ = 0;
 };
 
-// Connections wait as long as they want, so that nothing but giving way closes them.
+// Without timeouts, so that only eviction closes connections.
 ServerLimits patient() {
     ServerLimits limits;
     limits.connections = 8;
@@ -105,11 +105,11 @@ struct Running {
     Server server{"127.0.0.1", 0, patient()};
     std::jthread thread{[this](const std::stop_token& stop) { server.run(site, stop); }};
 
-    std::vector<std::unique_ptr<Caller>> strangers(const std::string& say) {
+    std::vector<std::unique_ptr<Caller>> strangers(const std::string& opening) {
         std::vector<std::unique_ptr<Caller>> all;
         for (std::size_t i = 0; i < 2 * patient().connections; ++i) {
             all.push_back(std::make_unique<Caller>(server.port()));
-            if (!say.empty()) all.back()->send(say);
+            if (!opening.empty()) all.back()->send(opening);
         }
         return all;
     }
@@ -123,13 +123,13 @@ struct Running {
 TEST(Server, strangers_give_way_whatever_they_do) {
     Running running;
     const std::string refused = "GET /x HTTP/1.1\r\nHost: a\r\n\r\n";
-    for (const std::string& say : {std::string(), std::string("GET /x HT"),
-                                   std::string("GET /x HTTP/1.1\r\nHost: a\r\nContent-Length: 10\r\n\r\n"),
-                                   std::string("POST /x HTTP/1.1\r\nHost: a\r\nContent-Length: 10\r\n\r\n"),
-                                   std::string("GET /own HTTP/1.1\r\nHost: a\r\nContent-Length: 10\r\n\r\n"), refused,
-                                   std::string("GET /large HTTP/1.1\r\nHost: a\r\n\r\n")}) {
-        const auto strangers = running.strangers(say);
-        EXPECT_EQ(running.owner_gets(), "HTTP/1.1 200 OK") << say;
+    for (const std::string& opening : {std::string(), std::string("GET /x HT"),
+                                       std::string("GET /x HTTP/1.1\r\nHost: a\r\nContent-Length: 10\r\n\r\n"),
+                                       std::string("POST /x HTTP/1.1\r\nHost: a\r\nContent-Length: 10\r\n\r\n"),
+                                       std::string("GET /own HTTP/1.1\r\nHost: a\r\nContent-Length: 10\r\n\r\n"),
+                                       refused, std::string("GET /large HTTP/1.1\r\nHost: a\r\n\r\n")}) {
+        const auto strangers = running.strangers(opening);
+        EXPECT_EQ(running.owner_gets(), "HTTP/1.1 200 OK") << opening;
     }
 }
 

@@ -13,19 +13,19 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Words = std::map<std::string, std::string>;
 
-void send(const std::weak_ptr<Socket>& to, std::string text) {
-    if (const auto socket = to.lock()) socket->send_text(std::move(text));
+void send(const std::weak_ptr<Socket>& weak_socket, std::string text) {
+    if (const auto socket = weak_socket.lock()) socket->send_text(std::move(text));
 }
 
-// Work whose failure is told, unless it was stopped for a newer view. That of a picture has the picture's id.
+// Calls `work` and sends its errors, except cancellation by a newer query. An error of a picture carries its id.
 template <class Work>
-void attempt_for(const std::weak_ptr<Socket>& to, const Work& work, const std::string& picture = "") {
+void attempt_for(const std::weak_ptr<Socket>& weak_socket, const Work& work, const std::string& picture = "") {
     constexpr unsigned stopped = 503;
     attempt(work, [&](const Response& refused) {
         if (refused.status == stopped) return;
         Json json = Json::parse(refused.body);
         if (!picture.empty()) json["id"] = picture;
-        send(to, dump(json));
+        send(weak_socket, dump(json));
     });
 }
 
@@ -53,53 +53,54 @@ void Viewer::Session::receive(std::string_view text) {
         const std::string_view verb = text.substr(0, end);
         const Words words = parse_query(end < text.size() ? text.substr(end + 1) : "");
         if (verb == "picture") {
-            const View view = parse_view(words);
+            const PictureQuery query = parse_picture_query(words);
             attempt_for(
-                socket_, [&] { ask(*viewer, view); }, view.id);
+                socket_, [&] { request_picture(*viewer, query); }, query.id);
         } else if (verb == "reading" || verb == "focus")
-            ask_there(*viewer, parse_view(words), parse_pick_point(words), verb == "focus");
+            request_at_point(*viewer, parse_picture_query(words), parse_pick_point(words), verb == "focus");
         else if (verb == "change")
             change(*viewer, words);
         else
-            throw Error(ErrorCode::usage, "a message begins with picture?, reading?, focus? or change?");
+            throw Error(ErrorCode::usage, "message: expected picture?, reading?, focus? or change? at the beginning");
     });
 }
 
 void Viewer::Session::resume() {
     const auto viewer = viewer_.lock();
-    if (!viewer || !held_) return;
-    const View newest = *held_;
+    if (!viewer || !pending_) return;
+    const PictureQuery newest = *pending_;
     attempt_for(
-        socket_, [&] { ask(*viewer, newest); }, newest.id);
+        socket_, [&] { request_picture(*viewer, newest); }, newest.id);
 }
 
-// What the page cannot take yet is held back, the newest alone.
-void Viewer::Session::ask(Viewer& viewer, const View& view) {
+// Keeps only the newest query while the socket is busy.
+void Viewer::Session::request_picture(Viewer& viewer, const PictureQuery& query) {
     const auto socket = socket_.lock();
     const auto viewable = viewer.viewable();
     if (!socket || !viewable) return;
     if (socket->is_busy()) {
-        held_ = view;
+        pending_ = query;
         return;
     }
-    held_.reset();
-    viewable->require(view);
-    const auto work = [viewable, view, to = socket_](std::stop_token stop) {
+    pending_.reset();
+    viewable->require(query);
+    const auto work = [viewable, query, weak_socket = socket_](std::stop_token stop) {
         const Clock::time_point began = Clock::now();
         const auto shown = [&](const Photograph& photograph) {
             const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
-            const Json about = to_json(photograph, view, *viewable, seconds);
-            const auto there = to.lock();
-            // Looks may follow each other faster than the page takes them: only the last is owed.
-            const bool last = !about.contains("looks") || about["looks"] == about["of_looks"];
-            if (there && (last || !there->is_busy())) there->send_picture(dump(about) + encode(photograph, view));
+            const Json description = to_json(photograph, query, *viewable, seconds);
+            const auto live_socket = weak_socket.lock();
+            // Looks may be faster than the connection: only the last must be sent.
+            const bool last = !description.contains("looks") || description["looks"] == description["of_looks"];
+            if (live_socket && (last || !live_socket->is_busy()))
+                live_socket->send_picture(dump(description) + encode(photograph, query));
         };
         attempt_for(
-            to, [&] { viewable->photograph(view, shown, Progress(stop)); }, view.id);
+            weak_socket, [&] { viewable->photograph(query, shown, Progress(stop)); }, query.id);
     };
-    const bool rays = !needs_waves(view.by);
+    const bool rays = !needs_waves(query.by);
     (rays ? viewer.waves_ : viewer.rays_).drop(pictures_);
-    (rays ? viewer.rays_ : viewer.waves_).put(pictures_, {work, view.moving});
+    (rays ? viewer.rays_ : viewer.waves_).put(pictures_, {work, query.moving});
 }
 
 void Viewer::Session::change(Viewer& viewer, Words words) {
@@ -108,16 +109,17 @@ void Viewer::Session::change(Viewer& viewer, Words words) {
     if (viewer.controller_ != nullptr) viewer.controller_->change(words, moving);
 }
 
-void Viewer::Session::ask_there(Viewer& viewer, const View& view, const PickPoint& point, bool focus) {
+void Viewer::Session::request_at_point(Viewer& viewer, const PictureQuery& query, const PickPoint& point, bool focus) {
     const auto viewable = viewer.viewable();
     if (!viewable) return;
-    viewable->require(view);
-    const auto work = [viewable, view, point, focus, to = socket_](std::stop_token stop) {
-        attempt_for(to, [&] {
+    viewable->require(query);
+    const auto work = [viewable, query, point, focus, weak_socket = socket_](std::stop_token stop) {
+        attempt_for(weak_socket, [&] {
             if (focus)
-                send(to, dump({{"type", "focus"}, {"depth_m", viewable->focus(view, point, Progress(stop))}}));
+                send(weak_socket,
+                     dump({{"type", "focus"}, {"depth_m", viewable->focus(query, point, Progress(stop))}}));
             else
-                send(to, dump(to_json(viewable->read(view, point), view.id)));
+                send(weak_socket, dump(to_json(viewable->read(query, point), query.id)));
         });
     };
     viewer.rays_.put(readings_, {work, false});

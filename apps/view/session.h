@@ -7,7 +7,7 @@
 
 namespace hogel::view {
 
-/// One page that looks.
+/// Connection of one page.
 class Viewer::Session final : public Conversation {
   public:
     Session(std::weak_ptr<Viewer> viewer, std::weak_ptr<Socket> socket, std::uint64_t pictures, std::uint64_t readings);
@@ -17,14 +17,14 @@ class Viewer::Session final : public Conversation {
     void resume() override;
 
   private:
-    void ask(Viewer& viewer, const View& view);
+    void request_picture(Viewer& viewer, const PictureQuery& query);
     void change(Viewer& viewer, std::map<std::string, std::string> words);
-    void ask_there(Viewer& viewer, const View& view, const PickPoint& point, bool focus);
+    void request_at_point(Viewer& viewer, const PictureQuery& query, const PickPoint& point, bool focus);
 
     std::weak_ptr<Viewer> viewer_;
     std::weak_ptr<Socket> socket_;
-    std::uint64_t pictures_, readings_;  // as clients of the workers, which take them in turn
-    std::optional<View> held_;
+    std::uint64_t pictures_, readings_;  // client numbers in the workers
+    std::optional<PictureQuery> pending_;
 };
 
 }  // namespace hogel::view

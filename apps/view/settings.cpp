@@ -13,21 +13,21 @@
 namespace hogel::view {
 namespace {
 
-// Parameters that a page may change. All of them have a value.
+// Parameters that a page may change. None of them is a flag.
 constexpr std::array<std::string_view, 10> changeable{"hogels", "directions", "size",  "fov",   "front",
                                                       "move",   "rotate",     "light", "pitch", "layers"};
-// A parameter of the server that other commands have for something else.
-constexpr std::string_view of_server = "looks";
+// Has another meaning in other commands.
+constexpr std::string_view server_option = "looks";
 
 }  // namespace
 
-// The values of the texts.
-struct Settings::Line {
+// Parsed values.
+struct Settings::Values {
     ViewerParameters view;
     std::uint64_t seed = 1;
     Parameters table;
 
-    Line() {
+    Values() {
         view.declare(table);
         table.whole("--seed", seed, std::numeric_limits<std::uint64_t>::max(), "");
     }
@@ -35,38 +35,38 @@ struct Settings::Line {
 
 Settings::Settings(const Parameters& given, Takes takes) : takes_(std::move(takes)) {
     for (const Parameter& each : given.all())
-        if (each.is_given()) (each.name == "input" ? name_ : first_[each.name]) = each.value();
-    words_ = first_;
+        if (each.is_given()) (each.name == "input" ? name_ : initial_[each.name]) = each.value();
+    words_ = initial_;
     read();
-    input_ = line_->view.viewable();
+    input_ = values_->view.viewable();
 }
 
 void Settings::read() {
-    auto line = std::make_shared<Line>();
+    auto values = std::make_shared<Values>();
     for (const auto& word : words_)
-        if (Parameter* const own = line->table.look_up(word.first))
-            with_parameter(own->keyword(), [&] { own->read_value(word.second, own->option()); });
-    line->table.require_compatible();
-    line->view.input = name_;
-    // What no scene can have is refused where it is changed.
-    line->view.render.request();
-    for (const std::string& light : line->view.render.scene.lights) parse_light(light);
-    line_ = std::move(line);
+        if (Parameter* const parameter = values->table.look_up(word.first))
+            with_parameter(parameter->keyword(), [&] { parameter->read_value(word.second, parameter->option()); });
+    values->table.require_compatible();
+    values->view.input = name_;
+    // Validates here, so that the change is refused and not the later rendering.
+    values->view.render.request();
+    for (const std::string& light : values->view.render.scene.lights) parse_light(light);
+    values_ = std::move(values);
 }
 
-const ViewerParameters& Settings::options() const { return line_->view; }
-const Parameters& Settings::table() const { return line_->table; }
-std::uint64_t Settings::seed() const { return line_->seed; }
+const ViewerParameters& Settings::options() const { return values_->view; }
+const Parameters& Settings::table() const { return values_->table; }
+std::uint64_t Settings::seed() const { return values_->seed; }
 
 Settings Settings::with(const Words& changes) const {
     Settings changed = *this;
     for (const auto& [name, value] : changes) {
         if (std::ranges::find(changeable, name) == changeable.end())
-            throw Error(ErrorCode::usage, fmt::format("change: '{}' is no option that a page changes", name));
-        const auto first = first_.find(name);
+            throw Error(ErrorCode::usage, fmt::format("change: '{}' cannot be changed by a page", name));
+        const auto first = initial_.find(name);
         if (!value.empty())
             changed.words_[name] = value;
-        else if (first != first_.end())
+        else if (first != initial_.end())
             changed.words_[name] = first->second;
         else
             changed.words_.erase(name);
@@ -75,9 +75,9 @@ Settings Settings::with(const Words& changes) const {
     return changed;
 }
 
-Settings Settings::of(const std::string& file, const std::string& name) const {
+Settings Settings::for_input(const std::string& file, const std::string& name) const {
     Settings other = *this;
-    other.words_ = other.first_;
+    other.words_ = other.initial_;
     other.words_.erase("original");
     other.name_ = name;
     other.read();
@@ -97,9 +97,9 @@ bool Settings::same_light_field(const Settings& other) const {
 }
 
 std::string Settings::command(const std::string& command, const std::string& input) const {
-    std::string text = "hogel " + command + line_->table.look_up("input")->option_text(input);
-    for (const Parameter& each : line_->table.all())
-        if (each.is_given() && each.name != of_server && takes_(command, each.name))
+    std::string text = "hogel " + command + values_->table.look_up("input")->option_text(input);
+    for (const Parameter& each : values_->table.all())
+        if (each.is_given() && each.name != server_option && takes_(command, each.name))
             text += each.option_text(each.value());
     return text;
 }
@@ -108,7 +108,7 @@ std::string Settings::photo_command() const {
     const std::string input = is_dropped_ ? name_ : input_;
     if (options().layers == 0) return command("photo", input);
     return fmt::format("hogel decompress{} -o layers.h5 --layers {} && {}",
-                       line_->table.look_up("input")->option_text(input), options().layers,
+                       values_->table.look_up("input")->option_text(input), options().layers,
                        command("photo", "layers.h5"));
 }
 
@@ -117,10 +117,10 @@ std::string Settings::original_command() const {
 }
 
 std::string Settings::make_command() const {
-    const bool by_itself = std::ranges::any_of(
+    const bool needs_hologram = std::ranges::any_of(
         words_, [&](const auto& word) { return takes_("hologram", word.first) && !takes_("make", word.first); });
     const std::string input = is_dropped_ ? name_ : input_;
-    return by_itself ? command("hologram", input) + " -o hologram.h5" : command("make", input) + " -o made";
+    return needs_hologram ? command("hologram", input) + " -o hologram.h5" : command("make", input) + " -o made";
 }
 
 }  // namespace hogel::view

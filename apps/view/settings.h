@@ -12,52 +12,52 @@
 
 namespace hogel::view {
 
-/// The parameters of what is looked at. A page changes some ("hogels", "rotate") by texts that hogel takes on its
-/// command line, too. So what the page shows, what it copies and what hogel makes of that are the same.
+/// Parameters of the viewable. A page changes some of them ("hogels", "rotate") by the same texts as on the command
+/// line. Therefore the commands that the page offers reproduce what it shows.
 class Settings {
   public:
     using Words = std::map<std::string, std::string>;
-    /// Whether a command ("photo") has an option ("size").
+    /// Returns whether a command ("photo") has an option ("size").
     using Takes = std::function<bool(const std::string& command, std::string_view option)>;
 
-    /// Those of `hogel view` that are given in a table of ViewerParameters, of a command line.
+    /// Takes the given parameters of `hogel view` from a table of ViewerParameters.
     Settings(const Parameters& given, Takes takes);
 
-    /// With other values of some parameters, and without those whose value is empty. Throws Error(usage) for a
-    /// parameter that may not be changed, and for a value that hogel would refuse.
+    /// Returns settings with changed parameters; an empty value restores the initial one. Throws Error(usage) for a
+    /// parameter that may not be changed and for a bad value.
     Settings with(const Words& changes) const;
-    /// The first ones with another input, by its name in command lines.
-    Settings of(const std::string& file, const std::string& name) const;
+    /// Returns the initial settings with another input. @param name  of the input in command lines
+    Settings for_input(const std::string& file, const std::string& name) const;
 
     const ViewerParameters& options() const;
-    /// Their table, in which given ones have a value.
+    /// Returns the table of the parameters; given ones have a value.
     const Parameters& table() const;
     std::uint64_t seed() const;
-    /// The file or scene to open: of a folder that hogel make wrote its light field.
+    /// Returns the file or scene to open; for a folder written by `hogel make`, its light field.
     const std::string& input() const { return input_; }
-    /// As the page names it.
+    /// Returns the name of the input on the page.
     const std::string& name() const { return name_; }
-    /// Whether both make the same light field: they differ in parameters of holograms alone.
+    /// Returns true if the settings differ only in parameters of holograms.
     bool same_light_field(const Settings& other) const;
 
-    /// `hogel photo` of this, without the camera; of the first layers of a stream behind `hogel decompress`.
+    /// Returns the `hogel photo` command without the camera; for layers of a stream after `hogel decompress`.
     std::string photo_command() const;
-    /// The same of the light field beside which errors are shown.
+    /// Returns the same for the original of a compressed light field.
     std::string original_command() const;
-    /// `hogel make` of this scene; with parameters of holograms that it does not have, `hogel hologram`.
+    /// Returns the `hogel make` command of the scene, or `hogel hologram` if a given parameter requires it.
     std::string make_command() const;
 
   private:
-    struct Line;
+    struct Values;
 
     void read();
     std::string command(const std::string& command, const std::string& input) const;
 
     Takes takes_;
-    Words first_, words_;  // the texts of given parameters but the input
+    Words initial_, words_;  // texts of the given parameters except the input
     std::string input_, name_;
-    bool is_dropped_ = false;  // its file has another name for people than here
-    std::shared_ptr<const Line> line_;
+    bool is_dropped_ = false;  // the path of a dropped file differs from its name
+    std::shared_ptr<const Values> values_;
 };
 
 }  // namespace hogel::view

@@ -52,14 +52,14 @@ TEST(Settings, changes_are_those_of_a_command_line) {
 TEST(Settings, names_of_files_are_nothing_else) {
     const Settings first = settings_of("pumpkin", {{"hogels", "40"}, {"directions", "16"}});
     for (const std::string name : {"40", "16", "view", "render", "help", "pumpkin", "hogels"}) {
-        const Settings dropped = first.of("sphere", name);
+        const Settings dropped = first.for_input("sphere", name);
         EXPECT_EQ(dropped.options().render.hogels.columns, 40u) << name;
         EXPECT_EQ(dropped.input(), "sphere");
         EXPECT_EQ(dropped.options().input, name);
         EXPECT_EQ(dropped.photo_command(), "hogel photo " + name + " --hogels 40 --directions 16");
         EXPECT_EQ(dropped.with({{"hogels", "50"}}).photo_command(),
                   "hogel photo " + name + " --hogels 50 --directions 16");
-        EXPECT_EQ(dropped.of("sphere", "one mesh.ply").photo_command(),
+        EXPECT_EQ(dropped.for_input("sphere", "one mesh.ply").photo_command(),
                   "hogel photo 'one mesh.ply' --hogels 40 --directions 16");
     }
     EXPECT_EQ(settings_of("pumpkin", {{"original", "pumpkin"}, {"hogels", "40"}}).photo_command(),

@@ -15,17 +15,17 @@ namespace {
 
 constexpr std::size_t max_pixels = std::size_t{3840} * 2160;
 
-// Both pictures as they are beside each other, shown with one exposure.
-Photograph together(const View& view, const Image& rays, const Image& waves, double exposure) {
+// Joins or subtracts the pictures by rays and by waves, with a common exposure.
+Photograph compare_methods(const PictureQuery& query, const Image& rays, const Image& waves, double exposure) {
     Photograph both;
     both.exposure = exposure;
-    // In motion there is no time for it.
-    if (!view.moving && rays.channels() == waves.channels()) both.psnr = compare(waves, rays, exposure).psnr;
-    if (view.by == By::difference) {
-        both.picture = view.logarithmic ? logarithmic(difference(rays, waves)) : difference(rays, waves);
+    // Skipped in motion to save time.
+    if (!query.moving && rays.channels() == waves.channels()) both.psnr = compare(waves, rays, exposure).psnr;
+    if (query.by == PictureMethod::difference) {
+        both.picture = query.logarithmic ? logarithmic(difference(rays, waves)) : difference(rays, waves);
         return both;
     }
-    both.picture = view.logarithmic ? side_by_side(logarithmic(rays), logarithmic(waves)) : side_by_side(rays, waves);
+    both.picture = query.logarithmic ? side_by_side(logarithmic(rays), logarithmic(waves)) : side_by_side(rays, waves);
     return both;
 }
 
@@ -55,30 +55,30 @@ Reading ray_at(const Camera& camera, const PickPoint& point) {
     return reading;
 }
 
-std::pair<View, PickPoint> in_one_picture(const View& view, const PickPoint& point) {
+std::pair<PictureQuery, PickPoint> single_picture(const PictureQuery& query, const PickPoint& point) {
     const bool right = point.x >= 0.5;
     const PickPoint inner{std::min(2 * point.x - (right ? 1 : 0), 1.0), point.y};
-    if (view.eyes > 0) return {of_eye(view, right ? 1 : -1), inner};
-    View one = view;
-    one.by = right ? By::waves : By::rays;
-    return {one, inner};
+    if (query.eyes > 0) return {query_of_eye(query, right ? 1 : -1), inner};
+    PictureQuery single = query;
+    single.by = right ? PictureMethod::waves : PictureMethod::rays;
+    return {single, inner};
 }
 
 Image side_by_side(const Image& left, const Image& right) {
     Image both(left.width() + right.width(), left.height(), std::max(left.channels(), right.channels()));
-    const auto put = [&](const Image& from, std::size_t first) {
+    const auto paste = [&](const Image& from, std::size_t first) {
         for (std::size_t y = 0; y < from.height(); ++y)
             for (std::size_t x = 0; x < from.width(); ++x)
                 for (std::size_t c = 0; c < both.channels(); ++c)
                     both.pixels(y, first + x, c) = from.pixels(y, x, std::min(c, from.channels() - 1));
     };
-    put(left, 0);
-    put(right, left.width());
+    paste(left, 0);
+    paste(right, left.width());
     return both;
 }
 
-Camera Viewable::camera(const View& view) const {
-    const Camera camera = view.camera.cameras(width(), height()).front();
+Camera Viewable::camera(const PictureQuery& query) const {
+    const Camera camera = query.camera.cameras(width(), height()).front();
     if (camera.picture.samples() > max_pixels)
         throw Error(ErrorCode::usage, "resolution",
                     fmt::format("resolution: {}x{} pixels; expected at most {} in all", camera.picture.width,
@@ -86,69 +86,74 @@ Camera Viewable::camera(const View& view) const {
     return camera;
 }
 
-void Viewable::require(const View& view) const {
-    camera(view);
-    if (view.by != By::waves && !has_rays())
-        throw Error(ErrorCode::usage, "by", "by: a hologram has no rays to follow; by=waves would do");
-    if ((view.by == By::original || view.by == By::error) && !has_original())
-        throw Error(ErrorCode::usage, "by", "by: there is no original; a .hgl file has one");
-    if (needs_waves(view.by) && looks() == 0)
-        throw Error(ErrorCode::usage, "by", "by: there are no waves yet; by=rays would do");
-    if ((view.by == By::side || view.by == By::difference) && view.eyes > 0)
-        throw Error(ErrorCode::usage, "by, eyes", "by: rays and waves are compared from one eye; leave out eyes");
+void Viewable::require(const PictureQuery& query) const {
+    camera(query);
+    if (query.by != PictureMethod::waves && !has_rays())
+        throw Error(ErrorCode::usage, "by", "by: a hologram has no rays; use by=waves");
+    if ((query.by == PictureMethod::original || query.by == PictureMethod::error) && !has_original())
+        throw Error(ErrorCode::usage, "by",
+                    "by: there is no original to compare with; open a compressed light field (.hgl)");
+    if (needs_waves(query.by) && looks() == 0)
+        throw Error(ErrorCode::usage, "by", "by: the holograms are not ready yet; use by=rays");
+    if ((query.by == PictureMethod::side || query.by == PictureMethod::difference) && query.eyes > 0)
+        throw Error(ErrorCode::usage, "by, eyes", "by: rays and waves are compared from one viewpoint; leave out eyes");
 }
 
 FocusSearch Viewable::find_focus(const Progress&) {
-    throw Error(ErrorCode::usage, "the depths of a light field are looked for under the pointer: 'focus?'");
+    throw Error(ErrorCode::usage,
+                "sharpness: only for holograms; use 'focus?' for the depth of a light field at a point");
 }
 
 LevelCounts Viewable::count_levels(const std::string&, const Progress&) {
-    throw Error(ErrorCode::usage, "levels: a light field has none; a hologram has");
+    throw Error(ErrorCode::usage, "levels: only for holograms");
 }
 
-Photograph Viewable::photograph(const View& view, const Progress& progress) {
+Photograph Viewable::photograph(const PictureQuery& query, const Progress& progress) {
     Photograph last;
     photograph(
-        view, [&](const Photograph& picture) { last = picture; }, progress);
+        query, [&](const Photograph& picture) { last = picture; }, progress);
     return last;
 }
 
-void Viewable::photograph(const View& view, const Shown& shown, const Progress& progress) {
-    if (view.eyes > 0) return photograph_eyes(view, shown, progress);
-    photograph_eye(view, view.looks, shown, progress);
+void Viewable::photograph(const PictureQuery& query, const Shown& shown, const Progress& progress) {
+    if (query.eyes > 0) return photograph_eyes(query, shown, progress);
+    photograph_eye(query, query.looks, shown, progress);
 }
 
-void Viewable::photograph_eye(const View& view, std::size_t looks, const Shown& shown, const Progress& progress) {
-    const double exposure = view.logarithmic ? 1 : view.exposure > 0 ? view.exposure : this->exposure();
+void Viewable::photograph_eye(const PictureQuery& query, std::size_t looks, const Shown& shown,
+                              const Progress& progress) {
+    const double exposure = query.logarithmic ? 1 : query.exposure > 0 ? query.exposure : this->exposure();
     Image rays;
-    if (view.by != By::waves) rays = by_rays(view, progress);
-    if (!needs_waves(view.by)) return shown({view.logarithmic ? logarithmic(rays) : std::move(rays), exposure, 0, {}});
+    if (query.by != PictureMethod::waves) rays = by_rays(query, progress);
+    if (!needs_waves(query.by))
+        return shown({query.logarithmic ? logarithmic(rays) : std::move(rays), exposure, 0, {}});
     by_waves(
-        view, looks,
+        query, looks,
         [&](const Image& waves, std::size_t so_far) {
             Photograph picture;
-            if (view.by == By::waves)
-                picture = {view.logarithmic ? logarithmic(waves) : waves, exposure, 0, {}};
+            if (query.by == PictureMethod::waves)
+                picture = {query.logarithmic ? logarithmic(waves) : waves, exposure, 0, {}};
             else
-                picture = together(view, rays, waves, exposure);
+                picture = compare_methods(query, rays, waves, exposure);
             picture.looks = so_far;
             shown(picture);
         },
         progress);
 }
 
-// One eye after the other: of waves first one look of both, then all.
-void Viewable::photograph_eyes(const View& view, const Shown& shown, const Progress& progress) {
+// Photographs both viewpoints; by waves first one look of each, then all.
+void Viewable::photograph_eyes(const PictureQuery& query, const Shown& shown, const Progress& progress) {
     const auto both = [&](std::size_t looks) {
         Photograph pictures[2];
         for (const int side : {-1, 1})
             photograph_eye(
-                of_eye(view, side), looks, [&](const Photograph& one) { pictures[side > 0] = one; }, progress);
+                query_of_eye(query, side), looks, [&](const Photograph& single) { pictures[side > 0] = single; },
+                progress);
         pictures[0].picture = side_by_side(pictures[0].picture, pictures[1].picture);
         shown(pictures[0]);
     };
-    if (view.by == By::waves && view.looks != 1) both(1);
-    both(view.looks);
+    if (query.by == PictureMethod::waves && query.looks != 1) both(1);
+    both(query.looks);
 }
 
 }  // namespace hogel::view

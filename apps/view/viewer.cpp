@@ -15,20 +15,20 @@ namespace {
 using Words = std::map<std::string, std::string>;
 using Reply = std::function<void(Response)>;
 
-// What is asked for by an address, made on a worker's thread.
-Response made(const std::string& path, Viewable& viewable, const Words& words, const Progress& progress) {
-    const View view = parse_view(words);
+// Computes the response to a GET request on a worker's thread.
+Response make_response(const std::string& path, Viewable& viewable, const Words& words, const Progress& progress) {
+    const PictureQuery query = parse_picture_query(words);
     if (path == "/levels") {
         const auto encoding = words.find("encoding");
         return answer_with(
             to_json(viewable.count_levels(encoding == words.end() ? "phase" : encoding->second, progress)));
     }
     if (path == "/sharpness") return answer_with(to_json(viewable.find_focus(progress)));
-    if (path == "/picture") return {200, type_of(view), encode(viewable.photograph(view, progress), view)};
-    View png = view;
+    if (path == "/picture") return {200, type_of(query), encode(viewable.photograph(query, progress), query)};
+    PictureQuery png = query;
     png.format = "png";
     return {200, type_of(png),
-            encode(viewable.inside(view, parse_pick_point(words), parse_inside(words), progress), png)};
+            encode(viewable.inside(query, parse_pick_point(words), parse_inside(words), progress), png)};
 }
 
 }  // namespace
@@ -51,9 +51,9 @@ void Viewer::show(std::shared_ptr<Viewable> viewable) {
     tell(state());
 }
 
-void Viewer::set_controller(Controller* changes) {
+void Viewer::set_controller(Controller* controller) {
     const std::lock_guard lock(mutex_);
-    controller_ = changes;
+    controller_ = controller;
 }
 
 void Viewer::describe(Json facts) {
@@ -64,16 +64,16 @@ void Viewer::describe(Json facts) {
     tell(state());
 }
 
-void Viewer::complain(const std::string& message, const std::vector<std::string>& parameter) {
+void Viewer::report_error(const std::string& message, const std::vector<std::string>& parameter) {
     tell(dump({{"type", "problem"}, {"message", message}, {"parameter", parameter}}));
 }
 
-void Viewer::say(const std::string& what, double fraction) {
+void Viewer::set_status(const std::string& status, double fraction) {
     {
         const std::lock_guard lock(mutex_);
-        // Often enough for a bar, and for few messages.
-        if (what == what_ && fraction < 1 && std::abs(fraction - fraction_) < 0.02) return;
-        what_ = what;
+        // Steps of 2 % suffice for a progress bar.
+        if (status == status_ && fraction < 1 && std::abs(fraction - fraction_) < 0.02) return;
+        status_ = status;
         fraction_ = fraction;
     }
     tell(state());
@@ -84,16 +84,16 @@ void Viewer::tell(const std::string& text) {
     {
         const std::lock_guard lock(mutex_);
         for (const auto& [client, socket] : sockets_)
-            if (auto there = socket.lock()) sockets.push_back(std::move(there));
+            if (auto connected = socket.lock()) sockets.push_back(std::move(connected));
     }
     for (const auto& socket : sockets) socket->send_text(text);
 }
 
-// What the page needs to know of the subject; SI units.
+// Returns the state for the page, in SI units.
 std::string Viewer::state() const {
     const std::lock_guard lock(mutex_);
     Json json{{"type", "state"},
-              {"work", what_},
+              {"work", status_},
               {"fraction", fraction_},
               {"ready", viewable_ != nullptr},
               {"generation", generation_}};
@@ -116,21 +116,21 @@ std::string Viewer::refusal(const Request& request) const {
         const Words words = parse_query(request.query);
         if (const auto found = words.find("token"); found != words.end()) token = found->second;
     } catch (const Error&) {
-        // A damaged query holds no token. Where none is asked for, what is wrong with it is said later.
+        // A malformed query has no token. If none is required, its error is reported later.
     }
     return access_.refusal({request.host, request.origin, request.fetch_site, token});
 }
 
 bool Viewer::is_watched() const {
     const std::lock_guard lock(mutex_);
-    return !sockets_.empty() || !asking_.empty();
+    return !sockets_.empty() || !http_clients_.empty();
 }
 
 bool Viewer::trusts(const Request& request) const { return refusal(request).empty(); }
 
-// The page's own files, and what is refused.
+// Returns static files and refusals.
 std::optional<Response> Viewer::answer_without_viewable(const Request& request) const {
-    if (request.method == "HEAD") return Response{405, json_type, ""};  // whose answer has no body
+    if (request.method == "HEAD") return Response{405, json_type, ""};  // a response to HEAD has no body
     if (request.method != "GET") return failure(405, "only GET is answered");
     for (const PageFile& file : page_files())
         if (file.path == request.path) {
@@ -143,12 +143,12 @@ std::optional<Response> Viewer::answer_without_viewable(const Request& request) 
 }
 
 std::function<void()> Viewer::answer(const Request& request, std::function<void(Response)> reply) {
-    std::function<void()> give_up;
+    std::function<void()> cancel;
     if (std::optional<Response> response = answer_without_viewable(request))
         reply(std::move(*response));
     else
-        attempt([&] { give_up = answer_about(request, reply); }, reply);
-    return give_up;
+        attempt([&] { cancel = answer_about(request, reply); }, reply);
+    return cancel;
 }
 
 std::function<void()> Viewer::answer_about(const Request& request, const Reply& reply) {
@@ -162,30 +162,29 @@ std::function<void()> Viewer::answer_about(const Request& request, const Reply& 
     for (const char* path : {"/picture", "/reading", "/inside", "/sharpness", "/levels"})
         known = known || request.path == path;
     if (!known) return at_once(failure(404, "there is no such page"));
-    if (!viewable) return at_once(failure(503, "the light field is not there yet"));
+    if (!viewable) return at_once(failure(503, "the input is still being opened"));
     const Words words = parse_query(request.query);
-    const View view = parse_view(words);
+    const PictureQuery query = parse_picture_query(words);
     const bool picture = request.path == "/picture";
     if (picture)
-        viewable->require(view);
+        viewable->require(query);
     else
-        viewable->camera(view);
+        viewable->camera(query);
     if (request.path == "/reading")
-        return at_once(answer_with(to_json(viewable->read(view, parse_pick_point(words)), view.id)));
+        return at_once(answer_with(to_json(viewable->read(query, parse_pick_point(words)), query.id)));
     if (request.path == "/inside") parse_pick_point(words);
-    const bool waves = picture ? needs_waves(view.by) : request.path == "/sharpness" || request.path == "/levels";
-    return put(waves ? waves_ : rays_, [viewable, words, path = request.path, reply](std::stop_token stop) {
-        attempt([&] { reply(made(path, *viewable, words, Progress(stop))); }, reply);
+    const bool waves = picture ? needs_waves(query.by) : request.path == "/sharpness" || request.path == "/levels";
+    return enqueue(waves ? waves_ : rays_, [viewable, words, path = request.path, reply](std::stop_token stop) {
+        attempt([&] { reply(make_response(path, *viewable, words, Progress(stop))); }, reply);
     });
 }
 
-// Work for one answer, which waits in turn with the pictures of others and which nothing replaces. Returns what stops
-// it.
-std::function<void()> Viewer::put(Worker& worker, std::function<void(std::stop_token)> work) {
+// Queues the work of one answer, which newer requests do not replace. Returns a function that cancels it.
+std::function<void()> Viewer::enqueue(Worker& worker, std::function<void(std::stop_token)> work) {
     const std::uint64_t client = ++clients_;
     {
         const std::lock_guard lock(mutex_);
-        asking_.insert(client);
+        http_clients_.insert(client);
     }
     const auto work_and_forget = [this, client, work = std::move(work)](const std::stop_token& stop) {
         work(stop);
@@ -200,24 +199,25 @@ std::function<void()> Viewer::put(Worker& worker, std::function<void(std::stop_t
 
 void Viewer::forget(std::uint64_t client) {
     const std::lock_guard lock(mutex_);
-    asking_.erase(client);
+    http_clients_.erase(client);
 }
 
 std::variant<std::filesystem::path, Response> Viewer::destination_for(const Request& request) {
     if (request.path != "/drop") return failure(405, "only GET is answered");
     if (const std::string why = refusal(request); !why.empty()) return failure(403, why);
-    // A page's own script says where it comes from; what says nothing may be a form of another page.
+    // The page's script sends an Origin; a request without it may come from a form of another page.
     if (request.origin.empty()) return failure(403, "only this server's page sends files");
-    std::variant<std::filesystem::path, Response> place = failure(503, "nothing is opened any more");
+    std::variant<std::filesystem::path, Response> destination = failure(503, "the server is stopping");
     attempt(
         [&] {
             const std::lock_guard lock(mutex_);
             const Words words = parse_query(request.query);
             const auto name = words.find("name");
-            if (controller_ != nullptr) place = controller_->destination_for(name == words.end() ? "" : name->second);
+            if (controller_ != nullptr)
+                destination = controller_->destination_for(name == words.end() ? "" : name->second);
         },
-        [&](Response refused) { place = std::move(refused); });
-    return place;
+        [&](Response refused) { destination = std::move(refused); });
+    return destination;
 }
 
 Response Viewer::take(const Request& request, const std::filesystem::path& file) {
@@ -238,7 +238,7 @@ std::shared_ptr<Conversation> Viewer::open(std::weak_ptr<Socket> socket) {
         const std::lock_guard lock(mutex_);
         sockets_[pictures] = socket;
     }
-    if (const auto there = socket.lock()) there->send_text(state());
+    if (const auto connected = socket.lock()) connected->send_text(state());
     return std::make_shared<Session>(weak_from_this(), std::move(socket), pictures, readings);
 }
 

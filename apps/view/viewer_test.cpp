@@ -22,7 +22,7 @@ LightField grey() {
     return LightField(buffer);
 }
 
-// Holograms that are made for as long as somebody waits for them.
+// Holograms whose computation lasts until nobody waits for them.
 struct Endless {
     std::shared_ptr<Viewer> viewer = std::make_shared<Viewer>(Access("127.0.0.1", 80, ""));
     std::promise<void> began, ended;
@@ -97,7 +97,7 @@ TEST(Viewer, tells_pages_what_parameters_a_problem_is_about) {
     viewer->describe(nlohmann::ordered_json::object());
     const auto page = std::make_shared<Page>("problem");
     const auto conversation = viewer->open(page);
-    viewer->complain("no", {"hogels", "size"});
+    viewer->report_error("no", {"hogels", "size"});
     ASSERT_EQ(page->messages.size(), 1u);
     EXPECT_EQ(page->messages[0]["parameter"], nlohmann::json({"hogels", "size"}));
 }

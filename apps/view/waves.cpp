@@ -24,7 +24,7 @@ void Waves::photograph(const Camera& camera, std::size_t looks, bool preview, co
             photographer.emplace(fields_, model, making_);
     }
     const std::size_t wanted = looks == 0 ? looks_ : std::min(looks, looks_);
-    // The photographer has one number of looks, and stops on request: here after the last one that is wanted.
+    // The photographer always takes all looks: stop it after the last one wanted.
     std::stop_source enough;
     const std::stop_callback forward(progress.stop(), [&enough] { enough.request_stop(); });
     bool complete = false;

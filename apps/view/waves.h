@@ -9,24 +9,23 @@
 
 namespace hogel::view {
 
-/// Photographs by waves of one eye after the other. The holograms are made when the first is asked for, because that
-/// takes long and many look at rays alone. For one thread at a time.
+/// Photographs by waves, one viewpoint at a time. The holograms are computed on first use, because that takes long and
+/// many users need only rays. Not thread-safe.
 class Waves {
   public:
-    /// Makes holograms of one or three wavelengths, each of `looks` looks. What it throws is thrown by photograph(),
-    /// each time.
+    /// Computes holograms of one or three wavelengths with `looks` looks each. photograph() passes on its exceptions
+    /// and calls it again the next time.
     using Make = std::function<Fields()>;
-    /// Receives the mean of so many looks.
+    /// Receives the mean of the looks so far, and their number.
     using Shown = std::function<void(const Image&, std::size_t)>;
 
-    /// @param making  the progress of making them and of what all eyes share; newer views do not stop it
+    /// @param making  progress of the work shared by all viewpoints, holograms included; newer queries do not cancel it
     Waves(Make make, std::size_t looks, std::size_t memory, Progress making);
 
     std::size_t looks() const { return looks_; }
-    /// Shows the mean of the first look, of two, … of `looks` of them (0: all): the pictures of `hogel photo --looks`.
-    /// @param preview  those of `hogel photo --preview`, which take less time
-    /// Throws Error(usage) as hogel::photograph() does, and Error(cancelled); the looks that were drawn before are
-    /// kept.
+    /// Reports the mean of 1, 2, … `looks` looks (0: all): the pictures of `hogel photo --looks`.
+    /// @param preview  the faster pictures of `hogel photo --preview`
+    /// Throws Error(usage) as hogel::photograph() does, and Error(cancelled); completed looks stay cached.
     void photograph(const Camera& camera, std::size_t looks, bool preview, const Shown& shown,
                     const Progress& progress);
 
@@ -35,7 +34,7 @@ class Waves {
     std::size_t looks_, memory_;
     Progress making_;
     Fields fields_;
-    // The second one is of previews: of either kind the light of the last eye is kept.
+    // [1] is for previews. Each caches the pupil bands of its last viewpoint.
     std::optional<EyePhotographer> photographers_[2];
 };
 

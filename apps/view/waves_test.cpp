@@ -45,13 +45,13 @@ std::unique_ptr<LightFieldViewable> viewable() {
     return std::make_unique<LightFieldViewable>(ramp(), ramp(), std::size_t{1} << 28, Progress(), waves());
 }
 
-View view_by(By by) {
-    View view;
-    view.camera.eye = {2e-3, -1e-3, 0.12};
-    view.camera.pupil = 3e-3;
-    view.camera.resolution = {48, 40};
-    view.by = by;
-    return view;
+PictureQuery view_by(PictureMethod by) {
+    PictureQuery query;
+    query.camera.eye = {2e-3, -1e-3, 0.12};
+    query.camera.pupil = 3e-3;
+    query.camera.resolution = {48, 40};
+    query.by = by;
+    return query;
 }
 
 Image expected(const Camera& camera, std::size_t looks, const BandCamera& options = {}) {
@@ -60,25 +60,25 @@ Image expected(const Camera& camera, std::size_t looks, const BandCamera& option
 
 bool equal(const Image& a, const Image& b) { return std::ranges::equal(a.pixels.elements(), b.pixels.elements()); }
 
-// Each picture is the mean of so many looks, which a command line would take.
+// Picture n is the mean of n looks, as with --looks n.
 TEST(Waves, refine_look_by_look) {
     const auto one = viewable();
     std::vector<std::size_t> shown;
-    one->photograph(
-        view_by(By::waves),
-        [&](const Photograph& photograph) {
-            shown.push_back(photograph.looks);
-            EXPECT_TRUE(equal(photograph.picture, expected(one->camera(view_by(By::waves)), photograph.looks)))
-                << photograph.looks;
-        },
-        {});
+    one->photograph(view_by(PictureMethod::waves),
+                    [&](const Photograph& photograph) {
+                        shown.push_back(photograph.looks);
+                        EXPECT_TRUE(equal(photograph.picture,
+                                          expected(one->camera(view_by(PictureMethod::waves)), photograph.looks)))
+                            << photograph.looks;
+                    },
+                    {});
     EXPECT_EQ(shown, (std::vector<std::size_t>{1, 2, 3}));
 }
 
 TEST(Waves, stop_after_the_looks_that_are_wanted) {
     int made = 0;
     const auto one = waves(&made);
-    const Camera camera = viewable()->camera(view_by(By::waves));
+    const Camera camera = viewable()->camera(view_by(PictureMethod::waves));
     EXPECT_EQ(made, 0);
     for (const std::size_t wanted : {1, 2, 1, 3}) {
         std::size_t last = 0;
@@ -88,16 +88,16 @@ TEST(Waves, stop_after_the_looks_that_are_wanted) {
     EXPECT_EQ(made, 1);
 }
 
-// What is dragged is a preview, which is not kept for the picture of the same eye at rest.
+// A preview in motion is not reused for the picture of the same viewpoint at rest.
 TEST(Waves, are_previews_where_that_is_asked_for) {
     const auto one = viewable();
-    View view = view_by(By::waves);
-    view.looks = 1;
-    view.preview = true;
-    const Image preview = one->photograph(view, {}).picture;
-    view.preview = false;
-    const Image whole = one->photograph(view, {}).picture;
-    const Camera camera = one->camera(view);
+    PictureQuery query = view_by(PictureMethod::waves);
+    query.looks = 1;
+    query.preview = true;
+    const Image preview = one->photograph(query, {}).picture;
+    query.preview = false;
+    const Image whole = one->photograph(query, {}).picture;
+    const Camera camera = one->camera(query);
     EXPECT_TRUE(equal(whole, expected(camera, 1)));
     EXPECT_TRUE(equal(preview, expected(camera, 1, {.preview = true})));
     EXPECT_FALSE(equal(preview, whole));
@@ -105,7 +105,7 @@ TEST(Waves, are_previews_where_that_is_asked_for) {
 
 TEST(Waves, stop_for_a_newer_view) {
     const auto one = waves();
-    const Camera camera = viewable()->camera(view_by(By::waves));
+    const Camera camera = viewable()->camera(view_by(PictureMethod::waves));
     std::stop_source newer;
     std::size_t last = 0;
     const auto until_first = [&](const Image&, std::size_t looks) {
@@ -120,11 +120,11 @@ TEST(Waves, stop_for_a_newer_view) {
 
 TEST(Waves, stand_beside_rays) {
     const auto one = viewable();
-    const Image rays = one->photograph(view_by(By::rays), {}).picture;
-    const Image by_waves = one->photograph(view_by(By::waves), {}).picture;
-    const Photograph both = one->photograph(view_by(By::side), {});
+    const Image rays = one->photograph(view_by(PictureMethod::rays), {}).picture;
+    const Image by_waves = one->photograph(view_by(PictureMethod::waves), {}).picture;
+    const Photograph both = one->photograph(view_by(PictureMethod::side), {});
     ASSERT_EQ(both.picture.width(), 96u);
-    const Photograph apart = one->photograph(view_by(By::difference), {});
+    const Photograph apart = one->photograph(view_by(PictureMethod::difference), {});
     ASSERT_EQ(apart.picture.width(), 48u);
     for (std::size_t y = 0; y < 40; ++y)
         for (std::size_t x = 0; x < 48; ++x) {
@@ -135,12 +135,13 @@ TEST(Waves, stand_beside_rays) {
     ASSERT_TRUE(apart.psnr);
     EXPECT_EQ(*apart.psnr, compare(by_waves, rays, one->exposure()).psnr);
     // A spot of the right half is of the same ray as one of the left half.
-    EXPECT_EQ(one->read(view_by(By::side), {0.75, 0.5}).across, one->read(view_by(By::rays), {0.5, 0.5}).across);
+    EXPECT_EQ(one->read(view_by(PictureMethod::side), {0.75, 0.5}).across,
+              one->read(view_by(PictureMethod::rays), {0.5, 0.5}).across);
 }
 
 TEST(Waves, of_two_eyes_are_two_pictures) {
     const auto one = viewable();
-    View both = view_by(By::waves), left = both;
+    PictureQuery both = view_by(PictureMethod::waves), left = both;
     both.eyes = 4e-3;
     left.camera.eye.x -= 2e-3;
     std::vector<std::size_t> shown;
@@ -158,14 +159,14 @@ TEST(Waves, of_two_eyes_are_two_pictures) {
 
 TEST(Waves, are_refused_where_there_are_none) {
     LightFieldViewable coarse(ramp(), ramp(), std::size_t{1} << 28, Progress());
-    EXPECT_THROW(coarse.require(view_by(By::waves)), Error);
+    EXPECT_THROW(coarse.require(view_by(PictureMethod::waves)), Error);
     HologramViewable hologram(holograms(1), std::size_t{1} << 30, Progress());
-    EXPECT_THROW(hologram.require(view_by(By::rays)), Error);
-    EXPECT_THROW(hologram.require(view_by(By::side)), Error);
-    View stereo = view_by(By::difference);
+    EXPECT_THROW(hologram.require(view_by(PictureMethod::rays)), Error);
+    EXPECT_THROW(hologram.require(view_by(PictureMethod::side)), Error);
+    PictureQuery stereo = view_by(PictureMethod::difference);
     stereo.eyes = 6e-3;
     EXPECT_THROW(viewable()->require(stereo), Error);
-    EXPECT_NO_THROW(hologram.require(view_by(By::waves)));
+    EXPECT_NO_THROW(hologram.require(view_by(PictureMethod::waves)));
 }
 
 }  // namespace

@@ -13,27 +13,27 @@
 
 namespace hogel::view {
 
-/// Makes pictures on one thread, for several clients in turn. Of each client only the newest job waits, so that however
-/// fast a client asks, what it sees is never older than the one picture that is being made.
+/// Runs jobs on one thread, for several clients in turn. Only the newest job of each client waits, so a picture is
+/// never older than the one in progress, however fast the client sends requests.
 class Worker {
   public:
     struct Job {
-        /// What must end early, by Error(cancelled) or otherwise, when a stop is requested. Throws nothing else.
+        /// Must end early when a stop is requested. Must not throw: an exception would terminate the program.
         std::function<void(std::stop_token)> work;
-        /// Whether a newer job of the same client waits for this one instead of stopping it. True in motion: were each
-        /// picture stopped by the next, a drag would show none at all.
+        /// If true, a newer job of the same client waits instead of cancelling this one. True in motion: otherwise a
+        /// drag would cancel every picture and show none.
         bool ends_first = false;
     };
 
     Worker();
-    /// Stops what runs and forgets what waits.
+    /// Stops the running job and discards the waiting ones.
     ~Worker();
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
 
-    /// Gives a client's newest job, which takes the place of one that waits.
+    /// Queues a client's newest job, which replaces its waiting one.
     void put(std::uint64_t client, Job job);
-    /// Forgets a client that is gone and stops its job.
+    /// Discards the jobs of a client and stops the running one.
     void drop(std::uint64_t client);
 
   private:
@@ -47,11 +47,11 @@ class Worker {
 
     std::mutex mutex_;
     std::condition_variable_any changed_;
-    std::vector<Waiting> waiting_;  // in turn, each client once
+    std::vector<Waiting> waiting_;  // first in, first out; each client at most once
     std::optional<std::uint64_t> running_;
     bool running_ends_first_ = false;
-    std::stop_source stop_;  // of what runs
-    std::jthread thread_;    // last, so that it ends before what it uses
+    std::stop_source stop_;  // of the running job
+    std::jthread thread_;    // last member: joins before the others are destroyed
 };
 
 }  // namespace hogel::view

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that are dropped on the page, or chosen: they go to the server, which opens the one that the others belong to.
+// Files dropped on the page or chosen: uploads them; the server opens the main file, the last one sent.
 
-// What other files belong to, first: a scene with its buffers, materials and pictures.
+// Main files by rank: a scene before its buffers, materials and pictures.
 const order = [".gltf", ".obj", ".dae", ".3ds", ".fbx"];
 const rank = name => { const at = order.findIndex(end => name.toLowerCase().endsWith(end)); return at < 0 ? order.length : at; };
 
@@ -27,7 +27,7 @@ export class Drop {
 
   async open(files) {
     if (!files.length) return this.on.failed("Only files can be opened");
-    files.sort((a, b) => rank(b.name) - rank(a.name) || a.size - b.size);  // the one that is opened comes last
+    files.sort((a, b) => rank(b.name) - rank(a.name) || a.size - b.size);  // the main file is sent last
     const large = files.find(file => file.size > this.on.maxBytes());
     if (large) return this.on.failed(`${large.name} has ${(large.size / 1e9).toPrecision(3)} GB; --memory allows ${(this.on.maxBytes() / 1e9).toPrecision(3)}. Open it with hogel view`);
     try {

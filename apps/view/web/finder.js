@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The focus finder: how sharp a hologram is at many depths, as a plot. A click goes to a depth.
+// Focus finder: plot of the sharpness of a hologram over depth. A click focuses at a depth.
 
 export const svg = (name, attributes, text) => {
   const element = document.createElementNS("http://www.w3.org/2000/svg", name);
@@ -10,7 +10,7 @@ export const svg = (name, attributes, text) => {
 
 const width = 280, height = 150, left = 8, right = 8, top = 10, bottom = 26;
 
-// go(depth in millimetres) focuses there.
+// go(depth): focuses at a depth in millimetres.
 export function plot(search, go) {
   const depths = search.depths_m.map(depth => 1e3 * depth), from = depths[0], to = depths.at(-1);
   const x = depth => left + (depth - from) / (to - from) * (width - left - right);

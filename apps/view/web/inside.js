@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The look inside: a small picture of what lies under the pointer, which the server makes.
+// Small picture of the data under the pointer, computed by the server.
 
 const kinds = {
   "light field": {off: "Off", hogel: "One hogel, all of its directions", views: "Views from 7 × 7 directions", "s-u": "Epipolar plane (s, U)", "t-v": "Epipolar plane (t, V)", depth: "Depth, near is bright", coverage: "Coverage of the hogels", rate: "Bytes of each hogel"},
@@ -14,17 +14,17 @@ const captions = {
   spectrum: "Frequency zero in the middle, half a cycle a sample at the edges.",
 };
 
-const sides = {intensity: 140, phase: 140, real: 140, spectrum: 256};  // samples; a sample is at least two pixels of the screen
+const sides = {intensity: 140, phase: 140, real: 140, spectrum: 256};  // samples; each covers at least two screen pixels
 
 export class InsideLook {
-  // ask(words): a promise of the picture's Blob. The pictures are asked for one at a time, the newest spot next.
+  // ask(words): returns a promise of the picture's Blob. One request at a time; the newest point comes next.
   constructor(by, ask) {
     Object.assign(this, {by, ask, at: [0.5, 0.5], going: false, waiting: false, kind: ""});
     by("inside-what").addEventListener("change", () => { this.show(); this.look(); });
     by("inside-large").addEventListener("click", () => { by("large").showModal(); });
   }
 
-  // What there is to look at.
+  // Sets the available kinds.
   offer(field) {
     this.bytes = field.hogel_bytes;
     const known = Object.entries(kinds[field.kind] ?? {}).filter(([value]) => (value !== "depth" || field.depth) && (value !== "rate" || this.bytes));
@@ -37,7 +37,7 @@ export class InsideLook {
     this.show();
   }
 
-  // The next kind, for the keyboard.
+  // Selects the next kind, for the keyboard.
   next() {
     const what = this.by("inside-what");
     what.selectedIndex = (what.selectedIndex + 1) % what.options.length;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of keys: what is pressed, what the help says, what happens. `to` are the page's actions.
+// Table of keys: key, help text, action. `to` holds the page's actions.
 
 export const keys = to => [
   {shown: "← → ↑ ↓", text: "Move the eye, the scene or the light; with Shift, further", keys: ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"], act: (key, shift) => {
@@ -33,7 +33,7 @@ export function listen(table) {
   document.addEventListener("keydown", event => {
     const target = event.target;
     if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
-    // Controls keep the keys that they use themselves.
+    // Focused controls keep their own keys.
     if (target.matches("select, input[type=text]") || (target.matches("input") && event.key.startsWith("Arrow"))) return;
     if (target.matches("button, input") && event.key === "Enter") return;
     const row = table.find(each => each.keys.includes(event.key));

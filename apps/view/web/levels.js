@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How often a modulator that shows the hologram uses each of its levels, as a plot.
+// Plot of the histogram of modulator levels.
 import {svg} from "./finder.js";
 
 const width = 280, height = 120, left = 8, right = 8, top = 8, bottom = 22;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The WebSocket to the server, which opens again when it is lost.
+// WebSocket to the server; reconnects when the connection is lost.
 
 export class Link {
   constructor({onText, onPicture, onLost, onOpen}) {
@@ -26,6 +26,6 @@ export class Link {
     this.socket = socket;
   }
 
-  // Nothing is queued: when the socket opens, the page asks anew.
+  // Queues nothing: the page repeats its request when the socket opens.
   send(text) { if (this.socket.readyState === WebSocket.OPEN) this.socket.send(text); }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page of `hogel view`. It makes no picture itself: it asks the server, which is hogel, and draws what comes.
+// The page of `hogel view`. It requests pictures from the server and draws them.
 import {View, byWaves, command, hash, methods, query} from "./view.js";
 import {Drop} from "./drop.js";
 import {InsideLook} from "./inside.js";
@@ -12,15 +12,15 @@ import {Stage} from "./stage.js";
 import {keys, listen} from "./keys.js";
 
 const by = id => document.getElementById(id);
-const inMotion = {samples: 4, pixels: 512, quality: 80}, atRest = {samples: 16, quality: 93}, speckled = 98;  // which suffers most from JPEG
-const pause = 140;  // milliseconds without a change that are rest
+const inMotion = {samples: 4, pixels: 512, quality: 80}, atRest = {samples: 16, quality: 93}, speckled = 98;  // JPEG quality of speckled pictures
+const pause = 140;  // milliseconds without a change until at rest
 
 const view = new View();
 const nothing = {center_u: 0, center_v: 0, tan_half_u: 0.1, tan_half_v: 0.1, ready: false};
 let field = nothing;  // the server's last state
 let lost = false, number = 0, wanted = 0, drawn = null, resting = 0, hovering = 0;
-const asked = new Map();  // number of a request → when it was made necessary, and what its picture is like
-let refused = false;  // whether the problem that is shown is that of a picture
+const asked = new Map();  // request number → time of the change, and the picture's method
+let refused = false;  // whether the displayed problem concerns a picture
 
 // Requests
 
@@ -40,7 +40,7 @@ function ask(moving, since) {
   link.send("picture?" + query({...words(moving), ...looks, quality: moving ? inMotion.quality : waves ? speckled : atRest.quality, moving: moving ? "yes" : "no", id}));
 }
 
-// What the server makes of an address, which holds the token if there is one.
+// Fetches a path from the server, with the token if there is one.
 async function get(path, words) {
   const token = new URLSearchParams(location.search).get("token");
   const answer = await fetch(path + query({...words, ...(token ? {token} : {})}));
@@ -48,7 +48,7 @@ async function get(path, words) {
   return answer;
 }
 
-// The view has changed: a coarse picture with the next frame of the screen, a fine one when it holds still.
+// The view has changed: requests a coarse picture with the next animation frame, a fine one at rest.
 function changed() {
   show();
   if (!wanted) {
@@ -60,7 +60,7 @@ function changed() {
 }
 
 function rest() {
-  // A screen may be so slow that the frame of the last change is still to come; it would replace the fine picture.
+  // On a slow screen the animation frame of the last change may be pending; its picture would replace the fine one.
   cancelAnimationFrame(wanted);
   wanted = 0;
   ask(false, performance.now());
@@ -68,7 +68,7 @@ function rest() {
   remember();
 }
 
-// The address holds the view, and what was changed of what is looked at.
+// Stores the view and the changed options in the address.
 const address = () => location.pathname + location.search + hash({...view.words(), ...scene.words, ...layerWords()});
 const remember = () => history.replaceState(null, "", address());
 
@@ -85,9 +85,9 @@ async function picture(about, blob) {
   stage.canvas.dispatchEvent(new CustomEvent("hogel-picture", {detail: {...about, latency}}));
 }
 
-// A picture that cannot be made: the one that is there stays, and so does its method.
+// A picture was refused: keeps the displayed one and its method.
 function refuse(message) {
-  if (asked.get(Number(message.id))?.by !== view.by) return;  // something else has been asked for since
+  if (asked.get(Number(message.id))?.by !== view.by) return;  // superseded by another method
   const before = drawn?.by ?? (field.rays === false ? "waves" : "rays");
   problem(message.message, message.parameter);
   refused = true;
@@ -98,7 +98,7 @@ function refuse(message) {
   if (!drawn) ask(false, performance.now());
 }
 
-// What the page says
+// Texts of the page
 
 const millimetres = value => `${+value.toFixed(Math.abs(value) < 10 ? 2 : 1)} mm`;
 
@@ -129,13 +129,13 @@ function show() {
   for (const id of ["distance", "focus", "pupil", "stops"]) by(id).setAttribute("aria-valuetext", by(`${id}-out`).textContent);
 }
 
-// Depths that the slider spans: what the light field resolves, several times over, or the depth in focus if that is farther.
+// Range of the focus slider: a multiple of the depth that the light field resolves, at least the current focus.
 function focusReach() {
   const resolved = field.hogels_s ? 6e3 * field.width_m / field.hogels_s / (2 * field.tan_half_u / field.directions_u) : field.pitch_m ? 1e3 * reachOfSamples() : 20;
   return Math.max(1, +resolved.toPrecision(2), Math.abs(view.focus));
 }
 
-// Where samples and size of a hologram resolve alike, in metres.
+// Depth at which sample pitch and aperture limit the resolution of a hologram equally, metres.
 const reachOfSamples = () => Math.max(field.samples_x, field.samples_y) * field.pitch_m ** 2 / field.wavelengths_m[0];
 
 let saidUntil = 0;
@@ -145,7 +145,7 @@ function say(text) {
   saidUntil = setTimeout(() => { by("said").textContent = ""; }, 4000);
 }
 
-// The first picture by waves may take long. It comes at once where the waves are known: then nothing is said.
+// The first picture by waves may take long: shows a note, unless the waves are ready.
 let announcing = 0;
 function announceWaves() {
   if (announcing) return;
@@ -159,7 +159,7 @@ function wavesAnnounced() {
   say("");
 }
 
-// parameters: names of those that the problem is about
+// parameters: names of the parameters of the problem
 function problem(text, parameters = []) {
   refused = false;
   if (text) wavesAnnounced();
@@ -171,7 +171,7 @@ function problem(text, parameters = []) {
 
 function state(message) {
   const first = message.ready && (!field.ready || message.opened !== field.opened), another = message.generation !== field.generation;
-  // A link is of what is opened with the page; another file is looked at from its front.
+  // A link applies to the file opened with the page; other files start with the front view.
   const linked = !field.ready;
   field = {...nothing, ...message};
   by("name").textContent = field.name.split("/").filter(Boolean).at(-1) ?? "hogel view";
@@ -206,10 +206,10 @@ function state(message) {
   }
 }
 
-// How pictures of this can be made.
+// Available methods.
 const offered = () => methods.filter(method => byWaves(method) ? field.looks > 0 && (field.rays || method === "waves") : field.rays && (method === "rays" || field.has_original));
 
-// Another file begins without what was changed of the one before.
+// Another file starts without the changed options.
 function forget() {
   scene.words = {};
   layers = 0;
@@ -250,7 +250,7 @@ function showLayers() {
   by("layers-hint").textContent = `${size(stream.bytes)}, ${errors}.`;
 }
 
-// Words stay whole, which lines would break at their hyphens.
+// Prevents line breaks at hyphens.
 const showCommand = (place, command) => place.replaceChildren(...command.split(" ").flatMap((word, i) => [i ? " " : "", Object.assign(document.createElement("span"), {textContent: word})]));
 
 const size = bytes => bytes < 1e6 ? `${(bytes / 1e3).toPrecision(3)} kB` : `${(bytes / 1e6).toPrecision(3)} MB`;
@@ -275,7 +275,7 @@ function reading(message) {
   by("reading").textContent = parts.join(" · ");
 }
 
-// What can be done
+// Actions
 
 const to = {
   move(right, up) {
@@ -357,7 +357,7 @@ async function copy(text) {
   } catch { window.prompt("Copy:", text); }
 }
 
-// A place across the picture that is drawn, as one across the picture that is asked for.
+// Converts a horizontal position in the drawn picture to one in the requested picture.
 const inAsked = x => !drawn || drawn.pair === view.pair ? x : view.pair ? x / 2 : 2 * x % 1;
 
 const stage = new Stage(by("picture"), {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Marks the controls of the parameters that an error names; a control's data-parameter says which one it sets.
+// Marks the controls of the parameters named by an error; data-parameter is the name of a control's parameter.
 
 const text = Object.assign(document.createElement("small"), {id: "wrong", className: "wrong"});
 
-// Marks the controls of these parameters and no others, with the message under the first one that is visible.
+// Marks only the controls of these parameters; puts the message under the first visible one.
 export function mark(parameters, message) {
   text.remove();
   text.textContent = message;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene that is looked at live: how it is turned, lit, placed and sampled. The words are options of hogel, whose server renders.
+// Live scene: rotation, light, position and sampling, as options of hogel. The server renders.
 
 const degrees = Math.PI / 180;
 const tidy = number => String(+number.toFixed(3));
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
 
-// Rotations about x, then y, then z, as matrices and back.
+// Converts rotations about x, then y, then z to matrices and back.
 function matrix([a, b, c]) {
   const [sa, ca, sb, cb, sc, cc] = [a, b, c].flatMap(angle => [Math.sin(angle * degrees), Math.cos(angle * degrees)]);
   return [[cc * cb, cc * sb * sa - sc * ca, cc * sb * ca + sc * sa], [sc * cb, sc * sb * sa + cc * ca, sc * sb * ca - cc * sa], [-sb, cb * sa, cb * ca]];
@@ -13,9 +13,9 @@ function matrix([a, b, c]) {
 const angles = m => [Math.atan2(m[2][1], m[2][2]), Math.atan2(-m[2][0], Math.hypot(m[2][1], m[2][2])), Math.atan2(m[1][0], m[0][0])].map(angle => angle / degrees);
 const times = (a, b) => a.map(row => b[0].map((_, j) => row.reduce((sum, value, k) => sum + value * b[k][j], 0)));
 
-const usualStrength = 2.2;  // of a light of the command line
+const usualStrength = 2.2;  // default strength of a light on the command line
 
-// Sliders: what they show of the server's state, and the word that they become. `log`: even steps are even ratios.
+// Sliders: value from the server's state, and the option that they set. `log`: logarithmic scale.
 const sliders = [
   {id: "turn", of: scene => scene.rotate_deg[1], unit: "°", word: (scene, value) => rotate(scene, 1, value)},
   {id: "tilt", of: scene => scene.rotate_deg[0], unit: "°", word: (scene, value) => rotate(scene, 0, value)},
@@ -35,7 +35,7 @@ const sliders = [
 const counts = ([columns, rows], value) => columns === rows ? String(value) : `${value}x${Math.max(1, Math.round(value * rows / columns))}`;
 const rotate = (scene, axis, value) => ({rotate: scene.rotate_deg.map((angle, i) => tidy(i === axis ? value : angle)).join(",") + "deg"});
 
-// A light comes from so many degrees to the right of the viewer and above; its colour is white.
+// White light from a direction in degrees to the right of and above the viewer.
 function light(across, up, strength) {
   const cosine = Math.cos(up * degrees);
   return {light: [Math.sin(across * degrees) * cosine, Math.sin(up * degrees), Math.cos(across * degrees) * cosine].map(tidy).join(",") + `:white:${tidy(strength)}`};
@@ -47,7 +47,7 @@ function lightOf(scene) {
 }
 
 export class SceneControls {
-  // send(words, moving) asks for a change; pause: milliseconds without one that are rest.
+  // send(words, moving) requests a change; pause: milliseconds without a change until at rest.
   constructor(by, send, pause) {
     Object.assign(this, {by, send, pause, scene: null, first: null, words: {}, waiting: {}, going: false, resting: 0});
     for (const slider of sliders)
@@ -66,7 +66,7 @@ export class SceneControls {
     return slider.whole ? Math.round(value) : value;
   }
 
-  // Changes options: coarse while others follow, then fine. What is under way is followed by the newest alone.
+  // Changes options: coarse in motion, then fine. While a change is in progress, only the newest one waits.
   set(words) {
     if (!this.scene) return;
     for (const [name, value] of Object.entries(words)) if (value) this.words[name] = value; else delete this.words[name];
@@ -80,13 +80,13 @@ export class SceneControls {
     if (this.going || !Object.keys(this.waiting).length) return;
     this.going = true;
     clearTimeout(this.late);
-    this.late = setTimeout(() => { this.going = false; }, 2000);  // one that was refused
+    this.late = setTimeout(() => { this.going = false; }, 2000);  // the change was refused
     this.send(this.waiting, true);
     this.unsettled = {...this.unsettled, ...this.waiting};
     this.waiting = {};
   }
 
-  // A link's words, and those alone.
+  // Applies the options of a link, and only those.
   read(hash) {
     const words = new URLSearchParams(hash.replace(/^#/, ""));
     const wanted = {};
@@ -98,20 +98,20 @@ export class SceneControls {
     if (this.scene && Object.keys(changed).length) this.send(changed, false);
   }
 
-  // The pointer's way in parts of the picture turns the scene about the viewer's axes, or moves the light.
+  // Rotates the scene about the viewer's axes, or moves the light, by a drag in fractions of the picture.
   drag(right, up) {
     if (!this.scene) return;
     if (this.dragging === "light") {
       const [across, above, strength] = lightOf(this.scene);
       const moved = light(clamp(across + 180 * right, -180, 180), clamp(above + 180 * up, -90, 90), strength);
-      this.scene.lights = [moved.light];  // so that drags add up before the server answers
+      this.scene.lights = [moved.light];  // accumulates drags until the server answers
       return this.set(moved);
     }
     this.scene.rotate_deg = angles(times(matrix([-180 * up, 180 * right, 0]), matrix(this.scene.rotate_deg)));
     this.set({rotate: this.scene.rotate_deg.map(tidy).join(",") + "deg"});
   }
 
-  // Sets a parameter to the number that would do.
+  // Sets a parameter to the advised number.
   take(option) {
     const advice = this.scene?.advice.find(each => each.option === option);
     const slider = sliders.find(each => each.id === option);
@@ -122,7 +122,7 @@ export class SceneControls {
     const {by} = this;
     by("scene").hidden = !scene;
     if (!scene) { this.dragging = "eye"; this.scene = null; return; }
-    // What a person holds stays where they hold it.
+    // Does not move a slider that the user is dragging.
     const held = this.scene && (this.resting && this.going) ? this.scene : null;
     this.scene = {...scene, ...(held ? {rotate_deg: held.rotate_deg, lights: held.lights} : {})};
     this.going = false;

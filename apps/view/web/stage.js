@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// The picture: its size on the screen, what is drawn, and what pointers do on it.
+// The picture: its size on the screen, drawing, and pointer events.
 
 export class Stage {
-  // on: {drag(dx, dy) in parts of the picture, zoom(factor), click(x, y), hover(x, y)}
+  // on: {drag(dx, dy) in fractions of the picture, zoom(factor), click(x, y), hover(x, y)}
   constructor(canvas, on) {
     this.canvas = canvas;
-    this.context = canvas.getContext("bitmaprenderer", {alpha: false});  // which takes pictures as they are and copies nothing
-    this.aspect = 1;  // height over width of the picture that is asked for
-    this.shown = 1;   // and of the one that is drawn, which keeps its shape until the other is there
+    this.context = canvas.getContext("bitmaprenderer", {alpha: false});  // takes decoded pictures without a copy
+    this.aspect = 1;  // height over width of the requested picture
+    this.shown = 1;   // height over width of the drawn picture
     this.latest = 0;
     this.pointers = new Map();
     this.listen(on);
   }
 
-  // The largest width of a picture of that shape that fits.
+  // Returns the largest width that fits for an aspect ratio.
   width(aspect) {
     const room = this.canvas.parentElement.getBoundingClientRect(), across = room.width - 12, down = room.height - 12;
     return Math.max(16, Math.floor(Math.min(across, down / aspect)));
   }
 
-  // Fits the picture that is drawn into the room. Returns the pixels across of the one that is asked for.
+  // Fits the drawn picture into the window. Returns the width of the requested picture in device pixels.
   fit() {
     const width = this.width(this.shown);
     this.canvas.style.width = `${width}px`;
@@ -28,13 +28,13 @@ export class Stage {
     return this.pixels;
   }
 
-  // Pictures are decoded beside each other; one that is ready after a later one is left out. Returns whether it was drawn.
+  // Pictures are decoded concurrently; one that completes after a newer one is dropped. Returns whether it was drawn.
   async draw(blob, number, aspect) {
     const bitmap = await createImageBitmap(blob);
     if (number < this.latest) return false;
     this.latest = number;
     if (this.shown !== aspect) { this.shown = aspect; this.fit(); }
-    // The style's size does not change, so that the screen scales what is coarse.
+    // The style's size stays: the browser scales coarse pictures.
     if (this.canvas.width !== bitmap.width || this.canvas.height !== bitmap.height)
       Object.assign(this.canvas, {width: bitmap.width, height: bitmap.height});
     this.context.transferFromImageBitmap(bitmap);

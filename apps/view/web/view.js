@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is looked at and how: the words that the address, a request and a command line share. Lengths are millimetres.
+// Parameters of the view, shared by the address, requests and command lines. Lengths in millimetres.
 
 const tidy = number => String(+number.toFixed(4));
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
@@ -17,16 +17,16 @@ export class View {
     this.pupil = 6;
     this.exposure = null;  // automatic
     this.display = "intensity";
-    this.eyes = 0;  // between two eyes; 0: one
+    this.eyes = 0;  // distance of two viewpoints; 0: one viewpoint
     this.by = field.rays === false ? "waves" : "rays";
   }
 
-  // Whether two pictures of one eye are compared.
+  // Whether two methods are compared from one viewpoint.
   get two() { return this.by === "side" || this.by === "difference"; }
-  // Whether two pictures stand side by side.
+  // Whether two pictures are side by side.
   get pair() { return this.eyes > 0 || this.by === "side"; }
 
-  // The words that a link keeps.
+  // Returns the parameters stored in a link.
   words() {
     const words = {eye: `${this.eye.map(tidy).join(",")}mm`, focus: `${tidy(this.focus)}mm`, pupil: `${tidy(this.pupil)}mm`};
     if (this.exposure !== null) words.exposure = String(+this.exposure.toPrecision(6));
@@ -36,7 +36,7 @@ export class View {
     return words;
   }
 
-  // Takes what a link says; words that make no sense are left out.
+  // Reads the parameters of a link; skips invalid ones.
   read(hash) {
     const words = new URLSearchParams(hash.replace(/^#/, ""));
     const length = text => { const match = /^(-?[\d.]+(?:e-?\d+)?)mm$/.exec(text ?? ""); return match ? Number(match[1]) : NaN; };
@@ -53,14 +53,14 @@ export class View {
     if (["intensity", "log"].includes(words.get("display"))) this.display = words.get("display");
   }
 
-  // The eye stays where the middle of the hologram is seen: behind it is dark.
+  // Restricts the viewpoint to the region that sees the middle of the hologram.
   moveTo(x, y, field) {
     const z = this.eye[2];
     this.eye[0] = clamp(x, (-field.center_u - field.tan_half_u) * z, (-field.center_u + field.tan_half_u) * z);
     this.eye[1] = clamp(y, (-field.center_v - field.tan_half_v) * z, (-field.center_v + field.tan_half_v) * z);
   }
 
-  // The eye keeps its direction.
+  // Keeps the direction of the viewpoint.
   moveAway(factor) {
     const z = clamp(this.eye[2] * factor, nearest, farthest);
     this.eye = this.eye.map(value => value * z / this.eye[2]);
@@ -69,9 +69,9 @@ export class View {
 }
 
 export const query = words => Object.entries(words).map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&");
-// Commas are themselves in an address, and read better.
+// Commas need no escape in a query and are easier to read.
 export const hash = words => "#" + query(words).replaceAll("%2C", ",");
-// The command that repeats a view, two of them for two eyes or two methods: `photo` is that of the subject, from the server.
+// Returns the command that reproduces a view, two for two viewpoints or methods. `photo`: the server's command without the camera.
 export function command(photo, words, view, field) {
   const {eyes, by, "pupil-samples": samples, ...others} = words;
   const how = waves => field.rays === false ? {} : waves ? {wave: "", looks: field.looks} : {geometric: "", "pupil-samples": samples};
