@@ -25,7 +25,7 @@ int bake(Options& options, const Session& session) {
     bake_options.seed = session.seed;
     const Scene scene = load_scene(session, options.scene, options.bake.place);
     with_parameter("tessellate",
-                   [&] { state_plan(session, plan_bake(scene, bake_options), "baking", options.output); });
+                   [&] { check_plan(session, plan_bake(scene, bake_options), "baking", options.output); });
     Stage stage(session, "baking");
     const Scene baked =
         with_parameter("tessellate", [&] { return hogel::bake_scene(scene, bake_options, stage.progress()); });

@@ -32,8 +32,9 @@ SampleComparison compare_samples(const Options& options, FileKind kind, const Se
     return compare(a, b, stage.progress());
 }
 
-// Whether a bound was given and is missed (exit status 1). A bound on a value that was not measured is a usage error.
-bool misses(const Session& session, const char* name, std::optional<double> bound, std::optional<double> value) {
+// Returns whether a bound was given and the value is below it (exit status 1). Throws Error(usage) if the value was not
+// measured.
+bool is_below(const Session& session, const char* name, std::optional<double> bound, std::optional<double> value) {
     if (!bound) return false;
     if (!value) throw Error(ErrorCode::usage, fmt::format("--min-{}: pictures have no {}; use --min-psnr", name, name));
     if (*value >= *bound) return false;
@@ -41,13 +42,12 @@ bool misses(const Session& session, const char* name, std::optional<double> boun
     return true;
 }
 
-// Sets of views are light fields.
 FileKind kind_of(const std::string& path, const FieldParameters& field) {
     if (field.is_external(path)) return FileKind::hologram;
     return is_view_set(path) ? FileKind::light_field : file_kind(path);
 }
 
-// What both files are compared as: a pattern is a picture beside a picture, and a field beside a field.
+// Returns the common kind of both files. A pattern counts as a picture if the other file is one, otherwise as a field.
 FileKind common_kind(const Options& options) {
     const FileKind a = kind_of(options.a, options.field), b = kind_of(options.b, options.field);
     const auto is_picture = [&](const std::string& path, FileKind kind) {
@@ -63,9 +63,9 @@ int compare_files(const Options& options, const Session& session) {
     const FileKind kind = common_kind(options);
     std::optional<double> psnr, sqnr;
     if (kind == FileKind::picture) {
-        if (options.min_sqnr) misses(session, "sqnr", options.min_sqnr, sqnr);
+        if (options.min_sqnr) is_below(session, "sqnr", options.min_sqnr, sqnr);
         const Image truth = read_image(options.a);
-        // Radiances brighter than display white are compared as displays would show them, not clamped.
+        // Scales radiances above display white instead of clamping them.
         const double exposure = options.exposure.value_or(std::min(1.0, automatic_exposure(truth)));
         const ImageComparison result = compare(truth, read_image(options.b), exposure);
         psnr = result.psnr;
@@ -85,8 +85,8 @@ int compare_files(const Options& options, const Session& session) {
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: is neither a picture, a light field nor a hologram", options.a));
     }
-    const bool low_psnr = misses(session, "psnr", options.min_psnr, psnr);
-    const bool low_sqnr = misses(session, "sqnr", options.min_sqnr, sqnr);
+    const bool low_psnr = is_below(session, "psnr", options.min_psnr, psnr);
+    const bool low_sqnr = is_below(session, "sqnr", options.min_sqnr, sqnr);
     return low_psnr || low_sqnr ? 1 : 0;
 }
 
@@ -97,13 +97,12 @@ void add_compare(Command& command, Session& session) {
     command.examples(
         "  hogel compare truth.png wave.png --min-psnr 25\n"
         "  hogel compare full.h5 decoded.h5 --min-sqnr 30");
-    command.positional("a", options->a, "A", "The truth: a picture, a light field or a hologram");
-    command.positional("b", options->b, "B", "What is compared with it, of the same kind and size");
-    command.number("--min-psnr", options->min_psnr, "DB", "Exit with status 1 below this ratio of peak to error");
+    command.positional("a", options->a, "A", "Reference: a picture, a light field or a hologram");
+    command.positional("b", options->b, "B", "File to compare with it, of the same kind and size");
+    command.number("--min-psnr", options->min_psnr, "DB", "Exit with status 1 below this peak signal-to-noise ratio");
     command.number("--min-sqnr", options->min_sqnr, "DB", "Exit with status 1 below this ratio of signal to error");
-    command.number(
-        "--exposure", options->exposure, "NUMBER",
-        "What linear values of pictures are multiplied by (default: 1, or less where A is brighter than white)");
+    command.number("--exposure", options->exposure, "NUMBER",
+                   "Factor of linear values of pictures (default: 1, or less if A is brighter than white)");
     options->field.declare(command, true, true);
     command.work([options, &session] { return compare_files(*options, session); });
 }

@@ -14,18 +14,19 @@ namespace {
 
 using Commands = std::vector<const Command*>;
 
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
-        text.replace(at, what.size(), by);
+std::string replaced(std::string text, const std::string& pattern, const std::string& replacement) {
+    for (std::size_t position = 0; (position = text.find(pattern, position)) != std::string::npos;
+         position += replacement.size())
+        text.replace(position, pattern.size(), replacement);
     return text;
 }
 
-// The first line of a help, as a word of a shell.
+// Returns the first line of a help text, quoted for a shell.
 std::string quoted_help(const Parameter& parameter) {
     return replaced(parameter.help.substr(0, parameter.help.find('\n')), "'", "'\\''");
 }
 
-// The names of a parameter with dashes.
+// Returns the names of a parameter with dashes.
 std::vector<std::string> names_of(const Parameter& parameter) {
     std::vector<std::string> names{"--" + parameter.name};
     if (!parameter.alias.empty()) names.push_back("--" + parameter.alias);
@@ -40,7 +41,7 @@ std::vector<const Parameter*> options_of(const Command& command) {
     return options;
 }
 
-// Words that the operand of a command may be.
+// Returns the possible values of a command's operand.
 std::vector<std::string> operand_words(const Command& command) {
     for (const Parameter& each : command.all()) {
         if (!each.is_positional) continue;
@@ -60,8 +61,8 @@ std::string bash(const Commands& commands) {
     for (const Command* command : commands) {
         std::vector<std::string> names{"--help"};
         for (const Parameter* each : options_of(*command)) {
-            const std::vector<std::string> own = names_of(*each);
-            names.insert(names.end(), own.begin(), own.end());
+            const std::vector<std::string> parameter_names = names_of(*each);
+            names.insert(names.end(), parameter_names.begin(), parameter_names.end());
             if (!each->choices.empty())
                 choices += fmt::format("        {}:--{}) words='{}' ;;\n", command->name(), each->name,
                                        fmt::join(each->choices, " "));
@@ -160,8 +161,8 @@ std::string fish(const Commands& commands) {
 }
 
 int print_completion(const std::string& shell, const Session& session) {
-    Session none;
-    const CommandLine line(commands(), none);
+    Session unused;
+    const CommandLine line(commands(), unused);
     std::string script;
     if (shell == "bash") script = bash(line.commands());
     if (shell == "zsh") script = zsh(line.commands());

@@ -25,14 +25,15 @@ int compress_file(Options& options, const Session& session) {
     CompressionOptions compression = options.compression.options(light_field);
     options.compression.resolve(light_field);
     compression.metadata = run_metadata(session);
-    Kept kept(session, options.resume, options.output, options.resume ? describe_input(options.input) : "");
+    ResumableOutput resumable(session, options.resume, options.output,
+                              options.resume ? describe_input(options.input) : "");
     Stage stage(session, "compressing");
     const auto work = [&] {
-        state_plan(session, plan_compression(light_field, compression), "compressing", options.output);
+        check_plan(session, plan_compression(light_field, compression), "compressing", options.output);
         return compress(light_field, options.output, compression, stage.progress());
     };
-    const CompressionResult result = kept.unless_refused(work);
-    kept.complete();
+    const CompressionResult result = resumable.unless_refused(work);
+    resumable.complete();
     report_compressed(session, options.output, result);
     return 0;
 }

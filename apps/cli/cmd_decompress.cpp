@@ -16,9 +16,9 @@ struct Options {
     std::size_t layers = 0;
 };
 
-// Copies all faces together, tile by tile, because they may come from the same bytes, which are then decoded once.
-void copy_together(const LightField& light_field, const std::vector<std::unique_ptr<LightFieldSink>>& sinks,
-                   const Progress& progress) {
+// Copies all faces tile by tile: faces may share compressed bytes, which are then decoded once.
+void copy_faces(const LightField& light_field, const std::vector<std::unique_ptr<LightFieldSink>>& sinks,
+                const Progress& progress) {
     const std::span<const LightField::Source> faces = light_field.faces();
     const LightFieldGrid& grid = light_field.grid();
     const HogelRange size = light_field.front().preferred_tile();
@@ -44,7 +44,7 @@ int decompress_file(Options& options, const Session& session) {
     require_hdf5(options.output);
     const LightField light_field = open_stream(options.input, {.layers = options.layers});
     LightFieldFileOptions file;
-    // Exact coders keep their precision: their samples are not rounded to half floats.
+    // Samples of exact coders are not rounded to half floats.
     const std::string coder = read_stream_info(options.input).method.coder;
     const bool exact = coder == "lossless" || coder == "bounded";
     file.type = options.single || (exact && !options.half) ? SampleType::single : SampleType::half;
@@ -58,7 +58,7 @@ int decompress_file(Options& options, const Session& session) {
     if (!light_field.has_sides())
         copy(light_field.front(), *sinks.front(), stage.progress());
     else
-        copy_together(light_field, sinks, stage.progress());
+        copy_faces(light_field, sinks, stage.progress());
     session.say(fmt::format("{}: {}", options.output,
                             format_bytes(static_cast<double>(std::filesystem::file_size(options.output)))));
     report_samples(session, options.output);
@@ -74,14 +74,14 @@ void add_decompress(Command& command, Session& session) {
     command.text("-o,--output", options->output, "FILE", "Light field to write, HDF5").required().never_acts();
     command
         .count("--layers", options->layers,
-               "Decode the first layers alone: coarser, and the rest of the file may be missing (hogel info says "
-               "how many there are; default: all)")
+               "Decode only the first layers: coarser, and the rest of the file may be missing (hogel info prints "
+               "their number; default: all)")
         .no_default();
     const Parameter& single =
         command.flag("--float", options->single, "Store 32-bit floats rather than 16-bit ones").acts_if([options] {
             return options->single;
         });
-    command.flag("--half", options->half, "Store 16-bit floats even where every bit was kept, or an error kept to")
+    command.flag("--half", options->half, "Store 16-bit floats even if the coding is lossless or has a bounded error")
         .excludes(single)
         .acts_if([options] { return options->half; });
     add_resume_flag(command, options->resume);

@@ -20,13 +20,13 @@ struct Options {
     bool force = false;
 };
 
-// The middle row of cameras as a film, one frame a camera from the left.
+// Exports the middle row of cameras as a film, one frame per camera, from the left.
 int export_walk(const Options& options, const LightField& light_field, const Session& session) {
     require_writable(options.output, {&options.input, 1});
     require_movie(options.output);
     const FrameFolder folder(options.output);
     const ViewExportOptions views = options.views.options();
-    state_plan(session, plan_export(light_field, views), "exporting", options.output);
+    check_plan(session, plan_export(light_field, views), "exporting", options.output);
     Stage stage(session, "exporting");
     const ExportedViews exported = export_views(light_field, folder.path(), views, stage.progress());
     const std::uintmax_t bytes = write_film(options.output, folder, fmt::format("{:03}_%03d.png", exported.rows / 2),
@@ -58,7 +58,7 @@ int export_light_field(Options& options, const Session& session) {
     }
     ViewExportOptions views = options.views.options();
     views.metadata = run_metadata(session);
-    state_plan(session, plan_export(light_field, views), "exporting", options.output);
+    check_plan(session, plan_export(light_field, views), "exporting", options.output);
     Stage stage(session, "exporting");
     const ExportedViews exported =
         with_parameter("layout", [&] { return export_views(light_field, options.output, views, stage.progress()); });
@@ -90,7 +90,7 @@ void add_export(Command& command, Session& session) {
     command.positional("input", options->input, "X.h5|X.hgl", "Light field");
     command
         .text("-o,--output", options->output, "FOLDER|FILE",
-              "Folder for the views, or the file of layouts that are one; .mp4, .gif or .apng: a film of the "
+              "Folder for the views, or a file for single-file layouts; .mp4, .gif or .apng: a film of the "
               "middle row of views, by ffmpeg")
         .required()
         .never_acts();

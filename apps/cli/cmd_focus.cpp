@@ -25,9 +25,9 @@ struct Options {
 FocusOptions focus_options(const Options& options, const Command& command) {
     FocusOptions focus;
     if (command.given("--from") != command.given("--to"))
-        throw Error(ErrorCode::usage, "--from, --to: depths are searched between two; give both");
+        throw Error(ErrorCode::usage, "--from, --to: give both or neither");
     if (command.given("--from") && options.from == options.to)
-        throw Error(ErrorCode::usage, "--from, --to: two different depths were expected");
+        throw Error(ErrorCode::usage, "--from, --to: expected two different depths");
     focus.from = options.from;
     focus.to = options.to;
     focus.planes = options.planes;
@@ -38,7 +38,7 @@ FocusOptions focus_options(const Options& options, const Command& command) {
     return focus;
 }
 
-std::string words_of(const FocusSearch& search) {
+std::string text_of(const FocusSearch& search) {
     if (search.planes.empty()) return "no depth stands out\n";
     std::string words = fmt::format("{:>14}  {:>10}  {}\n", "depth", "prominence", "shown by");
     for (const FocusPlane& plane : search.planes)
@@ -50,19 +50,19 @@ std::string words_of(const FocusSearch& search) {
     return words;
 }
 
-// Says where nothing stands out as planes in focus do, which may be noise.
-void state_doubt(const FocusSearch& search, const Session& session) {
+// Warns if no plane is prominent: the result may be noise.
+void warn_about_noise(const FocusSearch& search, const Session& session) {
     constexpr double doubtful = 0.3;
     if (!search.planes.empty() && search.planes.front().prominence >= doubtful) return;
     session.say(
-        fmt::format("nothing stands out clearly from {} to {} behind the hologram{}; another range, --region or "
-                    "--colour may show more (--from, --to)",
+        fmt::format("no plane is clearly in focus from {} to {} behind the hologram{}; try another range (--from, "
+                    "--to), --region or --colour",
                     format_length(search.depths.front()), format_length(search.depths.back()),
-                    search.planes.empty() ? "" : ": what is found may be noise"));
+                    search.planes.empty() ? "" : ": the planes may be noise"));
 }
 
-// What is looked at, where that is not one whole field.
-void state_parts(const Fields& all, const Fields& fields, const FocusOptions& request, const Session& session) {
+// Prints the searched region and wavelengths, unless the input is one field and all of it is searched.
+void report_selection(const Fields& all, const Fields& fields, const FocusOptions& request, const Session& session) {
     const Grid& plane = fields.front()->grid().plane;
     const Region region = focus_region(fields.front()->grid(), request);
     const bool whole = region.width == plane.width && region.height == plane.height;
@@ -70,7 +70,7 @@ void state_parts(const Fields& all, const Fields& fields, const FocusOptions& re
     std::string colours;
     for (const auto& field : fields)
         colours += fmt::format("{}{}", colours.empty() ? "" : ", ", format_length(field->grid().wavelength));
-    session.say(fmt::format("looking at {} of {}x{} samples{} of light of {}",
+    session.say(fmt::format("searching {} of {}x{} samples{} at {}",
                             whole ? "all" : fmt::format("the middle {}x{}", region.width, region.height), plane.width,
                             plane.height, whole ? "" : " (--region)", colours));
 }
@@ -110,10 +110,10 @@ int focus(Options& options, const Session& session) {
     if (session.command->given("--colour")) {
         if (options.colour > fields.size())
             throw Error(ErrorCode::usage, "colour",
-                        fmt::format("{} was asked for, but {} holds {}", options.colour, options.input, fields.size()));
+                        fmt::format("{} does not exist: {} contains {}", options.colour, options.input, fields.size()));
         chosen = {fields[options.colour - 1]};
     }
-    state_parts(fields, chosen, request, session);
+    report_selection(fields, chosen, request, session);
     Stage stage(session, "looking for planes in focus");
     const FocusSearch search = find_focus(chosen, request, stage.progress());
     session.detail(fmt::format("{} depths from {} to {}, depth of focus {} of the samples, {} of the light",
@@ -123,8 +123,8 @@ int focus(Options& options, const Session& session) {
     if (!options.plot.empty())
         write_focus_plot(options.plot, search, std::filesystem::path(options.input).filename().string(),
                          run_metadata(session));
-    state_doubt(search, session);
-    session.result(result_of(search, chosen, session.seconds()), words_of(search));
+    warn_about_noise(search, session);
+    session.result(result_of(search, chosen, session.seconds()), text_of(search));
     return 0;
 }
 
@@ -139,13 +139,13 @@ void add_focus(Command& command, Session& session) {
         {"from", "to", "planes", "region", "pitch", "wavelength", "values", "phase-code", "order", "reconstruct"});
     command.positional("input", options->input, "F.h5|F.npy|P.png", "Hologram, or another program's field");
     command.text("-o,--output", options->plot, "PLOT.svg", "Plot of the contrasts against depth").never_acts();
-    command.length("--from", options->from, "Where the search begins, behind the hologram; negative: in front of it")
-        .default_text("as far as samples and size resolve alike");
-    command.length("--to", options->to, "Where it ends").default_text("likewise");
+    command.length("--from", options->from, "First depth of the search, behind the hologram; negative: in front of it")
+        .default_text("-N pitch^2/wavelength for N samples");
+    command.length("--to", options->to, "Last depth of the search").default_text("N pitch^2/wavelength");
     command.count("--planes", options->planes, "Number of depths").default_text("one every depth of focus");
-    command.counts("--region", options->region, "Samples of the middle that are looked at")
+    command.counts("--region", options->region, "Number of samples in the middle to search")
         .default_text("1024x1024, or all");
-    command.count("--colour", options->colour, "Which of several fields, from 1").default_text("all together");
+    command.count("--colour", options->colour, "Index of one of several fields, from 1").default_text("all together");
     options->field.declare(command);
     options->field.declare_reconstruction(command);
     command.work([options, &session] { return focus(*options, session); });

@@ -34,22 +34,24 @@ void report_hologram(const Options& options, const std::vector<FieldGrid>& grids
 }
 
 // Computes the field of a scene by a method without a light field.
-int straight_from_scene(Options& options, const SceneHologramMethod& method, const Session& session) {
-    if (options.resume) throw Error(ErrorCode::usage, "resume", fmt::format("method {} cannot", method.name));
-    if (options.part.part) throw Error(ErrorCode::usage, "part", fmt::format("method {} cannot", method.name));
+int hologram_of_scene(Options& options, const SceneHologramMethod& method, const Session& session) {
+    if (options.resume)
+        throw Error(ErrorCode::usage, "resume", fmt::format("method {} cannot be resumed", method.name));
+    if (options.part.part)
+        throw Error(ErrorCode::usage, "part", fmt::format("method {} cannot compute parts", method.name));
     require_writable(options.output, {&options.input, 1});
     require_hdf5(options.output);
     const SceneHologramRequest request = options.hologram.scene_request(session.seed, options.render);
     LightFieldParameters& render = options.render;
-    render.cache_spacing = 0;  // it is in widths of a ray, and there are no rays
+    render.cache_spacing = 0;  // in ray widths; this method has no rays
     const auto scene = light_scene(session, load_scene(session, options.input, render), render);
-    render.scene.has_background = false;  // what no surface sends out is not seen
+    render.scene.has_background = false;  // only surfaces emit light
     options.hologram.resolve(method);
-    Metadata made_of = scene->provenance;
-    std::erase_if(made_of, [](const auto& entry) { return entry.first == "background"; });
+    Metadata scene_metadata = scene->provenance;
+    std::erase_if(scene_metadata, [](const auto& entry) { return entry.first == "background"; });
     const auto sinks =
         create_hologram(options.output, request.grids,
-                        {.type = options.type(), .metadata = with_history(run_metadata(session), made_of)});
+                        {.type = options.type(), .metadata = with_history(run_metadata(session), scene_metadata)});
     Stage stage(session, "hologram");
     with_parameter("method", [&] {
         write_scene_holograms(method, *scene, request.grids, request.options, sinks, stage.progress());
@@ -61,9 +63,9 @@ int straight_from_scene(Options& options, const SceneHologramMethod& method, con
 int hologram(Options& options, const Session& session) {
     const InputKind kind = input_kind(options.input);
     if (const SceneHologramMethod* method = scene_hologram_methods().look_up(options.hologram.method)) {
-        if (kind == InputKind::scene) return straight_from_scene(options, *method, session);
+        if (kind == InputKind::scene) return hologram_of_scene(options, *method, session);
         throw Error(ErrorCode::bad_input,
-                    fmt::format("{}: is no scene, and method {} works on scenes", options.input, method->name));
+                    fmt::format("{}: is not a scene, but method {} requires one", options.input, method->name));
     }
     if (kind == InputKind::hologram)
         throw Error(ErrorCode::bad_input,
@@ -74,17 +76,17 @@ int hologram(Options& options, const Session& session) {
     file.type = options.type();
     HologramRequest request = options.hologram.request(session.seed, 1);
     const auto check = [&](std::span<const LightFieldGrid> faces) {
-        // Other members may be those of the file that is opened.
+        // The file that is opened may set the other members.
         request.pitch = options.hologram.request(faces, session.seed, 1).pitch;
         session.say(options.hologram.note_about_pitch(request));
         check_holograms(faces, request, kind == InputKind::scene);
-        state_plan(session, plan_holograms(faces, request, file), "synthesising the hologram", options.output);
+        check_plan(session, plan_holograms(faces, request, file), "synthesising the hologram", options.output);
     };
     std::string part_input;
     const LightField light_field = [&] {
         if (kind == InputKind::light_field) {
             if (options.resume) file.resume = describe_input(options.input);
-            // Its date may be another on each machine.
+            // The date of the file may differ between machines.
             part_input = fmt::format("{}, {} bytes", options.input, std::filesystem::file_size(options.input));
             LightField opened = open_for_holograms(options.input, request, options.hologram.basis.empty());
             check(opened.grids());

@@ -18,7 +18,7 @@ struct Options {
     ImportParameters views;
 };
 
-void say_understood(const Session& session, const std::string& source, const ImportedViews& views) {
+void report_import(const Session& session, const std::string& source, const ImportedViews& views) {
     session.say(fmt::format("{}: {}", source, views.summary));
     for (const std::string& note : views.notes) session.say(fmt::format("{}: {}", source, note));
     if (!views.assumed.empty())
@@ -57,19 +57,19 @@ int write_hdf5(const Options& options, const ImportedViews& views, const LightFi
 int import(Options& options, const Session& session) {
     options.output.require(options.source);
     options.views.views.with_depth = options.output.with_depth;
-    ViewImportOptions view = options.views.options();
-    view.spool = std::filesystem::absolute(options.output.file).parent_path();
+    ViewImportOptions view_options = options.views.options();
+    view_options.spool = std::filesystem::absolute(options.output.file).parent_path();
     const ImportedViews views = [&] {
         Stage stage(session, "looking at the views");
-        return import_views(options.source, view, stage.progress());
+        return import_views(options.source, view_options, stage.progress());
     }();
-    say_understood(session, options.source, views);
+    report_import(session, options.source, views);
     options.views.resolve(views);
     LightFieldFileOptions file;
-    // Half floats hold codes of up to 11 bits so that they come back as they were.
+    // Half floats represent codes of up to 11 bits exactly.
     constexpr unsigned max_bits_of_half = 11;
     file.type = options.output.single || views.bits > max_bits_of_half ? SampleType::single : SampleType::half;
-    state_plan(session, plan_import(views, view, file), "importing",
+    check_plan(session, plan_import(views, view_options, file), "importing",
                options.output.compressed() ? "" : options.output.file);
     if (options.output.compressed()) {
         write_compressed(options.output, views.light_field, session);

@@ -55,7 +55,7 @@ FileSummary summarize_mesh(const std::string& path, const Progress& progress) {
     return summary;
 }
 
-// What a field of another program says, and what the options say of it.
+// Returns the facts of another program's field, completed by the options.
 FileSummary summarize_field(const std::string& path, const FieldParameters& field, const Command& command) {
     const ExternalFacts facts = external_facts(path, field.external_field());
     FileSummary summary;
@@ -65,12 +65,12 @@ FileSummary summarize_field(const std::string& path, const FieldParameters& fiel
     const auto add = [&](const std::string& name, double value) { summary.numbers.emplace_back(name, value); };
     add("bytes", static_cast<double>(std::filesystem::file_size(path)));
     add("fields", static_cast<double>(facts.colours));
-    const std::vector<double>& waves = command.given("--wavelength") ? field.wavelengths : facts.wavelengths;
+    const std::vector<double>& wavelengths = command.given("--wavelength") ? field.wavelengths : facts.wavelengths;
     const double pitch_x = command.given("--pitch") ? field.pitch : facts.pitch_x,
                  pitch_y = command.given("--pitch") ? field.pitch : facts.pitch_y;
     for (std::size_t i = 0; i < facts.colours; ++i) {
         const std::string prefix = fmt::format("field{}_", i);
-        if (i < waves.size()) add(prefix + "wavelength_m", waves[i]);
+        if (i < wavelengths.size()) add(prefix + "wavelength_m", wavelengths[i]);
         add(prefix + "samples_x", static_cast<double>(facts.width));
         add(prefix + "samples_y", static_cast<double>(facts.height));
         if (pitch_x > 0 && pitch_y > 0) {
@@ -83,7 +83,7 @@ FileSummary summarize_field(const std::string& path, const FieldParameters& fiel
     return summary;
 }
 
-// A set of views as `hogel import` without options understands it.
+// Returns the facts of a set of views, as read by `hogel import` without options.
 FileSummary summarize_views(const std::string& path, const Progress& progress) {
     const ImportedViews views = import_views(path, {}, progress);
     const LightFieldGrid& grid = views.light_field.grid();

@@ -39,7 +39,8 @@ void add_join(Command& command, Session& session) {
         "  hogel render pumpkin -o pumpkin.h5 --part 1/2\n"
         "  hogel render pumpkin -o pumpkin.h5 --part 2/2\n"
         "  hogel join pumpkin.part-1-of-2 pumpkin.part-2-of-2 -o pumpkin.h5");
-    command.positionals("parts", options->parts, "PART", "What 'hogel render' and 'hogel hologram' wrote with --part");
+    command.positionals("parts", options->parts, "PART",
+                        "Files written by 'hogel render' or 'hogel hologram' with --part");
     command.text("-o,--output", options->output, "FILE", "Light field or hologram to write, HDF5")
         .required()
         .never_acts();

@@ -23,11 +23,11 @@ struct Options {
     bool store_hologram = false, keep_light_field = false, force = false, resume = false;
 };
 
-// The stages of the work, one after the other. Prints how long each took, and keeps the times for the report.
+// Consecutive stages of the work. Prints the time of each and stores it in the report.
 class Stages {
   public:
     Stages(const Session& session, Report& report) : session_(session), report_(report) {}
-    // Begins a stage, unless it is the one that has begun.
+    // Begins a stage; continues the current one if it has the same name.
     Progress begin(const std::string& name) {
         if (!stage_ || name_ != name) {
             end();
@@ -50,26 +50,26 @@ class Stages {
     std::optional<Stage> stage_;
 };
 
-// Prints the resources that the work needs, and decides how it is photographed and whether there are photographs
-// without speckle. Throws if the resources are not available.
-void state_plan(MakeRequest& request, Options& options, const Session& session) {
+// Prints the resources that the work needs. Chooses the camera and whether to take speckle-free photographs. Throws if
+// the resources are not available.
+void check_plan(MakeRequest& request, Options& options, const Session& session) {
     const std::vector<LightFieldGrid> faces = request.light_field.grids();
     const std::vector<Camera> cameras = cameras_of(request);
     WaveCameraParameters& waves = options.make.waves;
     const std::string reason = waves.resolve(faces, request.hologram, cameras);
     session.detail(fmt::format("camera: {}, because {}", waves.camera, reason));
-    state_plan(session, plan_photographs(faces, request.hologram, cameras, request.camera),
+    check_plan(session, plan_photographs(faces, request.hologram, cameras, request.camera),
                "photographing the hologram");
     request.speckle_free =
         waves.is_speckle_free() || is_speckle_free_cheap(faces, request.hologram, cameras, request.camera);
     if (!*request.speckle_free)
         session.detail(
-            fmt::format("without speckle-free photographs, which take about {:.0f} s; --speckle none makes them",
+            fmt::format("no speckle-free photographs, which take about {:.0f} s; request them with --speckle none",
                         plan_photographs(faces, request.hologram, cameras, SpeckleFreeCamera()).seconds));
 }
 
-// The command that renders the light field again.
-// @param run  what the light field says of the run
+// Returns the command that renders the light field again.
+// @param run  metadata of the light field
 std::string render_command(const Metadata& run) {
     Metadata rendering = run;
     for (auto& entry : rendering)
@@ -77,16 +77,16 @@ std::string render_command(const Metadata& run) {
     return command_line_of(rendering) + " -o lightfield.h5";
 }
 
-// A file that is removed in the end, unless it is to be kept.
-class PassingFile {
+// File that the destructor removes unless it is to be kept.
+class TemporaryFile {
   public:
-    PassingFile(std::filesystem::path path, bool keep) : path_(std::move(path)), keep_(keep) {}
+    TemporaryFile(std::filesystem::path path, bool keep) : path_(std::move(path)), keep_(keep) {}
     void keep(bool keep) { keep_ = keep; }
-    PassingFile(const PassingFile&) = delete;
-    PassingFile& operator=(const PassingFile&) = delete;
-    ~PassingFile() {
-        std::error_code none;
-        if (!keep_ && is_root_rank()) std::filesystem::remove(path_, none);
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    ~TemporaryFile() {
+        std::error_code ignored;
+        if (!keep_ && is_root_rank()) std::filesystem::remove(path_, ignored);
     }
     const std::filesystem::path& path() const { return path_; }
 
@@ -95,43 +95,44 @@ class PassingFile {
     bool keep_;
 };
 
-// What the files and the report say of the options that acted on them.
+// Metadata of the outputs and the report, with the options that acted on each.
 struct Records {
     Metadata light_field, hologram, waves, speckle_free, rays, report;
 };
 
-// Sets the values of the options that were chosen otherwise than was asked.
+// Returns the metadata of all outputs. Sets options to the values that were chosen.
 Records records_of(MakeParameters& make, const MakeRequest& request, const Session& session) {
     using Output = MakeParameters::Output;
-    const auto run_of = [&](Output output) {
+    const auto record_of = [&](Output output) {
         make.made = output;
         make.render.scene.is_loaded = make.is_one_of({Output::light_field});
         return run_metadata(session);
     };
     Records records;
-    records.light_field = run_of(Output::light_field);
+    records.light_field = record_of(Output::light_field);
     make.hologram.resolve(request.hologram, request.light_field.grid);
     const bool is_expected = make.waves.is_speckle_free();
     make.waves.looks = "expected";
-    records.speckle_free = run_of(Output::speckle_free_photographs);
+    records.speckle_free = record_of(Output::speckle_free_photographs);
     if (!is_expected) make.waves.looks = fmt::format("{}", request.hologram.looks);
-    records.waves = run_of(Output::photographs);
-    records.rays = run_of(Output::ray_photographs);
-    records.hologram = run_of(Output::hologram);
-    records.report = run_of(Output::report);
+    records.waves = record_of(Output::photographs);
+    records.rays = record_of(Output::ray_photographs);
+    records.hologram = record_of(Output::hologram);
+    records.report = record_of(Output::report);
     return records;
 }
 
-// The most important facts of report.json.
+// Returns the main facts of report.json.
 Result result_of(const Made& made, std::size_t triangles, const std::string& folder, const Session& session) {
     ResultList photographs;
-    for (const MadePhotographs& by : made.photographs) {
-        const std::string wave_file = by.waves ? by.camera.wave_file() : by.camera.speckle_free_file();
-        const ImageComparison& seen = (by.waves ? by.waves : by.speckle_free)->comparison;
+    for (const MadePhotographs& entry : made.photographs) {
+        const std::string wave_file = entry.waves ? entry.camera.wave_file() : entry.camera.speckle_free_file();
+        const ImageComparison& comparison = (entry.waves ? entry.waves : entry.speckle_free)->comparison;
         Result files{{"file", wave_file + ".png"}};
-        if (by.speckle_free) files.emplace_back("expected_file", by.camera.speckle_free_file() + ".png");
-        files.insert(files.end(),
-                     {{"geometric_file", by.camera.ray_file() + ".png"}, {"psnr", seen.psnr}, {"ssim", seen.ssim}});
+        if (entry.speckle_free) files.emplace_back("expected_file", entry.camera.speckle_free_file() + ".png");
+        files.insert(files.end(), {{"geometric_file", entry.camera.ray_file() + ".png"},
+                                   {"psnr", comparison.psnr},
+                                   {"ssim", comparison.ssim}});
         photographs.push_back(std::move(files));
     }
     const Grid& picture = made.photographs.front().camera.camera.picture;
@@ -142,9 +143,9 @@ Result result_of(const Made& made, std::size_t triangles, const std::string& fol
             {"photographs", photographs}, {"seconds", session.seconds()}};
 }
 
-// The same work was completed before.
+// Reports that a previous run completed the same work.
 int report_done(const Session& session, const std::string& folder) {
-    session.say(fmt::format("{}: all is done", folder));
+    session.say(fmt::format("{}: is complete already", folder));
     session.result({{"folder", folder}, {"report", "report.html"}, {"seconds", session.seconds()}});
     return 0;
 }
@@ -159,7 +160,7 @@ void require_files(const Options& options) {
     require_picture_name("photo.exr");
 }
 
-// What the options ask for of the scene. Says what is chosen otherwise than was asked.
+// Returns the request for the scene. Prints changes of the pitch.
 MakeRequest resolved_request(const Options& options, const Scene& scene, const Session& session) {
     MakeRequest request = resolve(options.make.request(session.seed), bounds(scene));
     session.say(options.make.hologram.note_about_pitch(request.hologram));
@@ -178,8 +179,8 @@ Report begin_report(const Options& options, const Scene& scene, const Session& s
     return report;
 }
 
-// The files of the light field and the hologram.
-// @param resume  what identifies the scene, if the work can be resumed
+// Returns the files of the light field and the hologram.
+// @param resume  identifies the scene if the work can be resumed
 MakeOptions files_in(const std::filesystem::path& folder, const Options& options, const Records& records,
                      const std::optional<std::string>& resume) {
     MakeOptions files;
@@ -207,16 +208,16 @@ int make(Options& options, const Session& session) {
     require_files(options);
     const Scene scene = load_scene(session, options.scene, options.make.render);
     MakeRequest request = resolved_request(options, scene, session);
-    state_plan(request, options, session);
+    check_plan(request, options, session);
 
-    const std::filesystem::path done_before = std::filesystem::path(options.output) / "make";
-    const bool resumes = options.resume && std::filesystem::exists(done_before.string() + ".part");
+    const std::filesystem::path checkpoint = std::filesystem::path(options.output) / "make";
+    const bool resumes = options.resume && std::filesystem::exists(checkpoint.string() + ".part");
     Report report = begin_report(options, scene, session);
     if (options.resume && !resumes && !options.force && has_report_of(options.output, report.work))
         return report_done(session, options.output);
     const OutputFolder folder(options.output, options.force || resumes);
-    Kept kept(session, options.resume, done_before.string(), report.scene_input);
-    PassingFile light_field_file(folder.path() / "lightfield.h5", options.keep_light_field || options.resume);
+    ResumableOutput resumable(session, options.resume, checkpoint.string(), report.scene_input);
+    TemporaryFile light_field_file(folder.path() / "lightfield.h5", options.keep_light_field || options.resume);
 
     Stages stages(session, report);
     stages.begin("light field");
@@ -231,7 +232,7 @@ int make(Options& options, const Session& session) {
     if (!is_root_rank()) return 0;
     if (options.keep_light_field) report.light_field_bytes = std::filesystem::file_size(light_field_file.path());
     write_outputs(folder.path(), made, records, report, session);
-    kept.complete();
+    resumable.complete();
     light_field_file.keep(options.keep_light_field);
     session.say("");
     session.say((folder.path() / "report.html").string());
@@ -251,19 +252,19 @@ void add_make(Command& command, Session& session) {
     command.positional("scene", options->scene, "SCENE", "Mesh file or built-in scene").acts_if([options] {
         return options->make.is_one_of({MakeParameters::Output::light_field});
     });
-    command.text("-o,--output", options->output, "DIR", "Folder for everything that is made").required().never_acts();
+    command.text("-o,--output", options->output, "DIR", "Folder for all outputs").required().never_acts();
     add_force_flag(command, options->force);
     command
         .flag("--store-hologram", options->store_hologram,
-              "Keep hologram.h5 too; otherwise it streams through and is never stored")
+              "Store the hologram as hologram.h5; by default it is streamed and never stored")
         .never_acts();
     command
         .flag("--keep-light-field", options->keep_light_field,
-              "Keep lightfield.h5 too; the report has the command that renders it again")
+              "Keep the light field as lightfield.h5; the report contains the command to render it again")
         .never_acts();
     command
         .flag("--resume", options->resume,
-              "Keep what is done when interrupted, in DIR, and go on from there the next time")
+              "Save a checkpoint in DIR when interrupted, and continue from it the next time")
         .never_acts();
     options->make.declare(command);
     command.add_like_option();

@@ -23,7 +23,7 @@ struct Options {
     PhotoParameters photo;
     bool resume = false;
 
-    // The full camera's scratch files are in the picture's folder.
+    // Returns the camera model. The full camera puts its scratch files into the picture's folder.
     CameraModel camera_model() const {
         CameraModel model = photo.waves.model();
         if (auto* const full = std::get_if<PlaneWaveCamera>(&model))
@@ -39,15 +39,15 @@ double parse_exposure(const std::string& text) {
     return *exposure;
 }
 
-// Photographs the intensity of the light or its phase.
-std::vector<Image> develop(Stage& stage, const Fields& fields, std::span<const Camera> cameras,
-                           const Options& options) {
+// Photographs the intensity or the phase.
+std::vector<Image> photograph_fields(Stage& stage, const Fields& fields, std::span<const Camera> cameras,
+                                     const Options& options) {
     if (options.photo.display != "phase")
         return with_parameter(
             "camera", [&] { return photograph_colours(fields, cameras, options.camera_model(), stage.progress()); });
     if (fields.size() != 1)
         throw Error(ErrorCode::usage, "display",
-                    fmt::format("a phase is that of one wavelength, but there are {}", fields.size()));
+                    fmt::format("phase needs a single wavelength, but there are {}", fields.size()));
     std::vector<Image> pictures;
     for (const auto& wave : waves_in_focus(*fields.front(), 0, cameras,
                                            std::get<PlaneWaveCamera>(options.camera_model()), stage.progress()))
@@ -67,7 +67,7 @@ std::vector<Image> photographs_of_hologram(Options& options, const Session& sess
     const std::vector<Camera> cameras = options.photo.view.cameras(plane.size_x(), plane.size_y());
     if (options.photo.waves.camera == "auto") options.photo.waves.camera = "narrow";
     const CameraModel model = options.camera_model();
-    with_renamed_parameters({{"pitch", ""}}, [&] {  // it is that of the field
+    with_renamed_parameters({{"pitch", ""}}, [&] {  // the pitch is a property of the field
         std::vector<FieldGrid> grids;
         for (const auto& field : fields) {
             for (const Camera& camera : cameras)
@@ -75,15 +75,15 @@ std::vector<Image> photographs_of_hologram(Options& options, const Session& sess
             grids.push_back(field->grid());
         }
         if (std::holds_alternative<BandCamera>(model))
-            state_plan(session, plan_photographs(grids, fields.front()->looks(), cameras, model),
+            check_plan(session, plan_photographs(grids, fields.front()->looks(), cameras, model),
                        "photographing the hologram");
     });
     Stage stage(session, "wave photograph");
-    std::vector<Image> pictures = develop(stage, fields, cameras, options);
+    std::vector<Image> pictures = photograph_fields(stage, fields, cameras, options);
     const auto black = [](const Image& picture) {
         return std::ranges::all_of(picture.pixels.elements(), [](float value) { return value == 0; });
     };
-    // The edge of a hologram sends a little light everywhere, so completely black pictures mean an empty hologram.
+    // The edge of a hologram diffracts some light everywhere, so completely black pictures mean an empty hologram.
     if (std::ranges::all_of(pictures, black))
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: is empty; no light comes from it to the eye", options.input));
@@ -91,7 +91,7 @@ std::vector<Image> photographs_of_hologram(Options& options, const Session& sess
         return std::ranges::all_of(picture.pixels.elements(), [](float value) { return std::isfinite(value); });
     };
     if (!std::ranges::all_of(pictures, finite))
-        throw Error(ErrorCode::bad_input, fmt::format("{}: holds samples that are not finite", options.input));
+        throw Error(ErrorCode::bad_input, fmt::format("{}: contains samples that are not finite", options.input));
     return pictures;
 }
 
@@ -99,7 +99,7 @@ std::vector<Image> photographs_by_rays(const Options& options, const LightField&
                                        std::span<const Camera> cameras, const Session& session) {
     const RayCamera rays{options.photo.pupil_samples};
     with_parameter("pupil_samples, resolution", [&] {
-        state_plan(session, plan_ray_photographs(light_field.grids(), cameras, rays), "photographing by rays");
+        check_plan(session, plan_ray_photographs(light_field.grids(), cameras, rays), "photographing by rays");
     });
     Stage stage(session, "geometric photograph");
     return photograph(light_field, cameras, rays, stage.progress());
@@ -120,7 +120,7 @@ std::vector<Image> photographs_of_light_field(Options& options, const Session& s
         const std::string reason = waves.resolve(light_field.grids(), request, cameras);
         session.detail(fmt::format("camera: {}, because {}", waves.camera, reason));
     }
-    state_plan(session, plan_photographs(light_field.grids(), request, cameras, options.camera_model()),
+    check_plan(session, plan_photographs(light_field.grids(), request, cameras, options.camera_model()),
                "photographing the hologram");
     if (kind == InputKind::scene)
         light_field = prepare_for_reading(session, light_field, request.channels.size(), needs_depth(request.method));
@@ -128,10 +128,10 @@ std::vector<Image> photographs_of_light_field(Options& options, const Session& s
     waves.has_looks = options.hologram.is_seeded;
     const auto holograms = make_holograms(light_field, request);
     Stage stage(session, "wave photograph");
-    return develop(stage, holograms, cameras, options);
+    return photograph_fields(stage, holograms, cameras, options);
 }
 
-// Notes what is photographed. Throws Error(usage) for options that exclude each other.
+// Resolves the source of the photographs. Throws Error(usage) for options that exclude each other.
 void resolve(Options& options, InputKind kind) {
     PhotoParameters& photo = options.photo;
     const bool by_rays = photo.geometric || (kind == InputKind::light_field && !photo.wave);
@@ -139,19 +139,19 @@ void resolve(Options& options, InputKind kind) {
                   : by_rays                   ? PhotographSource::rays
                                               : PhotographSource::hogels);
     if (options.resume && photo.display == "phase")
-        throw Error(ErrorCode::usage, "resume", "photographs of phases do not keep what is done; leave it out");
+        throw Error(ErrorCode::usage, "resume", "photographs of phases cannot be resumed; leave it out");
     if (photo.waves.diffuser == "vertical" && kind != InputKind::hologram)
         throw Error(ErrorCode::usage, "diffuser",
-                    "vertical stands before a hologram file; make one with 'hogel hologram --method lines'");
+                    "vertical requires a hologram file; make one with 'hogel hologram --method lines'");
     photo.view.is_film = photo.view.frames > 1 && is_film(options.output);
     photo.is_linear = std::filesystem::path(options.output).extension() == ".exr";
 }
 
-// The factor of all pictures, the same so that a movie does not flicker.
+// Returns the common exposure of all pictures, which avoids flicker in films.
 // @param given  0: automatic
-double exposure_of(const Options& options, double given, std::span<const Image> pictures) {
+double exposure_of(const Options& options, double requested_exposure, std::span<const Image> pictures) {
     if (options.photo.display != "intensity") return 1;
-    if (given > 0) return given;
+    if (requested_exposure > 0) return requested_exposure;
     double exposure = automatic_exposure(pictures.front());
     for (const Image& picture : pictures) exposure = std::min(exposure, automatic_exposure(picture));
     return exposure;
@@ -189,7 +189,7 @@ void write_photographs(const Options& options, std::span<const Image> pictures, 
 }
 
 int photo(Options& options, const Session& session) {
-    const double given = options.photo.exposure == "auto" ? 0 : parse_exposure(options.photo.exposure);
+    const double requested_exposure = options.photo.exposure == "auto" ? 0 : parse_exposure(options.photo.exposure);
     options.field.require_described(options.input);
     const InputKind kind = options.field.is_external(options.input) ? InputKind::hologram : input_kind(options.input);
     if (options.photo.view.frames > 1)
@@ -198,13 +198,14 @@ int photo(Options& options, const Session& session) {
         require_picture_name(options.output);
     require_writable(options.output, {&options.input, 1});
     resolve(options, kind);
-    Kept kept(session, options.resume, options.output, options.resume ? describe_input(options.input) : "");
+    ResumableOutput resumable(session, options.resume, options.output,
+                              options.resume ? describe_input(options.input) : "");
     std::vector<Image> pictures = kind == InputKind::hologram ? photographs_of_hologram(options, session)
                                                               : photographs_of_light_field(options, session, kind);
     if (options.photo.display == "log")
         for (Image& picture : pictures) picture = logarithmic(picture);
-    write_photographs(options, pictures, exposure_of(options, given, pictures), session);
-    kept.complete();
+    write_photographs(options, pictures, exposure_of(options, requested_exposure, pictures), session);
+    resumable.complete();
     return 0;
 }
 

@@ -25,7 +25,7 @@ struct Options {
     bool resume = false;
 };
 
-// Names of files that hold fields alone; .exr files may also be pictures.
+// Returns whether a file name always stands for an array of fields; .exr files may also be pictures.
 bool is_array_name(const std::filesystem::path& path) {
     for (const char* ending : {".npy", ".npz", ".mat"})
         if (path.extension() == ending) return true;
@@ -47,11 +47,11 @@ OutputKind output_kind(const std::filesystem::path& path, const std::string& dis
 void require_one_wavelength(const Fields& fields) {
     if (fields.size() != 1)
         throw Error(ErrorCode::usage, "display",
-                    fmt::format("phase is made of one wavelength, but the hologram has {}", fields.size()));
+                    fmt::format("phase needs a single wavelength, but the hologram has {}", fields.size()));
 }
 
-// The mean of |F|² over samples that pass by, from any thread.
-class MeanLight {
+// Accumulates |F|² of samples, for their mean. Thread-safe.
+class MeanIntensity {
   public:
     void add(View<const std::complex<float>, 2> samples) {
         double sum = 0;
@@ -62,18 +62,18 @@ class MeanLight {
     }
     double sum() const { return sum_; }
     std::size_t count() const { return count_; }
-    // Takes in what the other processes of a team have added; complete in the first one.
+    // Adds the sums of the other ranks; the result is complete only on the root.
     void gather() {
-        Communicator* const all = communicator();
-        if (all == nullptr) return;
-        const double own[] = {sum_, static_cast<double>(count_)};
-        if (!all->is_root()) return all->send_to(0, {reinterpret_cast<const char*>(own), sizeof own});
-        for (std::size_t process = 1; process < all->size(); ++process) {
-            double other[2] = {};
-            const std::string bytes = all->receive_from(process);
-            std::memcpy(other, bytes.data(), std::min(bytes.size(), sizeof other));
-            sum_ += other[0];
-            count_ += static_cast<std::size_t>(other[1]);
+        Communicator* const ranks = communicator();
+        if (ranks == nullptr) return;
+        const double local[] = {sum_, static_cast<double>(count_)};
+        if (!ranks->is_root()) return ranks->send_to(0, {reinterpret_cast<const char*>(local), sizeof local});
+        for (std::size_t rank = 1; rank < ranks->size(); ++rank) {
+            double received[2] = {};
+            const std::string bytes = ranks->receive_from(rank);
+            std::memcpy(received, bytes.data(), std::min(bytes.size(), sizeof received));
+            sum_ += received[0];
+            count_ += static_cast<std::size_t>(received[1]);
         }
     }
 
@@ -83,10 +83,10 @@ class MeanLight {
     std::size_t count_ = 0;
 };
 
-// A field whose light is measured where it is read.
+// Field source that measures the intensity of the samples read.
 class MeasuredSource final : public FieldSource {
   public:
-    MeasuredSource(const FieldSource& source, MeanLight& light) : source_(source), light_(light) {}
+    MeasuredSource(const FieldSource& source, MeanIntensity& light) : source_(source), intensity_(light) {}
     const FieldGrid& grid() const override { return source_.grid(); }
     std::size_t looks() const override { return source_.looks(); }
     const Provenance& provenance() const override { return source_.provenance(); }
@@ -94,21 +94,21 @@ class MeasuredSource final : public FieldSource {
     std::size_t overlap() const override { return source_.overlap(); }
     void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override {
         source_.read(region, look, out);
-        light_.add(out);
+        intensity_.add(out);
     }
 
   private:
     const FieldSource& source_;
-    MeanLight& light_;
+    MeanIntensity& intensity_;
 };
 
-// A sink whose light is measured where it is written.
+// Sink that measures the intensity of the samples written.
 class MeasuredSink final : public FieldSink {
   public:
-    MeasuredSink(FieldSink& sink, MeanLight& light) : sink_(sink), light_(light) {}
+    MeasuredSink(FieldSink& sink, MeanIntensity& light) : sink_(sink), intensity_(light) {}
     void write(const Region& region, View<const std::complex<float>, 2> values) override {
         sink_.write(region, values);
-        light_.add(values);
+        intensity_.add(values);
     }
     View<std::complex<float>, 2> in_memory() override { return sink_.in_memory(); }
     bool has_already(const Region& region) override { return sink_.has_already(region); }
@@ -116,11 +116,11 @@ class MeasuredSink final : public FieldSink {
 
   private:
     FieldSink& sink_;
-    MeanLight& light_;
+    MeanIntensity& intensity_;
 };
 
-// Propagates, and returns the share of the field's light that the output holds: none where an interrupted run has
-// written some of it, of a field without light, and of a copy, which processes share in another way.
+// Propagates a field and returns the fraction of its light within the output. Returns nothing if an interrupted run has
+// written a part of the output, for a field without light, and for a copy, which ranks share in another way.
 std::optional<double> propagate_measured(const FieldSource& field, double distance, FieldSink& sink,
                                          const PropagateOptions& options, const Progress& progress) {
     const Grid &plane = field.grid().plane, &output = *options.output;
@@ -128,16 +128,17 @@ std::optional<double> propagate_measured(const FieldSource& field, double distan
         hogel::propagate(field, distance, sink, options, progress);
         return {};
     }
-    MeanLight before, after;
-    MeasuredSink measured(sink, after);
-    hogel::propagate(MeasuredSource(field, before), distance, measured, options, progress);
-    before.gather();
-    after.gather();
-    if (!(before.sum() > 0) || after.count() != output.samples()) return {};
-    // A field is read once for each tile, and each time all of it.
-    const double light = before.sum() / static_cast<double>(before.count()) * plane.size_x() * plane.size_y();
-    // To digits that do not depend on the order in which threads add.
-    return std::round(after.sum() * output.pitch_x * output.pitch_y / light * 1e9) / 1e9;
+    MeanIntensity input_intensity, output_intensity;
+    MeasuredSink measured(sink, output_intensity);
+    hogel::propagate(MeasuredSource(field, input_intensity), distance, measured, options, progress);
+    input_intensity.gather();
+    output_intensity.gather();
+    if (!(input_intensity.sum() > 0) || output_intensity.count() != output.samples()) return {};
+    // Each tile reads the entire field once.
+    const double light =
+        input_intensity.sum() / static_cast<double>(input_intensity.count()) * plane.size_x() * plane.size_y();
+    // Rounds to digits that do not depend on the order of summation in threads.
+    return std::round(output_intensity.sum() * output.pitch_x * output.pitch_y / light * 1e9) / 1e9;
 }
 
 FieldQuantity quantity_of(const std::string& display) {
@@ -160,25 +161,25 @@ void report(const Options& options, OutputKind kind, std::span<const FieldGrid> 
     report_file(session, options.output, result);
 }
 
-// Says which share of the light the outputs hold, where one misses 1 %.
-void state_shares(std::span<const FieldGrid> inputs, std::span<const std::optional<double>> shares,
-                  const Session& session) {
-    constexpr double enough = 0.99;
-    std::string missed;
+// Prints the fraction of light within each output if any loses more than 1 %.
+void report_shares(std::span<const FieldGrid> inputs, std::span<const std::optional<double>> shares,
+                   const Session& session) {
+    constexpr double min_share = 0.99;
+    std::string lost;
     for (std::size_t c = 0; c < shares.size(); ++c)
-        if (shares[c] && *shares[c] < enough)
-            missed += fmt::format("{}{:.3g} % of the light of {}", missed.empty() ? "" : ", ", 100 * *shares[c],
-                                  format_length(inputs[c].wavelength));
-    if (missed.empty()) return;
+        if (shares[c] && *shares[c] < min_share)
+            lost += fmt::format("{}{:.3g} % of the light of {}", lost.empty() ? "" : ", ", 100 * *shares[c],
+                                format_length(inputs[c].wavelength));
+    if (lost.empty()) return;
     const Grid& plane = inputs.front().plane;
-    const char* const spreads = plane.height == 1  ? "; that of a single row spreads up and down"
-                                : plane.width == 1 ? "; that of a single column spreads sideways"
+    const char* const spreads = plane.height == 1  ? "; the light of a single row spreads vertically"
+                                : plane.width == 1 ? "; the light of a single column spreads horizontally"
                                                    : "";
-    session.say(fmt::format("the output holds {}, and the rest falls beside it (--output-samples, --output-pitch){}",
-                            missed, spreads));
+    session.say(fmt::format("the output contains {}; the rest falls outside (--output-samples, --output-pitch){}", lost,
+                            spreads));
 }
 
-// How each wavelength is propagated, for --json; in words with -v.
+// Returns the propagation method of each wavelength for --json; prints it with -v.
 std::vector<Result> methods_of(const Fields& fields, const Options& options,
                                const std::vector<PropagateOptions>& propagations, const Session& session) {
     std::vector<Result> methods;
@@ -204,17 +205,16 @@ int propagate_fields(Options& options, const Session& session) {
     const OutputKind kind = output_kind(options.output, options.plane.display);
     require_writable(options.output, {&options.input, 1});
     if (options.resume && kind != OutputKind::hologram)
-        throw Error(ErrorCode::usage, "resume",
-                    fmt::format("{} is written at once; give -o a name in .h5, or leave it out", options.output));
+        throw Error(ErrorCode::usage, "resume", fmt::format("only .h5 outputs can be resumed, not {}", options.output));
     options.plane.is_picture = kind == OutputKind::picture || options.plane.display == "field";
     const Fields fields = open_and_reconstruct(session, options.input, options.field);
     if (kind == OutputKind::picture && options.plane.display == "phase") require_one_wavelength(fields);
     if (kind == OutputKind::picture && fields.size() != 1 && fields.size() != 3)
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: has {} wavelengths; a picture takes one or three", options.input, fields.size()));
-    // Scratch files are in the output's folder.
+    // Scratch files go to the output's folder.
     const ScratchOptions scratch{ScratchOptions().memory, std::filesystem::absolute(options.output).parent_path()};
-    Result exposed;
+    Result picture_result;
     std::vector<FieldGrid> inputs, grids;
     std::vector<PropagateOptions> propagations;
     for (const auto& field : fields) {
@@ -225,7 +225,7 @@ int propagate_fields(Options& options, const Session& session) {
     }
     std::vector<Result> methods = with_renamed_parameters(
         {{"pitch", "output_pitch"}}, [&] { return methods_of(fields, options, propagations, session); });
-    state_plan(session, plan_propagation(inputs, options.plane.distance, propagations.front()), "propagation",
+    check_plan(session, plan_propagation(inputs, options.plane.distance, propagations.front()), "propagation",
                options.output);
     Stage stage(session, "propagation");
     std::vector<std::optional<double>> shares(grids.size());
@@ -251,22 +251,22 @@ int propagate_fields(Options& options, const Session& session) {
         for (std::size_t c = 0; c < grids.size(); ++c) {
             Field field(grids[c]);
             colour(c, field);
-            const Image one = picture_of(field.samples, quantity_of(options.plane.display));
-            for (std::size_t i = 0; i < one.pixels.size(); ++i)
-                picture.pixels.data()[i * grids.size() + c] = one.pixels.data()[i];
+            const Image channel = picture_of(field.samples, quantity_of(options.plane.display));
+            for (std::size_t i = 0; i < channel.pixels.size(); ++i)
+                picture.pixels.data()[i * grids.size() + c] = channel.pixels.data()[i];
         }
         if (options.plane.display == "log") picture = logarithmic(picture);
         const bool grey = options.plane.display == "log" || options.plane.display == "phase";
         const double exposure = grey ? 1 : automatic_exposure(picture);
         metadata.emplace_back("exposure", fmt::format("{:.9g}", exposure));
-        exposed = {{"width", picture.width()}, {"height", picture.height()}, {"exposure", exposure}};
+        picture_result = {{"width", picture.width()}, {"height", picture.height()}, {"exposure", exposure}};
         if (is_root_rank()) write_image(options.output, picture, exposure, metadata);
     }
     if (!is_root_rank()) return 0;
     session.say(fmt::format("{}: {}x{} samples at {}, {} on", options.output, plane.width, plane.height,
                             format_length(plane.pitch_x), format_length(options.plane.distance)));
-    state_shares(inputs, shares, session);
-    report(options, kind, grids, {methods.begin(), methods.end()}, exposed, session);
+    report_shares(inputs, shares, session);
+    report(options, kind, grids, {methods.begin(), methods.end()}, picture_result, session);
     return 0;
 }
 

@@ -30,10 +30,10 @@ struct Options {
     }
 };
 
-// Wraps a renderer to read regions of a size other than it prefers.
-class InRegions final : public LightFieldSource {
+// Wraps a renderer with another region size.
+class RegionSource final : public LightFieldSource {
   public:
-    InRegions(LightField::Source source, const Counts& region) : source_(std::move(source)) {
+    RegionSource(LightField::Source source, const Counts& region) : source_(std::move(source)) {
         const LightFieldGrid& g = source_->grid();
         size_ = {0, 0, std::min(region.columns, g.hogels_s), std::min(region.rows, g.hogels_t)};
     }
@@ -48,8 +48,8 @@ class InRegions final : public LightFieldSource {
     HogelRange size_;
 };
 
-// Prints the memory that regions need. Throws if it is not available.
-void state_plan(const Options& options, const LightField& rendered, const Scene& scene, const Session& session) {
+// Prints the memory needed by regions. Throws if it is not available.
+void check_plan(const Options& options, const LightField& rendered, const Scene& scene, const Session& session) {
     const Plan plan = plan_light_field(rendered, options.render.request(scene), triangle_count(scene), options.file());
     const HogelRange region = rendered.front().preferred_tile();
     const LightFieldGrid& grid = rendered.grid();
@@ -60,12 +60,12 @@ void state_plan(const Options& options, const LightField& rendered, const Scene&
                     region.nt, std::min(thread_count(), regions));
     const bool chosen = options.region.columns > 0;
     with_parameter(chosen ? "region" : "hogels, directions", [&] {
-        state_plan(session, plan, what, options.output.compressed() ? "" : options.output.file, chosen);
+        check_plan(session, plan, what, options.output.compressed() ? "" : options.output.file, chosen);
     });
 }
 
 // Writes the light field or a part of it.
-// @param input  what a part or an unfinished file remembers of the scene
+// @param input  description of the scene, stored in parts and unfinished files
 int write_hdf5(const Options& options, const LightField& light_field, const std::string& input,
                const Session& session) {
     LightFieldFileOptions file = options.file();
@@ -98,14 +98,14 @@ int render(Options& options, const Session& session) {
     if (options.part.part && options.output.compressed())
         throw Error(ErrorCode::usage, "part",
                     fmt::format("belongs to HDF5 files; {} is a compressed one", options.output.file));
-    static_cast<void>(options.render.request());  // throws before a scene is made
+    static_cast<void>(options.render.request());  // throws before a scene is loaded
     const Scene scene = load_scene(session, options.scene, options.render);
     const std::string input = options.resume || options.part.part ? describe_input(options.scene, scene) : "";
     LightField rendered = render_light_field(session, scene, options.render);
     if (options.region.columns > 0)
         rendered = rendered.wrapped(
-            [&](const LightField::Source& face) { return std::make_shared<const InRegions>(face, options.region); });
-    state_plan(options, rendered, scene, session);
+            [&](const LightField::Source& face) { return std::make_shared<const RegionSource>(face, options.region); });
+    check_plan(options, rendered, scene, session);
     if (!options.output.compressed()) return write_hdf5(options, rendered, input, session);
     write_compressed(options.output, rendered, session, options.resume ? std::optional(input) : std::nullopt);
     return 0;
@@ -127,7 +127,9 @@ void add_render(Command& command, Session& session) {
     add_resume_flag(command, options->resume);
     add_part_option(command, options->part);
     options->render.declare(command);
-    command.counts("--region", options->region, "Hogels that a renderer is given at once (default: what it prefers)")
+    command
+        .counts("--region", options->region,
+                "Size of the regions that a renderer draws at once, in hogels (default: chosen by the renderer)")
         .no_default()
         .never_acts();
     options->render.declare_hemicube(command);

@@ -19,7 +19,7 @@
 namespace hogel::cli {
 namespace {
 
-// Below that a picture is unlike that of the hologram.
+// Correlation below which a picture differs visibly from that of the hologram.
 constexpr double poor_correlation = 0.9;
 
 struct Options {
@@ -29,7 +29,7 @@ struct Options {
     bool resume = false;
 };
 
-// The share of light that a pattern uses, and its direction.
+// Returns the efficiency and the aperture of a pattern.
 // @param per_cycle  wavelength over pixel pitch
 Result result_of(const Pattern& pattern, double wavelength, double per_cycle, Encoding encoding) {
     Result result{{"wavelength_m", wavelength}, {"efficiency", pattern.efficiency}, {"power", pattern.power}};
@@ -47,9 +47,9 @@ Result result_of(const Pattern& pattern, double wavelength, double per_cycle, En
     return result;
 }
 
-// The widest field of view, radians, whose light an aperture of a quarter of the band lets through; double phases show
-// that well.
-double fine_view(double per_cycle) { return 2 * std::asin(std::min(1.0, per_cycle / 8)); }
+// Returns the widest field of view, radians, that passes an aperture of a quarter of the band. Double-phase encoding
+// shows it well.
+double max_field_of_view(double per_cycle) { return 2 * std::asin(std::min(1.0, per_cycle / 8)); }
 
 void report(const Pattern& pattern, double wavelength, double per_cycle, Encoding encoding, const Session& session) {
     const std::string name = format_length(wavelength);
@@ -66,26 +66,27 @@ void report(const Pattern& pattern, double wavelength, double per_cycle, Encodin
     session.say(fmt::format("{}: aperture: {}", name, describe(pattern.aperture, per_cycle)));
     if (phases && pattern.correlation < poor_correlation)
         session.say(
-            fmt::format("{}: warning: what this aperture lets through differs from the hologram (correlation "
-                        "below {}); light within {:.2g} degrees would do, as of hogel hologram --method olas "
-                        "--phase fixed --fov {:.2g}deg, by --encoding double-phase",
-                        name, poor_correlation, fine_view(per_cycle) * 90 / std::numbers::pi,
-                        fine_view(per_cycle) * 180 / std::numbers::pi));
+            fmt::format("{}: warning: the light through this aperture differs from the hologram (correlation "
+                        "below {}); limit the light to {:.2g} degrees, as with hogel hologram --method olas "
+                        "--phase fixed --fov {:.2g}deg, and use --encoding double-phase",
+                        name, poor_correlation, max_field_of_view(per_cycle) * 90 / std::numbers::pi,
+                        max_field_of_view(per_cycle) * 180 / std::numbers::pi));
 }
 
-// The ratio of the powers that show the colours of the hologram, that of the second wavelength being 1.
+// Returns the ratio of the illumination powers that reproduce the colours of the hologram, relative to the second
+// wavelength.
 std::string powers_of(const std::vector<Pattern>& patterns) {
     std::vector<std::string> ratio;
     for (const Pattern& pattern : patterns) ratio.push_back(fmt::format("{:.3g}", pattern.power / patterns[1].power));
-    return fmt::format("the colours of the hologram by light on the modulator of the powers {}",
-                       fmt::join(ratio, " : "));
+    return fmt::format("illumination powers that reproduce the colours of the hologram: {}", fmt::join(ratio, " : "));
 }
 
 int slm(Options& options, const Session& session) {
     const Modulator modulator = options.pattern.options().modulator;
     require_raw_pixels_name(options.output);
     require_writable(options.output, {&options.input, 1});
-    Kept kept(session, options.resume, options.output, options.resume ? describe_input(options.input) : "");
+    ResumableOutput resumable(session, options.resume, options.output,
+                              options.resume ? describe_input(options.input) : "");
     const Fields fields = open_and_reconstruct(session, options.input, options.field);
     const std::size_t colours = fields.size();
     if (colours != 1 && colours != 3)
@@ -95,10 +96,10 @@ int slm(Options& options, const Session& session) {
     Array<std::uint8_t, 3> levels({modulator.height, modulator.width, colours});
     Stage stage(session, "pattern");
     const SuitablePatterns encoded = options.pattern.encode(fields, stage.progress());
-    const bool was_open = options.pattern.encoding == "auto";
+    const bool is_automatic = options.pattern.encoding == "auto";
     options.pattern.resolve(encoded.encoding);
     const std::string& encoding = options.pattern.encoding;
-    if (was_open) session.detail(fmt::format("encoding {} suits the field", encoding));
+    if (is_automatic) session.detail(fmt::format("encoding {} suits the field", encoding));
     Metadata metadata = run_metadata(session);
     for (auto& entry : options.pattern.metadata(encoded, fields)) metadata.push_back(std::move(entry));
     ResultList patterns;
@@ -113,7 +114,7 @@ int slm(Options& options, const Session& session) {
     if (colours == 3) session.say(powers_of(encoded.patterns));
     if (!is_root_rank()) return 0;
     write_raw_pixels(options.output, levels, with_history(metadata, to_metadata(fields.front()->provenance())));
-    kept.complete();
+    resumable.complete();
     session.say(fmt::format("{}: {}x{} pixels of {}", options.output, modulator.width, modulator.height,
                             format_length(modulator.pitch)));
     report_file(session, options.output,
@@ -137,7 +138,9 @@ void add_slm(Command& command, Session& session) {
     command.basics({"device", "pixels", "pixel-pitch", "levels", "encoding", "reference", "window", "phase-code",
                     "pitch", "wavelength"});
     command.positional("input", options->input, "F.h5|F.npy|P.png", "Hologram, or another program's field");
-    command.text("-o,--output", options->output, "FILE", "Pattern to write: .png or .bmp, 8 bits as they are")
+    command
+        .text("-o,--output", options->output, "FILE",
+              "Pattern to write: .png or .bmp, 8-bit levels without colour management")
         .required()
         .never_acts();
     add_resume_flag(command, options->resume);

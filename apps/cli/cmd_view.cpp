@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The viewer is a program of its own, because it alone links a server. It lies beside this one and reads the same
-// command line.
+// The viewer is a separate program in the same folder, because only it links a server. It parses the same command line.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -16,13 +15,13 @@ namespace hogel::cli {
 namespace {
 
 std::filesystem::path viewer() {
-    std::error_code none;
-    const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", none);
-    std::filesystem::path beside = self.parent_path() / "hogel-view";
-    if (!self.empty() && std::filesystem::exists(beside, none)) return beside;
+    std::error_code ignored;
+    const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", ignored);
+    std::filesystem::path program = self.parent_path() / "hogel-view";
+    if (!self.empty() && std::filesystem::exists(program, ignored)) return program;
     throw Error(ErrorCode::not_built_in,
-                "view: this build of hogel lacks the viewer, hogel-view; the build option HOGEL_VIEW=ON brings it, "
-                "with the package libboost-dev");
+                "view: this build of hogel lacks the viewer, hogel-view; build with HOGEL_VIEW=ON and the package "
+                "libboost-dev");
 }
 
 int view(const ViewerParameters& options, const Session& session) {

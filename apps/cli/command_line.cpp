@@ -25,26 +25,30 @@ namespace {
 
 CLI::Option* add_option(CLI::App& app, Parameter& parameter) {
     const std::string names = option_names(parameter);
-    const std::string what = parameter.option();
+    const std::string option_name = parameter.option();
     if (parameter.kind == ParameterKind::flag)
         return app
             .add_flag_function(
-                names, [&parameter, what](std::int64_t) { parameter.read({"yes"}, what); }, parameter.help)
+                names, [&parameter, option_name](std::int64_t) { parameter.read({"yes"}, option_name); },
+                parameter.help)
             ->disable_flag_override();
     CLI::Option* option = nullptr;
     if (parameter.kind == ParameterKind::texts)
-        option =
-            app.add_option_function<std::vector<std::string>>(
-                   names, [&parameter, what](const std::vector<std::string>& texts) { parameter.read(texts, what); },
-                   parameter.help)
-                ->allow_extra_args(parameter.is_positional);
+        option = app.add_option_function<std::vector<std::string>>(
+                        names,
+                        [&parameter, option_name](const std::vector<std::string>& texts) {
+                            parameter.read(texts, option_name);
+                        },
+                        parameter.help)
+                     ->allow_extra_args(parameter.is_positional);
     else
         option = app.add_option_function<std::string>(
-            names, [&parameter, what](const std::string& text) { parameter.read({text}, what); }, parameter.help);
+            names, [&parameter, option_name](const std::string& text) { parameter.read({text}, option_name); },
+            parameter.help);
     return option->type_name(parameter.type);
 }
 
-// Makes options of the parameters of a command.
+// Adds the parameters of a command as options of CLI11.
 void add_options(CLI::App& app, Command& command) {
     std::map<std::string, CLI::Option*> options;
     for (Parameter& parameter : command.all()) {
@@ -69,7 +73,7 @@ void Command::add_like_option() {
 
 void Command::complete() {
     if (const Parameter* like = look_up("like"); like != nullptr && like->is_given()) {
-        if (like_.empty()) throw Error(ErrorCode::usage, "--like: '' names no file");
+        if (like_.empty()) throw Error(ErrorCode::usage, "--like: the file name is empty");
         from_like_ = take_like(*this, like_);
     }
     require_parameters();
@@ -81,7 +85,7 @@ void Command::require_parameters() const {
             throw Error(ErrorCode::usage, fmt::format("{} is required; see 'hogel {} --help'", each.option(), name()));
 }
 
-// Which of the options that a message names are taken from the file of --like.
+// Lists the options in a message that come from the file of --like.
 std::string Command::origins(const std::string& message) const {
     std::vector<std::string> options;
     for (const std::string& each : from_like_)
@@ -96,7 +100,7 @@ std::string Command::describe(const Error& error) const {
 
 namespace {
 
-// The version, and a line that names the optional parts of this build.
+// Returns the version and the optional parts of this build.
 std::string version_text() {
     std::vector<std::string> with, without;
     for (const Part& part : parts()) (part.built_in ? with : without).push_back(part.name);
@@ -138,8 +142,8 @@ struct CommandLine::Impl {
                std::ranges::any_of(app.remaining(true), [](const std::string& word) { return word.starts_with('-'); });
     }
 
-    // The help or the version, for which these words ask.
-    std::string what_is_asked(const CLI::ParseError& error, const std::vector<std::string>& words) const {
+    // Returns the requested help or version text.
+    std::string requested_text(const CLI::ParseError& error, const std::vector<std::string>& words) const {
         const auto chosen = app.get_subcommands();
         if (chosen.empty()) {
             std::ostringstream text;
@@ -148,10 +152,11 @@ struct CommandLine::Impl {
         }
         const Command& command = *find(chosen.front()->get_name());
         if (std::ranges::count(words, "--json") > 0) return schema(command);
-        const auto asked =
+        const auto help_flag =
             std::ranges::find_if(words, [](const std::string& word) { return word == "--help" || word == "-h"; });
-        const bool has_part = asked != words.end() && asked + 1 != words.end() && has_group(command, *(asked + 1));
-        return help(command, has_part ? *(asked + 1) : "");
+        const bool has_part =
+            help_flag != words.end() && help_flag + 1 != words.end() && has_group(command, *(help_flag + 1));
+        return help(command, has_part ? *(help_flag + 1) : "");
     }
 };
 
@@ -193,12 +198,12 @@ const Command* CommandLine::parse(int argc, const char* const* argv) {
         impl_->app.parse(std::move(words));
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) {
-            // What is missing says more than a word that is left over.
-            const bool is_left_over = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
-            if (is_left_over && !impl_->has_unknown_option()) impl_->chosen()->require_parameters();
+            // A missing required option is the more likely cause than the extra word.
+            const bool is_extra_word = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+            if (is_extra_word && !impl_->has_unknown_option()) impl_->chosen()->require_parameters();
             throw Error(ErrorCode::usage, explain(impl_->app, error));
         }
-        write_standard_output(impl_->what_is_asked(error, given));
+        write_standard_output(impl_->requested_text(error, given));
         return nullptr;
     }
     Command* const command = impl_->find(impl_->app.get_subcommands().front()->get_name());

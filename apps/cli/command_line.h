@@ -15,7 +15,7 @@ namespace hogel::cli {
 
 struct Session;
 
-/// One command of the program: its parameters, which are its options, and its work. An invalid value throws
+/// One command of the program: a table of parameters, which become its options, and its work. An invalid value throws
 /// Error(usage), which names the option.
 class Command : public Parameters {
   public:
@@ -23,24 +23,24 @@ class Command : public Parameters {
 
     const std::string& name() const { return name_; }
     const std::string& summary() const { return summary_; }
-    /// Command lines, indented by two blanks, that end the help.
+    /// Sets the example command lines of the help, indented by two blanks.
     void examples(const std::string& lines) { examples_ = lines; }
     const std::string& examples() const { return examples_; }
-    /// The options that --help shows beside the required ones, if there are too many to show all.
+    /// Options shown by the short --help in addition to the required ones. Empty: --help shows all options.
     const std::vector<std::string>& basics() const { return basics_; }
     void basics(std::vector<std::string> names) { basics_ = std::move(names); }
     bool is_basic(const Parameter& parameter) const;
-    /// The work, which returns the exit status.
+    /// Sets the work, which returns the exit status.
     void work(std::function<int()> work) { work_ = std::move(work); }
     int run() const { return work_(); }
 
-    /// --like, for commands whose files say what made them.
+    /// Adds --like, for commands whose output files store their options.
     void add_like_option();
-    /// Reads what --like names, and throws Error(usage) where a required parameter has no value.
+    /// Reads the file of --like. Throws Error(usage) if a required parameter has no value.
     void complete();
     void require_parameters() const;
 
-    /// As Parameters::describe(), with the options that the file of --like gave.
+    /// Extends Parameters::describe() by the options that come from the file of --like.
     std::string describe(const Error& error) const;
 
   private:
@@ -52,14 +52,14 @@ class Command : public Parameters {
     std::function<int()> work_;
 };
 
-/// A row of the table of commands.
+/// Row of the table of commands.
 struct CommandInfo {
     std::string name;
-    std::string text;  ///< one line
+    std::string text;  ///< summary, one line
     void (*add)(Command& command, Session& session);
 };
 
-/// The whole command line: what the program is and all its commands.
+/// Command-line parser of the program and all its commands.
 class CommandLine {
   public:
     CommandLine(std::span<const CommandInfo> commands, Session& session);
@@ -67,12 +67,12 @@ class CommandLine {
     CommandLine(const CommandLine&) = delete;
     CommandLine& operator=(const CommandLine&) = delete;
 
-    /// Reads the arguments of main() into the variables of the options. Returns the chosen command, or null after
-    /// printing help or the version on the standard output. Throws Error(usage).
+    /// Parses the arguments of main() into the variables of the options. Returns the chosen command, or null after
+    /// printing the help or the version on the standard output. Throws Error(usage).
     const Command* parse(int argc, const char* const* argv);
 
     std::vector<const Command*> commands() const;
-    /// The command of a name, or null.
+    /// Returns the command of a name, or null.
     Command* look_up(const std::string& name) const;
 
   private:

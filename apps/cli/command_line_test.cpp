@@ -22,7 +22,7 @@ void add_photo(Command& command, Session&) {
     command.work([] { return 0; });
 }
 
-// What `hogel photo` of these arguments says of an error.
+// Returns the error message of `hogel photo` with these arguments.
 std::string description(std::vector<const char*> arguments, const Error& error) {
     const CommandInfo photo{"photo", "", add_photo};
     Session session;
@@ -59,7 +59,7 @@ TEST(CommandLine, has_the_basic_options_of_each_command) {
             EXPECT_NE(command->look_up(name), nullptr) << command->name() << " --" << name;
 }
 
-// A text that a parameter takes, or an empty one of kinds whose texts are checked where they are used.
+// Returns a random valid text for a parameter; empty for kinds that are checked only on use.
 std::string drawn_text(const Parameter& parameter, std::mt19937_64& random) {
     const auto number = [&](double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random);
@@ -99,7 +99,7 @@ std::string drawn_text(const Parameter& parameter, std::mt19937_64& random) {
     return "";
 }
 
-// What a command would store if all of its parameters acted.
+// Returns the metadata of a command if all its parameters acted.
 Metadata described(const Command& command) {
     Metadata all;
     for (const Parameter& each : command.all()) all.emplace_back(each.name, each.written());

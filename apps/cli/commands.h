@@ -8,10 +8,10 @@
 
 namespace hogel::cli {
 
-/// All commands, in the order in which the help shows them.
+/// Returns all commands in the order of the help.
 std::span<const CommandInfo> commands();
 
-// One file a command: cmd_<name>.cpp. Each declares the options of its command and its work.
+// Each function is in cmd_<name>.cpp and declares the options and the work of its command.
 void add_make(Command& command, Session& session);
 void add_bake(Command& command, Session& session);
 void add_render(Command& command, Session& session);

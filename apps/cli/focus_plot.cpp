@@ -14,7 +14,7 @@
 namespace hogel::cli {
 namespace {
 
-// The drawing area and its margins, in points.
+// Size of the drawing and its margins, in points.
 constexpr double width = 900, height = 500, left = 70, right = 20, top = 80, bottom = 50;
 constexpr std::array<const char*, 5> colours{"#1f5fa8", "#c8501e", "#3b8a3e", "#7a4fa3", "#666666"};
 
@@ -36,7 +36,7 @@ std::string escaped(const std::string& text) {
     return result;
 }
 
-// A number of the form 1, 2 or 5 times a power of ten, so that about ten of them make a range.
+// Returns a tick step of 1, 2 or 5 times a power of ten, for about ten ticks in the range.
 double round_step(double range) {
     const double power = std::pow(10, std::floor(std::log10(range / 10)));
     for (const double factor : {1.0, 2.0, 5.0})
@@ -137,7 +137,7 @@ class Plot {
 
 void require_plot_name(const std::filesystem::path& path) {
     if (path.extension() == ".svg" || path.extension() == ".SVG") return;
-    throw Error(ErrorCode::usage, fmt::format("'{}': plots are written as .svg", path.string()));
+    throw Error(ErrorCode::usage, fmt::format("'{}': expected a plot name that ends in .svg", path.string()));
 }
 
 void write_focus_plot(const std::filesystem::path& path, const FocusSearch& search, const std::string& title,

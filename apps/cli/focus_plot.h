@@ -9,11 +9,11 @@
 
 namespace hogel::cli {
 
-/// Throws Error(usage) for a name that does not end in .svg.
+/// Throws Error(usage) unless the name ends in .svg.
 void require_plot_name(const std::filesystem::path& path);
 
-/// Draws the contrasts of a search against depth, on a logarithmic axis, with a line at each plane in focus. The file
-/// appears when it is complete; `metadata` is stored in it as its description. Throws Error(cannot_write).
+/// Plots the contrasts of a search on a logarithmic axis over depth, with a line at each plane in focus. Stores
+/// `metadata` as the description. The file appears when it is complete. Throws Error(cannot_write).
 void write_focus_plot(const std::filesystem::path& path, const FocusSearch& search, const std::string& title,
                       const Metadata& metadata);
 

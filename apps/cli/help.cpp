@@ -24,7 +24,7 @@ std::vector<std::string> command_names(const CLI::App& app) {
     return names;
 }
 
-// The message for an unknown option such as "--hogel" or "--hogel=4x4".
+// Returns the message for an unknown option such as "--hogel" or "--hogel=4x4".
 std::string explain_unknown_option(const CLI::App& app, const std::string& word) {
     const std::string option = word.substr(0, word.find('='));
     std::vector<std::string> known;
@@ -36,30 +36,30 @@ std::string explain_unknown_option(const CLI::App& app, const std::string& word)
                        nearest.empty() ? "" : fmt::format(" (did you mean --{}?)", nearest));
 }
 
-// Columns for help: those of a terminal, within what is easy to read, or 100 in a file or a pipe.
+// Returns the number of columns of the help: that of the terminal, clamped to 60 to 120, or 100 in a file or a pipe.
 std::size_t help_columns() {
     winsize size{};
     if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 100;
     return std::clamp<std::size_t>(size.ws_col, 60, 120);
 }
 
-// Breaks a line at spaces so that it and what follows fit into `columns`; `indent` goes before what follows. A word
-// that is longer stays whole.
+// Breaks a line at spaces into lines of at most `columns` characters. Continuation lines begin with `indent`. Longer
+// words are not broken.
 std::string wrap_line(std::string_view line, std::size_t columns, std::string_view indent) {
     std::string text;
-    std::size_t room = columns;
-    while (line.size() > room) {
-        std::size_t space = line.rfind(' ', room);
+    std::size_t width = columns;
+    while (line.size() > width) {
+        std::size_t space = line.rfind(' ', width);
         if (space == std::string_view::npos || space == 0) space = line.find(' ');
         if (space == std::string_view::npos) break;
         text += fmt::format("{}\n{}", line.substr(0, space), indent);
         line.remove_prefix(space + 1);
-        room = columns - indent.size();
+        width = columns - indent.size();
     }
     return text + std::string(line);
 }
 
-// The lines of a description; those after the first are choices, whose continuations are indented.
+// Wraps the lines of a description. Lines after the first are choices; their continuations are indented.
 std::string wrap(std::string_view text, std::size_t columns) {
     std::string wrapped;
     for (bool first = true;; first = false) {
@@ -70,27 +70,28 @@ std::string wrap(std::string_view text, std::size_t columns) {
     }
 }
 
-constexpr std::size_t name_columns = 24;  // the descriptions stand to the right of them
+constexpr std::size_t name_columns = 24;  // width of the column of names
 
-// A name and its description beside it, or below it if the name is long.
+// Formats a name with its description beside it, or below it if the name is long.
 std::string entry(const std::string& name, const std::string& description) {
     const std::string margin = "\n" + std::string(name_columns, ' ');
-    std::string words = wrap(description, help_columns() - name_columns);
-    for (std::size_t at = 0; (at = words.find('\n', at)) != std::string::npos; at += margin.size())
-        words.replace(at, 1, margin);
+    std::string text = wrap(description, help_columns() - name_columns);
+    for (std::size_t position = 0; (position = text.find('\n', position)) != std::string::npos;
+         position += margin.size())
+        text.replace(position, 1, margin);
     const bool is_long = name.size() + 3 > name_columns;
-    return fmt::format("  {:<{}}{}{}\n", name, name_columns - 2, is_long && !words.empty() ? margin : "", words);
+    return fmt::format("  {:<{}}{}{}\n", name, name_columns - 2, is_long && !text.empty() ? margin : "", text);
 }
 
 std::string entry(const Parameter& parameter) {
     if (parameter.is_positional) return entry(parameter.type, parameter.help);
     std::string name = option_names(parameter);
     if (!parameter.type.empty()) name += " " + parameter.type;
-    std::string words = parameter.help;
+    std::string text = parameter.help;
     // The default is appended to the first line; the following lines explain the choices.
     if (!parameter.shown_default.empty())
-        words.insert(std::min(words.find('\n'), words.size()), fmt::format(" [{}]", parameter.shown_default));
-    return entry(name, words);
+        text.insert(std::min(text.find('\n'), text.size()), fmt::format(" [{}]", parameter.shown_default));
+    return entry(name, text);
 }
 
 std::string usage(const Command& command) {
@@ -103,7 +104,7 @@ std::string usage(const Command& command) {
     return usage + " [OPTIONS]";
 }
 
-// The headings of a command's options, the one that all commands share last.
+// Returns the headings of a command's options; the group common to all commands comes last.
 std::vector<std::string> headings(const Command& command) {
     std::vector<std::string> headings;
     for (const Parameter& each : command.all())
@@ -112,7 +113,7 @@ std::vector<std::string> headings(const Command& command) {
     return headings;
 }
 
-// What a group is called after --help: "light-field-of-a-scene".
+// Returns the name of a group after --help: "light-field-of-a-scene".
 std::string word_of(std::string heading) {
     heading.resize(std::min(heading.find(" ("), heading.size()));
     std::erase(heading, ',');
@@ -135,7 +136,6 @@ std::string operands(const Command& command) {
     return text.empty() ? text : "\n" + text;
 }
 
-// The first lines of a text.
 std::string first_lines(const std::string& text, std::size_t count) {
     std::size_t end = 0;
     for (std::size_t i = 0; i < count && end != std::string::npos; ++i) end = text.find('\n', end + (i > 0 ? 1 : 0));
@@ -148,7 +148,7 @@ std::string complete_help(const Command& command) {
     return command.examples().empty() ? text : fmt::format("{}\nExamples:\n{}\n", text, command.examples());
 }
 
-// Three examples, the options that most runs need, and how to see the others.
+// Returns three examples, the basic options, and the commands that print the other options.
 std::string short_help(const Command& command) {
     std::string text =
         command.examples().empty() ? "" : fmt::format("\nExamples:\n{}\n", first_lines(command.examples(), 3));
@@ -161,16 +161,16 @@ std::string short_help(const Command& command) {
         text += entry(each);
         ++shown;
     }
-    std::vector<std::string> words;
-    for (const std::string& heading : headings(command)) words.push_back(word_of(heading));
+    std::vector<std::string> groups;
+    for (const std::string& heading : headings(command)) groups.push_back(word_of(heading));
     text += fmt::format("\n{} of {} options; the others:\n  hogel {} --help all\n", shown, options, command.name());
     return text +
-           wrap_line(fmt::format("  hogel {} --help {}", command.name(), fmt::join(words, " | ")), help_columns(),
+           wrap_line(fmt::format("  hogel {} --help {}", command.name(), fmt::join(groups, " | ")), help_columns(),
                      "    ") +
            "\n";
 }
 
-// The heading of which this is the word or its beginning, or an empty text.
+// Returns the heading that begins with this word, or an empty text.
 std::string find_heading(const Command& command, const std::string& word) {
     for (const std::string& heading : headings(command))
         if (word_of(heading).starts_with(word)) return heading;
@@ -255,10 +255,10 @@ bool has_group(const Command& command, const std::string& word) {
 
 void require_group(const Command& command, const std::string& word) {
     if (word.starts_with('-') || has_group(command, word)) return;
-    std::vector<std::string> words;
-    for (const std::string& heading : headings(command)) words.push_back(word_of(heading));
+    std::vector<std::string> groups;
+    for (const std::string& heading : headings(command)) groups.push_back(word_of(heading));
     throw Error(ErrorCode::usage, fmt::format("{} has no options '{}'; expected all or one of {}", command.name(), word,
-                                              fmt::join(words, ", ")));
+                                              fmt::join(groups, ", ")));
 }
 
 std::string help(const Command& command, const std::string& part) {
@@ -277,7 +277,7 @@ std::string schema(const Command& command) {
 std::string explain_unknown_command(const CLI::App& app, const std::string& word) {
     const std::vector<std::string> names = command_names(app);
     if (word == "bench")
-        return "there is no command 'bench'; what measures renderers and coders is a program of its own, hogel-bench";
+        return "there is no command 'bench'; use the program hogel-bench to measure renderers and coders";
     const std::string nearest = nearest_word(word, names);
     return fmt::format("there is no command '{}'{}; expected one of {}", word,
                        nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest), fmt::join(names, ", "));
@@ -294,10 +294,10 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
     }
     const CLI::App& command = *chosen.front();
     const auto unknown = std::ranges::find_if(rest, [](const std::string& word) { return word.starts_with('-'); });
-    const std::string said = error.what();
-    if (const std::size_t end = said.find(" was given a disallowed flag override"); end != std::string::npos)
-        return fmt::format("--{} takes no value", said.substr(0, end));
-    const std::string problem = unknown != rest.end() ? explain_unknown_option(command, *unknown) : said;
+    const std::string message = error.what();
+    if (const std::size_t end = message.find(" was given a disallowed flag override"); end != std::string::npos)
+        return fmt::format("--{} takes no value", message.substr(0, end));
+    const std::string problem = unknown != rest.end() ? explain_unknown_option(command, *unknown) : message;
     return fmt::format("{}; see 'hogel {} --help'", problem, command.get_name());
 }
 

@@ -37,16 +37,16 @@ std::shared_ptr<const ShadedScene> light_scene(const Session& session, const Sce
 
 LightField render_light_field(const Session& session, const Scene& scene, LightFieldParameters& options) {
     const LightFieldRequest request = options.request();
-    const auto lit = light_scene(session, scene, options);
-    options.resolve(*lit);
+    const auto shaded_scene = light_scene(session, scene, options);
+    options.resolve(*shaded_scene);
     return with_parameter(options.frequencies > 0 ? "algorithm, frequencies" : "algorithm",
-                          [&] { return hogel::render_light_field(lit, request); });
+                          [&] { return hogel::render_light_field(shaded_scene, request); });
 }
 
 void require_memory(const Session& session, const LightField& rendered, const LightFieldParameters& options,
                     const Scene& scene) {
     const Plan plan = plan_light_field(rendered, options.request(scene), triangle_count(scene));
-    with_parameter("hogels, directions", [&] { state_plan(session, plan, "rendering by " + options.algorithm); });
+    with_parameter("hogels, directions", [&] { check_plan(session, plan, "rendering by " + options.algorithm); });
 }
 
 LightField open_or_render(const Session& session, const std::string& name, LightFieldParameters& options) {

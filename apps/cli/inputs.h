@@ -15,26 +15,26 @@
 
 namespace hogel::cli {
 
-// The functions that follow set the values of options that act, and what decides which do.
+// These functions resolve the options: they set chosen values and the conditions under which options act.
 
-/// A built-in scene in the size of the hologram, or a mesh file, fitted to it if requested, with lights.
+/// Loads a built-in scene in the size of the hologram, or a mesh file, fitted to it if requested, with lights.
 Scene load_scene(const Session& session, const std::string& name, LightFieldParameters& options);
 
-/// Shades the scene and prints the resources that this takes.
+/// Shades the scene. With --verbose prints the memory of shadow maps.
 std::shared_ptr<const ShadedScene> light_scene(const Session& session, const Scene& scene,
                                                LightFieldParameters& options);
 
-/// The light field of a scene, rendered when it is read.
+/// Returns the light field of a scene, rendered on demand when it is read.
 LightField render_light_field(const Session& session, const Scene& scene, LightFieldParameters& options);
 
-/// Throws Error(usage) where rendering would take more memory than there is.
+/// Throws Error(usage) if rendering needs more memory than is available.
 void require_memory(const Session& session, const LightField& rendered, const LightFieldParameters& options,
                     const Scene& scene);
 
-/// The light field of a file, or of a scene, which is rendered when it is read.
+/// Opens the light field of a file, or renders that of a scene on demand when it is read.
 LightField open_or_render(const Session& session, const std::string& name, LightFieldParameters& options);
 
-/// Opens a hologram or another program's field as FieldParameters::open_and_reconstruct() does, and prints the notes.
+/// Calls FieldParameters::open_and_reconstruct() for a hologram or another program's field, and prints its notes.
 Fields open_and_reconstruct(const Session& session, const std::string& name, FieldParameters& options);
 
 /// See prepare_for_reading() in hogel/pipeline.h.

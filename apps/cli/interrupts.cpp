@@ -15,21 +15,21 @@ struct Interrupts::Impl {
 
     std::stop_source stop;
     sigset_t signals{};
-    std::atomic<int> first = 0;
+    std::atomic<int> first_signal = 0;
     std::atomic<bool> ended = false;
     std::thread watcher;
 
     void watch() {
-        Clock::time_point first_at;
+        Clock::time_point first_time;
         for (;;) {
             int signal = 0;
             if (sigwait(&signals, &signal) != 0) continue;
             if (ended) return;
-            if (first == 0) {
-                first = signal;
-                first_at = Clock::now();
+            if (first_signal == 0) {
+                first_signal = signal;
+                first_time = Clock::now();
                 stop.request_stop();
-            } else if (Clock::now() - first_at > std::chrono::seconds(1)) {
+            } else if (Clock::now() - first_time > std::chrono::seconds(1)) {
                 _exit(128 + signal);
             }
         }
@@ -39,8 +39,7 @@ struct Interrupts::Impl {
 Interrupts::Interrupts(std::stop_source stop) : impl_(std::make_unique<Impl>()) {
     impl_->stop = std::move(stop);
     sigemptyset(&impl_->signals);
-    // A pipe that nobody reads any more and a file that reaches the limit of `ulimit -f` are errors of writing, not the
-    // end of the program.
+    // A closed pipe and a file beyond the limit of `ulimit -f` are write errors; they must not end the program.
     for (const int signal : {SIGPIPE, SIGXFSZ}) ::signal(signal, SIG_IGN);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction inherited {};
@@ -56,11 +55,11 @@ Interrupts::Interrupts(std::stop_source stop) : impl_(std::make_unique<Impl>()) 
 
 Interrupts::~Interrupts() {
     impl_->ended = true;
-    // Wakes the watcher, which waits for it. NOLINTNEXTLINE(bugprone-bad-signal-to-kill-thread)
+    // Wakes the watcher. NOLINTNEXTLINE(bugprone-bad-signal-to-kill-thread)
     pthread_kill(impl_->watcher.native_handle(), SIGTERM);
     impl_->watcher.join();
 }
 
-int Interrupts::signal() const { return impl_->first; }
+int Interrupts::signal() const { return impl_->first_signal; }
 
 }  // namespace hogel::cli

@@ -6,12 +6,12 @@
 
 namespace hogel::cli {
 
-/// Ctrl-C, SIGTERM and SIGHUP request the work to stop. A second signal more than a second later ends the program at
-/// once; the delay is needed because wrappers such as timeout(1) send the first signal twice, to the program and to its
-/// group.
+/// Requests the work to stop on Ctrl-C, SIGTERM and SIGHUP. A second signal more than a second later ends the program
+/// at once. The delay is needed because wrappers such as timeout(1) send the first signal twice, to the program and to
+/// its group.
 ///
-/// The signals are blocked in the thread that creates this object, and so in all threads started later; a separate
-/// thread waits for them. Must be created before any other thread.
+/// The signals are blocked in the thread that creates this object, and in all threads started later; a separate thread
+/// waits for them. Must be created before any other thread.
 class Interrupts {
   public:
     explicit Interrupts(std::stop_source stop);
@@ -19,7 +19,7 @@ class Interrupts {
     Interrupts(const Interrupts&) = delete;
     Interrupts& operator=(const Interrupts&) = delete;
 
-    /// The first signal that was received, or 0.
+    /// Returns the first signal received, or 0.
     int signal() const;
 
   private:

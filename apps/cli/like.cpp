@@ -21,21 +21,23 @@ namespace {
 
 constexpr std::string_view option_prefix = "option ";
 
-// The command in what a file says of its making, or an empty text.
+// Returns the command stored in the entries, or an empty text.
 std::string command_in(const Metadata& entries) {
-    const auto made = std::ranges::find(entries, "command", &Metadata::value_type::first);
-    return made == entries.end() ? "" : made->second;
+    const auto found = std::ranges::find(entries, "command", &Metadata::value_type::first);
+    return found == entries.end() ? "" : found->second;
 }
 
-// What a file says of its making. The files of `hogel make` say what acted on each of them; its report says all.
+// Returns the metadata of a file. For `hogel make` only the report contains all options; its other files contain those
+// that acted on them.
 Metadata entries_of(const std::string& file, const Command& command) {
     if (const std::optional<Metadata> run = run_of_make(file)) return *run;
     if (command.name() == "make")
-        throw Error(ErrorCode::bad_input,
-                    fmt::format("--like: {} is no run of 'hogel make'; name its folder or its report.json", file));
-    std::error_code none;
-    if (std::filesystem::is_directory(file, none))
-        throw Error(ErrorCode::bad_input, fmt::format("--like: {} is a folder; name one of its files", file));
+        throw Error(
+            ErrorCode::bad_input,
+            fmt::format("--like: {} is not a run of 'hogel make'; expected its folder or its report.json", file));
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored))
+        throw Error(ErrorCode::bad_input, fmt::format("--like: {} is a folder; expected a file", file));
     switch (file_kind(file)) {
         case FileKind::picture:
             return read_metadata(file);
@@ -47,14 +49,15 @@ Metadata entries_of(const std::string& file, const Command& command) {
 }
 
 void require_same_command(const Metadata& entries, const Command& command, const std::string& file) {
-    const std::string made = command_in(entries);
-    if (made.empty()) throw Error(ErrorCode::bad_input, fmt::format("--like: {} does not say what made it", file));
-    if (made != "hogel " + command.name())
+    const std::string command_name = command_in(entries);
+    if (command_name.empty())
+        throw Error(ErrorCode::bad_input, fmt::format("--like: {} does not store the command that made it", file));
+    if (command_name != "hogel " + command.name())
         throw Error(ErrorCode::bad_input,
-                    fmt::format("--like: {} was made by '{}', not by 'hogel {}'", file, made, command.name()));
+                    fmt::format("--like: {} was made by '{}', not by 'hogel {}'", file, command_name, command.name()));
 }
 
-// The names of the given parameters, and of the ones that they exclude.
+// Returns the names of the given parameters and of those that they exclude.
 std::set<std::string> names_to_keep(const Command& command) {
     std::set<std::string> keep;
     for (const Parameter& each : command.all()) {
@@ -71,8 +74,8 @@ std::set<std::string> names_to_keep(const Command& command) {
 }  // namespace
 
 std::optional<Metadata> run_of_make(const std::filesystem::path& path) {
-    std::error_code none;
-    const std::filesystem::path report = is_directory(path, none) ? path / "report.json" : path;
+    std::error_code ignored;
+    const std::filesystem::path report = is_directory(path, ignored) ? path / "report.json" : path;
     if (report.extension() != ".json") return {};
     std::ifstream file(report);
     const auto json = nlohmann::json::parse(file, nullptr, false);
@@ -105,12 +108,12 @@ std::vector<std::string> take_like(Command& command, const std::string& file) {
 }
 
 std::string command_line_of(const Metadata& entries) {
-    const std::string made = command_in(entries);
+    const std::string command_name = command_in(entries);
     constexpr std::string_view program = "hogel ";
-    if (!made.starts_with(program)) return "";
-    Session none;
-    const CommandLine line(commands(), none);
-    const Command* const command = line.look_up(made.substr(program.size()));
+    if (!command_name.starts_with(program)) return "";
+    Session ignored;
+    const CommandLine line(commands(), ignored);
+    const Command* const command = line.look_up(command_name.substr(program.size()));
     if (command == nullptr) return "";
     std::string operands, options;
     for (const auto& [key, value] : entries) {
@@ -119,10 +122,10 @@ std::string command_line_of(const Metadata& entries) {
         if (parameter == nullptr) continue;
         (parameter->is_positional ? operands : options) += parameter->option_text(value);
     }
-    // A file of `hogel make` that does not say of which scene it is.
+    // Some files of `hogel make` do not store the scene.
     const bool has_operand =
         std::ranges::any_of(command->all(), [](const Parameter& each) { return each.is_positional; });
-    return has_operand && operands.empty() ? "" : made + operands + options;
+    return has_operand && operands.empty() ? "" : command_name + operands + options;
 }
 
 }  // namespace hogel::cli

@@ -12,16 +12,16 @@ namespace hogel::cli {
 
 class Command;
 
-/// Sets the parameters of a command to the values that made a file. The given ones, and what these exclude, stay as
-/// they are. Throws Error(bad_input) for a file that does not say what made it, or that another command made.
-/// @return the names of the parameters that were set
+/// Sets the parameters of a command to the values stored in a file. Parameters given on the command line, and those
+/// that they exclude, keep their values. Throws Error(bad_input) if the file stores no command or another one.
+/// @return names of the parameters that were set
 std::vector<std::string> take_like(Command& command, const std::string& file);
 
-/// What `hogel make` says of its run in the report of this folder, or in this report.json; nothing for other paths.
+/// Returns the run stored by `hogel make` in the report of a folder, or in a report.json; nothing for other paths.
 std::optional<Metadata> run_of_make(const std::filesystem::path& path);
 
-/// The command line that made a file which stores these entries, without its output: "hogel render pumpkin --hogels
-/// 64x64". Empty where they name no command.
+/// Returns the command line stored in a file's metadata, without its output: "hogel render pumpkin --hogels 64x64".
+/// Returns an empty text if the entries contain no command.
 std::string command_line_of(const Metadata& entries);
 
 }  // namespace hogel::cli

@@ -26,13 +26,13 @@ std::string numbered(const fs::path& path, std::size_t frame) {
     return (path.parent_path() / name).string();
 }
 
-// The number of the process that made a temporary folder of frames, or 0 for any other name.
-pid_t maker_of(const std::string& name, const std::string& beginning) {
+// Returns the id of the process that created a temporary folder of frames, or 0 for other names.
+pid_t owner_pid(const std::string& name, const std::string& prefix) {
     int pid = 0, parsed = 0;
-    const bool is_one = name.starts_with(beginning) &&
-                        std::sscanf(name.c_str() + beginning.size(), "%d.tmp%n", &pid, &parsed) == 1 &&
-                        beginning.size() + static_cast<std::size_t>(parsed) == name.size();
-    return is_one ? pid : 0;
+    const bool matches = name.starts_with(prefix) &&
+                         std::sscanf(name.c_str() + prefix.size(), "%d.tmp%n", &pid, &parsed) == 1 &&
+                         prefix.size() + static_cast<std::size_t>(parsed) == name.size();
+    return matches ? pid : 0;
 }
 
 // Opens a folder and locks it. Returns its descriptor, or -1 if another process holds the lock.
@@ -43,22 +43,22 @@ int open_locked(const fs::path& folder) {
     return -1;
 }
 
-// Removes the folders of processes that were killed while they made this film.
-void remove_stale_folders(const fs::path& parent, const std::string& beginning) {
-    std::error_code none;
-    for (const auto& entry : fs::directory_iterator(parent, none)) {
-        const pid_t maker = maker_of(entry.path().filename().string(), beginning);
-        if (maker <= 0 || ::kill(maker, 0) == 0 || errno != ESRCH) continue;
-        // A process of another machine that shares the folder may hold the lock.
+// Removes the folders of killed processes for the same film.
+void remove_stale_folders(const fs::path& parent, const std::string& prefix) {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(parent, ignored)) {
+        const pid_t owner = owner_pid(entry.path().filename().string(), prefix);
+        if (owner <= 0 || ::kill(owner, 0) == 0 || errno != ESRCH) continue;
+        // A process on another machine may share the folder and hold the lock.
         const int descriptor = open_locked(entry.path());
         if (descriptor < 0) continue;
-        fs::remove_all(entry.path(), none);
+        fs::remove_all(entry.path(), ignored);
         ::close(descriptor);
     }
 }
 
-// Moves a frame out of the folder, behind a symbolic link. Returns its size in bytes.
-std::uintmax_t put_in_place(const FrameFolder& folder, const fs::path& frame) {
+// Moves a frame to its final path, following a symbolic link. Returns its size in bytes.
+std::uintmax_t move_frame(const FrameFolder& folder, const fs::path& frame) {
     std::error_code error;
     const fs::path name = fs::is_symlink(frame, error) ? fs::weakly_canonical(frame, error) : frame;
     fs::rename(folder.path() / frame.filename(), name, error);
@@ -71,11 +71,11 @@ bool is_numbered(const fs::path& path) { return path.filename().string().find('#
 
 }  // namespace
 
-FrameFolder::FrameFolder(const fs::path& beside) {
-    const fs::path parent = fs::absolute(beside).parent_path();
-    const std::string beginning = fmt::format(".{}.", beside.filename().string());
-    remove_stale_folders(parent, beginning);
-    path_ = parent / fmt::format("{}{}.tmp", beginning, getpid());
+FrameFolder::FrameFolder(const fs::path& file) {
+    const fs::path parent = fs::absolute(file).parent_path();
+    const std::string prefix = fmt::format(".{}.", file.filename().string());
+    remove_stale_folders(parent, prefix);
+    path_ = parent / fmt::format("{}{}.tmp", prefix, getpid());
     std::error_code error;
     if (!fs::create_directory(path_, error))
         throw Error(ErrorCode::cannot_write, fmt::format("{}: cannot create this folder", path_.string()));
@@ -92,14 +92,13 @@ bool is_movie(const fs::path& path) { return is_numbered(path) || is_film(path);
 
 void require_movie(const fs::path& path) {
     if (!is_movie(path))
-        throw Error(
-            ErrorCode::usage,
-            fmt::format("{}: several pictures are written as .mp4, .gif, .apng or name####.png", path.string()));
+        throw Error(ErrorCode::usage,
+                    fmt::format("{}: expected .mp4, .gif, .apng or name####.png for several pictures", path.string()));
     if (is_numbered(path))
         require_picture_name(path);
     else if (!can_make_films())
         throw Error(ErrorCode::not_built_in,
-                    fmt::format("{}: films are made by ffmpeg, which is not installed; name####.png writes pictures",
+                    fmt::format("{}: films need ffmpeg, which is not installed; use name####.png to write pictures",
                                 path.string()));
 }
 
@@ -112,7 +111,7 @@ std::uintmax_t write_movie(const fs::path& path, std::span<const Image> frames, 
         for (std::size_t i = 0; i < frames.size(); ++i)
             write_image(folder.path() / numbered(path.filename(), i), frames[i], exposure, metadata);
         std::uintmax_t bytes = 0;
-        for (std::size_t i = 0; i < frames.size(); ++i) bytes += put_in_place(folder, numbered(path, i));
+        for (std::size_t i = 0; i < frames.size(); ++i) bytes += move_frame(folder, numbered(path, i));
         return bytes;
     }
     for (std::size_t i = 0; i < frames.size(); ++i)

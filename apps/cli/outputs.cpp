@@ -18,10 +18,10 @@ namespace hogel::cli {
 namespace fs = std::filesystem;
 namespace {
 
-// Whether `hogel make` or `hogel print` writes files of this name.
+// Returns whether `hogel make` or `hogel print` writes files of this name.
 bool is_output_of_a_run(const std::string& name) {
-    for (const char* whole : {"report.json", "report.html", "lightfield.h5", "hologram.h5"})
-        if (name == whole) return true;
+    for (const char* file : {"report.json", "report.html", "lightfield.h5", "hologram.h5"})
+        if (name == file) return true;
     for (const char* beginning : {"photo_", "hogel_", "row_"})
         if (name.starts_with(beginning) && (name.ends_with(".png") || name.ends_with(".exr"))) return true;
     return false;
@@ -32,27 +32,28 @@ void refuse_outputs_of_another_run(const fs::path& folder) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
         const std::string name = entry.path().filename().string();
         if (is_output_of_a_run(name))
-            throw Error(ErrorCode::cannot_write,
-                        fmt::format("{}: holds {} of another run; name another folder, or add --force to write over it",
-                                    folder.string(), name));
+            throw Error(
+                ErrorCode::cannot_write,
+                fmt::format("{}: contains {} of another run; choose another folder, or overwrite it with --force",
+                            folder.string(), name));
     }
 }
 
-// The value of a fact that a file stores as text; "yes" and "no" become booleans.
+// Converts a fact stored as text; "yes" and "no" become booleans.
 ResultValue value_of(const std::string& text) {
     if (text == "yes" || text == "no") return text == "yes";
     return text;
 }
 
 ResultValue value_of(double number) {
-    constexpr double exact = 9007199254740992;  // 2⁵³: doubles represent all whole numbers up to this
+    constexpr double exact = 9007199254740992;  // 2⁵³: doubles represent all integers up to this
     if (std::abs(number) <= exact && number == std::trunc(number)) return static_cast<std::int64_t>(number);
     return number;
 }
 
 }  // namespace
 
-void state_plan(const Session& session, const Plan& plan, const std::string& what, const fs::path& file, bool always) {
+void check_plan(const Session& session, const Plan& plan, const std::string& what, const fs::path& file, bool always) {
     require_resources(plan, what, file);
     const std::string time = plan.seconds > 0 ? fmt::format("about {} and ", format_duration(plan.seconds)) : "";
     const std::string needs = fmt::format("{} takes {}{} of memory", what, time, format_bytes(plan.memory));
@@ -65,13 +66,12 @@ void state_plan(const Session& session, const Plan& plan, const std::string& wha
 }
 
 void add_force_flag(Command& command, bool& force) {
-    command.flag("--force", force, "Write into a folder that holds the outputs of another run, over them").never_acts();
+    command.flag("--force", force, "Overwrite the outputs of another run in the folder").never_acts();
 }
 
 void add_resume_flag(Command& command, bool& resume) {
     command
-        .flag("--resume", resume,
-              "Keep what is done when interrupted, as FILE.part, and go on from there the next time")
+        .flag("--resume", resume, "Save a checkpoint when interrupted, FILE.part, and continue from it the next time")
         .never_acts();
 }
 
@@ -83,7 +83,8 @@ std::vector<std::string> work_of(const Session& session, const std::string& inpu
     return work;
 }
 
-Kept::Kept(const Session& session, bool resume, const std::string& output, const std::string& input) {
+ResumableOutput::ResumableOutput(const Session& session, bool resume, const std::string& output,
+                                 const std::string& input) {
     if (resume) scope_.emplace(output + ".part", work_of(session, input));
 }
 
@@ -96,13 +97,13 @@ FilePart PartOption::of(const std::string& input) const { return {part->number, 
 
 void add_part_option(Command& command, PartOption& part) {
     command
-        .parsed("--part", "K/N", "Write part K, from 1, of N, as FILE.part-K-of-N; hogel join makes a file of them",
+        .parsed("--part", "K/N", "Write part K of N (K from 1) as FILE.part-K-of-N; hogel join joins the parts",
                 [&part](const std::string& text) {
                     FilePart read;
                     const std::size_t slash = text.find('/');
-                    const auto number = [&](const std::string& digits, std::size_t& to) {
+                    const auto number = [&](const std::string& digits, std::size_t& value) {
                         const char* end = digits.data() + digits.size();
-                        const auto [stop, error] = std::from_chars(digits.data(), end, to);
+                        const auto [stop, error] = std::from_chars(digits.data(), end, value);
                         return error == std::errc() && stop == end;
                     };
                     if (slash == std::string::npos || !number(text.substr(0, slash), read.number) ||
@@ -122,10 +123,9 @@ void report_part(const Session& session, const std::string& file, const FilePart
 
 void LightFieldOutput::require(const std::string& input) const {
     if (compressed() && single)
-        throw Error(ErrorCode::usage, "float", fmt::format("belongs to HDF5 files; {} is a compressed one", file));
+        throw Error(ErrorCode::usage, "float", fmt::format("applies to HDF5 files; {} is a compressed one", file));
     if (sqnr && !compressed())
-        throw Error(ErrorCode::usage, "sqnr",
-                    fmt::format("belongs to compressed files, whose names end in .hgl, not to {}", file));
+        throw Error(ErrorCode::usage, "sqnr", fmt::format("applies to compressed files (.hgl), not to {}", file));
     require_writable(file, {&input, 1});
     if (!compressed()) require_hdf5(file);
 }
@@ -139,23 +139,24 @@ void add_light_field_output(Command& command, LightFieldOutput& output, const st
     command.flag("--float", output.single, float_help).acts_if([&output] { return !output.compressed(); });
     command.number(
         "--sqnr", output.sqnr, "DB",
-        fmt::format("Signal to error of a compressed light field, within 0.1 dB above (default: {})", defaults.sqnr));
+        fmt::format("Signal-to-noise ratio of a compressed light field, exceeded by at most 0.1 dB (default: {})",
+                    defaults.sqnr));
 }
 
-void write_compressed(LightFieldOutput& output, const LightField& made, const Session& session,
-                      const std::optional<std::string>& kept_of) {
-    // It is read several times, in the coder's tiles.
-    const LightField light_field = prepare_for_reading(session, made, 2, output.with_depth);
+void write_compressed(LightFieldOutput& output, const LightField& source, const Session& session,
+                      const std::optional<std::string>& resume_input) {
+    // The coder reads each tile several times.
+    const LightField light_field = prepare_for_reading(session, source, 2, output.with_depth);
     CompressionOptions compression;
     if (!output.sqnr) output.sqnr = defaults.sqnr;
     compression.target = Sqnr{*output.sqnr};
     compression.with_depth = output.with_depth;
     compression.metadata = run_metadata(session);
-    Kept kept(session, kept_of.has_value(), output.file, kept_of.value_or(""));
+    ResumableOutput resumable(session, resume_input.has_value(), output.file, resume_input.value_or(""));
     Stage stage(session, "compressing");
     const CompressionResult result =
-        kept.unless_refused([&] { return compress(light_field, output.file, compression, stage.progress()); });
-    kept.complete();
+        resumable.unless_refused([&] { return compress(light_field, output.file, compression, stage.progress()); });
+    resumable.complete();
     report_compressed(session, output.file, result);
 }
 

@@ -22,8 +22,8 @@
 namespace hogel::cli {
 namespace {
 
-// Reopens closed standard streams as ones that fail, so that no output file gets the number of such a stream and with
-// it the stream's output.
+// Reopens closed standard streams such that using them fails. Otherwise an output file could get the descriptor of a
+// standard stream and receive its output.
 void open_closed_streams() {
     for (const int stream : {0, 1, 2})
         if (fcntl(stream, F_GETFD) == -1 && errno == EBADF) open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
@@ -39,7 +39,7 @@ int run(std::span<const CommandInfo> commands, int argc, char** argv, Session& s
     const Stoppable stoppable(Progress(session.stop.get_token()));
     try {
         return session.command->run();
-    } catch (const Error& error) {  // here, because the command ends with its command line
+    } catch (const Error& error) {  // here, because `line` owns the command
         throw Error(error.code(), session.command->describe(error));
     }
 }
@@ -71,10 +71,9 @@ Outcome outcome_of(std::span<const CommandInfo> commands, int argc, char** argv,
 void print_failure(const std::string& message) { write_error_stream(fmt::format("hogel: {}\n", printable(message))); }
 
 int run_program(std::span<const CommandInfo> commands, int argc, char** argv, Processes* processes) {
-    // Large blocks go back to the system when they are freed. By default malloc keeps those of up to 32 MiB as soon as
-    // one has been freed, in pieces that later blocks do not fit. That fixes the other threshold, too, whose default
-    // would give what is at the end of each thread's memory back at once: pages that the next block needs cleared
-    // again.
+    // Returns blocks of 4 MiB and more to the system when they are freed. By default malloc raises this threshold up to
+    // 32 MiB when such a block is freed, which fragments memory. Setting it also freezes the trim threshold, whose
+    // default would return the end of each thread's heap at once; the next block would need those pages cleared again.
     mallopt(M_MMAP_THRESHOLD, 4 << 20);
     mallopt(M_TRIM_THRESHOLD, 64 << 20);
     open_closed_streams();

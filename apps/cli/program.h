@@ -10,30 +10,30 @@
 
 namespace hogel::cli {
 
-/// How a run ended: the exit status, the kind of failure where it is one, and the line that is printed, if any.
+/// Result of a run: the exit status, the kind of failure, and the error message; empty: none.
 struct Outcome {
     int status = 0;
     ErrorCode code = ErrorCode::internal;
     std::string message = {};
 };
 
-/// The processes of a program that runs each command in several.
+/// Ranks of a program that runs each command in several processes.
 class Processes {
   public:
     virtual ~Processes() = default;
-    /// Called between the command line and the command. Errors end this process as those of the command do.
+    /// Called between parsing the command line and running the command. Errors are handled like those of the command.
     virtual void begin(Session& session) = 0;
-    /// What all processes come to, and what this one is to print of it.
-    virtual Outcome end(const Outcome& own) = 0;
+    /// Combines the outcomes of all ranks. Returns the common outcome with the message that this rank prints.
+    virtual Outcome end(const Outcome& local) = 0;
 };
 
-/// What main() does with a table of commands: reads the command line, runs the chosen command, and turns errors into
-/// one line on the standard error and an exit status (docs/errors.md). To be called before any thread is started that
-/// signals should not reach.
-/// @param processes  null if there is one alone
+/// Implements main() for a table of commands: parses the command line, runs the command, and converts errors to one
+/// line on the standard error and an exit status (docs/errors.md). Must be called before threads start that must not
+/// receive signals.
+/// @param processes  null: a single process
 int run_program(std::span<const CommandInfo> commands, int argc, char** argv, Processes* processes = nullptr);
 
-/// Every failure is one line on stderr.
+/// Prints an error message as one line on stderr.
 void print_failure(const std::string& message);
 
 }  // namespace hogel::cli

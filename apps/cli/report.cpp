@@ -88,17 +88,17 @@ std::string focus_title(const Camera& camera) {
 }
 
 std::string eye_title(const Vec3& eye) {
-    const auto along = [](double value, const char* negative, const char* positive) {
+    const auto offset_text = [](double value, const char* negative, const char* positive) {
         return std::abs(value) < 1e-9
                    ? std::string{}
                    : fmt::format("{:.1f} mm {}", std::abs(value) * 1e3, value < 0 ? negative : positive);
     };
-    const std::string x = along(eye.x, "to the left", "to the right"), y = along(eye.y, "below", "above");
+    const std::string x = offset_text(eye.x, "to the left", "to the right"), y = offset_text(eye.y, "below", "above");
     if (x.empty() && y.empty()) return "From the middle";
     return "From " + x + (x.empty() || y.empty() ? "" : ", ") + y;
 }
 
-// A picture and the name of its file in the folder, without extension.
+// Picture, its folder and the name of its file without extension.
 struct Picture {
     const Image& image;
     std::filesystem::path folder;
@@ -117,44 +117,44 @@ std::string html_of(const Picture& picture, const std::string& label, const std:
         escape(file), base64(bytes), picture.image.width(), picture.image.height(), escape(alt), label);
 }
 
-// The pictures by one camera side by side, and how those by waves compare with that by rays.
-std::string figure_html(const MadePhotographs& by, std::size_t looks, const std::filesystem::path& folder) {
-    const std::string eye = eye_title(by.camera.camera.eye);
+// Returns the pictures of one camera side by side, and the PSNR and SSIM of those by waves compared with rays.
+std::string figure_html(const MadePhotographs& photographs, std::size_t looks, const std::filesystem::path& folder) {
+    const std::string eye = eye_title(photographs.camera.camera.eye);
     std::string pictures, numbers;
     const auto add = [&](const Image& image, const std::string& file, const std::string& label,
-                         const std::string& how) {
-        pictures += html_of({image, folder, file}, label, fmt::format("{}, photographed by {}", eye, how));
+                         const std::string& method) {
+        pictures += html_of({image, folder, file}, label, fmt::format("{}, photographed by {}", eye, method));
     };
     const auto compare = [&](const std::string& name, const ImageComparison& comparison) {
         numbers += fmt::format("<span class=\"soft num\">{}: PSNR {} · SSIM {:.3f}</span>", name,
                                decibel_text(comparison.psnr), comparison.ssim);
     };
-    if (by.waves) {
+    if (photographs.waves) {
         const std::string count = fmt::format("{} look{}", looks, looks == 1 ? "" : "s");
-        add(by.waves->image, by.camera.wave_file(), "waves, " + count, "waves");
-        compare(count, by.waves->comparison);
+        add(photographs.waves->image, photographs.camera.wave_file(), "waves, " + count, "waves");
+        compare(count, photographs.waves->comparison);
     }
-    if (by.speckle_free) {
-        add(by.speckle_free->image, by.camera.speckle_free_file(), "waves, infinitely many looks",
+    if (photographs.speckle_free) {
+        add(photographs.speckle_free->image, photographs.camera.speckle_free_file(), "waves, infinitely many looks",
             "waves, the mean of infinitely many looks");
-        compare("infinitely many looks", by.speckle_free->comparison);
+        compare("infinitely many looks", photographs.speckle_free->comparison);
     }
-    add(by.rays, by.camera.ray_file(), "rays", "rays");
+    add(photographs.rays, photographs.camera.ray_file(), "rays", "rays");
     return fmt::format(
         "<figure class=\"pair\"><div class=\"row\">{}</div>\n<figcaption><span>{}</span>{}</figcaption></figure>\n",
         pictures, eye, numbers);
 }
 
-// A heading for each focus, with the views from all eyes below it.
+// Returns a heading for each focus, followed by the pictures from all viewpoints.
 std::string pictures_html(const Made& made, const std::filesystem::path& folder) {
     std::string html, open_focus;
-    for (const MadePhotographs& by : made.photographs) {
-        if (by.camera.focus_name != open_focus) {
+    for (const MadePhotographs& photographs : made.photographs) {
+        if (photographs.camera.focus_name != open_focus) {
             if (!open_focus.empty()) html += "</div>\n";
-            html += fmt::format("<h2>{}</h2>\n<div class=\"pairs\">\n", focus_title(by.camera.camera));
-            open_focus = by.camera.focus_name;
+            html += fmt::format("<h2>{}</h2>\n<div class=\"pairs\">\n", focus_title(photographs.camera.camera));
+            open_focus = photographs.camera.focus_name;
         }
-        html += figure_html(by, looks_of(made), folder);
+        html += figure_html(photographs, looks_of(made), folder);
     }
     return html + "</div>";
 }
@@ -182,7 +182,6 @@ std::string samples_text(const Made& made) {
     return fmt::format("{} × {}", plane.width, plane.height);
 }
 
-// How many looks are averaged.
 std::string looks_text(const Made& made) {
     const std::size_t looks = looks_of(made);
     if (looks == 0) return "infinitely many";
@@ -203,8 +202,7 @@ std::string tables_html(const Report& report, const Made& made) {
                 {"Rays", fmt::format("{:.4g} million", 1e-6 * grid.samples() / static_cast<double>(grid.channels))},
                 {"Light field file", report.light_field_bytes > 0
                                          ? format_bytes(static_cast<double>(report.light_field_bytes))
-                                         : "not kept; scene and options are, from which it can be rendered again: " +
-                                               report.render_command}};
+                                         : "not kept; render it again with: " + report.render_command}};
     Rows hologram{{"Samples", samples_text(made)},
                   {"Pitch", fmt::format("{:.4g} µm", plane.pitch_x * 1e6)},
                   {"Wavelengths", wavelengths_text(made)},
@@ -228,25 +226,25 @@ using Json = nlohmann::ordered_json;
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json json_of(const MadePhotographs& by) {
-    const Camera& camera = by.camera.camera;
-    Json json{{"eye_name", by.camera.eye_name},
-              {"focus_name", by.camera.focus_name},
+Json json_of(const MadePhotographs& photographs) {
+    const Camera& camera = photographs.camera.camera;
+    Json json{{"eye_name", photographs.camera.eye_name},
+              {"focus_name", photographs.camera.focus_name},
               {"eye", {camera.eye.x, camera.eye.y, camera.eye.z}},
               {"focus_depth", camera.focus_depth},
               {"pupil", camera.pupil},
               {"pixels", {camera.picture.width, camera.picture.height}},
-              {"geometric", by.camera.ray_file() + ".png"}};
-    if (by.speckle_free)
-        json.update({{"expected", by.camera.speckle_free_file() + ".png"},
-                     {"expected_psnr", number_or_null(by.speckle_free->comparison.psnr)},
-                     {"expected_ssim", number_or_null(by.speckle_free->comparison.ssim)}});
-    if (by.waves)
-        json.update({{"wave", by.camera.wave_file() + ".png"},
-                     {"psnr", number_or_null(by.waves->comparison.psnr)},
-                     {"ssim", number_or_null(by.waves->comparison.ssim)},
-                     {"max_error", number_or_null(by.waves->comparison.max_error)},
-                     {"linear_psnr", number_or_null(by.waves->comparison.linear_psnr)}});
+              {"geometric", photographs.camera.ray_file() + ".png"}};
+    if (photographs.speckle_free)
+        json.update({{"expected", photographs.camera.speckle_free_file() + ".png"},
+                     {"expected_psnr", number_or_null(photographs.speckle_free->comparison.psnr)},
+                     {"expected_ssim", number_or_null(photographs.speckle_free->comparison.ssim)}});
+    if (photographs.waves)
+        json.update({{"wave", photographs.camera.wave_file() + ".png"},
+                     {"psnr", number_or_null(photographs.waves->comparison.psnr)},
+                     {"ssim", number_or_null(photographs.waves->comparison.ssim)},
+                     {"max_error", number_or_null(photographs.waves->comparison.max_error)},
+                     {"linear_psnr", number_or_null(photographs.waves->comparison.linear_psnr)}});
     return json;
 }
 
@@ -301,7 +299,7 @@ std::string report_json(const Report& report, const Made& made) {
     json["looks"] = looks_of(made);
     json["pupil_samples"] = made.request.rays.pupil_samples;
     json["exposure"] = number_or_null(made.exposure);
-    for (const MadePhotographs& by : made.photographs) json["photographs"].push_back(json_of(by));
+    for (const MadePhotographs& photographs : made.photographs) json["photographs"].push_back(json_of(photographs));
     for (const auto& [name, seconds] : report.stages) json["stages"].push_back({{"name", name}, {"seconds", seconds}});
     json["seconds"] = seconds_in_all(report);
     json["threads"] = thread_count();

@@ -20,16 +20,16 @@ Json json_of(const Result& result) {
 
 Json json_of(const ResultValue& value) {
     return std::visit(
-        [](const auto& held) -> Json {
-            using Held = std::remove_cvref_t<decltype(held)>;
-            if constexpr (std::same_as<Held, ResultList>) {
+        [](const auto& content) -> Json {
+            using Content = std::remove_cvref_t<decltype(content)>;
+            if constexpr (std::same_as<Content, ResultList>) {
                 Json list = Json::array();
-                for (const ResultValue& each : held) list.push_back(json_of(each));
+                for (const ResultValue& each : content) list.push_back(json_of(each));
                 return list;
-            } else if constexpr (std::same_as<Held, Result>) {
-                return json_of(held);
+            } else if constexpr (std::same_as<Content, Result>) {
+                return json_of(content);
             } else {
-                return held;
+                return content;
             }
         },
         value.get());
@@ -37,8 +37,8 @@ Json json_of(const ResultValue& value) {
 
 }  // namespace
 
-// The library writes escapes of the control characters below 32 alone, but terminals obey those from 127 to 159, too,
-// which stand in strings only.
+// The JSON library escapes only control characters below 32. Escapes those from 127 to 159 too, which terminals
+// interpret; they occur only in strings.
 std::string to_json(const Result& result) {
     const std::string plain = json_of(result).dump(2, ' ', false, Json::error_handler_t::replace);
     std::string text;

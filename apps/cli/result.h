@@ -11,11 +11,11 @@
 namespace hogel::cli {
 
 class ResultValue;
-/// Names and values, in the order in which they are shown.
+/// Names and values in display order.
 using Result = std::vector<std::pair<std::string, ResultValue>>;
 using ResultList = std::vector<ResultValue>;
 
-/// A value in the --json output of a command: true or false, a whole number, a number, a text, a list, or an object.
+/// Value in the --json output of a command: a boolean, an integer, a number, a text, a list or an object.
 class ResultValue {
   public:
     ResultValue(bool value) : value_(value) {}
@@ -37,7 +37,7 @@ class ResultValue {
     Variant value_;
 };
 
-/// A JSON object on several lines. Numbers that JSON cannot express, infinite ones, become null.
+/// Returns a JSON object on several lines. Infinite numbers and NaN become null.
 std::string to_json(const Result& result);
 
 }  // namespace hogel::cli

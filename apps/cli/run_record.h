@@ -6,8 +6,8 @@
 
 namespace hogel::cli {
 
-/// What the outputs of a run say of the command that made them: the version, the command, and the parameters that act
-/// with their values, see Parameter::acts(). To be asked when the values are final.
+/// Returns the metadata stored in the outputs of a run: version, command, and the values of the parameters that act,
+/// see Parameter::acts(). To be called when the values are final.
 Metadata run_metadata(const Session& session);
 
 }  // namespace hogel::cli

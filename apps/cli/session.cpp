@@ -52,15 +52,14 @@ double Session::seconds() const {
 
 void add_common_options(Command& command, Session& session) {
     command.group(Command::last_group);
-    command.flag("-q,--quiet", session.quiet, "Say nothing but errors").never_acts();
-    command.flag("-v,--verbose", session.verbose, "Say more: sizes and times of each stage").never_acts();
-    command.whole("--threads", session.threads, max_threads, "Threads to use; 0: as many as there are cores")
-        .never_acts();
+    command.flag("-q,--quiet", session.quiet, "Print only errors").never_acts();
+    command.flag("-v,--verbose", session.verbose, "Print details: sizes and times of each stage").never_acts();
+    command.whole("--threads", session.threads, max_threads, "Number of threads; 0: number of cores").never_acts();
     command
         .whole("--seed", session.seed, std::numeric_limits<std::uint64_t>::max(),
                "Seed of the random phases; equal seeds give equal bytes")
         .never_acts();
-    command.flag("--json", session.json, "The result as a JSON object, on the standard output").never_acts();
+    command.flag("--json", session.json, "Print the result as a JSON object on the standard output").never_acts();
     command.group(Command::default_group);
 }
 
@@ -72,7 +71,7 @@ Stage::Stage(const Session& session, std::string name, std::chrono::milliseconds
     : session_(session), name_(std::move(name)), on_terminal_(!session.quiet && isatty(STDERR_FILENO) != 0) {
     if (session.stop.stop_requested()) throw Error(ErrorCode::cancelled, "stopped on request");
     if (!on_terminal_ && !session.quiet)
-        reporter_ = std::jthread([=, this](const std::stop_token& end) { say_lines(end, between_lines); });
+        reporter_ = std::jthread([=, this](const std::stop_token& end) { report_lines(end, between_lines); });
 }
 
 Stage::~Stage() {
@@ -87,16 +86,16 @@ Stage::~Stage() {
 Progress Stage::progress(std::size_t i, std::size_t n) {
     if (session_.quiet) return Progress(session_.stop.get_token());
     return Progress(session_.stop.get_token(), [this, i, n](double fraction) {
-        const double whole = std::clamp((static_cast<double>(i) + fraction) / static_cast<double>(n), 0.0, 1.0);
-        fraction_ = whole;
-        if (on_terminal_) draw(whole);
+        const double total = std::clamp((static_cast<double>(i) + fraction) / static_cast<double>(n), 0.0, 1.0);
+        fraction_ = total;
+        if (on_terminal_) draw(total);
         return true;
     });
 }
 
 double Stage::seconds() const { return std::chrono::duration<double>(Clock::now() - began_).count(); }
 
-void Stage::say_lines(const std::stop_token& end, std::chrono::milliseconds between_lines) {
+void Stage::report_lines(const std::stop_token& end, std::chrono::milliseconds between_lines) {
     for (;;) {
         std::unique_lock lock(mutex_);
         if (ended_.wait_for(lock, end, between_lines, [&] { return end.stop_requested(); })) return;

@@ -7,7 +7,7 @@
 namespace hogel::cli {
 namespace {
 
-// While it exists, what is written to the standard error is read by line().
+// Redirects the standard error to line() during its lifetime.
 class ReadErrors {
   public:
     ReadErrors() : before_(dup(STDERR_FILENO)) {

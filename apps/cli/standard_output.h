@@ -5,11 +5,10 @@
 
 namespace hogel::cli {
 
-/// Thrown where nobody reads the standard output any more. The program then ends without a word, as SIGPIPE ends
-/// others.
+/// Thrown if the standard output is a closed pipe. The program then ends without a message, as with SIGPIPE.
 struct ClosedPipe {};
 
-/// Throws ClosedPipe, or Error(cannot_write), after a write to the standard output that failed; errno says why.
+/// Throws ClosedPipe or Error(cannot_write) if `written` is false, according to errno.
 void require_written(bool written);
 /// Writes to the standard output. Throws as require_written() does.
 void write_standard_output(const std::string& text);

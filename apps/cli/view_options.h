@@ -6,10 +6,10 @@
 
 namespace hogel::cli {
 
-inline constexpr const char* view_summary = "Look around in a light field, a hologram or a scene, in a browser";
+inline constexpr const char* view_summary = "View a light field, a hologram or a scene in a browser";
 
-/// The options of `hogel view`. hogel reads them to refuse what is wrong, and the viewer, a program of its own that
-/// hogel then becomes, to act on them.
+/// Declares the options of `hogel view`. hogel parses them to report errors, then executes the viewer, which parses
+/// them again.
 void add_view_options(Command& command, ViewerParameters& options);
 
 }  // namespace hogel::cli
