@@ -6,20 +6,21 @@
 
 namespace hogel::mpi {
 
-/// How many tiles a process is given when it asks, where `left` of them are not handed out yet: a fraction of its fair
-/// share, and at most so many: neighbours, which may have much in common. Work whose tiles differ in cost by a hundred
-/// times stays even (docs/decisions/0115-tiles-for-ranks.md).
-inline std::uint64_t tiles_at_once(std::uint64_t left, std::uint64_t processes) {
-    constexpr std::uint64_t of_fair_share = 4, max_tiles_at_once = 16;
-    return std::min(left, std::clamp<std::uint64_t>(left / (of_fair_share * processes), 1, max_tiles_at_once));
+/// Returns the number of tiles handed out per request: a quarter of the rank's fair share of the tiles left, 1 to 16.
+/// The tiles are neighbours, which may share data. The load stays balanced if tile costs differ by a factor of 100
+/// (docs/decisions/0115-tiles-for-ranks.md).
+/// @param left  number of tiles not handed out yet
+inline std::uint64_t tiles_at_once(std::uint64_t left, std::uint64_t ranks) {
+    constexpr std::uint64_t share_divisor = 4, max_tiles_at_once = 16;
+    return std::min(left, std::clamp<std::uint64_t>(left / (share_divisor * ranks), 1, max_tiles_at_once));
 }
 
-/// Whether a process that begins the last tile that it has asks for more at once, so that they are under way meanwhile.
-/// Not towards the end, where a process that is at work would hold a tile that an idle one could take.
-/// @param left  tiles that are not handed out, as far as the process knows
-inline bool asks_ahead(std::uint64_t left, std::uint64_t processes) {
-    constexpr std::uint64_t few_for_each = 4;
-    return left > few_for_each * processes;
+/// Returns whether a rank prefetches tiles when it begins its last one. Not towards the end: a busy rank would hold
+/// tiles that an idle one could take.
+/// @param left  upper bound of the number of tiles not handed out, as known to this rank
+inline bool asks_ahead(std::uint64_t left, std::uint64_t ranks) {
+    constexpr std::uint64_t min_per_rank = 4;
+    return left > min_per_rank * ranks;
 }
 
 }  // namespace hogel::mpi

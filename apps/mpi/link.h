@@ -8,23 +8,23 @@
 
 namespace hogel::mpi {
 
-/// The kinds of messages between processes.
-enum class Kind : int { ask = 1, answer, report, verdict, post, please_stop, stop, direct };
+/// Kinds of messages between ranks.
+enum class Kind : int { tile_request = 1, tile_answer, report, combined_report, message, stop_request, stop, direct };
 
 struct Message {
     std::size_t from = 0;
     std::string bytes;
 };
 
-/// Messages between the processes of a team. Between two processes those of a kind arrive in the order in which they
-/// were sent. Thread-safe; no call waits.
+/// Transport of messages between ranks. Messages of one kind between two ranks arrive in the order of sending.
+/// Thread-safe; no call blocks.
 class Link {
   public:
     virtual ~Link() = default;
     virtual std::size_t rank() const = 0;
     virtual std::size_t size() const = 0;
     virtual void send(std::size_t to, Kind kind, std::string bytes) = 0;
-    /// A message of that kind that has arrived, if any.
+    /// Returns a message of that kind that has arrived, if any.
     virtual std::optional<Message> receive(Kind kind) = 0;
 };
 

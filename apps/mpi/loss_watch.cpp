@@ -13,8 +13,8 @@
 namespace hogel::mpi {
 namespace {
 
-// A file that becomes readable when the process ends, or -1. glibc 2.36 declares pidfd_open() for C alone.
-int file_of(pid_t process) {
+// Returns a descriptor that becomes readable when the process ends, or -1. glibc 2.36 declares pidfd_open() only for C.
+int pidfd_of(pid_t process) {
 #ifdef SYS_pidfd_open
     return static_cast<int>(syscall(SYS_pidfd_open, process, 0));
 #else
@@ -28,7 +28,7 @@ LossWatch::LossWatch(std::span<const RankProcess> others, std::function<void(con
     std::vector<RankProcess> watched;
     files_.push_back(eventfd(0, EFD_CLOEXEC));
     for (const RankProcess& other : others)
-        if (const int file = file_of(other.process); file >= 0) {
+        if (const int file = pidfd_of(other.process); file >= 0) {
             files_.push_back(file);
             watched.push_back(other);
         }
@@ -37,8 +37,8 @@ LossWatch::LossWatch(std::span<const RankProcess> others, std::function<void(con
 }
 
 LossWatch::~LossWatch() {
-    const std::uint64_t one = 1;
-    if (thread_.joinable() && write(files_.front(), &one, sizeof one) == sizeof one) thread_.join();
+    const std::uint64_t signal = 1;
+    if (thread_.joinable() && write(files_.front(), &signal, sizeof signal) == sizeof signal) thread_.join();
     for (const int file : files_)
         if (file >= 0) close(file);
 }

@@ -11,17 +11,17 @@
 
 namespace hogel::mpi {
 
-/// A rank and its process on this machine.
+/// A rank and its process id on this machine.
 struct RankProcess {
     std::size_t rank = 0;
     pid_t process = 0;
 };
 
-/// Waits for the end of other ranks' processes on this machine, while which all should work: one that ends was killed
-/// or has crashed. Where the system has no way to wait for processes of others (Linux before 5.3), nothing is noticed.
+/// Detects the loss of other ranks on this machine: a process that ends during its lifetime was killed or has crashed.
+/// Detects nothing on Linux before 5.3, which has no pidfd_open().
 class LossWatch {
   public:
-    /// @param lost  called once, on a thread of the watch, with the first rank whose process has ended
+    /// @param lost  called once with the first rank whose process has ended, on the thread of this object
     LossWatch(std::span<const RankProcess> others, std::function<void(const RankProcess&)> lost);
     ~LossWatch();
     LossWatch(const LossWatch&) = delete;
@@ -30,7 +30,7 @@ class LossWatch {
   private:
     void wait(const std::vector<RankProcess>& others, const std::function<void(const RankProcess&)>& lost) const;
 
-    std::vector<int> files_;  // that become readable: when the watch ends, and as each process does
+    std::vector<int> files_;  // event for the end of the watch, then one pidfd per process; readable when it ends
     std::thread thread_;
 };
 

@@ -14,7 +14,7 @@
 namespace hogel::mpi {
 namespace {
 
-// A process that waits until it is killed.
+// Starts a process that waits until it is killed.
 pid_t waiting_process() {
     const pid_t process = fork();
     if (process == 0)
@@ -33,20 +33,20 @@ TEST(LossWatch, names_the_rank_whose_process_was_killed) {
     const LossWatch watch(others, [&](const RankProcess& rank) { lost.set_value(rank.rank); });
     end(others[1].process);
     std::future<std::size_t> answer = lost.get_future();
-    const bool came = answer.wait_for(std::chrono::seconds(60)) == std::future_status::ready;
+    const bool reported = answer.wait_for(std::chrono::seconds(60)) == std::future_status::ready;
     end(others[0].process);
-    ASSERT_TRUE(came);
+    ASSERT_TRUE(reported);
     EXPECT_EQ(answer.get(), 4u);
 }
 
 TEST(LossWatch, says_nothing_once_it_has_ended) {
     const std::array<RankProcess, 1> others{{{1, waiting_process()}}};
-    std::atomic<bool> said = false;
+    std::atomic<bool> called = false;
     {
-        const LossWatch watch(others, [&](const RankProcess&) { said = true; });
+        const LossWatch watch(others, [&](const RankProcess&) { called = true; });
     }
     end(others[0].process);
-    EXPECT_FALSE(said);
+    EXPECT_FALSE(called);
 }
 
 }  // namespace

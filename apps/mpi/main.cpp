@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// hogel-mpi: commands of hogel whose work the ranks of an MPI program share.
+// hogel-mpi: commands of hogel with their work distributed over the ranks of an MPI program.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -33,20 +33,20 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A rank that has failed waits so long for the others, which end within a second of a stop.
+// Time that a failed rank waits for the others, which end within a second of a stop.
 constexpr std::chrono::seconds patience{15};
-// After a rank was lost the others have so long to keep what is done, before mpirun ends them.
+// Time for the other ranks to write their checkpoints after a rank was lost, before mpirun ends them.
 constexpr std::chrono::milliseconds grace{900};
-// A rank that is lost is noticed within this time after mpirun has stopped others because of it.
+// Within this time after a stop the end of another rank still counts as the cause of the stop.
 constexpr std::chrono::milliseconds consequences{100};
-// As of a process that was killed.
+// Exit status of a killed process.
 constexpr int status_of_loss = 128 + SIGKILL;
 
-// Those whose long work the library shares among the processes of a team.
+// Commands with work that the library distributes over ranks.
 constexpr std::array<std::string_view, 8> shared_commands{"render", "compress", "decompress", "hologram",
                                                           "slm",    "photo",    "propagate",  "make"};
 
-// Signals are for the thread that waits for them, not for those that MPI starts.
+// Blocks signals in threads started by MPI: cli::Interrupts waits for them.
 void block_signals() {
     sigset_t signals;
     sigemptyset(&signals);
@@ -54,12 +54,12 @@ void block_signals() {
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }
 
-// Only the first rank prints.
+// Only the root prints.
 void silence_output() {
-    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (nowhere < 0) return;
-    dup2(nowhere, STDOUT_FILENO);
-    close(nowhere);
+    const int null_device = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (null_device < 0) return;
+    dup2(null_device, STDOUT_FILENO);
+    close(null_device);
 }
 
 class Ranks final : public cli::Processes {
@@ -68,14 +68,14 @@ class Ranks final : public cli::Processes {
         : link_(link),
           communicator_(link),
           scope_(communicator_),
-          watch_(others_here(), [this](const RankProcess& rank) { end_without(rank); }) {
+          watch_(local_others(), [this](const RankProcess& rank) { end_after_loss(rank); }) {
         if (!communicator_.is_root()) silence_output();
     }
 
     void begin(cli::Session& session) override {
         communicator_.stop_with(session.stop);
         {
-            const std::lock_guard lock(stopping_);
+            const std::lock_guard lock(mutex_);
             stop_ = session.stop;
         }
         on_stop_.emplace(session.stop.get_token(), StopTime{*this});
@@ -91,40 +91,40 @@ class Ranks final : public cli::Processes {
                                     command, fmt::join(shared_commands, ", ")));
     }
 
-    cli::Outcome end(const cli::Outcome& own) override {
+    cli::Outcome end(const cli::Outcome& local) override {
         Report report;
-        report.failed = own.status != 0;
-        report.status = own.status;
-        report.code = own.code;
-        report.text = own.message;
+        report.failed = local.status != 0;
+        report.status = local.status;
+        report.code = local.code;
+        report.text = local.message;
         while (lost_) std::this_thread::sleep_for(grace);  // until end_without() ends the process
-        // A batch system or mpirun also stops what is left after a machine was lost.
-        bool said = false;
-        const auto say = [&](const std::vector<std::size_t>& silent) {
-            if (own.status <= 128 || link_.on_this_machine().front().rank != link_.rank()) return;
-            cli::print_failure(fmt::format("{}; no word of rank{} {} of {}, which may be lost; {}", own.message,
+        // A batch system or mpirun stops the remaining ranks after the loss of a machine.
+        bool reported = false;
+        const auto report_silent = [&](const std::vector<std::size_t>& silent) {
+            if (local.status <= 128 || link_.on_this_machine().front().rank != link_.rank()) return;
+            cli::print_failure(fmt::format("{}; no answer from rank{} {} of {}, which may be lost; {}", local.message,
                                            silent.size() == 1 ? "" : "s", fmt::join(silent, ", "), link_.size(),
-                                           what_then()));
-            said = true;
+                                           advice()));
+            reported = true;
         };
-        const std::optional<Report> verdict = communicator_.settle(report, patience, say);
-        if (!verdict) {
-            if (!said) cli::print_failure(own.message);
-            link_.abort(own.status);
+        const std::optional<Report> combined = communicator_.settle(report, patience, report_silent);
+        if (!combined) {
+            if (!reported) cli::print_failure(local.message);
+            link_.abort(local.status);
         }
-        return {verdict->failed ? verdict->status : 0, verdict->code,
-                communicator_.is_root() && !said ? verdict->text : ""};
+        return {combined->failed ? combined->status : 0, combined->code,
+                communicator_.is_root() && !reported ? combined->text : ""};
     }
 
   private:
-    std::vector<RankProcess> others_here() const {
+    std::vector<RankProcess> local_others() const {
         std::vector<RankProcess> others = link_.on_this_machine();
         std::erase_if(others, [&](const RankProcess& each) { return each.rank == link_.rank(); });
         return others;
     }
 
-    const char* what_then() const {
-        return resumes_ ? "what is done is kept: the same command goes on from there, with any number of ranks"
+    const char* advice() const {
+        return resumes_ ? "completed work is saved: run the same command to continue, with any number of ranks"
                         : "run the command again";
     }
 
@@ -133,37 +133,37 @@ class Ranks final : public cli::Processes {
         void operator()() const { ranks.stopped_ = Clock::now().time_since_epoch().count(); }
     };
 
-    // Ranks that end some time after a stop are not lost: they were stopped, too, or MPI ended them.
+    // A rank that ends some time after a stop is not lost: it was stopped too, or MPI ended it.
     bool was_stopped_before() const {
         const Clock::duration since(stopped_.load());
         return since.count() != 0 && Clock::now().time_since_epoch() - since > consequences;
     }
 
-    // After a rank of this machine was lost: the first of those that are left says so, all keep what they have done,
+    // Handles the loss of a rank on this machine: the lowest remaining rank reports it, all write their checkpoints,
     // and the job ends.
-    void end_without(const RankProcess& lost) {
+    void end_after_loss(const RankProcess& lost) {
         if (was_stopped_before()) return;
         lost_ = true;
-        const auto left = std::ranges::find_if(link_.on_this_machine(),
-                                               [&](const RankProcess& each) { return each.rank != lost.rank; });
-        if (left->rank == link_.rank())
+        const auto survivor = std::ranges::find_if(link_.on_this_machine(),
+                                                   [&](const RankProcess& each) { return each.rank != lost.rank; });
+        if (survivor->rank == link_.rank())
             cli::print_failure(fmt::format("rank {} of {} (process {}) was lost; {}", lost.rank, link_.size(),
-                                           lost.process, what_then()));
+                                           lost.process, advice()));
         {
-            const std::lock_guard lock(stopping_);
+            const std::lock_guard lock(mutex_);
             stop_.request_stop();
         }
         std::this_thread::sleep_for(grace);
-        std::_Exit(status_of_loss);  // MPI_Abort() would say more than the line above
+        std::_Exit(status_of_loss);  // MPI_Abort() would print more lines
     }
 
     MpiLink& link_;
     RankCommunicator communicator_;
     CommunicatorScope scope_;
-    std::mutex stopping_;
-    std::stop_source stop_;  // of the session
+    std::mutex mutex_;
+    std::stop_source stop_;  // copy of Session::stop
     std::atomic<bool> resumes_ = false, lost_ = false;
-    std::atomic<Clock::rep> stopped_ = 0;  // when
+    std::atomic<Clock::rep> stopped_ = 0;  // time of the stop; 0: none
     std::optional<std::stop_callback<StopTime>> on_stop_;
     LossWatch watch_;
 };

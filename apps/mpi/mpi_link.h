@@ -12,13 +12,13 @@
 
 namespace hogel::mpi {
 
-/// Messages by MPI. Only calls that never wait are made, one at a time: those that wait keep a processor busy, which
-/// threads of the same machine could use.
+/// Transport by MPI. Uses only non-blocking MPI calls, one at a time: blocking calls busy-wait and would take
+/// processors from threads of the same machine.
 class MpiLink final : public Link {
   public:
-    /// Starts MPI. Throws Error(not_built_in) if it has no support for threads that call it one at a time.
+    /// Initialises MPI. Throws Error(not_built_in) if it does not support MPI_THREAD_SERIALIZED.
     MpiLink(int& argc, char**& argv);
-    /// Ends MPI when all messages have left.
+    /// Finalises MPI when all messages have left, after 5 s at the latest.
     ~MpiLink() override;
     MpiLink(const MpiLink&) = delete;
     MpiLink& operator=(const MpiLink&) = delete;
@@ -28,11 +28,11 @@ class MpiLink final : public Link {
     void send(std::size_t to, Kind kind, std::string bytes) override;
     std::optional<Message> receive(Kind kind) override;
 
-    /// The threads of this process if the processes of a machine share the processors that they may run on.
+    /// Returns this rank's number of threads: its processors divided by the number of ranks bound to the same ones.
     std::size_t threads() const { return threads_; }
-    /// The ranks whose processes are on this machine, this one's among them.
+    /// Returns the ranks on this machine, including this one.
     const std::vector<RankProcess>& on_this_machine() const { return on_this_machine_; }
-    /// Ends all processes at once.
+    /// Ends all ranks immediately.
     [[noreturn]] void abort(int status);
 
   private:
@@ -40,12 +40,12 @@ class MpiLink final : public Link {
         std::string bytes;
         MPI_Request request = MPI_REQUEST_NULL;
     };
-    void forget_what_has_left();
-    void keep_memory(std::string bytes);
-    std::string room_for(std::size_t bytes);
+    void release_sent();
+    void recycle(std::string bytes);
+    std::string buffer_of(std::size_t bytes);
 
     std::mutex mutex_;
-    MPI_Comm all_ = MPI_COMM_NULL;
+    MPI_Comm communicator_ = MPI_COMM_NULL;
     std::size_t rank_ = 0, size_ = 1, threads_ = 1;
     std::vector<RankProcess> on_this_machine_;
     std::list<Sent> sent_;

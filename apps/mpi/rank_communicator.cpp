@@ -12,13 +12,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// How often messages are looked for: by the first process, for which others wait, less often while there are none; by
-// those that wait for an answer; and by those that wait for a stop.
+// Polling intervals: of the root, growing while there are no messages; of ranks that wait for an answer; and of ranks
+// that listen for a stop.
 constexpr std::chrono::microseconds between_requests{200}, between_rare_requests{1600}, between_stops{5000},
     between_answers{100};
-// How often those that wait for all look whether to stop.
+// Interval at which a rank that waits for all others checks for a stop.
 constexpr std::chrono::milliseconds between_answers_of_all{50};
-// Within this time after a failure all processes have usually stopped.
+// Time within which all ranks usually stop after a failure.
 constexpr std::chrono::milliseconds usual_answer{333};
 
 template <class... Numbers>
@@ -56,7 +56,7 @@ Report from_bytes(const std::string& bytes) {
             static_cast<ErrorCode>(static_cast<int>(number_at(bytes, 2))), number_at(bytes, 3), tail_of(bytes, 4)};
 }
 
-// The failure that all report: one that is no consequence of a stop, otherwise that of a signal, otherwise any.
+// Selects the failure that all ranks report: preferably one that is not a cancellation, then one by a signal, then any.
 const Report* failure_among(const std::vector<std::optional<Report>>& reports) {
     const auto find = [&](const auto& is) -> const Report* {
         for (const std::optional<Report>& report : reports)
@@ -73,9 +73,9 @@ const Report* failure_among(const std::vector<std::optional<Report>>& reports) {
 RankCommunicator::RankCommunicator(Link& link) : link_(link), reports_(link.size()) {
     server_ = std::jthread([this](const std::stop_token& ended) {
         for (auto pause = between_requests; !ended.stop_requested(); std::this_thread::sleep_for(pause)) {
-            const bool any = serve();
+            const bool handled = serve();
             pause = link_.rank() != 0 ? between_stops
-                    : any             ? between_requests
+                    : handled         ? between_requests
                                       : std::min<std::chrono::microseconds>(2 * pause, between_rare_requests);
         }
     });
@@ -92,34 +92,35 @@ void RankCommunicator::stop_with(std::stop_source stop) {
     if (stopping_) stop_.request_stop();
 }
 
-// Returns whether there was anything to do for others.
+// Handles pending messages. Returns whether there were any.
 bool RankCommunicator::serve() {
-    bool any = false;
+    bool handled = false;
     if (link_.rank() == 0) {
-        while (serve_first()) any = true;
+        while (serve_root()) handled = true;
     } else if (link_.receive(Kind::stop)) {
-        stop_here();
+        stop_local();
     }
     const std::lock_guard lock(mutex_);
-    if (!stop_.stop_requested() || std::exchange(stop_sent_, true)) return any;
+    if (!stop_.stop_requested() || std::exchange(stop_sent_, true)) return handled;
     if (link_.rank() == 0)
         stop_all();
     else
-        link_.send(0, Kind::please_stop, "");
-    return any;
+        link_.send(0, Kind::stop_request, "");
+    return handled;
 }
 
 // Called with the lock.
 void RankCommunicator::stop_all() {
     stop_sent_ = true;
     if (stopping_.exchange(true)) return;
-    for (std::size_t other = 1; other < link_.size(); ++other) link_.send(other, Kind::stop, "");
+    for (std::size_t destination = 1; destination < link_.size(); ++destination)
+        link_.send(destination, Kind::stop, "");
     answer_requests();
     passed_.notify_all();
     stop_.request_stop();
 }
 
-void RankCommunicator::stop_here() {
+void RankCommunicator::stop_local() {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
     stop_sent_ = true;
@@ -127,36 +128,36 @@ void RankCommunicator::stop_here() {
 }
 
 // Handles one message of each kind. Returns whether there was any.
-bool RankCommunicator::serve_first() {
-    bool any = false;
-    if (const auto message = link_.receive(Kind::ask)) {
-        any = true;
+bool RankCommunicator::serve_root() {
+    bool handled = false;
+    if (const auto message = link_.receive(Kind::tile_request)) {
+        handled = true;
         const std::lock_guard lock(mutex_);
         requests_.push_back(
             {message->from, number_at(message->bytes, 0), number_at(message->bytes, 1), number_at(message->bytes, 2)});
         answer_requests();
     }
-    if (auto message = link_.receive(Kind::post)) {
-        any = true;
-        const std::lock_guard lock(listening_);
+    if (auto message = link_.receive(Kind::message)) {
+        handled = true;
+        const std::lock_guard lock(listeners_mutex_);
         const std::uint64_t channel = take_last_number(message->bytes);
         const auto listener = listeners_.find(channel);
         if (listener == listeners_.end())
-            early_[channel].push_back(std::move(message->bytes));
+            unclaimed_[channel].push_back(std::move(message->bytes));
         else if (listener->second)
             listener->second(std::move(message->bytes));
     }
     if (const auto message = link_.receive(Kind::report)) {
-        any = true;
+        handled = true;
         const std::lock_guard lock(mutex_);
         take_report(message->from, from_bytes(message->bytes));
     }
-    if (link_.receive(Kind::please_stop)) {
-        any = true;
+    if (link_.receive(Kind::stop_request)) {
+        handled = true;
         const std::lock_guard lock(mutex_);
         stop_all();
     }
-    return any;
+    return handled;
 }
 
 // Called with the lock.
@@ -164,46 +165,48 @@ void RankCommunicator::take_report(std::size_t from, Report report) {
     if (report.failed) stop_all();
     reports_[from] = std::move(report);
     if (!std::ranges::all_of(reports_, [](const auto& each) { return each.has_value(); })) return;
-    Report verdict;
+    Report combined;
     if (const Report* failure = failure_among(reports_)) {
-        verdict = *failure;
+        combined = *failure;
     } else {
-        verdict.text = reports_.front()->text;
-        for (const std::optional<Report>& each : reports_) verdict.number += each->number;
+        combined.text = reports_.front()->text;
+        for (const std::optional<Report>& each : reports_) combined.number += each->number;
     }
-    for (std::size_t other = 1; other < link_.size(); ++other) link_.send(other, Kind::verdict, to_bytes(verdict));
+    for (std::size_t destination = 1; destination < link_.size(); ++destination)
+        link_.send(destination, Kind::combined_report, to_bytes(combined));
     for (std::optional<Report>& each : reports_) each.reset();
-    verdict_ = std::move(verdict);
+    combined_ = std::move(combined);
     concluded_.notify_all();
 }
 
-void RankCommunicator::report(Report own) {
-    if (link_.rank() != 0) return link_.send(0, Kind::report, to_bytes(own));
+void RankCommunicator::report(Report local) {
+    if (link_.rank() != 0) return link_.send(0, Kind::report, to_bytes(local));
     const std::lock_guard lock(mutex_);
-    take_report(0, std::move(own));
+    take_report(0, std::move(local));
 }
 
-// What all reports come to; nothing if they do not come in time.
-std::optional<Report> RankCommunicator::verdict(std::optional<std::chrono::milliseconds> patience) {
+// Waits for the combined report. Returns nothing after `patience`; without `patience` waits without limit.
+std::optional<Report> RankCommunicator::wait_for_combined(std::optional<std::chrono::milliseconds> patience) {
     const auto end = Clock::now() + patience.value_or(std::chrono::milliseconds(0));
     if (link_.rank() == 0) {
         std::unique_lock lock(mutex_);
-        const auto concluded = [&] { return verdict_.has_value(); };
+        const auto concluded = [&] { return combined_.has_value(); };
         if (!patience)
             concluded_.wait(lock, concluded);
         else if (!concluded_.wait_until(lock, end, concluded))
             return std::nullopt;
-        return std::exchange(verdict_, std::nullopt);
+        return std::exchange(combined_, std::nullopt);
     }
     for (auto pause = between_answers;; pause = std::min<std::chrono::microseconds>(2 * pause, between_stops)) {
-        if (const auto message = link_.receive(Kind::verdict)) return from_bytes(message->bytes);
+        if (const auto message = link_.receive(Kind::combined_report)) return from_bytes(message->bytes);
         if (patience && Clock::now() > end) return std::nullopt;
         std::this_thread::sleep_for(pause);
     }
 }
 
-// After this process has failed. The first one tells all others to stop as soon as it hears of any failure.
-std::vector<std::size_t> RankCommunicator::silent_ones() {
+// Returns the ranks that have not answered after a failure of this one. The root stops all ranks on the first failure,
+// so a rank that was not stopped has not heard from the root.
+std::vector<std::size_t> RankCommunicator::silent_ranks() {
     if (link_.rank() != 0) return stopping_ ? std::vector<std::size_t>{} : std::vector<std::size_t>{0};
     const std::lock_guard lock(mutex_);
     std::vector<std::size_t> silent;
@@ -212,136 +215,136 @@ std::vector<std::size_t> RankCommunicator::silent_ones() {
     return silent;
 }
 
-bool RankCommunicator::is_to_stop() {
+bool RankCommunicator::is_stop_requested() {
     const std::lock_guard lock(mutex_);
     return stop_.stop_requested();
 }
 
-Report RankCommunicator::agree(Report own) {
-    report(std::move(own));
-    std::optional<Report> of_all;
-    // Those that are lost never answer: once this process is to stop, it does not wait for them.
-    for (auto last = Clock::time_point::max(); !(of_all = verdict(between_answers_of_all));) {
-        if (!is_to_stop()) continue;
-        last = std::min(last, Clock::now() + usual_answer);
-        if (Clock::now() < last) continue;
+Report RankCommunicator::agree(Report local) {
+    report(std::move(local));
+    std::optional<Report> combined_report;
+    // Lost ranks never answer: after a stop request the wait is limited.
+    for (auto deadline = Clock::time_point::max(); !(combined_report = wait_for_combined(between_answers_of_all));) {
+        if (!is_stop_requested()) continue;
+        deadline = std::min(deadline, Clock::now() + usual_answer);
+        if (Clock::now() < deadline) continue;
         has_reported_ = true;
         throw Error(ErrorCode::cancelled, "stopped on request");
     }
-    if (!of_all->failed) return *of_all;
-    failure_ = of_all;
-    throw Error(of_all->code, of_all->text);
+    if (!combined_report->failed) return *combined_report;
+    failure_ = combined_report;
+    throw Error(combined_report->code, combined_report->text);
 }
 
-std::optional<Report> RankCommunicator::settle(Report own, std::chrono::seconds patience,
+std::optional<Report> RankCommunicator::settle(Report local, std::chrono::seconds patience,
                                                const std::function<void(const std::vector<std::size_t>&)>& silent) {
     if (failure_) return failure_;
-    if (!own.failed) {
-        report(std::move(own));
-        return verdict(std::nullopt);
+    if (!local.failed) {
+        report(std::move(local));
+        return wait_for_combined(std::nullopt);
     }
-    if (!has_reported_) report(own);
-    // The answer to what this one did not wait for may still come, and be good: then the failure is still to be told.
+    if (!has_reported_) report(local);
+    // The pending answer to an earlier report may still arrive and be a success: then reports the failure.
     const auto answer = [&](std::chrono::milliseconds time) {
-        std::optional<Report> of_all = verdict(time);
-        if (!of_all || of_all->failed || !std::exchange(has_reported_, false)) return of_all;
-        report(own);
-        return verdict(time);
+        std::optional<Report> combined_report = wait_for_combined(time);
+        if (!combined_report || combined_report->failed || !std::exchange(has_reported_, false)) return combined_report;
+        report(local);
+        return wait_for_combined(time);
     };
-    if (const std::optional<Report> soon = answer(usual_answer)) return soon;
-    const std::vector<std::size_t> ranks = silent_ones();
+    if (const std::optional<Report> early_answer = answer(usual_answer)) return early_answer;
+    const std::vector<std::size_t> ranks = silent_ranks();
     if (silent && !ranks.empty()) silent(ranks);
     return answer(patience);
 }
 
 std::uint64_t RankCommunicator::sum(std::uint64_t number) {
-    Report own;
-    own.number = number;
-    return agree(std::move(own)).number;
+    Report local;
+    local.number = number;
+    return agree(std::move(local)).number;
 }
 
-// Called with the lock. No tiles are handed out any more when work is to stop; nothing is returned where none may be
-// handed out yet.
+// Called with the lock. Returns an empty range at the end of the queue and after a stop, and nothing if the request
+// must wait.
 std::optional<RankCommunicator::Tiles> RankCommunicator::take_tiles(const Request& request) {
-    Queue& of = queues_.try_emplace(request.queue, Queue{0, request.tiles}).first->second;
-    if (stopping_ || of.tiles != request.tiles || of.next == of.tiles) return Tiles{of.tiles, 0};
-    const std::uint64_t left = of.tiles - of.next;
-    const std::uint64_t begun = of.next - std::min(of.next, of.done);
+    Queue& state = queues_.try_emplace(request.queue, Queue{0, request.tiles}).first->second;
+    if (stopping_ || state.tiles != request.tiles || state.next == state.tiles) return Tiles{state.tiles, 0};
+    const std::uint64_t left = state.tiles - state.next;
+    const std::uint64_t begun = state.next - std::min(state.next, state.done);
     if (begun >= request.ahead) return std::nullopt;
-    const Tiles given{
-        of.next, std::min({left, request.ahead - begun, tiles_at_once(std::min(left, request.ahead), link_.size())})};
-    of.next += given.count;
-    return given;
+    const Tiles range{state.next, std::min({left, request.ahead - begun,
+                                            tiles_at_once(std::min(left, request.ahead), link_.size())})};
+    state.next += range.count;
+    return range;
 }
 
 // Called with the lock.
 void RankCommunicator::answer_requests() {
     for (auto each = requests_.begin(); each != requests_.end();) {
         const std::optional<Tiles> tiles = take_tiles(*each);
-        if (tiles) link_.send(each->from, Kind::answer, pack(each->queue, tiles->first, tiles->count));
+        if (tiles) link_.send(each->from, Kind::tile_answer, pack(each->queue, tiles->first, tiles->count));
         each = tiles ? requests_.erase(each) : std::next(each);
     }
 }
 
 void RankCommunicator::pass(std::uint64_t queue, std::uint64_t done) {
     const std::lock_guard lock(mutex_);
-    Queue& of = queues_[queue];
-    of.done = std::max(of.done, done);
+    Queue& state = queues_[queue];
+    state.done = std::max(state.done, done);
     answer_requests();
     passed_.notify_all();
 }
 
-// Called with the lock of what was asked.
-void RankCommunicator::ask(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead) {
-    if (asked_.insert(queue).second) link_.send(0, Kind::ask, pack(queue, tiles, ahead));
+// Called with tiles_mutex_ locked.
+void RankCommunicator::request_tiles(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead) {
+    if (requested_.insert(queue).second) link_.send(0, Kind::tile_request, pack(queue, tiles, ahead));
 }
 
-// Called with the same lock.
+// Called with tiles_mutex_ locked.
 RankCommunicator::Tiles RankCommunicator::next_tiles(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead) {
     if (link_.rank() == 0) {
         std::unique_lock lock(mutex_);
-        std::optional<Tiles> some;
-        passed_.wait(lock, [&] { return (some = take_tiles({0, queue, tiles, ahead})).has_value(); });
-        return *some;
+        std::optional<Tiles> range;
+        passed_.wait(lock, [&] { return (range = take_tiles({0, queue, tiles, ahead})).has_value(); });
+        return *range;
     }
-    ask(queue, tiles, ahead);
+    request_tiles(queue, tiles, ahead);
     while (!answers_.contains(queue)) {
-        if (const auto message = link_.receive(Kind::answer))
+        if (const auto message = link_.receive(Kind::tile_answer))
             answers_[number_at(message->bytes, 0)] = {number_at(message->bytes, 1), number_at(message->bytes, 2)};
         else
             std::this_thread::sleep_for(between_answers);
     }
-    asked_.erase(queue);
+    requested_.erase(queue);
     return answers_.extract(queue).mapped();
 }
 
 std::optional<std::uint64_t> RankCommunicator::next_tile(std::uint64_t queue, std::uint64_t tiles,
                                                          std::uint64_t ahead) {
-    const std::lock_guard asking(asking_);
-    OwnTiles& own = own_[queue];
-    if (own.here.count == 0 && !own.over) {
-        own.here = next_tiles(queue, tiles, ahead);
+    const std::lock_guard lock(tiles_mutex_);
+    LocalTiles& local = local_tiles_[queue];
+    if (local.range.count == 0 && !local.finished) {
+        local.range = next_tiles(queue, tiles, ahead);
         if (stopping_) throw Error(ErrorCode::cancelled, "stopped on request");
-        own.over = own.here.count == 0;
+        local.finished = local.range.count == 0;
     }
-    if (own.over) return std::nullopt;
-    const std::uint64_t tile = own.here.first++;
-    if (--own.here.count == 0 && link_.rank() != 0 && asks_ahead(tiles - own.here.first, link_.size()))
-        ask(queue, tiles, ahead);
+    if (local.finished) return std::nullopt;
+    const std::uint64_t tile = local.range.first++;
+    if (--local.range.count == 0 && link_.rank() != 0 && asks_ahead(tiles - local.range.first, link_.size()))
+        request_tiles(queue, tiles, ahead);
     return tile;
 }
 
-// The channel is at the end, because messages may be large, and have room there.
+// Appends the channel at the end, because prepending would move the bytes of large messages.
 void RankCommunicator::send(std::uint64_t channel, std::string bytes) {
     bytes += pack(channel);
-    link_.send(0, Kind::post, std::move(bytes));
+    link_.send(0, Kind::message, std::move(bytes));
 }
 
 void RankCommunicator::listen(std::uint64_t channel, std::function<void(std::string bytes)> take) {
-    const std::lock_guard lock(listening_);
-    auto early = early_.extract(channel);
-    if (take && !early.empty())
-        for (std::string& bytes : early.mapped()) take(std::move(bytes));
+    const std::lock_guard lock(listeners_mutex_);
+    auto unclaimed = unclaimed_.extract(channel);
+    if (take && !unclaimed.empty())
+        for (std::string& bytes : unclaimed.mapped()) take(std::move(bytes));
     listeners_[channel] = std::move(take);
 }
 
@@ -351,10 +354,10 @@ void RankCommunicator::send_to(std::size_t process, std::string bytes) {
 
 std::string RankCommunicator::receive_from(std::size_t process) {
     for (;;) {
-        std::list<std::string>& of_it = direct_[process];
-        if (!of_it.empty()) {
-            std::string first = std::move(of_it.front());
-            of_it.pop_front();
+        std::list<std::string>& messages = direct_[process];
+        if (!messages.empty()) {
+            std::string first = std::move(messages.front());
+            messages.pop_front();
             return first;
         }
         if (auto message = link_.receive(Kind::direct))

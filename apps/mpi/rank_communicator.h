@@ -21,20 +21,19 @@
 
 namespace hogel::mpi {
 
-/// What a process says when all of them meet, and what the first one answers when all have spoken.
+/// Contribution of a rank to a meeting of all ranks, and the combined answer of the root.
 struct Report {
     bool failed = false;
     int status = 0;  ///< exit status
     ErrorCode code = ErrorCode::cancelled;
-    std::uint64_t number = 0;  ///< their sum in the answer
-    std::string text;          ///< what is printed
+    std::uint64_t number = 0;  ///< summed in the answer
+    std::string text;          ///< message to print
 };
 
-/// A team over a link. A thread of the first process has the queues and answers; a thread of each other one hears when
-/// work is to stop.
+/// Communicator over a Link. A thread of the root manages the queues and answers requests; a thread of each other rank
+/// listens for stops.
 class RankCommunicator final : public Communicator {
   public:
-    /// @param threads  of this process, by which work is divided at first
     explicit RankCommunicator(Link& link);
     ~RankCommunicator() override;
     RankCommunicator(const RankCommunicator&) = delete;
@@ -51,24 +50,24 @@ class RankCommunicator final : public Communicator {
     void send_to(std::size_t process, std::string bytes) override;
     std::string receive_from(std::size_t process) override;
 
-    /// A stop of any process is requested from the sources of all.
+    /// Connects stop sources: a stop request on any rank is passed to the sources of all ranks.
     void stop_with(std::stop_source stop);
-    /// At the end of the work, well or not: what all processes together come to, the failure of the first that has
-    /// failed. Nothing if others do not come within `patience` after this one has failed.
-    /// @param silent  called once with the processes that did not answer within a third of a second after this one has
-    ///                failed: in the first process all of those, in others the first one
-    std::optional<Report> settle(Report own, std::chrono::seconds patience,
+    /// Returns the combined outcome of all ranks at the end of the work, successful or not: a failure of one is the
+    /// failure of all. Returns nothing if this rank has failed and others do not answer within `patience`.
+    /// @param silent  called once if this rank has failed, with the ranks that did not answer within 1/3 s; on ranks
+    ///                other than the root only with the root
+    std::optional<Report> settle(Report local, std::chrono::seconds patience,
                                  const std::function<void(const std::vector<std::size_t>&)>& silent = {});
 
   private:
-    // Consecutive tiles; none if `count` is 0.
+    // Range of tiles; empty if `count` is 0.
     struct Tiles {
         std::uint64_t first = 0, count = 0;
     };
-    // Those of a queue that this process has not begun.
-    struct OwnTiles {
-        Tiles here;
-        bool over = false;  // no more will come
+    // Tiles of a queue that this rank has received but not begun.
+    struct LocalTiles {
+        Tiles range;
+        bool finished = false;  // the queue is exhausted
     };
     struct Queue {
         std::uint64_t next = 0, tiles = 0, done = 0;
@@ -77,42 +76,42 @@ class RankCommunicator final : public Communicator {
         std::size_t from;
         std::uint64_t queue, tiles, ahead;
     };
-    Report agree(Report own);
-    void report(Report own);
-    std::optional<Report> verdict(std::optional<std::chrono::milliseconds> patience);
-    std::vector<std::size_t> silent_ones();
-    bool is_to_stop();
+    Report agree(Report local);
+    void report(Report local);
+    std::optional<Report> wait_for_combined(std::optional<std::chrono::milliseconds> patience);
+    std::vector<std::size_t> silent_ranks();
+    bool is_stop_requested();
     bool serve();
-    bool serve_first();
+    bool serve_root();
     void take_report(std::size_t from, Report report);
     void stop_all();
-    void stop_here();
+    void stop_local();
     std::optional<Tiles> take_tiles(const Request& request);
     void answer_requests();
-    void ask(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead);
+    void request_tiles(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead);
     Tiles next_tiles(std::uint64_t queue, std::uint64_t tiles, std::uint64_t ahead);
 
     Link& link_;
-    std::mutex mutex_;  // of the members up to the listeners
+    std::mutex mutex_;  // guards the members down to stop_sent_
     std::condition_variable concluded_;
     std::condition_variable passed_;
     std::map<std::uint64_t, Queue> queues_;
-    std::list<Request> requests_;  // that wait until tiles may be handed out
+    std::list<Request> requests_;  // waiting until tiles may be handed out
     std::vector<std::optional<Report>> reports_;
-    std::optional<Report> verdict_;
+    std::optional<Report> combined_;
     std::stop_source stop_;
     bool stop_sent_ = false;
     std::atomic<bool> stopping_ = false;
-    std::optional<Report> failure_;  // once known
-    bool has_reported_ = false;      // and did not wait for the answer
-    std::mutex asking_;              // of the next three
-    std::map<std::uint64_t, OwnTiles> own_;
-    std::set<std::uint64_t> asked_;           // queues of whose tiles the first process was asked
-    std::map<std::uint64_t, Tiles> answers_;  // that came and were not waited for
-    std::mutex listening_;
+    std::optional<Report> failure_;  // combined failure, once known
+    bool has_reported_ = false;      // sent a report without waiting for the answer
+    std::mutex tiles_mutex_;         // guards the next three
+    std::map<std::uint64_t, LocalTiles> local_tiles_;
+    std::set<std::uint64_t> requested_;       // queues with a pending request to the root
+    std::map<std::uint64_t, Tiles> answers_;  // received for other queues
+    std::mutex listeners_mutex_;
     std::map<std::uint64_t, std::function<void(std::string)>> listeners_;  // null: ended
-    std::map<std::uint64_t, std::list<std::string>> early_;                // what came before a channel's listener
-    std::map<std::size_t, std::list<std::string>> direct_;  // what came of a process before it was waited for
+    std::map<std::uint64_t, std::list<std::string>> unclaimed_;            // received before the channel had a listener
+    std::map<std::size_t, std::list<std::string>> direct_;                 // received from each rank, not yet taken
     std::jthread server_;
 };
 

@@ -45,12 +45,12 @@ TEST_P(RanksTest, AllGetTheSumAndWhatTheFirstShares) {
     });
 }
 
-// A rank that fails gives its error to all, those that wait and those that take tiles, and all end with it.
+// The error of one rank ends all ranks: those that wait in a meeting and those that take tiles.
 TEST_P(RanksTest, AFailureOfOneIsThatOfAll) {
     const std::size_t size = GetParam();
     for (std::size_t failing = 0; failing < size; ++failing)
         run_ranks(size, [&](RankCommunicator& communicator) {
-            Report own;
+            Report local;
             try {
                 if (communicator.rank() == failing) throw Error(ErrorCode::bad_input, "the file is damaged");
                 if (communicator.rank() % 2 == 0) communicator.meet();
@@ -58,9 +58,9 @@ TEST_P(RanksTest, AFailureOfOneIsThatOfAll) {
                     std::this_thread::sleep_for(std::chrono::milliseconds(1));
                 communicator.meet();
             } catch (const Error& error) {
-                own = {true, static_cast<int>(error.code()), error.code(), 0, error.what()};
+                local = {true, static_cast<int>(error.code()), error.code(), 0, error.what()};
             }
-            const std::optional<Report> all = communicator.settle(own, patience);
+            const std::optional<Report> all = communicator.settle(local, patience);
             ASSERT_TRUE(all && all->failed);
             EXPECT_EQ(all->status, 3);
             EXPECT_EQ(all->code, ErrorCode::bad_input);
@@ -68,7 +68,7 @@ TEST_P(RanksTest, AFailureOfOneIsThatOfAll) {
         });
 }
 
-// A signal that reaches one process stops all of them, also in work that asks the team for nothing.
+// A stop of one rank stops all, even in work without communication.
 TEST_P(RanksTest, AStopOfOneStopsAll) {
     const std::size_t size = GetParam();
     run_ranks(size, [&](RankCommunicator& communicator) {
@@ -77,12 +77,12 @@ TEST_P(RanksTest, AStopOfOneStopsAll) {
         communicator.meet();
         if (communicator.rank() == size - 1) stop.request_stop();
         EXPECT_TRUE(comes_true([&] { return stop.stop_requested(); }));
-        const Report own{true, communicator.rank() == size - 1 ? 143 : 6, ErrorCode::cancelled, 0, "stopped"};
-        EXPECT_EQ(communicator.settle(own, patience)->status, 143);
+        const Report local{true, communicator.rank() == size - 1 ? 143 : 6, ErrorCode::cancelled, 0, "stopped"};
+        EXPECT_EQ(communicator.settle(local, patience)->status, 143);
     });
 }
 
-// Those that wait for all others when they are to stop do not wait for one that never comes, and say which it is.
+// After a stop, ranks do not wait for a lost rank, and report which one it is.
 TEST(RankCommunicator, StopsWithoutOneThatIsLost) {
     for (const std::size_t lost : {0, 1, 2}) {
         std::atomic<bool> other_has_given_up = false;
@@ -91,23 +91,23 @@ TEST(RankCommunicator, StopsWithoutOneThatIsLost) {
             communicator.stop_with(stop);
             communicator.meet();
             if (communicator.rank() == lost) return;
-            // The first one hears of the other before it looks who is silent, and the other of the first.
+            // The root receives the other's report before it collects the silent ranks, and vice versa.
             if (lost == 0 || communicator.is_root()) stop.request_stop();
             EXPECT_TRUE(comes_true([&] { return stop.stop_requested(); }));
             EXPECT_TRUE(comes_true([&] { return !communicator.is_root() || other_has_given_up; }));
             EXPECT_THROW(communicator.meet(), Error);
             other_has_given_up = true;
             std::vector<std::size_t> silent;
-            const Report own{true, 143, ErrorCode::cancelled, 0, "stopped"};
-            const auto hear = [&](const std::vector<std::size_t>& ranks) { silent = ranks; };
+            const Report local{true, 143, ErrorCode::cancelled, 0, "stopped"};
+            const auto record_silent = [&](const std::vector<std::size_t>& ranks) { silent = ranks; };
             if (lost == 0) return;
-            EXPECT_FALSE(communicator.settle(own, std::chrono::seconds(0), hear));
+            EXPECT_FALSE(communicator.settle(local, std::chrono::seconds(0), record_silent));
             EXPECT_EQ(silent, communicator.is_root() ? std::vector<std::size_t>{lost} : std::vector<std::size_t>{});
         });
     }
 }
 
-// One that comes to a meeting only when all others have given it up is stopped by their failure all the same.
+// A rank that reaches a meeting after all others have stopped waiting is still stopped by their failure.
 TEST_P(RanksTest, StopsOneThatComesLate) {
     const std::size_t others = GetParam() - 1;
     for (std::size_t late = 0; late < GetParam(); ++late) {
@@ -123,8 +123,8 @@ TEST_P(RanksTest, StopsOneThatComesLate) {
             } catch (const Error&) {
                 ++have_given_up;
             }
-            const Report own{true, 143, ErrorCode::cancelled, 0, "stopped"};
-            const std::optional<Report> all = communicator.settle(own, patience);
+            const Report local{true, 143, ErrorCode::cancelled, 0, "stopped"};
+            const std::optional<Report> all = communicator.settle(local, patience);
             EXPECT_TRUE(all && all->failed && all->status == 143);
         });
     }

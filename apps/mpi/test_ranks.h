@@ -14,7 +14,7 @@
 
 namespace hogel::mpi {
 
-/// Links between threads of this process.
+/// Links between threads of this process, for tests.
 class Post {
   public:
     explicit Post(std::size_t size) : size_(size) {}
@@ -48,23 +48,23 @@ class Post {
     std::map<std::pair<std::size_t, Kind>, std::deque<Message>> boxes_;
 };
 
-/// Runs work(team) in as many ranks. Teams end together, as processes do after MPI_Finalize.
+/// Runs work(communicator) on `size` ranks, each a thread. The communicators end together, as after MPI_Finalize().
 template <class Work>
 void run_ranks(std::size_t size, const Work& work) {
     Post post(size);
     std::vector<std::unique_ptr<Post::Box>> boxes;
-    std::vector<std::unique_ptr<RankCommunicator>> teams;
+    std::vector<std::unique_ptr<RankCommunicator>> communicators;
     for (std::size_t rank = 0; rank < size; ++rank) boxes.push_back(std::make_unique<Post::Box>(post, rank));
-    for (const auto& box : boxes) teams.push_back(std::make_unique<RankCommunicator>(*box));
+    for (const auto& box : boxes) communicators.push_back(std::make_unique<RankCommunicator>(*box));
     std::vector<std::jthread> ranks;
-    for (const auto& communicator : teams) ranks.emplace_back([&] { work(*communicator); });
+    for (const auto& communicator : communicators) ranks.emplace_back([&] { work(*communicator); });
     ranks.clear();
 }
 
-// After so long a test that waits for others fails: a hang, whatever the machine.
+// Time after which a waiting test fails: a hang on any machine.
 inline constexpr std::chrono::seconds patience{60};
 
-// Waits until something is the case; whether it was within `patience`.
+// Waits until `test` returns true. Returns false after `patience`.
 bool comes_true(const auto& test) {
     const auto end = std::chrono::steady_clock::now() + patience;
     while (!test()) {

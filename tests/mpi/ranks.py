@@ -493,7 +493,7 @@ def lost(run):
         _, error = process.communicate(timeout=PATIENCE)
         lines = lines_of_hogel(error)
         require(process.returncode != 0 and len(lines) == 1, "ended with", process.returncode, error)
-        require(lines[0].startswith(f"hogel: rank {rank} of 4 (process {victim}) was lost; what is done is kept"), lines)
+        require(lines[0].startswith(f"hogel: rank {rank} of 4 (process {victim}) was lost; completed work is saved"), lines)
         require(not made.exists() and kept.is_there(), "after the loss of rank", rank, "there is", run.left())
     status, _, error = run.ranks(3, *RENDER_LONG)
     require(status == 0 and made.read_bytes() == whole, "ended with", status, error)
