@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Arrays of NumPy and of the library share memory: neither is ever copied here.
+// NumPy arrays that share memory with arrays of the library. Nothing here copies.
 
 #include <pybind11/complex.h>
 #include <pybind11/numpy.h>
@@ -14,33 +14,33 @@
 
 namespace hogel::python {
 
-/// An array of NumPy over memory that `owner`, an object of Python, keeps alive.
+/// Returns a NumPy array over memory that the Python object `owner` keeps alive.
 template <class T, std::size_t Rank>
 py::array array_over(T* data, const Shape<Rank>& shape, const py::object& owner) {
     return py::array_t<std::remove_const_t<T>>(std::vector<py::ssize_t>(shape.begin(), shape.end()), data, owner);
 }
 
-/// An array of NumPy that takes over the memory of one of the library.
+/// Returns a NumPy array that takes ownership of the memory of an Array.
 template <class T, std::size_t Rank>
 py::array array_of(Array<T, Rank>&& array) {
-    auto* const kept = new Array<T, Rank>(std::move(array));
-    const py::capsule owner(kept, [](void* memory) { delete static_cast<Array<T, Rank>*>(memory); });
-    return array_over(kept->data(), kept->shape(), owner);
+    auto* const owned = new Array<T, Rank>(std::move(array));
+    const py::capsule owner(owned, [](void* memory) { delete static_cast<Array<T, Rank>*>(memory); });
+    return array_over(owned->data(), owned->shape(), owner);
 }
 
-/// The shape of an array of this rank. Throws Error(usage) for another rank.
+/// Returns the shape of an array. Throws Error(usage) for another rank.
 template <std::size_t Rank>
 Shape<Rank> shape_of(const py::array& array, const char* what) {
     if (array.ndim() != static_cast<py::ssize_t>(Rank))
         throw Error(ErrorCode::usage, what,
-                    std::string(what) + ": an array of " + std::to_string(Rank) + " axes was expected, not of " +
+                    std::string(what) + ": expected an array of " + std::to_string(Rank) + " axes, not of " +
                         std::to_string(array.ndim()));
     Shape<Rank> shape;
     for (std::size_t axis = 0; axis < Rank; ++axis) shape[axis] = static_cast<std::size_t>(array.shape(axis));
     return shape;
 }
 
-/// The elements of an array of NumPy with any strides, negative ones too. The object is alive while this is.
+/// Elements of a NumPy array with any strides, including negative ones. Keeps the Python object alive.
 template <class T, std::size_t Rank>
 class Strided {
   public:
@@ -48,7 +48,7 @@ class Strided {
     Strided(const py::array& array, const char* what)
         : shape_(shape_of<Rank>(array, what)), data_(static_cast<const char*>(array.data())), owner_(share(array)) {
         if (!py::isinstance<py::array_t<T>>(array) || (array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) == 0)
-            throw Error(ErrorCode::usage, what, std::string(what) + ": another type of numbers was expected");
+            throw Error(ErrorCode::usage, what, std::string(what) + ": wrong element type");
         std::size_t dense = sizeof(T);
         for (std::size_t axis = Rank; axis-- > 0; dense *= shape_[axis]) {
             strides_[axis] = array.strides(axis);
@@ -57,11 +57,11 @@ class Strided {
     }
 
     const Shape<Rank>& shape() const { return shape_; }
-    /// Whether elements lie as in a View, which data() then begins.
+    /// Returns whether the elements are contiguous in row-major order from data().
     bool is_dense() const { return is_dense_; }
     const T* data() const { return reinterpret_cast<const T*>(data_); }
     std::ptrdiff_t stride(std::size_t axis) const { return strides_[axis]; }
-    /// The address of an element, given by `Rank` indices.
+    /// Returns the address of an element, given by `Rank` indices.
     template <class... Index>
     const char* at(Index... index) const {
         static_assert(sizeof...(Index) == Rank);
@@ -79,7 +79,7 @@ class Strided {
         else
             for (std::size_t i = 0; i < count; ++i, from += step) to[i] = *reinterpret_cast<const T*>(from);
     }
-    /// The array itself.
+    /// Returns the Python array.
     const py::object& object() const { return *owner_; }
 
   private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// What the sources of the extension module hogel._core share: one source a noun, each of which adds its classes and
-// functions. Names are those of the C++ interface; the manners of Python (units, keywords, slices) are in ../hogel.
+// Declarations common to the sources of the extension module hogel._core. Each source adds the classes and functions of
+// one topic, under the names of the C++ interface. ../hogel adds the Pythonic interface (units, keywords, slices).
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -44,13 +44,13 @@ void add_plans(py::module_& module);
 void add_file_parts(py::module_& module);
 void add_make(py::module_& module);
 
-/// Runs work on another thread, without the lock of the interpreter, and waits for it. The calling thread looks
-/// for signals every 50 ms, so that Ctrl-C stops the work, which then leaves nothing half-written, and raises
-/// KeyboardInterrupt. `report`, unless it is None, is called with the fraction done on the calling thread; it stops the
-/// work by returning False or raising an exception. Exceptions of the work are thrown here.
+/// Runs work on another thread without the GIL and waits for it. The calling thread checks for signals every 50 ms:
+/// Ctrl-C stops the work, which leaves no incomplete files, and raises KeyboardInterrupt. If `report` is not None, the
+/// calling thread calls it with the fraction done; it stops the work by returning False or raising an exception.
+/// Rethrows exceptions of the work.
 void run(const py::object& report, const std::function<void(const Progress&)>& work);
 
-/// As run(), for work with a result.
+/// Like run(), for work with a result.
 template <class Work>
 auto run_for(const py::object& report, const Work& work) {
     using Result = std::invoke_result_t<const Work&, const Progress&>;
@@ -59,13 +59,13 @@ auto run_for(const py::object& report, const Work& work) {
     return std::move(*result);
 }
 
-/// Shares an object of Python with code that does not hold the lock, which is taken when the object is released.
+/// Shares a Python object with code that does not hold the GIL. Releasing the object acquires the GIL.
 std::shared_ptr<const py::object> share(py::object object);
 
-/// The value of a dictionary or a list of pairs as metadata; None: empty.
+/// Converts a dictionary or a list of pairs to metadata; None: empty.
 Metadata metadata_of(const py::object& entries);
 
-/// The measures of a comparison of pictures, by name.
+/// Converts a comparison of pictures to a dictionary.
 py::dict dictionary_of(const ImageComparison& comparison);
 
 }  // namespace hogel::python

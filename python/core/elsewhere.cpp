@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fields of other programs, recorded holograms, and where they are in focus.
+// Fields of other programs, recorded holograms, and focus search.
 #include "core.h"
 #include "hogel/field.h"
 #include "hogel/files.h"
@@ -14,7 +14,7 @@ namespace {
 using py::arg;
 using Source = std::shared_ptr<const FieldSource>;
 
-// The parameters of Hologram.open(), with the values of keywords.
+// Parameters of Hologram.open(), from keywords.
 struct FieldKeywords {
     FieldParameters values;
     Parameters table;
@@ -32,18 +32,18 @@ struct FieldKeywords {
 
 void add_openers(py::module_& module) {
     module.def("field_keywords", [] {
-        const FieldKeywords none;
-        return described(none.table);
+        const FieldKeywords defaults;
+        return described(defaults.table);
     });
     module.def(
         "open_fields",
         [](const py::dict& keywords, const std::string& name, const py::object& report) {
-            FieldKeywords asked(keywords);
+            FieldKeywords parsed(keywords);
             const OpenedFields opened = run_for(
-                report, [&](const Progress& p) { return asked.values.open_and_reconstruct(name, asked.table, p); });
-            return py::make_tuple(opened.fields, asked.table.acting());
+                report, [&](const Progress& p) { return parsed.values.open_and_reconstruct(name, parsed.table, p); });
+            return py::make_tuple(opened.fields, parsed.table.acting());
         },
-        arg("keywords"), arg("name"), arg("report"), "The fields of a file, and the options that acted.");
+        arg("keywords"), arg("name"), arg("report"), "Returns the fields of a file, and the options that acted.");
 }
 
 void add_external_fields(py::module_& module) {
@@ -80,20 +80,20 @@ void add_external_fields(py::module_& module) {
         .def_readonly("phase_code", &ExternalFacts::phase_code);
     module.def(
         "external_facts",
-        [](const std::filesystem::path& path, const ExternalField& what) {
-            return run_for(py::none(), [&](const Progress&) { return external_facts(path, what); });
+        [](const std::filesystem::path& path, const ExternalField& description) {
+            return run_for(py::none(), [&](const Progress&) { return external_facts(path, description); });
         },
         arg("path"), arg("what"));
     module.def(
         "open_external_field",
-        [](const std::filesystem::path& path, const ExternalField& what) {
-            return run_for(py::none(), [&](const Progress&) { return open_external_field(path, what); });
+        [](const std::filesystem::path& path, const ExternalField& description) {
+            return run_for(py::none(), [&](const Progress&) { return open_external_field(path, description); });
         },
         arg("path"), arg("what"));
     module.def(
         "field_entries",
-        [](const ExternalField& what, const std::vector<double>& wavelengths) {
-            return field_entries(what, wavelengths);
+        [](const ExternalField& description, const std::vector<double>& wavelengths) {
+            return field_entries(description, wavelengths);
         },
         arg("what"), arg("wavelengths"));
     module.def("is_external_field", &is_external_field, arg("path"), py::call_guard<py::gil_scoped_release>());
@@ -152,9 +152,9 @@ void add_orders(py::module_& module) {
                                                                      s.reference_source->z})
                                           : std::nullopt;
             },
-            [](OrderSelection& s, const std::optional<std::array<double, 3>>& at) {
+            [](OrderSelection& s, const std::optional<std::array<double, 3>>& position) {
                 s.reference_source.reset();
-                if (at) s.reference_source = Vec3{(*at)[0], (*at)[1], (*at)[2]};
+                if (position) s.reference_source = Vec3{(*position)[0], (*position)[1], (*position)[2]};
             })
         .def_readwrite("which", &OrderSelection::which)
         .def_readwrite("frequency_x", &OrderSelection::frequency_x)
@@ -162,10 +162,10 @@ void add_orders(py::module_& module) {
         .def_readwrite("radius", &OrderSelection::radius);
     module.def(
         "select_order",
-        [](const Source& hologram, const OrderSelection& how, const py::object& report) {
-            auto made = run_for(report, [&](const Progress& p) { return select_order(*hologram, how, p); });
-            Source field = std::make_shared<const Field>(std::move(made.field));
-            return py::make_tuple(std::move(field), made.frequency_x, made.frequency_y, made.radius);
+        [](const Source& hologram, const OrderSelection& order, const py::object& report) {
+            auto selected = run_for(report, [&](const Progress& p) { return select_order(*hologram, order, p); });
+            Source field = std::make_shared<const Field>(std::move(selected.field));
+            return py::make_tuple(std::move(field), selected.frequency_x, selected.frequency_y, selected.radius);
         },
         arg("hologram"), arg("selection"), arg("report"));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Complex fields: in memory, from arrays, in files, from plane to plane.
+// Complex fields: in memory, from arrays, in files, and their propagation.
 #include "hogel/field.h"
 
 #include <algorithm>
@@ -20,15 +20,14 @@ using py::arg;
 using Complex = std::complex<float>;
 using Source = std::shared_ptr<const FieldSource>;
 
-// A field in an array of NumPy, which is not copied.
+// Field over a NumPy array, without a copy.
 class ArrayField final : public FieldSource {
   public:
     ArrayField(const FieldGrid& grid, const py::array& samples, const py::object& metadata)
         : grid_(grid), samples_(samples, "samples"), provenance_{metadata_of(metadata), {}} {
         validate(grid, ErrorCode::usage, "field");
         if (samples_.shape() != Shape<2>{grid.plane.height, grid.plane.width})
-            throw Error(ErrorCode::usage, "samples",
-                        "samples: an array [y][x] of the grid's numbers of samples was expected");
+            throw Error(ErrorCode::usage, "samples", "samples: expected an array [y][x] of the size of the grid");
     }
     const FieldGrid& grid() const override { return grid_; }
     const Provenance& provenance() const override { return provenance_; }
@@ -45,8 +44,7 @@ class ArrayField final : public FieldSource {
     Provenance provenance_;
 };
 
-// A field whose rectangles a function of Python computes: function(x0, y0, width, height) -> [y][x]. Only one thread at
-// a time is in it.
+// Field computed by a Python function: function(x0, y0, width, height) -> [y][x]. Calls of the function are serialised.
 class FunctionField final : public FieldSource {
   public:
     FunctionField(const FieldGrid& grid, const py::object& function, const py::object& metadata)
@@ -62,7 +60,7 @@ class FunctionField final : public FieldSource {
         const auto values = py::array_t<Complex, py::array::c_style | py::array::forcecast>::ensure(made);
         if (!values) throw py::error_already_set();
         if (shape_of<2>(values, "samples") != out.shape())
-            throw Error(ErrorCode::usage, "samples: the function returned an array of another shape");
+            throw Error(ErrorCode::usage, "samples: the function returned an array of the wrong shape");
         std::copy_n(values.data(), out.size(), out.data());
     }
 
@@ -72,7 +70,7 @@ class FunctionField final : public FieldSource {
     Provenance provenance_;
 };
 
-// A rectangle of the samples of a field, as a field of its own.
+// Region of a field, as a field.
 class Cut final : public FieldSource {
   public:
     Cut(const FieldSource& whole, const Region& region, std::size_t look)
@@ -92,7 +90,7 @@ class Cut final : public FieldSource {
     FieldGrid grid_;
 };
 
-// The samples of a rectangle as an array [y][x], computed on all threads.
+// Returns the samples of a region as an array [y][x], computed on all threads.
 py::array read_region(const Source& field, const Region& region, std::size_t look, const py::object& report) {
     if (region.width == 0 || region.height == 0)
         return py::array_t<Complex>(
@@ -106,7 +104,7 @@ py::array read_region(const Source& field, const Region& region, std::size_t loo
     return array_of(std::move(samples.samples));
 }
 
-// The array of a field that is in memory, without a copy; None for other fields.
+// Returns the array of a field in memory, without a copy; None for other fields.
 py::object samples_in_memory(const Source& field) {
     if (const auto* array = dynamic_cast<const ArrayField*>(field.get())) return array->samples();
     const auto* const whole = dynamic_cast<const Field*>(field.get());

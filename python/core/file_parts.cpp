@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that several programs write together, each a part.
+// Files written in parts by several processes.
 #include "hogel/pipeline.h"
 
 #include "core.h"

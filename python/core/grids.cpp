@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Samplings: values that can be compared and pickled.
+// Sampling grids: value types with equality and pickling.
 #include <pybind11/operators.h>
 
 #include "core.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Holograms: from light fields, and in files.
+// Holograms: computed from light fields and scenes, and in files.
 #include "hogel/hologram.h"
 
 #include <algorithm>
@@ -66,7 +66,7 @@ void add_methods(py::module_& module) {
     module.def("needs_depth", &needs_depth, arg("method"));
 }
 
-// The parameters of Scene.hologram(), with the values of keywords.
+// Parameters of Scene.hologram(), from keywords.
 struct SceneHologramKeywords {
     std::uint64_t seed = 1;
     HologramParameters hologram;
@@ -79,13 +79,13 @@ struct SceneHologramKeywords {
         place.declare(table);
         place.declare_hemicube(table);
         read_keywords(table, keywords);
-        place.cache_spacing = 0;  // it is in widths of a ray, and there are no rays
+        place.cache_spacing = 0;  // in ray widths; this method has no rays
     }
 
     SceneHologramRequest request() const { return hologram.scene_request(seed, place); }
 };
 
-// The method is a keyword that must be given.
+// Returns whether a parameter is a keyword of Scene.hologram(). The method itself is a separate argument.
 bool is_of_scene_holograms(const Parameter& each) {
     constexpr std::array<std::string_view, 4> own{"wavelength", "pitch", "spacing", "planes"};
     return each.group == "Hologram" ? std::ranges::count(own, each.name) > 0
@@ -95,7 +95,7 @@ bool is_of_scene_holograms(const Parameter& each) {
 Metadata scene_hologram_record(const py::dict& keywords, const Scene& placed, bool is_file) {
     SceneHologramKeywords asked(keywords);
     asked.place.scene.resolve(placed, is_file);
-    asked.place.scene.has_background = false;  // what no surface sends out is not seen
+    asked.place.scene.has_background = false;  // only surfaces emit light
     asked.place.resolve(placed);
     asked.hologram.resolve(scene_hologram_methods().find(asked.hologram.method));
     return asked.table.acting();
@@ -124,7 +124,7 @@ void add_scene_holograms(py::module_& module) {
         "scene_hologram_place",
         [](const py::dict& keywords) {
             const SceneHologramKeywords asked(keywords);
-            static_cast<void>(asked.request());  // throws before a scene is made
+            static_cast<void>(asked.request());  // throws before a scene is loaded
             return asked.place.request();
         },
         arg("keywords"));

@@ -12,13 +12,12 @@ namespace {
 
 using py::arg;
 
-// The array owns its elements, so that a picture is one copy of what is given.
+// Creates a picture with a copy of the pixels.
 std::shared_ptr<Image> image_of(const py::array_t<float, py::array::c_style>& pixels) {
     const Shape<3> shape = shape_of<3>(pixels, "pixels");
     if (shape[2] != 1 && shape[2] != 3)
-        throw Error(
-            ErrorCode::usage, "pixels",
-            "pixels: an array [y][x][c] of one or three channels was expected, not of " + std::to_string(shape[2]));
+        throw Error(ErrorCode::usage, "pixels",
+                    "pixels: expected an array [y][x][c] of one or three channels, not of " + std::to_string(shape[2]));
     auto image = std::make_shared<Image>(shape[1], shape[0], shape[2]);
     std::copy_n(pixels.data(), image->pixels.size(), image->pixels.data());
     return image;

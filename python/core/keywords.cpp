@@ -14,8 +14,8 @@
 namespace hogel::python {
 namespace {
 
-// What Python says of a value; of one that UTF-8 cannot say, what it says in ASCII.
-std::string said(const py::handle& value) {
+// Returns str(value), or ascii(value) if UTF-8 cannot encode the former.
+std::string utf8_text(const py::handle& value) {
     for (const auto say : {PyObject_Str, PyObject_ASCII}) {
         const auto text = py::reinterpret_steal<py::object>(say(value.ptr()));
         const char* const bytes = text ? PyUnicode_AsUTF8(text.ptr()) : nullptr;
@@ -30,7 +30,7 @@ bool is_boolean(const py::handle& value) {
     return type == "bool" || type == "numpy.bool_" || type == "numpy.bool";
 }
 
-// Bytes are no list of numbers here, and an array without axes is a number.
+// Returns whether a value is a sequence. Bytes are not, and a 0-dimensional array is a number.
 bool is_list(const py::handle& value) {
     if (PyBytes_Check(value.ptr()) || PyByteArray_Check(value.ptr()) || PyMemoryView_Check(value.ptr())) return false;
     if (PySequence_Check(value.ptr()) != 0 && PySequence_Size(value.ptr()) >= 0) return true;
@@ -38,7 +38,7 @@ bool is_list(const py::handle& value) {
     return false;
 }
 
-// Whatever is no number is a text that the parameter refuses by its name.
+// Returns the value as a number, or nothing. The caller then passes its text to the parameter, which reports the error.
 std::optional<double> number_of(const py::handle& value) {
     if (is_boolean(value)) return {};
     const double number = PyFloat_AsDouble(value.ptr());
@@ -48,20 +48,20 @@ std::optional<double> number_of(const py::handle& value) {
 }
 
 std::string whole_text(const py::handle& value) {
-    if (is_boolean(value)) return said(value);
+    if (is_boolean(value)) return utf8_text(value);
     const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
     PyErr_Clear();
-    return said(whole ? whole : value);
+    return utf8_text(whole ? whole : value);
 }
 
-// One number of a parameter, a text, a path, or a phase code.
+// Converts one element: a number, a text, a path, or a phase code.
 std::string element_text(ParameterKind kind, const py::handle& value) {
-    if (py::isinstance<py::str>(value)) return said(value);
+    if (py::isinstance<py::str>(value)) return utf8_text(value);
     if (py::isinstance<PhaseCode>(value)) return phase_code_text(value.cast<PhaseCode>());
-    if (py::hasattr(value, "__fspath__")) return said(value.attr("__fspath__")());
+    if (py::hasattr(value, "__fspath__")) return utf8_text(value.attr("__fspath__")());
     if (kind == ParameterKind::counts || kind == ParameterKind::resolution) return whole_text(value);
     const std::optional<double> number = number_of(value);
-    if (!number || !std::isfinite(*number)) return said(value);
+    if (!number || !std::isfinite(*number)) return utf8_text(value);
     if (kind == ParameterKind::text) return fmt::format("{}", *number);
     const bool is_angle =
         kind == ParameterKind::angle || kind == ParameterKind::angles || kind == ParameterKind::rotation;
@@ -75,7 +75,7 @@ std::string list_text(ParameterKind kind, const py::handle& values) {
         texts.push_back(element_text(kind, value));
         if (const auto number = number_of(value); number && std::isfinite(*number)) numbers.push_back(*number);
     }
-    // As the command line writes what all has one unit.
+    // With one common unit, like the command line.
     if (kind == ParameterKind::angles && texts.size() == 2 && numbers.size() == 2)
         return angles_text({numbers[0], numbers[1]});
     if (kind == ParameterKind::point && texts.size() == 3 && numbers.size() == 3)
@@ -87,13 +87,13 @@ std::string list_text(ParameterKind kind, const py::handle& values) {
 }
 
 std::string flag_text(const py::handle& value) {
-    const std::string text = is_boolean(value) ? said(value) : whole_text(value);
+    const std::string text = is_boolean(value) ? utf8_text(value) : whole_text(value);
     return text == "True" || text == "1" ? "yes" : text == "False" || text == "0" ? "no" : text;
 }
 
-// A value of Python as the command line writes it.
+// Converts a Python value to the text of the command line.
 std::string text_of(ParameterKind kind, const py::handle& value) {
-    if (py::isinstance<py::str>(value)) return said(value);
+    if (py::isinstance<py::str>(value)) return utf8_text(value);
     switch (kind) {
         case ParameterKind::flag:
             return flag_text(value);
@@ -102,17 +102,17 @@ std::string text_of(ParameterKind kind, const py::handle& value) {
             return whole_text(value);
         case ParameterKind::number:
             if (const auto number = number_of(value)) return fmt::format("{}", *number);
-            return said(value);
+            return utf8_text(value);
         case ParameterKind::texts:
-            return is_list(value) ? said(py::str(" ").attr("join")(value)) : said(value);
+            return is_list(value) ? utf8_text(py::str(" ").attr("join")(value)) : utf8_text(value);
         case ParameterKind::choice:
-            return said(value);
+            return utf8_text(value);
         default:
             return is_list(value) ? list_text(kind, value) : element_text(kind, value);
     }
 }
 
-// Sets a parameter, unless it is a flag that is off; errors name it.
+// Sets a parameter, unless it is a flag with the value "no". Errors contain its name.
 void read(Parameter& parameter, const std::string& name, const py::handle& value) {
     const std::string text = text_of(parameter.kind, value);
     if (parameter.kind == ParameterKind::flag && text == "no") return;

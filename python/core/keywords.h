@@ -9,16 +9,16 @@
 
 namespace hogel::python {
 
-/// Sets the parameters that keywords name. None stands for the default. Throws Error(usage), which
-/// names the parameter.
+/// Sets parameters from keywords of the same names. None stands for the default. Throws Error(usage) with the name of
+/// the parameter.
 void read_keywords(Parameters& parameters, const py::dict& keywords);
 
-/// Name, default as text and help of each wanted parameter.
+/// Returns name, default as text, and help of each selected parameter.
 py::list described(
     const Parameters& parameters,
     const std::function<bool(const Parameter&)>& is_wanted = [](const Parameter&) { return true; });
 
-/// The parameters of hogel/requests.h with the values of keywords. Keywords of other parameters are ignored.
+/// A parameter struct of hogel/requests.h with values from keywords. Other keywords are ignored.
 template <class Values>
 struct Keywords {
     Values values;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light fields in files: HDF5, compressed ones, sets of views.
+// Light fields in files: HDF5, compressed files, sets of views.
 #include "arrays.h"
 #include "core.h"
 #include "hogel/compress.h"

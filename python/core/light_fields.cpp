@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light fields in memory, from arrays and from functions of Python, and what is read of them.
+// Light fields in memory, from arrays and Python functions, and reading of slices.
 #include "hogel/light_field.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 using py::arg;
 
-// A light field in an array of NumPy, which is not copied.
+// Light field over a NumPy array, without a copy.
 class ArraySource final : public LightFieldSource {
   public:
     ArraySource(const LightFieldGrid& grid, const py::array& radiance, const std::optional<py::array>& depth)
@@ -23,8 +23,8 @@ class ArraySource final : public LightFieldSource {
         if (radiance_.shape() != expected ||
             (depth_ && depth_->shape() != Shape<4>{expected[1], expected[2], expected[3], expected[4]}))
             throw Error(ErrorCode::usage, "radiance, depth",
-                        "radiance, depth: arrays [c][t][s][v][u] and [t][s][v][u] of the grid's "
-                        "numbers of samples were expected");
+                        "radiance, depth: expected arrays [c][t][s][v][u] and [t][s][v][u] of the size "
+                        "of the grid");
     }
 
     const LightFieldGrid& grid() const override { return grid_; }
@@ -35,7 +35,7 @@ class ArraySource final : public LightFieldSource {
     }
     void read(LightFieldTile& tile) const override {
         const HogelRange& range = tile.range;
-        // Hogels of a row that lie one after the other are copied at once.
+        // Copies contiguous hogels of a row at once.
         if (radiance_.is_dense() && !(depth_ && tile.depth.size() > 0)) {
             const std::size_t row = range.ns * grid_.directions();
             for (std::size_t c = 0; c < grid_.channels; ++c)
@@ -64,7 +64,7 @@ class ArraySource final : public LightFieldSource {
     std::optional<Strided<float, 4>> depth_;
 };
 
-// A light field whose tiles a function of Python computes. Only one thread at a time is in it.
+// Light field computed tile by tile by a Python function. Calls of the function are serialised.
 class FunctionSource final : public LightFieldSource {
   public:
     FunctionSource(const LightFieldGrid& grid, py::object function, bool with_depth)
@@ -93,7 +93,7 @@ class FunctionSource final : public LightFieldSource {
         const auto values = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(from);
         if (!values) throw py::error_already_set();
         if (shape_of<Rank>(values, what) != to.shape())
-            throw Error(ErrorCode::usage, std::string(what) + ": the function returned an array of another shape");
+            throw Error(ErrorCode::usage, std::string(what) + ": the function returned an array of the wrong shape");
         std::copy_n(values.data(), to.size(), to.data());
     }
 
@@ -102,7 +102,7 @@ class FunctionSource final : public LightFieldSource {
     bool with_depth_;
 };
 
-// A destination that calls a function of Python with every tile, one at a time.
+// Sink that calls a Python function with every tile, one at a time.
 class FunctionSink final : public LightFieldSink {
   public:
     FunctionSink(const py::object& function, bool with_depth) : function_(function), with_depth_(with_depth) {}
@@ -120,14 +120,14 @@ class FunctionSink final : public LightFieldSink {
     bool with_depth_;
 };
 
-// The elements of an axis that a slice takes.
+// Elements of an axis selected by a slice.
 struct Axis {
     std::size_t begin = 0, count = 0, step = 1;
     std::size_t at(std::size_t i) const { return begin + i * step; }
     bool is_whole(std::size_t length) const { return count == length && step == 1; }
 };
 
-// A rectangle of hogels of a source, so that copy() streams what a slice needs and no more.
+// Region of hogels of a source: limits copy() to the hogels that a slice needs.
 class Part final : public LightFieldSource {
   public:
     Part(const LightFieldSource& whole, const HogelRange& range) : whole_(whole), range_(range), grid_(whole.grid()) {
@@ -154,8 +154,8 @@ class Part final : public LightFieldSource {
     LightFieldGrid grid_;
 };
 
-// Keeps the elements that a slice takes of each tile. Axes t and s count from the first hogel of the part. Hogels of a
-// row that are taken whole are copied at once.
+// Copies the elements selected by slices from each tile. Axes t and s count from the first hogel of the part. Complete
+// hogels of a row are copied at once.
 class Picker final : public LightFieldSink {
   public:
     Picker(const std::array<Axis, 5>& axes, const LightFieldGrid& grid, float* to, bool depth)
@@ -170,7 +170,7 @@ class Picker final : public LightFieldSink {
         const std::size_t hogel = v.count * u.count;
         for (std::size_t channel = 0; channel < c.count; ++channel)
             for (std::size_t j = 0; j < t.count; ++j) {
-                const std::size_t row = j * t.step - tile.range.t0;  // wraps around where it is before the tile
+                const std::size_t row = j * t.step - tile.range.t0;  // wraps around if it is before the tile
                 if (row >= tile.range.nt) continue;
                 float* const out = to_ + (channel * t.count + j) * s.count * hogel;
                 if (takes_rows_) {
@@ -190,7 +190,7 @@ class Picker final : public LightFieldSink {
     }
 
   private:
-    // The directions of a hogel from this row of them on.
+    // Returns a pointer to row v of the directions of a hogel.
     const float* sample(const LightFieldTile& tile, std::size_t c, std::size_t t, std::size_t s, std::size_t v) const {
         return depth_ ? &tile.depth(t, s, v, 0) : &tile.radiance(c, t, s, v, 0);
     }
@@ -200,7 +200,7 @@ class Picker final : public LightFieldSink {
     bool depth_, takes_rows_;
 };
 
-// The elements of one face that slices with positive steps take, as an array with all five axes, of depth with one
+// Returns the elements of one face selected by slices with positive steps, as an array of five axes; for depth with one
 // channel.
 py::array read_slices(const LightField& light_field, std::size_t face, const std::array<std::size_t, 15>& slices,
                       bool depth, const py::object& report) {
@@ -242,13 +242,13 @@ LightField load(const LightField& light_field, bool with_depth, const py::object
     });
 }
 
-// The array of a face that is in memory, without a copy; None for other faces.
+// Returns the array of a face in memory, without a copy; None for other faces.
 py::object memory_of(const LightField& light_field, std::size_t face) {
     const LightField::Source& source = light_field.faces()[face];
     if (const auto* array = dynamic_cast<const ArraySource*>(source.get())) return array->radiance();
     const View<const float, 5> view = source->in_memory();
     if (view.size() == 0) return py::none();
-    // What is in memory here was made as a LightFieldBuffer, whose elements are not constant.
+    // Memory here was created as a LightFieldBuffer, which is not const.
     return array_over(const_cast<float*>(view.data()), view.shape(), py::cast(light_field));
 }
 

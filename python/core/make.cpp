@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole recipe: from a scene to its hologram and photographs.
+// All steps from a scene to its hologram and photographs.
 #include "hogel/make.h"
 
 #include "core.h"
@@ -61,7 +61,7 @@ void add_requests(py::module_& module) {
         arg("light_field"), arg("hologram"), arg("cameras"), arg("model"));
 }
 
-// The facts of what was made; pictures are copied.
+// Class of the results; pictures are copied.
 void add_made(py::module_& module) {
     py::class_<ComparedImage>(module, "ComparedImage")
         .def_property_readonly("image", [](const ComparedImage& compared) { return compared.image; })

@@ -12,14 +12,14 @@ namespace {
 
 using py::arg;
 
-// Rows of an array [n][Columns]; None: no rows.
+// Returns the rows of an array [n][Columns]; None: no rows.
 template <class Row, class T, std::size_t Columns>
 std::vector<Row> rows_of(const std::optional<py::array_t<T, py::array::c_style>>& array, const char* what) {
     if (!array) return {};
     const Shape<2> shape = shape_of<2>(*array, what);
     if (shape[1] != Columns)
         throw Error(ErrorCode::usage, what,
-                    std::string(what) + ": rows of " + std::to_string(Columns) + " numbers were expected, not of " +
+                    std::string(what) + ": expected rows of " + std::to_string(Columns) + " numbers, not of " +
                         std::to_string(shape[1]));
     std::vector<Row> rows(shape[0]);
     for (std::size_t i = 0; i < shape[0]; ++i) {
@@ -69,7 +69,7 @@ py::array array_from(const std::vector<Row>& rows) {
     return array;
 }
 
-// A texture that may be absent, as a picture or None.
+// Adds an optional texture as a picture or None.
 void add_texture(py::class_<Material>& to, const char* name, std::shared_ptr<const Image> Material::*member) {
     to.def_property(
         name, [member](const Material& m) { return std::const_pointer_cast<Image>(m.*member); },
@@ -116,7 +116,7 @@ void add_materials(py::module_& module) {
     add_texture(material, "occlusion_texture", &Material::occlusion_texture);
 }
 
-// The texture coordinates of a mesh as an array [n][2].
+// Returns the texture coordinates of a mesh as an array [n][2].
 auto coordinates(std::vector<TextureCoordinate> Mesh::*member) {
     return [member](const Mesh& m) { return array_from<TextureCoordinate, float, 2>(m.*member); };
 }

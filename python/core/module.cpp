@@ -4,7 +4,7 @@
 
 PYBIND11_MODULE(_core, module) {
     using namespace hogel::python;
-    module.doc() = "The C++ interface of hogel under its own names; the package hogel is what to use.";
+    module.doc() = "The C++ interface of hogel under its own names. Use the package hogel instead.";
     module.attr("__version__") = HOGEL_VERSION;
     add_errors(module);
     add_units(module);

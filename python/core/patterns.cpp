@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Patterns of modulators, and pictures as plain numbers.
+// Modulator patterns, and pictures as raw pixel values.
 #include "hogel/pattern.h"
 
 #include "arrays.h"
@@ -63,7 +63,7 @@ void add_encodings(py::module_& module) {
         "modulator", [](const std::string& name) { return modulators().find(name); }, arg("name"));
 }
 
-// The numbers of a picture and what they count up to.
+// Raw pixel values of a picture and their maximum.
 template <class Raw, class Values>
 py::tuple numbers_of(Raw&& raw, Values Raw::*values, std::size_t largest) {
     return py::make_tuple(array_of(std::move(raw.*values)), largest);

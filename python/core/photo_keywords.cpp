@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras, photographs and the whole recipe from keywords, by the parameters that the command line has.
+// Cameras, photographs and make() from keywords, by the parameter structs of the command line.
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -13,17 +13,17 @@ namespace hogel::python {
 namespace {
 
 using py::arg;
-/// The light field and the request of holograms that are computed when they are read.
+/// Light field and request of holograms that are computed on demand.
 using Origin = std::optional<std::pair<LightField, HologramRequest>>;
 
-// The parameters of photographs, with the values of keywords.
+// Parameters of photographs, from keywords.
 struct PhotoKeywords {
     bool expected = false;  // --speckle none
     PhotoParameters values;
     Parameters table;
 
     explicit PhotoKeywords(const py::dict& keywords = {}) {
-        values.is_linear = true;  // what saves the picture says its exposure
+        values.is_linear = true;  // Picture.save() stores the exposure
         values.declare(table);
         table.flag("--expected", expected, "As speckle=\"none\"").never_acts();
         read_keywords(table, keywords);
@@ -50,7 +50,7 @@ struct MakeKeywords {
     }
 };
 
-// The parameters of one camera, and others of photographs.
+// Parameters of one camera, and the given others of photographs.
 py::list described_photo(const std::vector<std::string>& others) {
     const PhotoKeywords photo;
     const Keywords<CameraParameters> camera;

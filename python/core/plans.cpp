@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What work needs, before it begins.
+// Resources that work needs, before it begins.
 #include "core.h"
 #include "hogel/pipeline.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Requests from keywords, by the parameters that the command line has.
+// Requests from keywords, by the parameter structs of the command line.
 #include "hogel/requests.h"
 
 #include <initializer_list>
@@ -18,7 +18,7 @@ void declare_light_field(LightFieldParameters& light_field, Parameters& table) {
     light_field.declare_directions(table);
 }
 
-// The parameters of Scene.render(), with the values of keywords.
+// Parameters of Scene.render(), from keywords.
 struct LightFieldKeywords {
     LightFieldParameters values;
     Parameters table;
@@ -51,7 +51,7 @@ Metadata light_field_record(const py::dict& keywords, const Scene& placed, bool 
     return asked.table.acting();
 }
 
-// The names of the parameters of a command: of its operands and its output, and then of groups.
+// Names of the parameters of a command: its operands and output options first, then groups.
 class Order {
   public:
     Order(std::initializer_list<const char*> first) : names_{"seed"} {
@@ -81,7 +81,7 @@ void declare_field(FieldParameters& field, Parameters& table) {
     field.declare_reconstruction(table);
 }
 
-// The parameters of each command whose files say what made them, in the order in which the command line declares them.
+// Returns the parameters of each command whose files store their options, in the order of the command line.
 std::vector<std::pair<std::string, std::vector<std::string>>> command_parameters() {
     return {{"render", Order{"scene", "depth", "float", "sqnr"}.of<LightFieldParameters>(declare_light_field)},
             {"compress", Order{"input"}.of<CompressionParameters>()},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Long work beside the interpreter.
+// Runs long work on a thread without the GIL.
 #include <unistd.h>
 
 #include <atomic>
@@ -16,10 +16,10 @@
 namespace hogel::python {
 namespace {
 
-constexpr std::chrono::milliseconds between_looks{50};
+constexpr std::chrono::milliseconds poll_interval{50};
 
-// A thread that works for the callers of run(), one after the other. It stays from call to call, because the library
-// keeps memory for each thread: a new thread would fill its caches anew (0.2 to 2 ms of a call).
+// Thread that runs the work of run(). It is reused between calls, because the library caches memory per thread: a new
+// thread would cost 0.2 to 2 ms per call.
 class Worker {
   public:
     Worker() {
@@ -31,12 +31,12 @@ class Worker {
         failure_ = nullptr;
         changed_.notify_all();
     }
-    // Whether the job ended while the caller waited.
+    // Waits for up to poll_interval. Returns whether the job has ended.
     bool wait() {
         std::unique_lock lock(mutex_);
-        return changed_.wait_for(lock, between_looks, [this] { return !job_; });
+        return changed_.wait_for(lock, poll_interval, [this] { return !job_; });
     }
-    // What the job that ended has thrown.
+    // Returns the exception of the job that ended, or null.
     std::exception_ptr failure() { return std::exchange(failure_, nullptr); }
 
   private:
@@ -64,8 +64,8 @@ class Worker {
     std::exception_ptr failure_;
 };
 
-// The workers that wait for a caller: as many as there were calls at once. They end with the process, and a process
-// that was forked, which has none of its parent's threads, makes its own.
+// Pool of idle workers, as many as there were concurrent calls. They end with the process. A forked process has none of
+// its parent's threads and creates its own.
 class Workers {
   public:
     Worker* take() {
@@ -89,17 +89,17 @@ class Workers {
 };
 
 Workers& workers() {
-    static auto& all = *new Workers;  // for threads that still work when the process ends
+    static auto& all = *new Workers;  // never destroyed: threads may still run at exit
     return all;
 }
 
-// Throws what a signal's handler raised, KeyboardInterrupt after Ctrl-C.
-void look_for_signals() {
+// Throws the exception raised by a signal handler: KeyboardInterrupt after Ctrl-C.
+void check_signals() {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
-// Whether to go on.
-bool tell(const py::object& report, double fraction) {
+// Returns whether to continue.
+bool report_progress(const py::object& report, double fraction) {
     if (report.is_none()) return true;
     const py::object answer = report(fraction);
     return answer.is_none() || answer.cast<bool>();
@@ -109,9 +109,9 @@ bool tell(const py::object& report, double fraction) {
 
 void run(const py::object& report, const std::function<void(const Progress&)>& work) {
     std::stop_source stop;
-    std::atomic<double> done = 0;
+    std::atomic<double> completed = 0;
     const Progress progress(stop.get_token(), [&](double fraction) {
-        done = fraction;
+        completed = fraction;
         return true;
     });
     Worker* const worker = workers().take();
@@ -124,8 +124,8 @@ void run(const py::object& report, const std::function<void(const Progress&)>& w
     while (!ended()) {
         if (raised) continue;
         try {
-            look_for_signals();
-            if (!tell(report, done)) stop.request_stop();
+            check_signals();
+            if (!report_progress(report, completed)) stop.request_stop();
         } catch (...) {
             raised = std::current_exception();
             stop.request_stop();
@@ -135,12 +135,12 @@ void run(const py::object& report, const std::function<void(const Progress&)>& w
     workers().give_back(worker);
     if (raised) std::rethrow_exception(raised);
     if (failure) std::rethrow_exception(failure);
-    if (!tell(report, 1)) throw Error(ErrorCode::cancelled, "stopped on request");
+    if (!report_progress(report, 1)) throw Error(ErrorCode::cancelled, "stopped on request");
 }
 
 std::shared_ptr<const py::object> share(py::object object) {
     return {new py::object(std::move(object)), [](const py::object* shared) {
-                if (Py_IsInitialized() == 0) return;  // nothing is left to release it
+                if (Py_IsInitialized() == 0) return;  // the interpreter has been finalised
                 const py::gil_scoped_acquire acquire;
                 delete shared;
             }};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes: built-in ones and mesh files, and how they are placed.
+// Scenes: built-in ones and mesh files, and their placement.
 #include "hogel/scene.h"
 
 #include <limits>
@@ -15,7 +15,7 @@ namespace {
 
 using py::arg;
 
-// The parameters of Scene.bake(), with the values of keywords.
+// Parameters of Scene.bake(), from keywords.
 struct BakeKeywords {
     BakeParameters values;
     Parameters table;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes with their light, for renderers in Python, and renderers by name.
+// Shaded scenes, for renderers in Python, and renderers by name.
 #include "hogel/shading.h"
 
 #include "arrays.h"
@@ -15,7 +15,7 @@ using Shaded = std::shared_ptr<ShadedScene>;
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Indices = py::array_t<std::uint32_t, py::array::c_style | py::array::forcecast>;
 
-// Rows of three numbers as an array [n][3].
+// Returns rows of three numbers as an array [n][3].
 template <class T, class Rows, class Put>
 py::array rows_of(const Rows& rows, const Put& put) {
     py::array_t<T> array({static_cast<py::ssize_t>(rows.size()), py::ssize_t{3}});
@@ -27,7 +27,7 @@ py::array rows_of(const Rows& rows, const Put& put) {
     return array;
 }
 
-// Points of triangles as rays see them: rows of one length.
+// Points on triangles seen by rays: arrays of equal length.
 struct Points {
     Indices triangles;
     Doubles weights, to_viewer, footprint;
@@ -38,7 +38,7 @@ struct Points {
         if (triangles.ndim() != 1 || shape_of<2>(weights, "weights") != rows ||
             shape_of<2>(to_viewer, "to_viewer") != rows || shape_of<1>(footprint, "footprint") != Shape<1>{n})
             throw Error(ErrorCode::usage,
-                        "triangles, weights, to_viewer, footprint: arrays [n], [n][3], [n][3] and [n] were expected");
+                        "triangles, weights, to_viewer, footprint: expected arrays [n], [n][3], [n][3] and [n]");
         for (std::size_t i = 0; i < n; ++i)
             if (triangles.data()[i] >= scene.triangles.size())
                 throw Error(ErrorCode::usage, "triangles: the scene has " + std::to_string(scene.triangles.size()) +
@@ -46,7 +46,7 @@ struct Points {
                                                   " was asked for");
         return n;
     }
-    // value(index, b0, b1, b2, view) of every point.
+    // Calls value(index, b0, b1, b2, view) for every point.
     template <class Value, class Put>
     void evaluate(std::size_t n, const Value& value, const Put& put) const {
         for (std::size_t i = 0; i < n; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors, units, and the parts and resources of the library.
+// Errors, units, optional parts and resources of the library.
 #include "hogel/units.h"
 
 #include "core.h"

@@ -33,7 +33,7 @@ inline std::optional<Rgb> rgb_of(const std::optional<Colour>& c) {
     return c ? std::optional(rgb_of(*c)) : std::nullopt;
 }
 
-/// A property whose type Python knows by another: `to_python` of it, and `to_cpp` back.
+/// Adds a property with conversion: `to_python` for reading, `to_cpp` for writing.
 template <class Class, class Struct, class Value, class ToPython, class ToCpp>
 void add_converted(Class& to, const char* name, Value Struct::*member, ToPython to_python, ToCpp to_cpp) {
     using Python = std::invoke_result_t<ToPython, const Value&>;
@@ -41,13 +41,13 @@ void add_converted(Class& to, const char* name, Value Struct::*member, ToPython 
         name, [=](const Struct& s) { return to_python(s.*member); },
         [=](Struct& s, const Python& value) { s.*member = to_cpp(value); });
 }
-/// A property of type Vec3, or std::optional<Vec3> (None: there is none), as a tuple of three numbers.
+/// Adds a property of type Vec3 or std::optional<Vec3> (None if absent) as a tuple of three numbers.
 template <class Class, class Struct, class Value>
 void add_vector(Class& to, const char* name, Value Struct::*member) {
     add_converted(
         to, name, member, [](const Value& v) { return point_of(v); }, [](const auto& p) { return vector_of(p); });
 }
-/// A property of type Rgb, or std::optional<Rgb>, likewise.
+/// Adds a property of type Rgb or std::optional<Rgb> in the same way.
 template <class Class, class Struct, class Value>
 void add_colour(Class& to, const char* name, Value Struct::*member) {
     add_converted(

@@ -10,7 +10,7 @@ namespace {
 
 using py::arg;
 
-// The parameters of import_views(), with the values of keywords.
+// Parameters of import_views(), from keywords.
 struct ImportKeywords {
     ImportParameters values;
     Parameters table;

@@ -9,8 +9,8 @@
 >>> holo.photograph(eye="0,0,300mm", pupil="20mm", resolution=32)
 Picture(32x32 pixels, 1 channel)
 
-Lengths are metres and angles radians: floats, products with mm, um, nm, deg, or texts such as "16mm". Keywords are the
-options of the command line (docs/command-line.md), which `python -m hogel` runs.
+Lengths are in metres and angles in radians: floats, products with mm, um, nm, deg, or texts such as "16mm". Keyword
+arguments are the options of the command line (docs/command-line.md). `python -m hogel` runs the command line.
 """
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from ._core import (
     parts,
     thread_count,
 )
-from ._options import add_manners as _add_manners
+from ._options import add_value_semantics as _add_value_semantics
 from .camera import camera
 from .errors import BadInputError, CancelledError, CannotWriteError, Error, InternalError, NotBuiltInError, UsageError
 from .exports import export_views, film, views_of
@@ -53,7 +53,7 @@ from .scene import Scene, add_renderer
 from .views import import_views, is_view_set, view_layouts, write_cameras
 from .units import angle, cm, deg, length, m, mm, nm, rad, um
 
-_add_manners()
+_add_value_semantics()
 
 __all__ = [
     "BadInputError",
@@ -125,12 +125,12 @@ __all__ = [
     "write_cameras",
 ]
 
-#: The defaults of all options, in metres and radians.
+#: Defaults of all options, in metres and radians.
 defaults: dict[str, object] = dict(_core.defaults)
 
 
 def scenes() -> dict[str, str]:
-    """The built-in scenes: names, and a line about each.
+    """Returns the built-in scenes: names and descriptions.
 
     >>> import hogel
     >>> "pumpkin" in hogel.scenes()
@@ -140,7 +140,7 @@ def scenes() -> dict[str, str]:
 
 
 def renderers() -> list[str]:
-    """The names of the renderers, of `algorithm`.
+    """Returns the names of the renderers, for `algorithm`.
 
     >>> import hogel
     >>> "epi" in hogel.renderers()
@@ -150,7 +150,7 @@ def renderers() -> list[str]:
 
 
 def shading_models() -> list[str]:
-    """The names of the shading models, of `shading`.
+    """Returns the names of the shading models, for `shading`.
 
     >>> import hogel
     >>> "direct" in hogel.shading_models()
@@ -160,7 +160,7 @@ def shading_models() -> list[str]:
 
 
 def hologram_methods() -> list[str]:
-    """The names of the methods by which a light field becomes fringes, of `method`.
+    """Returns the names of the methods that compute holograms of light fields, for `method`.
 
     >>> import hogel
     >>> "fourier" in hogel.hologram_methods()
@@ -170,7 +170,7 @@ def hologram_methods() -> list[str]:
 
 
 def scene_hologram_methods() -> dict[str, str]:
-    """The methods of Scene.hologram(), which need no light field: names, and a line about each.
+    """Returns the methods of Scene.hologram(), which need no light field: names and descriptions.
 
     >>> import hogel
     >>> "points" in hogel.scene_hologram_methods()
@@ -180,7 +180,7 @@ def scene_hologram_methods() -> dict[str, str]:
 
 
 def encodings() -> list[str]:
-    """The names of the ways to show a field by a modulator, of `encoding`.
+    """Returns the names of the encodings of fields for modulators, for `encoding`.
 
     >>> import hogel
     >>> "double-phase" in hogel.encodings()
@@ -190,7 +190,7 @@ def encodings() -> list[str]:
 
 
 def modulators() -> list[str]:
-    """The names of common modulators, of `device`.
+    """Returns the names of common modulators, for `device`.
 
     >>> import hogel
     >>> "leto" in hogel.modulators()
@@ -200,7 +200,7 @@ def modulators() -> list[str]:
 
 
 def coders() -> list[str]:
-    """The names of the coders of compressed light fields, of `coder`.
+    """Returns the names of the coders of compressed light fields, for `coder`.
 
     >>> import hogel
     >>> "hogel" in hogel.coders()
@@ -210,8 +210,8 @@ def coders() -> list[str]:
 
 
 def show_progress(shown: _Union[bool, None]) -> None:
-    """Whether long work shows a bar: True, False, or None, in terminals and notebooks alone. Each call can say otherwise
-    with progress=True, False, or a function of the fraction done, which stops the work by returning False.
+    """Sets whether long work shows a progress bar: True, False, or None for terminals and notebooks only. The argument
+    `progress` of a call overrides this: True, False, or a function of the fraction done, which returns False to stop.
 
     >>> import hogel
     >>> hogel.show_progress(False)  # from now on no bars
@@ -221,7 +221,7 @@ def show_progress(shown: _Union[bool, None]) -> None:
 
 
 def open(path: _Union[str, "_os.PathLike[str]"]) -> _Union[LightField, Hologram, Picture, Scene]:
-    """The light field, hologram, picture or scene of a file, whichever it holds.
+    """Opens a file as a light field, hologram, picture or scene, according to its contents.
 
     >>> import hogel, numpy as np, os, tempfile
     >>> path = os.path.join(tempfile.mkdtemp(), "grey.png")
@@ -241,7 +241,7 @@ def open(path: _Union[str, "_os.PathLike[str]"]) -> _Union[LightField, Hologram,
 
 
 def info(path: _Union[str, "_os.PathLike[str]"]) -> dict[str, object]:
-    """What `hogel info` says of a file: facts and what made it as texts, and numbers.
+    """Returns the output of `hogel info` for a file: facts and provenance as texts, and numbers.
 
     >>> import hogel, os, tempfile
     >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
@@ -257,8 +257,7 @@ def info(path: _Union[str, "_os.PathLike[str]"]) -> dict[str, object]:
 def compare(
     a: _Union[str, "_os.PathLike[str]"], b: _Union[str, "_os.PathLike[str]"], *, exposure: _Union[float, None] = None
 ) -> dict[str, float]:
-    """How much two files of one kind differ, as `hogel compare` says: pictures, light fields or holograms, of which `a` is
-    the truth.
+    """Compares two pictures, light fields or holograms, as `hogel compare` does. `a` is the reference.
 
     >>> import hogel, os, tempfile
     >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
@@ -282,8 +281,8 @@ def compare(
 def join(
     path: _Union[str, "_os.PathLike[str]"], parts: _Iterable[_Union[str, "_os.PathLike[str]"]], *, progress: _progress.Progress = None
 ) -> None:
-    """Makes a light field or hologram file of its parts, as save(part=...) and `--part` of the command line write them. It has
-    the bytes of a file that was written whole.
+    """Joins the parts of a light field or hologram file, which save(part=...) and `--part` of the command line write. The
+    result has the same bytes as a file written at once.
 
     >>> import hogel, os, tempfile
     >>> folder = tempfile.mkdtemp()
@@ -301,7 +300,7 @@ def join(
 
 
 def program() -> str:
-    """The path of the command-line program that belongs to this module.
+    """Returns the path of the command-line program that belongs to this module.
 
     >>> import hogel
     >>> hogel.program().endswith("hogel")

@@ -9,15 +9,15 @@ from pathlib import Path
 
 
 def find() -> str:
-    """The program that was installed with this module, or that of the build it belongs to, or the one in the PATH."""
+    """Returns the program installed with this module, of the same build, or in the PATH, in this order."""
     package = Path(__file__).parent
     for folder in (package, package.parent):
-        for place in (folder / "bin" / "hogel", folder.parent / "bin" / "hogel"):
-            if place.is_file() and os.access(place, os.X_OK):
-                return str(place)
+        for candidate in (folder / "bin" / "hogel", folder.parent / "bin" / "hogel"):
+            if candidate.is_file() and os.access(candidate, os.X_OK):
+                return str(candidate)
     found = os.environ.get("HOGEL_PROGRAM") or shutil.which("hogel")
     if found is None:
-        raise SystemExit("hogel: the program hogel was not found; build it with -DHOGEL_APPS=ON, or name it in HOGEL_PROGRAM")
+        raise SystemExit("hogel: the program hogel was not found; build it with -DHOGEL_APPS=ON, or set HOGEL_PROGRAM to its path")
     return found
 
 

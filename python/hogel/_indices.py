@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What slices and whole numbers take of an array that is not in memory."""
+"""Indexing of arrays that are not in memory, by slices and integers."""
 from __future__ import annotations
 
 import dataclasses
@@ -11,12 +11,12 @@ import numpy as np
 
 @dataclasses.dataclass(frozen=True)
 class Axis:
-    """The elements that are read along an axis, with a positive step, and what was asked for."""
+    """Range of elements to read along an axis, with a positive step, and the index it was derived from."""
 
     begin: int
     count: int
     step: int
-    key: Any  # a whole number or a slice
+    key: Any  # an integer or a slice
 
 
 def _axis(key: Any, extent: int, axis: int) -> Axis:
@@ -29,14 +29,14 @@ def _axis(key: Any, extent: int, axis: int) -> Axis:
     try:
         index = operator.index(key)
     except TypeError:
-        raise IndexError("only slices and whole numbers read a part of this; np.asarray() of it takes other indices") from None
+        raise IndexError("only slices and integers can index this object; convert it with np.asarray() for other indices") from None
     if not -extent <= index < extent:
         raise IndexError(f"index {index} is out of bounds for axis {axis} with size {extent}")
     return Axis(index % extent, 1, 1, index)
 
 
 def axes_of(key: Any, shape: tuple[int, ...]) -> list[Axis]:
-    """The axes of an array of this shape under an index, by NumPy's rules."""
+    """Returns the ranges that an index selects from an array of this shape, by NumPy's rules."""
     parts = list(key) if isinstance(key, tuple) else [key]
     holes = [position for position, part in enumerate(parts) if part is Ellipsis]
     if len(holes) > 1:
@@ -50,7 +50,7 @@ def axes_of(key: Any, shape: tuple[int, ...]) -> list[Axis]:
 
 
 def arranged(values: "np.ndarray[Any, Any]", axes: list[Axis]) -> "np.ndarray[Any, Any]":
-    """What was read, backwards where a step was negative, and without the axes of whole numbers."""
+    """Reverses axes with negative steps in the values read, and removes the axes indexed by integers."""
 
     def take(axis: Axis) -> Any:
         if not isinstance(axis.key, slice):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Functions that pass options on to others, which refuse unknown ones by their own names."""
+"""Decorators for functions with **options: signatures, documentation and errors for unknown keywords."""
 from __future__ import annotations
 
 import difflib
@@ -12,7 +12,7 @@ _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
 def _keywords(function: Callable[..., Any]) -> list[str]:
-    """The names of the options that a function takes."""
+    """Returns the names of the options of a function."""
     passed_on: list[str] = getattr(function, "_passed_on", [])
     return passed_on + [p.name for p in inspect.signature(function).parameters.values() if p.kind is p.KEYWORD_ONLY]
 
@@ -26,22 +26,22 @@ def _refuse_unknown(function: Callable[..., Any], options: Iterable[str], known:
 
 
 def takes(parameters: Sequence[tuple[str, str, str]]) -> Callable[[_Function], _Function]:
-    """For a function whose **options are parameters of the command line: name, default and help. They are in its signature and its
-    documentation, and a TypeError for an unknown one names the nearest."""
+    """Decorates a function whose **options are parameters of the command line: name, default and help. Adds them to its
+    signature and documentation. A TypeError for an unknown option names the nearest one."""
 
     def decorate(function: _Function) -> _Function:
-        own = inspect.signature(function)
-        first = [p for p in own.parameters.values() if p.kind is not p.VAR_KEYWORD]
+        signature = inspect.signature(function)
+        explicit = [p for p in signature.parameters.values() if p.kind is not p.VAR_KEYWORD]
         names = [name for name, _, _ in parameters]
-        more = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=Any) for name in names]
-        known = sorted([*names, *(p.name for p in first)])
+        keyword_only = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=Any) for name in names]
+        known = sorted([*names, *(p.name for p in explicit)])
 
         @functools.wraps(function)
         def checked(*arguments: Any, **options: Any) -> Any:
             _refuse_unknown(function, options, known)
             return function(*arguments, **options)
 
-        setattr(checked, "__signature__", own.replace(parameters=[*first, *more]))
+        setattr(checked, "__signature__", signature.replace(parameters=[*explicit, *keyword_only]))
         rows = [f"{name:<19}{help.partition(chr(10))[0]}{f' [{shown}]' if shown else ''}" for name, shown, help in parameters]
         checked.__doc__ = inspect.cleandoc(function.__doc__ or "") + "\n\n" + "\n".join(rows) + "\n"
         return checked  # type: ignore[return-value]
@@ -50,8 +50,8 @@ def takes(parameters: Sequence[tuple[str, str, str]]) -> Callable[[_Function], _
 
 
 def passes_options_to(*others: Callable[..., Any]) -> Callable[[_Function], _Function]:
-    """For a function whose **options are those of others: a TypeError for an unknown one names this function and the
-    nearest known option."""
+    """Decorates a function that passes its **options to other functions. A TypeError for an unknown option names this
+    function and the nearest option."""
 
     def decorate(function: _Function) -> _Function:
         passed_on = [name for other in others for name in _keywords(other)]

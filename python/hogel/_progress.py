@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How long work shows how far it is."""
+"""Progress of long work."""
 from __future__ import annotations
 
 import importlib
@@ -10,8 +10,7 @@ from typing import Optional, Union
 
 Progress = Union[None, bool, Callable[[float], Optional[bool]]]
 
-#: What work does that is not told by its argument `progress`: True shows a bar, False nothing, None a bar in terminals
-#: and notebooks.
+#: Default of the argument `progress`: True shows a bar, False nothing, None a bar in terminals and notebooks.
 default: Optional[bool] = None
 #: Seconds of work before a bar appears.
 patience = 1.0
@@ -22,7 +21,7 @@ def _is_watched() -> bool:
 
 
 class _Line:
-    """A bar for terminals without tqdm."""
+    """Progress line for terminals, used without tqdm."""
 
     def __init__(self, what: str) -> None:
         self.what = what
@@ -48,7 +47,7 @@ class _Tqdm:
 
 def _new_bar(what: str) -> Union[_Line, _Tqdm]:
     try:
-        # By name, because stubs of tqdm, which may be there without it, give the two different types.
+        # Imported by name: stubs of tqdm, which may be installed without it, give the two modules different types.
         module = importlib.import_module("tqdm.auto" if "ipykernel" in sys.modules else "tqdm")
         return _Tqdm(what, module.tqdm)
     except ImportError:
@@ -56,7 +55,7 @@ def _new_bar(what: str) -> Union[_Line, _Tqdm]:
 
 
 class Bar:
-    """Opens a bar when work takes long; to be used in a with statement, as the function that hears of progress."""
+    """Progress function that opens a bar when work takes long. Context manager."""
 
     def __init__(self, what: str) -> None:
         self.what, self.began = what, time.monotonic()
@@ -76,7 +75,7 @@ class Bar:
             self.bar.close()
 
 
-class _Given:
+class _Callback:
     def __init__(self, call: Optional[Callable[[float], Optional[bool]]]) -> None:
         self.call = call
 
@@ -87,11 +86,11 @@ class _Given:
         pass
 
 
-def reporting(progress: Progress, what: str) -> Union[Bar, _Given]:
-    """The function that hears of the progress of work, in a with statement."""
+def reporting(progress: Progress, what: str) -> Union[Bar, _Callback]:
+    """Returns a context manager that yields the progress function of the work, or None."""
     if callable(progress):
-        return _Given(progress)
-    wanted = default if progress is None else progress
-    if wanted is None:
-        wanted = _is_watched()
-    return Bar(what) if wanted else _Given(None)
+        return _Callback(progress)
+    enabled = default if progress is None else progress
+    if enabled is None:
+        enabled = _is_watched()
+    return Bar(what) if enabled else _Callback(None)

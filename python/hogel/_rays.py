@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The samples of light fields, whatever they are made of and whatever becomes of them."""
+"""Samples of light fields."""
 from __future__ import annotations
 
 import math
@@ -17,59 +17,58 @@ from .picture import Picture
 
 
 class Rays(Samples):
-    """What LightField has of samples: their sampling, and how they are read and shown. What is written of light fields
-    needs no more."""
+    """Base class of LightField: sampling, reading and display of samples. Functions that write light fields use it."""
 
-    #: The names of the axes.
+    #: Names of the axes.
     dims = ("c", "t", "s", "v", "u")
 
     def __init__(self, light_field: _core.LightField, where: str, made: Optional[_record.Record] = None) -> None:
-        # `made`: the options of the command line that made or opened it, where there are any.
+        # `made`: options of the command line that created or opened it; None if there is no equivalent command.
         self._light_field, self.where, self._made = light_field, where, made
-        self._rendering: Any = None  # request, triangles and shading model of one that is rendered when it is read
-        self._views: Any = None  # what is known of a set of views
-        self._identity: Optional[str] = None  # of its input, for work that can be resumed
+        self._rendering: Any = None  # if rendered on demand: request, number of triangles and shading model
+        self._views: Any = None  # facts about an imported set of views
+        self._identity: Optional[str] = None  # identifies its input, for resuming
 
     @property
     def grid(self) -> _core.LightFieldGrid:
-        """The sampling of the front."""
+        """Sampling of the front."""
         return self._light_field.grid
 
     @property
     def coords(self) -> dict[str, "np.ndarray[Any, Any]"]:
-        """The coordinates of the axes t, s (metres), v and u (tangents, or sines of frequencies), as xarray takes them."""
+        """Coordinates of the axes t, s (metres), v and u (tangents, or sines for frequency grids), for xarray."""
         g = self.grid
         lengths = {"t": (g.t, g.hogels_t), "s": (g.s, g.hogels_s), "v": (g.v, g.directions_v), "u": (g.u, g.directions_u)}
         return {name: np.array([at(index) for index in range(length)]) for name, (at, length) in lengths.items()}
 
     @property
     def faces(self) -> list[Face]:
-        """All faces, the front first: one, or the three or five of a hemisquare or hemicube."""
+        """All faces, the front first: one, three of a hemisquare, or five of a hemicube."""
         return [Face(self._light_field, index, False) for index in range(self._light_field.faces)]
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Of the front: (channels, rows of hogels, columns, rows of directions, columns)."""
+        """Shape of the front: (channels, rows of hogels, columns, rows of directions, columns)."""
         return self.grid.shape
 
     @property
     def nbytes(self) -> int:
-        """Bytes of all samples as single floats."""
+        """Size of all samples in bytes as single floats."""
         return 4 * int(self._light_field.samples())
 
     @property
     def has_depth(self) -> bool:
-        """Whether the depth of every ray is known."""
+        """Whether the depth of every ray is available."""
         return self._light_field.has_depth()
 
     @property
     def depth(self) -> Face:
-        """The depths of the front, [t][s][v][u]: an array that is read when it is indexed."""
+        """Depths of the front, [t][s][v][u]: an array that is read on indexing."""
         return self.faces[0].depth
 
     @property
     def metadata(self) -> dict[str, str]:
-        """What made the light field."""
+        """Provenance of the light field."""
         return dict(self._light_field.metadata)
 
     def __getitem__(self, key: Any) -> "np.ndarray[Any, Any]":
@@ -78,8 +77,8 @@ class Rays(Samples):
         return self.read(key)
 
     def read(self, key: Any = (), progress: Progress = None) -> "np.ndarray[Any, Any]":
-        """The elements that slices and whole numbers take, by NumPy's rules. Of a file only the tiles that hold them are
-        read.
+        """Returns the elements selected by slices and integers, by NumPy's rules. Reads only the tiles of a file that
+        contain them.
 
         >>> import hogel, numpy as np
         >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
@@ -89,8 +88,8 @@ class Rays(Samples):
         return self.faces[0].read(key, progress)
 
     def part(self, **indices: Any) -> "np.ndarray[Any, Any]":
-        """The elements that slices and whole numbers take of the axes c, t, s, v and u by their names; all of the others:
-        lf.part(t=slice(10, 20), v=4, u=4).
+        """Returns the elements selected by slices and integers for named axes c, t, s, v and u, and all elements along the
+        other axes: lf.part(t=slice(10, 20), v=4, u=4).
 
         >>> import hogel, numpy as np
         >>> lf = hogel.LightField.from_array(np.ones((3, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
@@ -99,12 +98,12 @@ class Rays(Samples):
         """
         unknown = set(indices) - set(self.dims)
         if unknown:
-            raise UsageError(f"part: {', '.join(sorted(unknown))}: the axes are c, t, s, v and u")
+            raise UsageError(f"part: {', '.join(sorted(unknown))}: expected the axes c, t, s, v and u")
         return self.read(tuple(indices.get(name, slice(None)) for name in self.dims))
 
     def stream(self, sink: Callable[..., Any], *, face: int = 0, depth: bool = False, progress: Progress = None) -> None:
-        """Calls sink(s, t, radiance, depth) with every tile, one at a time in any order: the first column and row of its
-        hogels, an array [c][t][s][v][u], and one [t][s][v][u] or None. Memory: a few tiles.
+        """Calls sink(s, t, radiance, depth) for every tile, one at a time, in any order. s, t: first column and row of its
+        hogels; radiance: array [c][t][s][v][u]; depth: array [t][s][v][u] or None. Needs memory for a few tiles.
 
         >>> import hogel, numpy as np
         >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
@@ -117,14 +116,14 @@ class Rays(Samples):
             _core.stream(self._light_field, face, sink, depth, report)
 
     def _prepared(self, times: int, depth: bool, progress: Progress) -> _core.LightField:
-        """For readers that read it several times; what is rendered when it is read is then rendered once."""
+        """Returns the light field for `times` reads. One that is rendered on demand is then rendered only once."""
         if self.where not in ("rendered when read", "computed when read"):
             return self._light_field
         with reporting(progress, "rendering") as report:
             return _core.prepare_for_reading(self._light_field, times, depth, report)
 
     def views(self) -> Picture:
-        """The picture of the middle direction, a pixel a hogel.
+        """Returns the picture of the middle direction, one pixel per hogel.
 
         >>> import hogel, numpy as np
         >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")

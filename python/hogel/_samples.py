@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What light fields, their faces and fields have in common: arrays that are read when they are needed."""
+"""Base class of light fields, faces and fields: arrays that are read on demand."""
 from __future__ import annotations
 
 import os
@@ -12,8 +12,8 @@ from .errors import usage_error
 Path = Union[str, "os.PathLike[str]"]
 
 
-class _Lent:
-    """Memory that was lent by DLPack, which NumPy takes for read-only, because DLPack does not say whether it is."""
+class _WritableView:
+    """Writable view of memory from DLPack. NumPy treats it as read-only, because DLPack lacks this information."""
 
     def __init__(self, values: "np.ndarray[Any, Any]") -> None:
         facts = values.__array_interface__
@@ -21,49 +21,49 @@ class _Lent:
 
 
 def array_of(values: Any, kind: Any) -> "np.ndarray[Any, Any]":
-    """An array of NumPy of anything that lends its memory, by DLPack too (torch, cupy, jax); copied only to change the
-    type of its numbers."""
+    """Converts any object that exports its memory to a NumPy array, by DLPack too (torch, cupy, jax). Copies only to
+    change the element type."""
     if not isinstance(values, np.ndarray) and hasattr(values, "__dlpack__"):
-        values = np.asarray(_Lent(np.from_dlpack(values)))
+        values = np.asarray(_WritableView(np.from_dlpack(values)))
     return np.require(values, dtype=kind, requirements="A")
 
 
 def choice(kind: Any, name: str, what: str) -> Any:
-    """The member of an enumeration by its name."""
+    """Returns the member of an enumeration by its name."""
     members = kind.__members__
     if name not in members:
-        raise usage_error(what, f"{' or '.join(members)} were expected, not '{name}'")
+        raise usage_error(what, f"expected {' or '.join(members)}, not '{name}'")
     return members[name]
 
 
 class Samples:
-    """An array that is in memory, in a file, or computed when it is read."""
+    """Array in memory, in a file, or computed on demand."""
 
-    #: The type of its elements.
+    #: Element type.
     dtype: "np.dtype[Any]" = np.dtype(np.float32)
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """The lengths of the axes."""
+        """Lengths of the axes."""
         raise NotImplementedError
 
     def read(self, key: Any = (), progress: Any = None) -> "np.ndarray[Any, Any]":
-        """The elements that slices and whole numbers take; no others are read or computed than those between them."""
+        """Returns the elements selected by slices and integers. Reads or computes only the range that contains them."""
         raise NotImplementedError
 
     @property
     def ndim(self) -> int:
-        """The number of axes."""
+        """Number of axes."""
         return len(self.shape)
 
     @property
     def size(self) -> int:
-        """The number of elements."""
+        """Number of elements."""
         return int(np.prod(self.shape, dtype=np.int64))
 
     @property
     def nbytes(self) -> int:
-        """Bytes of all elements."""
+        """Size of all elements in bytes."""
         return self.dtype.itemsize * self.size
 
     def __len__(self) -> int:
@@ -80,4 +80,4 @@ class Samples:
         return np.asarray(self).__dlpack__()
 
     def __dlpack_device__(self) -> tuple[int, int]:
-        return 1, 0  # the processor's memory
+        return 1, 0  # CPU memory

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Light fields become files."""
+"""Writes light fields to files."""
 from __future__ import annotations
 
 import os
@@ -36,7 +36,7 @@ def save_light_field(
         acted["depth"] = _record.yes_or_no(depth)
     if os.path.splitext(name)[1] == ".hgl":
         if single or resume or part:
-            raise usage_error("float" if single else "resume" if resume else "part", f"belongs to HDF5 files; {name} is a compressed one")
+            raise usage_error("float" if single else "resume" if resume else "part", f"applies to HDF5 files; {name} is a compressed one")
         options = _core.CompressionOptions()
         ratio = _core.defaults["sqnr"] if sqnr is None else sqnr
         options.target = _core.Sqnr(ratio)
@@ -49,17 +49,17 @@ def save_light_field(
             _core.compress(prepared, name, options, report)
         return
     if sqnr is not None:
-        raise usage_error("sqnr", f"belongs to compressed files, whose names end in .hgl, not to {name}")
+        raise usage_error("sqnr", f"applies to compressed files (.hgl), not to {name}")
     if part is None:
         _core.require_hdf5(name)
     if stored:
-        # Exact coders keep their precision.
+        # Samples of exact coders are not rounded to half floats.
         exact = _core.read_stream_info(light_field.where)["coder"] in ("lossless", "bounded")
         single = single or (exact and not half)
         depth = light_field.has_depth
         acted["float" if single else "half"] = "yes"
     elif half and single:
-        raise usage_error("float, half", "only one of them can be asked for")
+        raise usage_error("float, half", "give only one of them")
     else:
         acted["float"] = _record.yes_or_no(single)
     if metadata is None:
@@ -71,12 +71,12 @@ def save_light_field(
         identity = None
         if part is not None:
             if resume:
-                raise usage_error("part, resume", "only one of them can be asked for")
-            whole = _core.FilePart(int(part[0]), int(part[1]), light_field._identity or "")
-            _core.write_light_field_part(name, light_field._light_field, single, depth, metadata, whole, report)
+                raise usage_error("part, resume", "give only one of them")
+            file_part = _core.FilePart(int(part[0]), int(part[1]), light_field._identity or "")
+            _core.write_light_field_part(name, light_field._light_field, single, depth, metadata, file_part, report)
             return
         if resume:
             identity = light_field._identity or (_core.describe_input(light_field.where) if made is not None else None)
             if identity is None:
-                raise usage_error("resume", "what is made of arrays or functions cannot be resumed")
+                raise usage_error("resume", "work on arrays or functions cannot be resumed")
         _core.write_light_field(name, light_field._light_field, single, depth, metadata, identity, report)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Cameras, from the words of the command line."""
+"""Cameras, from the options of the command line."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -13,7 +13,7 @@ from .errors import usage_error
 
 @takes(_core.camera_keywords())
 def camera(width: units.Length, height: Optional[units.Length] = None, **options: Any) -> Camera:
-    """The camera that photographs a hologram of this width and height (metres).
+    """Returns the camera for a hologram of this width and height (metres).
 
     >>> import hogel
     >>> view = hogel.camera("20mm", eye="0,0,300mm", focus="5mm")
@@ -25,10 +25,10 @@ def camera(width: units.Length, height: Optional[units.Length] = None, **options
 
 
 def cameras_of(cameras: Optional[Sequence[Camera]], width: float, height: float, options: dict[str, Any]) -> list[Camera]:
-    """The given cameras, or the one that options describe, for a hologram of this size."""
+    """Returns the given cameras, or the one described by options, for a hologram of this size."""
     if cameras is None:
         return [_core.camera(options, width, height)]
-    both = [name for name, _, _ in _core.camera_keywords() if options.get(name) is not None]
-    if both:
-        raise usage_error(", ".join(["cameras", *both]), "cameras are given, or one is described")
+    described = [name for name, _, _ in _core.camera_keywords() if options.get(name) is not None]
+    if described:
+        raise usage_error(", ".join(["cameras", *described]), "give either cameras or options that describe one")
     return list(cameras)

@@ -14,9 +14,9 @@ from ._samples import Path
 
 @takes(_core.compression_keywords())
 def compress(self: Rays, path: Path, *, metadata: Any = None, progress: Progress = None, **options: Any) -> dict[str, Any]:
-    """Writes a compressed light field, .hgl, as `hogel compress` does. One of sqnr (decibels), ppb (rays a bit), step,
-    max_error (radiance) and lossless=True says how well; without one it is 40 dB. Returns bytes, sqnr, pixels_per_bit,
-    step, passes, depth_bytes and depth_error of the file.
+    """Writes a compressed light field, .hgl, as `hogel compress` does. The target is one of sqnr (decibels), ppb (rays per
+    bit), step, max_error (radiance) and lossless=True; default: 40 dB. Returns bytes, sqnr, pixels_per_bit, step, passes,
+    depth_bytes and depth_error of the file.
 
     >>> import hogel, os, tempfile
     >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
@@ -27,11 +27,11 @@ def compress(self: Rays, path: Path, *, metadata: Any = None, progress: Progress
     name = os.fspath(path)
     _core.require_writable(name)
     _core.require_name(name, "hgl")
-    asked = _core.compression_options(options, self._light_field)
+    request = _core.compression_options(options, self._light_field)
     if metadata is None and self._made is not None and "input" in self._made:
         record = dict(_core.compression_record(options, self._light_field))
         metadata = _record.entries("compress", {**self._made, **record})
-    asked.metadata = _record.by_function("LightField.compress") if metadata is None else metadata
-    prepared = self._prepared(2, asked.with_depth, progress)
+    request.metadata = _record.by_function("LightField.compress") if metadata is None else metadata
+    prepared = self._prepared(2, request.with_depth, progress)
     with reporting(progress, "compressing") as report:
-        return _core.compress(prepared, name, asked, report)
+        return _core.compress(prepared, name, request, report)

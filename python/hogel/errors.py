@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What hogel raises: one class for each kind of failure (docs/errors.md), below the fitting class of Python.
+"""Exceptions of hogel: one class for each kind of failure (docs/errors.md), derived from the matching Python exception.
 
 >>> import hogel
 >>> try:
@@ -12,20 +12,20 @@ from __future__ import annotations
 
 
 class Error(Exception):
-    """A failure that hogel reports, in one line: what, where, what was expected.
+    """Failure reported by hogel. The message is one line: what, where, what was expected.
 
     >>> import hogel
     >>> issubclass(hogel.BadInputError, hogel.Error), hogel.BadInputError.status
     (True, 3)
     """
 
-    name = "internal"  #: of the exit status of the command line
-    status = 70  #: the exit status of the command line
-    parameter = ""  #: the parameter that the error is about, "pitch", or several, "eye, pitch"; or an empty text
+    name = "internal"  #: name of the exit status of the command line
+    status = 70  #: exit status of the command line
+    parameter = ""  #: name of the bad parameter, "pitch", or of several, "eye, pitch"; may be empty
 
 
 class UsageError(Error, ValueError):
-    """The request makes no sense: wrong unit, contradicting or impossible options."""
+    """Invalid request: wrong unit, contradicting or impossible options."""
 
     name, status = "usage", 2
 
@@ -61,7 +61,7 @@ class InternalError(Error, RuntimeError):
 
 
 def usage_error(parameter: str, text: str) -> UsageError:
-    """The error about a parameter, or several, "eye, pitch", with which its message begins."""
+    """Returns an error about a parameter, or several, "eye, pitch". The message begins with their names."""
     error = UsageError(f"{parameter}: {text}")
     error.parameter = parameter
     return error
@@ -73,7 +73,7 @@ _CLASSES = {
 
 
 def of(status: int, message: str, parameter: str = "") -> Error:
-    """The error of an exit status, whose message begins with its parameters."""
+    """Returns the error of an exit status. The message begins with the names of its parameters."""
     if parameter and not message.startswith(f"{parameter}:"):
         message = f"{parameter}: {message}"
     error = _CLASSES.get(status, InternalError)(message)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What becomes of light fields and pictures in other programs: sets of views, pictures for printers, and films."""
+"""Exports of light fields and pictures for other programs: sets of views, pictures for printers, and films."""
 from __future__ import annotations
 
 import os
@@ -17,8 +17,8 @@ from .picture import Picture
 
 
 def views_of(light_field: Rays) -> Any:
-    """What import_views() understood of the set of views that it made this light field of: layout, columns, rows, bits,
-    transfer, spacing, distance, scale, parallax, summary, assumed, notes; None for others.
+    """Returns the facts about the set of views from which import_views() created this light field: layout, columns, rows,
+    bits, transfer, spacing, distance, scale, parallax, summary, assumed, notes. Returns None for other light fields.
 
     >>> import hogel
     >>> hogel.views_of(hogel.Scene.load("pumpkin").render(hogels=4, directions=4)) is None
@@ -31,9 +31,8 @@ def views_of(light_field: Rays) -> Any:
 def export_views(
     light_field: Rays, target: Path, *, force: bool = False, metadata: Any = None, progress: Progress = None, **options: Any
 ) -> Any:
-    """Writes a light field as a set of views, one for each direction: in a folder, which is made, or a file; or as a film
-    of its middle row of views (.mp4, .gif, .apng). The options are those of `hogel export`. Returns columns, rows, files
-    and notes.
+    """Writes a light field as a set of views, one per direction, to a new folder or a file, or as a film of the middle row
+    of views (.mp4, .gif, .apng). The options are those of `hogel export`. Returns columns, rows, files and notes.
 
     >>> import hogel, os, tempfile
     >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=3, size="4mm", focal_plane="-300mm")
@@ -41,36 +40,36 @@ def export_views(
     3
     """
     name = os.fspath(target)
-    how, frame_rate, acted = _core.export_request(name, options)
+    view_options, frame_rate, acted = _core.export_request(name, options)
     if _core.is_film(name):
-        return _export_film(light_field, name, how, frame_rate, metadata, progress)
+        return _export_film(light_field, name, view_options, frame_rate, metadata, progress)
     if metadata is None:
         metadata = _record.by_function("LightField.export")
         if light_field._made is not None:
             metadata = _record.entries("export", {**_record.renamed(light_field._made, "source", "input"), **dict(acted)})
-    how.metadata = metadata
-    if {layout: is_folder for layout, _, is_folder, _ in _core.view_layouts()}[how.layout]:
+    view_options.metadata = metadata
+    if {layout: is_folder for layout, _, is_folder, _ in _core.view_layouts()}[view_options.layout]:
         _make_folder(name, force)
     else:
         _core.require_writable(name)
     with reporting(progress, "exporting") as report:
-        return _core.export_views(light_field._light_field, name, how, report)
+        return _core.export_views(light_field._light_field, name, view_options, report)
 
 
 def _make_folder(name: str, force: bool) -> None:
     if os.path.isdir(name) and any(not file.startswith(".") for file in os.listdir(name)) and not force:
-        raise CannotWriteError(f"{name}: holds files already; force=True writes beside and over them")
+        raise CannotWriteError(f"{name}: holds files already; use force=True to add files and overwrite them")
     try:
         os.makedirs(name, exist_ok=True)
     except OSError as error:
         raise CannotWriteError(f"{name}: {error.strerror}") from None
 
 
-def _export_film(light_field: Rays, name: str, how: Any, frame_rate: float, metadata: Any, progress: Progress) -> Any:
+def _export_film(light_field: Rays, name: str, view_options: Any, frame_rate: float, metadata: Any, progress: Progress) -> Any:
     _core.require_writable(name)
     with tempfile.TemporaryDirectory(dir=os.path.dirname(os.path.abspath(name)), prefix=".hogel-") as folder:
         with reporting(progress, "exporting") as report:
-            made = _core.export_views(light_field._light_field, folder, how, report)
+            made = _core.export_views(light_field._light_field, folder, view_options, report)
         with reporting(progress, "film") as report:
             _core.make_film(name, folder, f"{made.rows // 2:03}_%03d.png", frame_rate, _comment(metadata), report)
     return made
@@ -90,7 +89,7 @@ def film(
     metadata: Any = None,
     progress: Progress = None,
 ) -> None:
-    """Makes a film (.mp4, .gif, .apng), by the program ffmpeg, of pictures of one size, all with the same exposure.
+    """Encodes pictures of equal size as a film (.mp4, .gif, .apng) with ffmpeg, all with the same exposure.
 
     >>> import hogel, numpy as np, os, tempfile
     >>> frames = [np.full((16, 16, 3), level) for level in (0.2, 0.8)]
@@ -99,12 +98,12 @@ def film(
     """
     name = os.fspath(path)
     if not _core.is_film(name):
-        raise UsageError(f"{name}: films end in .mp4, .gif, .apng")
+        raise UsageError(f"{name}: expected a film name that ends in .mp4, .gif or .apng")
     frames = [frame if isinstance(frame, Picture) else Picture(frame) for frame in pictures]
     if not frames:
-        raise UsageError("film: at least one picture was expected")
+        raise UsageError("film: expected at least one picture")
     if len({(frame.width, frame.height) for frame in frames}) > 1:
-        raise UsageError("film: pictures of one size were expected")
+        raise UsageError("film: expected pictures of equal size")
     _core.require_writable(name)
     factor = min(frame.exposure("auto") for frame in frames) if exposure == "auto" else float(exposure)
     with tempfile.TemporaryDirectory(dir=os.path.dirname(os.path.abspath(name)), prefix=".hogel-") as folder:
@@ -119,8 +118,8 @@ def film(
 def write_printer_images(
     light_field: Rays, folder: Path, *, force: bool = False, metadata: Any = None, progress: Progress = None, **options: Any
 ) -> list[str]:
-    """Writes the directions of every hogel as a picture, numbered in the order of printing, or with strips=True those of a
-    row of hogels side by side, as `hogel print` does. Returns the files.
+    """Writes a picture of the directions of every hogel, numbered in the order of printing, as `hogel print` does. With
+    strips=True each picture contains a row of hogels side by side. Returns the files.
 
     >>> import hogel, os, tempfile
     >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")

@@ -14,7 +14,7 @@ from .errors import usage_error
 
 
 class Face(Samples):
-    """The samples of one face of a light field, or their depths: an array that is read when it is indexed.
+    """Samples of one face of a light field, or their depths: an array that is read on indexing.
 
     >>> import hogel, numpy as np
     >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
@@ -28,7 +28,7 @@ class Face(Samples):
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """(channels, rows of hogels, columns, rows of directions, columns), of depths without channels."""
+        """(channels, rows of hogels, columns, rows of directions, columns); without channels for depths."""
         return self.grid.shape[1:] if self._of_depth else self.grid.shape
 
     @property
@@ -38,9 +38,9 @@ class Face(Samples):
 
     @property
     def depth(self) -> "Face":
-        """The depths [t][s][v][u], metres behind the hologram, of what the rays meet; infinite where they meet nothing."""
+        """Depths [t][s][v][u] of the ray hits, metres behind the hologram; infinite without a hit."""
         if not self._light_field.has_depth():
-            raise usage_error("depth", "this light field has none")
+            raise usage_error("depth", "this light field has no depth")
         return Face(self._light_field, self._index, True)
 
     def _memory(self) -> Optional["np.ndarray[Any, Any]"]:
@@ -48,7 +48,7 @@ class Face(Samples):
         return find(self._light_field, self._index)
 
     def read(self, key: Any = (), progress: Progress = None) -> "np.ndarray[Any, Any]":
-        """The elements that slices and whole numbers take. Of a file only the tiles that hold them are read.
+        """Returns the elements selected by slices and integers. Reads only the tiles of a file that contain them.
 
         >>> import hogel, numpy as np
         >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")

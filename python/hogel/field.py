@@ -19,8 +19,8 @@ from .picture import Picture
 
 
 class Field(Samples):
-    """A monochromatic complex field F[y][x], row 0 at the top: in memory, in a file, or computed when it is read. What is
-    read of it are arrays of complex64.
+    """Monochromatic complex field F[y][x], row 0 at the top, in memory, in a file, or computed on demand. Reading returns
+    arrays of complex64.
 
     >>> import hogel, numpy as np
     >>> wave = hogel.Field.from_array(np.ones((64, 64), np.complex64), pitch="2um", wavelength="633nm")
@@ -32,7 +32,7 @@ class Field(Samples):
     """
 
     dtype = np.dtype(np.complex64)
-    #: The names of the axes.
+    #: Names of the axes.
     dims = ("y", "x")
 
     def __init__(self, source: _core.FieldSource, where: str, look: int = 0) -> None:
@@ -48,8 +48,8 @@ class Field(Samples):
         grid: Optional[_core.Grid] = None,
         metadata: Any = None,
     ) -> "Field":
-        """The field of an array [y][x], around x = y = 0 or with `grid` anywhere. An array of complex64 is not copied,
-        whatever its strides; do not change it while the field is in use.
+        """Creates a field from an array [y][x], centred at x = y = 0, or at the positions of `grid`. Does not copy an array
+        of complex64, whatever its strides; do not change it while the field is in use.
 
         >>> import hogel, numpy as np
         >>> wave = hogel.Field.from_array(np.ones((32, 64), np.complex64), pitch="2um", wavelength="633nm")
@@ -58,10 +58,10 @@ class Field(Samples):
         """
         values = array_of(samples, np.complex64)
         if values.ndim != 2:
-            raise usage_error("samples", f"an array [y][x] was expected, not one of {values.ndim} axes")
+            raise usage_error("samples", f"expected an array [y][x], not one of {values.ndim} axes")
         if grid is None:
             if pitch is None:
-                raise usage_error("pitch", "a field needs the distance of its samples")
+                raise usage_error("pitch", "a field needs the pitch of its samples")
             step = units.length(pitch, "pitch")
             grid = _core.Grid(values.shape[1], values.shape[0], step, step)
         sampling = _core.FieldGrid(grid, units.length(wavelength, "wavelength"))
@@ -78,9 +78,9 @@ class Field(Samples):
         grid: Optional[_core.Grid] = None,
         metadata: Any = None,
     ) -> "Field":
-        """The field of a function of one's own, which computes it when it is read: function(x, y) gets the positions of
-        samples (metres) as arrays [1][x] and [y][1] and returns complex values that can be broadcast to [y][x]. `samples`
-        across and down, `pitch` apart, around x = y = 0; or any `grid`.
+        """Creates a field from a function that computes samples on demand. function(x, y) gets the positions of samples
+        (metres) as arrays [1][x] and [y][1] and returns complex values that broadcast to [y][x]. The grid has `samples`
+        columns and rows at `pitch`, centred at x = y = 0, or is given as `grid`.
 
         >>> import hogel, numpy as np
         >>> tilted = hogel.Field.from_function(lambda x, y: np.exp(2e5j * x), samples=(64, 32), pitch="2um", wavelength="633nm")
@@ -91,7 +91,7 @@ class Field(Samples):
         """
         if grid is None:
             if samples is None or pitch is None:
-                raise usage_error("samples, pitch", "a field needs the number and the distance of its samples")
+                raise usage_error("samples, pitch", "a field needs the number and the pitch of its samples")
             columns, rows = units.counts(samples, "samples")
             step = units.length(pitch, "pitch")
             grid = _core.Grid(columns, rows, step, step)
@@ -107,23 +107,23 @@ class Field(Samples):
 
     @property
     def grid(self) -> _core.Grid:
-        """The positions of the samples."""
+        """Positions of the samples."""
         return self._source.grid.plane
 
     @property
     def coords(self) -> dict[str, "np.ndarray[Any, Any]"]:
-        """The coordinates of the axes y and x, metres, as xarray takes them."""
+        """Coordinates of the axes y and x, metres, for xarray."""
         g = self.grid
         return {"y": np.array([g.y(j) for j in range(g.height)]), "x": np.array([g.x(i) for i in range(g.width)])}
 
     @property
     def wavelength(self) -> float:
-        """Metres."""
+        """Wavelength, metres."""
         return self._source.grid.wavelength
 
     @property
     def looks(self) -> int:
-        """How many statistically independent fields of the same object there are."""
+        """Number of looks: statistically independent speckle realisations of the same object."""
         return self._source.looks
 
     @property
@@ -133,11 +133,11 @@ class Field(Samples):
 
     @property
     def metadata(self) -> dict[str, str]:
-        """What made the field."""
+        """Provenance of the field."""
         return dict(self._source.metadata)
 
     def read(self, key: Any = (), progress: Progress = None) -> "np.ndarray[Any, Any]":
-        """The samples that slices and whole numbers take; no others are read or computed than those between them.
+        """Returns the samples selected by slices and integers. Reads or computes only the region that contains them.
 
         >>> import hogel, numpy as np
         >>> wave = hogel.Field.from_array(np.ones((32, 64), np.complex64), pitch="2um", wavelength="633nm")
@@ -156,7 +156,7 @@ class Field(Samples):
         return arranged(values[:: y.step, :: x.step], axes)
 
     def look(self, number: int) -> "Field":
-        """The field of one look, completely in memory.
+        """Returns the field of one look, in memory.
 
         >>> import hogel, numpy as np
         >>> wave = hogel.Field.from_array(np.ones((32, 64), np.complex64), pitch="2um", wavelength="633nm")
@@ -168,7 +168,7 @@ class Field(Samples):
         return Field(_core.load_field(self._source, number, None), "in memory")
 
     def load(self, *, progress: Progress = None) -> "Field":
-        """The same field in memory.
+        """Returns the same field in memory.
 
         >>> import hogel, numpy as np
         >>> wave = hogel.Field.from_array(np.ones((32, 64), np.complex64), pitch="2um", wavelength="633nm")
@@ -180,8 +180,8 @@ class Field(Samples):
 
     @takes(_core.propagate_keywords())
     def propagate(self, distance: units.Length, *, progress: Progress = None, **options: Any) -> "Field":
-        """The field on a parallel plane, farther along +z, towards the viewer, or backwards if negative: its plane waves,
-        exactly, at the samples of the field or at others.
+        """Propagates the field to a parallel plane by the exact propagation of plane waves. A positive distance is along
+        +z, towards the viewer. The output has the samples of this field or those given by options.
 
         >>> import hogel, numpy as np
         >>> wave = hogel.Field.from_array(np.ones((32, 64), np.complex64), pitch="2um", wavelength="633nm")
@@ -189,14 +189,15 @@ class Field(Samples):
         Field(16x8 samples 4 um apart, 64 um x 32 um, 633 nm, in memory)
         """
         with reporting(progress, "propagating") as report:
-            moved = _core.propagate_by({"distance": distance, **options}, self._source, self._look, report)
-        return Field(moved, "in memory")
+            propagated = _core.propagate_by({"distance": distance, **options}, self._source, self._look, report)
+        return Field(propagated, "in memory")
 
     def propagate_adjoint(
         self, distance: units.Length, *, grid: Optional[_core.Grid] = None, max_error: float = 1e-3, progress: Progress = None
     ) -> "Field":
-        """The adjoint P* of P = propagate(distance), of fields sampled at `grid` (this one's samples without) to the samples
-        of this field: <P f, g> = <f, P* g>, sums over samples. What gradients need: light backwards, by the samples' areas.
+        """Applies the adjoint P* of P = propagate(distance): <P f, g> = <f, P* g>, sums over samples. This field g is on the
+        output samples of P; the result is on `grid`, default: the samples of this field. Gradients need it: propagation
+        backwards, times the ratio of sample areas.
 
         >>> import hogel, numpy as np
         >>> def noise(seed):
@@ -208,15 +209,15 @@ class Field(Samples):
         >>> bool(abs(there - back) < 1e-3 * abs(there))
         True
         """
-        own = self.grid
-        to = own if grid is None else grid
-        area = to.pitch_x * to.pitch_y / (own.pitch_x * own.pitch_y)
+        source_grid = self.grid
+        target = source_grid if grid is None else grid
+        area = target.pitch_x * target.pitch_y / (source_grid.pitch_x * source_grid.pitch_y)
         with reporting(progress, "propagating") as report:
             far = -units.length(distance, "distance")
-            moved = Field(_core.propagate(self._source, far, to, self._look, max_error, report), "in memory")
+            propagated = Field(_core.propagate(self._source, far, target, self._look, max_error, report), "in memory")
         if area != 1:
-            np.multiply(np.asarray(moved), np.float32(area), out=np.asarray(moved))
-        return moved
+            np.multiply(np.asarray(propagated), np.float32(area), out=np.asarray(propagated))
+        return propagated
 
     def focus(
         self,
@@ -226,8 +227,9 @@ class Field(Samples):
         max_side: int = 1024,
         progress: Progress = None,
     ) -> _core.FocusSearch:
-        """Where an unknown field is in focus: `planes` of the result, the clearest first, each with its depth behind the
-        hologram, prominence, brightest and cell; and the contrasts at all depths. `between`: two depths to search between.
+        """Finds the depths at which an unknown field is in focus. `planes` of the result are sorted by prominence; each has
+        depth (metres behind the hologram), prominence, brightest and cell. The result also contains the contrasts at all
+        depths. `between`: first and last depth of the search.
 
         >>> import hogel, numpy as np
         >>> points = np.zeros((128, 128), np.complex64)
@@ -239,12 +241,12 @@ class Field(Samples):
         """
         first, last = (0.0, 0.0) if between is None else units.lengths(between, "between")
         if between is not None and first == last:
-            raise usage_error("between", "two different depths were expected")
+            raise usage_error("between", "expected two different depths")
         with reporting(progress, "focus") as report:
             return _core.find_focus(self._source, first, last, planes, max_side, report)
 
     def fourier_image(self, focal_length: units.Length, *, progress: Progress = None) -> "Field":
-        """The field in the back focal plane of a lens in whose front focal plane this one lies.
+        """Returns the field in the back focal plane of a lens, with this field in the front focal plane.
 
         >>> import hogel, numpy as np
         >>> wave = hogel.Field.from_array(np.ones((32, 64), np.complex64), pitch="2um", wavelength="633nm")
@@ -255,7 +257,7 @@ class Field(Samples):
             return Field(_core.fourier_image(self._source, units.length(focal_length, "focal_length"), report), "in memory")
 
     def fresnel_image(self, distance: units.Length, *, progress: Progress = None) -> "Field":
-        """The field at a distance by one Fourier transform, Fresnel's approximation.
+        """Returns the field at a distance in the Fresnel approximation, by one Fourier transform.
 
         >>> import hogel, numpy as np
         >>> wave = hogel.Field.from_array(np.ones((32, 64), np.complex64), pitch="2um", wavelength="633nm")
@@ -275,10 +277,10 @@ class Field(Samples):
         reference_source: Any = None,
         progress: Progress = None,
     ) -> "Field":
-        """The order of a recorded or encoded hologram that is the object's, moved to frequency zero: "right" or "left", the
-        one with the most light at positive or negative frequencies, "center", or `at` a frequency x, y (cycles a sample).
-        `aperture`: the radius that is cut out, cycles a sample; without one half the way to frequency zero. The mean is
-        subtracted first, and the samples are multiplied by the wave of a reference source at a point x, y, z.
+        """Selects the object's diffraction order of a recorded or encoded hologram and moves it to frequency zero. `order`:
+        "right" or "left", the brightest at positive or negative frequencies, or "center"; or `at`, a frequency x, y (cycles
+        per sample). `aperture`: radius to keep, cycles per sample; default: half the distance to frequency zero. Subtracts
+        the mean first, and multiplies by the wave of a reference source at a point x, y, z.
 
         >>> import hogel, numpy as np
         >>> fringes = 1 + np.cos(np.pi / 2 * np.arange(64.0)) * np.ones((64, 1))
@@ -286,19 +288,19 @@ class Field(Samples):
         >>> recorded.select_order("right").shape
         (64, 64)
         """
-        how = _core.OrderSelection()
-        how.which = choice(_core.OrderSelection.Which, "at" if at is not None else order, "order")
+        selection = _core.OrderSelection()
+        selection.which = choice(_core.OrderSelection.Which, "at" if at is not None else order, "order")
         if at is not None:
-            how.frequency_x, how.frequency_y = (float(part) for part in at)
-        how.radius, how.without_mean = aperture, without_mean
+            selection.frequency_x, selection.frequency_y = (float(part) for part in at)
+        selection.radius, selection.without_mean = aperture, without_mean
         if reference_source is not None:
-            how.reference_source = units.point(reference_source, "reference_source")
+            selection.reference_source = units.point(reference_source, "reference_source")
         with reporting(progress, "cutting the order out") as report:
-            return Field(_core.select_order(self._source, how, report)[0], "in memory")
+            return Field(_core.select_order(self._source, selection, report)[0], "in memory")
 
     @takes(_core.wave_photograph_keywords())
     def photograph(self, *, cameras: Optional[Sequence[_core.Camera]] = None, progress: Progress = None, **options: Any) -> Any:
-        """The photograph of the field as a hologram of one wavelength: Hologram.photograph().
+        """Photographs the field as a hologram of one wavelength: see Hologram.photograph().
 
         >>> import hogel, numpy as np
         >>> wave = hogel.Field.from_array(np.ones((64, 64), np.complex64), pitch="4um", wavelength="633nm")
@@ -309,7 +311,7 @@ class Field(Samples):
 
     @passes_options_to(pattern_of)
     def slm(self, **options: Any) -> Pattern:
-        """The pattern of a modulator that shows the field: Hologram.slm().
+        """Returns the modulator pattern of the field: see Hologram.slm().
 
         >>> import hogel, numpy as np
         >>> wave = hogel.Field.from_array(np.ones((32, 32), np.complex64), pitch="8um", wavelength="532nm")
@@ -319,8 +321,8 @@ class Field(Samples):
         return pattern_of([self._source], None, **options)
 
     def picture(self, display: str = "intensity", *, progress: Progress = None) -> Picture:
-        """What the samples are, as `hogel propagate --display` shows them: their intensity |F|², amplitude, phase (black at
-        -pi, white at pi), real part (black at minus the largest modulus, white at it), or log, the logarithm of the
+        """Returns a picture of the samples, as `hogel propagate --display`: intensity |F|², amplitude, phase (black at -pi,
+        white at pi), real (real part, black at minus the largest modulus, white at plus), or log, the logarithm of the
         intensity over four decades.
 
         >>> import hogel, numpy as np
@@ -334,7 +336,7 @@ class Field(Samples):
         return Picture(_core.logarithmic(image) if display == "log" else image)
 
     def intensity(self) -> Picture:
-        """The picture of |F|².
+        """Returns the picture of |F|².
 
         >>> import hogel, numpy as np
         >>> wave = hogel.Field.from_array(np.ones((32, 64), np.complex64), pitch="2um", wavelength="633nm")

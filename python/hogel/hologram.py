@@ -19,7 +19,7 @@ from .photographs import photograph_fields
 
 
 class Hologram:
-    """A hologram: a field for each wavelength. Made by LightField.hologram(), open(), or of fields.
+    """Hologram: a field for each wavelength. Created by LightField.hologram(), open(), or from fields.
 
     >>> import hogel
     >>> from hogel import mm, deg, nm
@@ -32,21 +32,21 @@ class Hologram:
     """
 
     def __init__(self, fields: Any, where: str = "in memory", known: Any = None, made: Optional[_record.Record] = None) -> None:
-        # `known`: the light field and the request of which it is computed; `made`: the options of the command line.
+        # `known`: light field and request from which it is computed; `made`: options of the equivalent command.
         if isinstance(fields, Field):
             fields = [fields]
         self._sources = [field._source if isinstance(field, Field) else field for field in fields]
         self.where, self._known, self._made = where, known, made
-        self._identity: Optional[str] = None  # of its input, for work that can be resumed
-        self._history: list[tuple[str, str]] = []  # of a scene without a light field
+        self._identity: Optional[str] = None  # identifies its input, for resuming
+        self._history: list[tuple[str, str]] = []  # provenance of a scene without a light field
         if not self._sources:
-            raise UsageError("hologram: at least one field was expected")
+            raise UsageError("hologram: expected at least one field")
 
     @classmethod
     @takes(_core.field_keywords())
     def open(cls, path: Path, *, progress: Progress = None, **options: Any) -> "Hologram":
-        """Opens a hologram (.h5), a pattern of slm(), which says what it is, or the field of another program: .npy, .npz,
-        .mat, .ohc, .exr, or pictures of amplitudes, phases, or real and imaginary parts. The options are those of `hogel photo`
+        """Opens a hologram (.h5), a pattern of slm(), which describes itself, or another program's field: .npy, .npz, .mat,
+        .ohc, .exr, or pictures of amplitudes, phases, or real and imaginary parts. The options are those of `hogel photo`
         (docs/holograms-from-elsewhere.md). `phase_code` may also be a PhaseCode; `order` is "0", "+1", "-1" or a frequency
         "FX,FY", cycles per sample; `reconstruct` is "fourier" or "fresnel".
 
@@ -72,22 +72,22 @@ class Hologram:
 
     @property
     def grid(self) -> _core.Grid:
-        """The positions of the samples of the first field."""
+        """Positions of the samples of the first field."""
         return self[0].grid
 
     @property
     def wavelengths(self) -> list[float]:
-        """Metres."""
+        """Wavelengths, metres."""
         return [field.wavelength for field in self]
 
     @property
     def metadata(self) -> dict[str, str]:
-        """What made the hologram."""
+        """Provenance of the hologram."""
         return self[0].metadata
 
     @property
     def is_opened(self) -> bool:
-        """Whether it was opened, rather than computed of a light field or a scene or propagated."""
+        """Whether it was opened from a file, not computed or propagated."""
         return self._made is not None and "input" in self._made and not {"method", "distance"} & self._made.keys()
 
     def save(
@@ -100,10 +100,9 @@ class Hologram:
         metadata: Any = None,
         progress: Progress = None,
     ) -> None:
-        """Writes .h5, with single floats or with half=True half floats, or fields for other programs: .npy, .npz, .mat,
-        .exr. The file appears under its name when it is complete. With resume=True an interrupted call leaves what is
-        done, and the same call continues it. With part=(2, 8) the second of eight parts of a file that hogel.join() makes of
-        them is written, for as many processes.
+        """Writes .h5 with single floats, or half floats with half=True, or arrays for other programs: .npy, .npz, .mat,
+        .exr. The file appears under its name when it is complete. With resume=True the same call continues an interrupted
+        one. part=(2, 8) writes the second of eight parts, one per process; hogel.join() joins them to a file.
 
         >>> import hogel, os, tempfile
         >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
@@ -119,32 +118,32 @@ class Hologram:
         with reporting(progress, "hologram") as report:
             if part is not None:
                 if resume:
-                    raise usage_error("part, resume", "only one of them can be asked for")
+                    raise usage_error("part, resume", "give only one of them")
                 _core.write_holograms_part(name, self._sources, half, metadata, self._part(part), report)
                 return
             if os.path.splitext(name)[1] in (".npy", ".npz", ".mat", ".exr"):
                 if half or resume:
-                    raise usage_error("half" if half else "resume", f"belongs to HDF5 files, not to {name}")
+                    raise usage_error("half" if half else "resume", f"applies to HDF5 files, not to {name}")
                 _core.write_fields(name, self._sources, metadata, report)
                 return
             _core.require_hdf5(name)
             identity = None
             if resume:
-                # What a file holds is told by its name and date, what a scene is by its checksum.
+                # A file is identified by its name and date, a scene by its checksum.
                 identity = self._identity or (_core.describe_input(self._made["input"]) if self._made else None)
                 if identity is None:
-                    raise usage_error("resume", "what is made of arrays or functions cannot be resumed")
+                    raise usage_error("resume", "work on arrays or functions cannot be resumed")
             _core.write_holograms(name, self._sources, half, metadata, identity, report)
 
     def _part(self, part: tuple[int, int]) -> _core.FilePart:
-        """A part of a file, which knows its input by its name and size, or a scene by its checksum."""
+        """Returns the part of a file, with its input identified by name and size, or a scene by its checksum."""
         source = self._identity or ""
         if self._made is not None and not source and os.path.isfile(self._made["input"]):
             source = f"{self._made['input']}, {os.path.getsize(self._made['input'])} bytes"
         return _core.FilePart(int(part[0]), int(part[1]), source)
 
     def _entries(self, half: bool) -> list[tuple[str, str]]:
-        """What its file says made it."""
+        """Returns the metadata stored in its file."""
         if self._made is None:
             return _record.by_function("Hologram.save")
         if "distance" in self._made:
@@ -155,7 +154,7 @@ class Hologram:
         return _record.by_function("Hologram.save")
 
     def plan(self, *, half: bool = False) -> _core.Plan:
-        """The memory (bytes), disk space and time (seconds) that save() takes, without the cost of the light field.
+        """Returns the memory (bytes), disk space (bytes) and time (seconds) of save(), without the cost of the light field.
 
         >>> import hogel, os, tempfile
         >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
@@ -163,12 +162,12 @@ class Hologram:
         True
         """
         if self._known is None:
-            raise UsageError("plan: of holograms that are computed when they are read")
+            raise UsageError("plan: only for holograms that are computed on demand")
         light_field, wanted = self._known
         return _core.plan_holograms(light_field, wanted, half)
 
     def load(self, *, progress: Progress = None) -> "Hologram":
-        """The same hologram in memory, its first look.
+        """Returns the first look of the hologram in memory.
 
         >>> import hogel, os, tempfile
         >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
@@ -179,7 +178,7 @@ class Hologram:
 
     @passes_options_to(Field.propagate)
     def propagate(self, distance: units.Length, **options: Any) -> "Hologram":
-        """All fields on a parallel plane: Field.propagate().
+        """Propagates all fields to a parallel plane: see Field.propagate().
 
         >>> import hogel, os, tempfile
         >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
@@ -194,9 +193,9 @@ class Hologram:
 
     @takes(_core.wave_photograph_keywords())
     def photograph(self, *, cameras: Optional[Sequence[_core.Camera]] = None, progress: Progress = None, **options: Any) -> Any:
-        """A picture by waves, through the camera that the options describe (hogel.camera()): eye, gaze, focus, pupil,
-        resolution and so on. With `cameras` a list of pictures, one for each. Waves are photographed by the `camera` auto, eye,
-        narrow or full, in the words of the library hogel-spectra, samples or plane-waves.
+        """Photographs by waves. The options describe the camera (hogel.camera()): eye, gaze, focus, pupil, resolution and so
+        on. With `cameras` returns a list of pictures, one for each. `camera` is the model of wave propagation: auto, eye
+        (hogel-spectra), narrow (samples) or full (plane-waves).
 
         >>> import hogel, os, tempfile
         >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
@@ -207,9 +206,9 @@ class Hologram:
 
     @passes_options_to(pattern_of)
     def slm(self, **options: Any) -> Pattern:
-        """The pattern of a modulator that shows the hologram: a device by name (hogel.modulators()), or pixels and
-        pixel_pitch. The options are those of `hogel slm`: encoding, device, pixels, pixel_pitch, levels, reference, clip,
-        window, iterations and phase_code.
+        """Encodes the hologram as a modulator pattern. The modulator is a device by name (hogel.modulators()), or described
+        by pixels and pixel_pitch. The options are those of `hogel slm`: encoding, device, pixels, pixel_pitch, levels,
+        reference, clip, window, iterations and phase_code.
 
         >>> import hogel, numpy as np
         >>> wave = hogel.Field.from_array(np.exp(1j * np.arange(64.0))[:, None] * np.ones(64), pitch="8um", wavelength="532nm")
@@ -220,7 +219,7 @@ class Hologram:
         return pattern_of(self._sources, self._made if self.is_opened else None, **options)
 
     def compare(self, other: "Hologram", *, progress: Progress = None) -> dict[str, float]:
-        """sqnr and psnr (decibels) and max_error of another hologram of this sampling.
+        """Returns sqnr and psnr (decibels) and max_error of another hologram of the same sampling.
 
         >>> import hogel, os, tempfile
         >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")

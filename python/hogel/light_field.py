@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Light fields: arrays [c][t][s][v][u] of radiance, in memory, in files, rendered or computed when they are read."""
+"""Light fields: arrays [c][t][s][v][u] of radiance, in memory, in files, rendered or computed on demand."""
 from __future__ import annotations
 
 import os
@@ -26,11 +26,11 @@ from .requests import request
 
 
 class LightField(Rays):
-    """A light field L[c][t][s][v][u]: channels, rows and columns of hogels, rows and columns of directions; row 0 at the
-    top, column 0 at the left (docs/files.md). Made by Scene.render(), open(), from_array() and from_function().
+    """Light field L[c][t][s][v][u]: channels, rows and columns of hogels, rows and columns of directions; row 0 at the top,
+    column 0 at the left (docs/files.md). Created by Scene.render(), open(), from_array() and from_function().
 
-    `lf[c, t, s, v, u]` reads what slices and whole numbers take, of a file no more than the tiles that hold it. Four
-    of them are t, s, v and u, of all channels: `lf[10:20, :, 4, 4]` is [c][10][S].
+    `lf[c, t, s, v, u]` reads the elements selected by slices and integers, and only the tiles of a file that contain them.
+    Four indices are t, s, v and u, for all channels: `lf[10:20, :, 4, 4]` has the shape [c][10][S].
 
     >>> import hogel, numpy as np
     >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
@@ -44,8 +44,8 @@ class LightField(Rays):
 
     @classmethod
     def open(cls, path: Path, *, layers: Optional[int] = None, progress: Progress = None) -> "LightField":
-        """Opens a light field (.h5, .hgl), or imports a set of views as it is (import_views() has options). Samples are
-        read when they are needed. `layers`: of a compressed one, the first layers alone, coarser.
+        """Opens a light field (.h5, .hgl), or imports a set of views with default options (see import_views()). Samples are
+        read on demand. `layers`: decodes only the first layers of a compressed light field, coarser.
 
         >>> import hogel, os, tempfile
         >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
@@ -73,9 +73,9 @@ class LightField(Rays):
         depth: Any = None,
         metadata: Any = None,
     ) -> "LightField":
-        """The light field of an array [c][t][s][v][u] of radiances, or [t][s][v][u] of one channel, and optionally of one
-        [t][s][v][u] of depths. Arrays of single floats are not copied, whatever their strides; do not change them while the
-        light field is in use. What `grid` does not say, size, fov, toward and focal_plane do as those of Scene.render().
+        """Creates a light field from an array [c][t][s][v][u] of radiances, or [t][s][v][u] for one channel, and optionally
+        an array [t][s][v][u] of depths. Does not copy arrays of single floats, whatever their strides; do not change them
+        while the light field is in use. Without `grid`, size, fov, toward and focal_plane are as for Scene.render().
 
         >>> import hogel, numpy as np
         >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
@@ -86,7 +86,7 @@ class LightField(Rays):
         if values.ndim == 4:
             values = values[None]
         if values.ndim != 5:
-            raise usage_error("radiance", f"an array [c][t][s][v][u] was expected, not one of {values.ndim} axes")
+            raise usage_error("radiance", f"expected an array [c][t][s][v][u], not one of {values.ndim} axes")
         if grid is None:
             channels, rows, columns, down, across = values.shape
             grid = request(
@@ -101,10 +101,10 @@ class LightField(Rays):
     def from_function(
         cls, function: Callable[..., Any], *, channels: int = 3, depth: bool = False, metadata: Any = None, **options: Any
     ) -> "LightField":
-        """The light field of a function of one's own, which computes it when it is read: function(s, t, u, v) gets the
-        positions of hogels (metres) and the directions (tangents) as arrays with the axes [t][s][v][u], each of length
-        one along the others' axes, and returns radiances that can be broadcast to [c][t][s][v][u]; with `depth` also
-        depths, as a pair. The options are those of Scene.render() that say the sampling.
+        """Creates a light field from a function that computes samples on demand. function(s, t, u, v) gets the positions of
+        hogels (metres) and the directions (tangents) as arrays with the axes [t][s][v][u], each of length one along the
+        axes of the others. It returns radiances that broadcast to [c][t][s][v][u]; with `depth`, a pair of radiances and
+        depths. The options are the sampling options of Scene.render().
 
         >>> import hogel
         >>> stripes = hogel.LightField.from_function(lambda s, t, u, v: 0.5 + 0.5 * (abs(u) < 0.05), channels=1,
@@ -120,7 +120,7 @@ class LightField(Rays):
     def of_grid(
         cls, function: Callable[..., Any], grid: _core.LightFieldGrid, *, depth: bool = False, metadata: Any = None
     ) -> "LightField":
-        """from_function() of a sampling that is known already.
+        """Creates a light field from a function on a given grid: see from_function().
 
         >>> import hogel, numpy as np
         >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
@@ -148,7 +148,7 @@ class LightField(Rays):
         return cls(_core.light_field_of_function(grid, tile, depth, metadata), "computed when read")
 
     def load(self, *, depth: Optional[bool] = None, progress: Progress = None) -> "LightField":
-        """The same light field in memory; with its depth where it has one, unless depth=False.
+        """Returns the same light field in memory, with its depth if it has one, unless depth=False.
 
         >>> import hogel, os, tempfile
         >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
@@ -160,7 +160,7 @@ class LightField(Rays):
             return LightField(_core.load(self._light_field, with_depth, report), "in memory", self._made)
 
     def with_common_directions(self) -> "LightField":
-        """The same light field with the same directions at all hogels, which holograms need.
+        """Returns the light field resampled to common directions for all hogels, which holograms need.
 
         >>> import hogel, numpy as np
         >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
@@ -170,7 +170,7 @@ class LightField(Rays):
         return LightField(_core.with_common_directions(self._light_field), self.where, self._made)
 
     def every_nth_hogel(self, n: int) -> "LightField":
-        """Every n-th hogel across and down, for a first look at a large light field: n is odd.
+        """Returns a light field with every n-th hogel across and down, as a preview of a large one. n must be odd.
 
         >>> import hogel, numpy as np
         >>> lf = hogel.LightField.from_array(np.ones((1, 9, 9, 4, 4), np.float32), size="9mm", fov="16deg")
@@ -180,7 +180,7 @@ class LightField(Rays):
         return LightField(_core.every_nth_hogel(self._light_field, n), self.where)
 
     def compare(self, other: "LightField", *, progress: Progress = None) -> dict[str, float]:
-        """sqnr and psnr (decibels) and max_error of another light field of this sampling.
+        """Returns sqnr and psnr (decibels) and max_error of another light field of the same sampling.
 
         >>> import hogel, numpy as np
         >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
@@ -204,10 +204,9 @@ class LightField(Rays):
         metadata: Any = None,
         progress: Progress = None,
     ) -> None:
-        """Writes the light field: .h5, with half floats or with float=True single ones, or .hgl of this signal to
-        quantisation noise ratio (decibels). The file appears under its name when it is complete. With resume=True an
-        interrupted call leaves what is done, and the same call continues it. With part=(2, 8) the second of eight parts of a
-        file that hogel.join() makes of them is written, for as many processes.
+        """Writes .h5 with half floats, or single floats with float=True, or .hgl with the signal-to-quantisation-noise ratio
+        `sqnr` (decibels). The file appears under its name when it is complete. With resume=True the same call continues an
+        interrupted one. part=(2, 8) writes the second of eight parts, one per process; hogel.join() joins them to a file.
 
         >>> import hogel, os, tempfile
         >>> path = os.path.join(tempfile.mkdtemp(), "small.h5")
@@ -218,7 +217,8 @@ class LightField(Rays):
         save_light_field(self, path, float, half, depth, sqnr, resume, part, metadata, progress)
 
     def plan(self, *, depth: bool = False, float: bool = False) -> _core.Plan:
-        """The memory (bytes), disk space and time (seconds; 0: no estimate) that save() takes of a light field that is rendered.
+        """Returns the memory (bytes), disk space (bytes) and time (seconds; 0: no estimate) of save() for a rendered light
+        field.
 
         >>> import hogel, os, tempfile
         >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
@@ -226,7 +226,7 @@ class LightField(Rays):
         True
         """
         if self._rendering is None:
-            raise UsageError("plan: of light fields that are rendered; it is what rendering takes")
+            raise UsageError("plan: only for light fields that are rendered on demand")
         wanted, triangles, model = self._rendering
         shading = wanted.shading
         shading.model = model
@@ -235,9 +235,9 @@ class LightField(Rays):
 
     @passes_options_to(hologram_request)
     def hologram(self, *, progress: Progress = None, **options: Any) -> Hologram:
-        """The hologram of the light field, computed when it is read: one field for each wavelength, without any three
-        (red, green, blue). The options are those of `hogel hologram`. Without a pitch it has that of hogel.defaults, or
-        where that does not diffract the field of view, one that does, with a warning (UserWarning) that says which.
+        """Returns the hologram of the light field, computed on demand: one field for each wavelength; default: red, green
+        and blue. The options are those of `hogel hologram`. The default pitch is that of hogel.defaults. If that cannot
+        diffract the field of view, a smaller pitch is chosen and reported by a UserWarning.
 
         >>> import hogel, os, tempfile
         >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
@@ -251,8 +251,8 @@ class LightField(Rays):
         if note:
             warnings.warn(note, stacklevel=3)
         _core.require_holograms(common, wanted)
-        again = LightField(common, self.where)
-        prepared = again._prepared(len(wanted.channels), _core.needs_depth(wanted.method), progress)
+        resampled = LightField(common, self.where)
+        prepared = resampled._prepared(len(wanted.channels), _core.needs_depth(wanted.method), progress)
         fields = _core.make_holograms(prepared, wanted)
         record = None
         if self._made is not None:
@@ -263,15 +263,15 @@ class LightField(Rays):
         return made
 
     def _for_holograms(self, wanted: _core.HologramRequest, any_transform: bool) -> _core.LightField:
-        """With the same directions at all hogels; of files with coefficients of basis fringes, those."""
+        """Returns the light field with common directions for all hogels, or the basis-fringe coefficients of a file."""
         if isinstance(wanted.method, _core.Basis) and self.where.endswith(".hgl"):
             return _core.open_for_holograms(self.where, wanted, any_transform)
         return _core.with_common_directions(self._light_field)
 
     @takes(_core.ray_photograph_keywords())
     def photograph(self, *, cameras: Optional[Sequence[_core.Camera]] = None, progress: Progress = None, **options: Any) -> Any:
-        """A picture by rays, through the camera that the options describe (hogel.camera()): eye, gaze, focus, pupil,
-        resolution and so on. With `cameras` a list of pictures, one for each.
+        """Photographs by rays. The options describe the camera (hogel.camera()): eye, gaze, focus, pupil, resolution and so
+        on. With `cameras` returns a list of pictures, one for each.
 
         >>> import hogel, os, tempfile
         >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
@@ -291,7 +291,7 @@ class LightField(Rays):
 
     @passes_options_to(export_views)
     def export(self, target: Path, **options: Any) -> _core.ExportedViews:
-        """Writes the light field as a set of views, or a film of its middle row: hogel.export_views().
+        """Writes the light field as a set of views, or as a film of the middle row: see hogel.export_views().
 
         >>> import hogel, os, tempfile
         >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=3, size="4mm", focal_plane="-300mm")
@@ -303,7 +303,7 @@ class LightField(Rays):
 
     @passes_options_to(write_printer_images)
     def print(self, folder: Path, **options: Any) -> list[str]:
-        """Writes the pictures that a hologram printer shows: hogel.exports.write_printer_images().
+        """Writes the pictures for a hologram printer: see hogel.exports.write_printer_images().
 
         >>> import hogel, os, tempfile
         >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How light fields become holograms."""
+"""Requests for holograms of light fields."""
 from __future__ import annotations
 
 from typing import Any
@@ -10,7 +10,7 @@ from ._keywords import takes
 
 @takes(_core.hologram_keywords())
 def hologram_request(**options: Any) -> _core.HologramRequest:
-    """What `hogel hologram` asks for, by the names of its options: see LightField.hologram().
+    """Returns the request of `hogel hologram` with these options: see LightField.hologram().
 
     >>> import hogel
     >>> wanted = hogel.hologram_request(wavelength="633nm", method="basis", tolerance=0.1)
@@ -21,5 +21,5 @@ def hologram_request(**options: Any) -> _core.HologramRequest:
 
 
 def hologram_record(wanted: _core.HologramRequest, grid: _core.LightFieldGrid, **options: Any) -> _record.Record:
-    """The options of hologram_request() that act, as `hogel hologram` says them."""
+    """Returns the options of hologram_request() that act, as stored by `hogel hologram`."""
     return dict(_core.hologram_record(options, wanted, grid))

@@ -14,8 +14,8 @@ from .errors import UsageError
 
 
 class Pattern:
-    """The levels of a modulator's pixels, for one wavelength or three: `np.asarray(pattern)` is [y][x][c] of bytes. Made
-    by Hologram.slm().
+    """Levels of a modulator's pixels, for one or three wavelengths: `np.asarray(pattern)` is an array [y][x][c] of bytes.
+    Created by Hologram.slm().
 
     >>> import hogel, numpy as np
     >>> wave = hogel.Field.from_array(np.ones((32, 32), np.complex64), pitch="8um", wavelength="532nm")
@@ -25,7 +25,7 @@ class Pattern:
     """
 
     def __init__(self, encoded: _core.SuitablePatterns, modulator: _core.Modulator, entries: list[tuple[str, str]]) -> None:
-        # `entries`: what its file says.
+        # `entries`: metadata stored in its file.
         self._parts, self.modulator, self._entries = encoded.patterns, modulator, entries
         self.levels = np.stack([part.levels for part in self._parts], axis=-1)
         self.encoding = encoded.encoding.name.replace("_", "-")
@@ -35,33 +35,33 @@ class Pattern:
 
     @property
     def efficiency(self) -> list[float]:
-        """For each wavelength, the share of the light on the modulator that goes into the hologram's wave."""
+        """For each wavelength, the fraction of the light on the modulator that forms the wave of the hologram."""
         return [part.efficiency for part in self._parts]
 
     @property
     def correlation(self) -> list[float]:
-        """For each wavelength, of patterns of phases: how like the hologram's wave theirs is behind the aperture."""
+        """For each wavelength, the correlation of the wave behind the aperture with that of the hologram (phase patterns)."""
         return [part.correlation for part in self._parts]
 
     @property
     def aperture(self) -> list[_core.Aperture]:
-        """For each wavelength, the round aperture in the plane of the spectrum that lets the hologram's light through, its
-        middle (x to the right, y downwards) and radius in cycles per pixel."""
+        """For each wavelength, the round aperture in the Fourier plane that passes the light of the hologram: centre (x to
+        the right, y downwards) and radius in cycles per pixel."""
         return [part.aperture for part in self._parts]
 
     @property
     def power(self) -> list[float]:
-        """For each wavelength, the power of the light on a pixel that makes the pattern as bright as the hologram; their
-        ratio is that of the powers which show the hologram's colours."""
+        """For each wavelength, the illumination power per pixel at which the pattern is as bright as the hologram. Their
+        ratios reproduce the colours of the hologram."""
         return [part.power for part in self._parts]
 
     @property
     def reference_angle(self) -> list[float]:
-        """For each wavelength, the angle of the reference wave, radians; 0 without one."""
+        """For each wavelength, the angle of the reference wave, radians; 0: no reference wave."""
         return [part.reference_angle for part in self._parts]
 
     def transmission(self, number: int = 0) -> "np.ndarray[Any, Any]":
-        """The complex transmission [y][x] of the modulator for a wavelength, before a phase code other than hogel's.
+        """Returns the complex transmission [y][x] of the modulator for a wavelength, before conversion to another phase code.
 
         >>> import hogel, numpy as np
         >>> wave = hogel.Field.from_array(np.ones((32, 32), np.complex64), pitch="8um", wavelength="532nm")
@@ -72,8 +72,8 @@ class Pattern:
         return _core.transmission(self._parts[number], _core.encoding(self.encoding))
 
     def save(self, path: Union[str, "os.PathLike[str]"], *, metadata: Any = None) -> None:
-        """Writes .png or .bmp of 8 bits, the levels as they are. Files but .bmp describe their field: pitch,
-        wavelength and phase code, by which hogel opens them without being told.
+        """Writes the levels as 8-bit .png or .bmp without conversion. A .png stores pitch, wavelength and phase code, so
+        hogel opens it without options.
 
         >>> import hogel, numpy as np, os, tempfile
         >>> wave = hogel.Field.from_array(np.ones((32, 32), np.complex64), pitch="8um", wavelength="532nm")
@@ -94,7 +94,7 @@ class Pattern:
 def pattern_of(
     fields: list[_core.FieldSource], made: Optional[_record.Record], *, progress: Progress = None, **options: Any
 ) -> Pattern:
-    """See Hologram.slm(). `made`: the options of the command line that opened the fields, if they were opened."""
+    """See Hologram.slm(). `made`: options of the command line for fields opened from a file."""
     modulator = _core.pattern_options(options).modulator
     if len(fields) not in (1, 3):
         raise UsageError(f"slm: a pattern takes one or three wavelengths, not {len(fields)}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Photographs of fields by waves."""
+"""Wave photographs of fields."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -22,8 +22,8 @@ def photograph_fields(
     progress: Progress,
     options: dict[str, Any],
 ) -> Any:
-    """See Hologram.photograph(). `origin`: the light field and the request of which the fields are computed; `made`: the
-    options of the command line that made them, both if there are any."""
+    """See Hologram.photograph(). `origin`: light field and request from which the fields are computed, or None; `made`:
+    options of the equivalent command, or None."""
     if len(fields) not in (1, 3):
         raise UsageError(f"photograph: a photograph takes one or three wavelengths, not {len(fields)}")
     plane = fields[0].grid.plane

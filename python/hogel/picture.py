@@ -13,7 +13,7 @@ Exposure = Union[str, float]
 
 
 class Picture:
-    """A picture in linear light, with one or three channels. `np.asarray(picture)` is its memory, [y][x][c].
+    """Picture in linear light, with one or three channels. `np.asarray(picture)` is its memory, [y][x][c].
 
     >>> import hogel, numpy as np
     >>> grey = hogel.Picture(np.full((2, 3), 0.5))
@@ -24,7 +24,7 @@ class Picture:
     """
 
     def __init__(self, pixels: Any) -> None:
-        self._made: Optional[tuple[str, _record.Record]] = None  # the command that makes it, and its options
+        self._made: Optional[tuple[str, _record.Record]] = None  # equivalent command and its options
         if isinstance(pixels, _core.Image):
             self._image = pixels
         else:
@@ -33,7 +33,7 @@ class Picture:
 
     @classmethod
     def open(cls, path: Union[str, os.PathLike[str]]) -> "Picture":
-        """Reads a PNG, JPEG, EXR, BMP, TGA, GIF, HDR, PNM or PFM file; integers are taken as sRGB.
+        """Reads a PNG, JPEG, EXR, BMP, TGA, GIF, HDR, PNM or PFM file. Integer samples are interpreted as sRGB.
 
         >>> import hogel, numpy as np, os, tempfile
         >>> path = os.path.join(tempfile.mkdtemp(), "grey.png")
@@ -45,39 +45,39 @@ class Picture:
 
     @property
     def width(self) -> int:
-        """Pixels across."""
+        """Width in pixels."""
         return self._image.width
 
     @property
     def height(self) -> int:
-        """Pixels down."""
+        """Height in pixels."""
         return self._image.height
 
     @property
     def channels(self) -> int:
-        """1, or 3 for R, G, B."""
+        """Number of channels: 1, or 3 for R, G, B."""
         return self._image.channels
 
     @property
     def pixels(self) -> "np.ndarray[Any, Any]":
-        """The memory of the picture, [y][x][c], linear."""
+        """Memory of the picture, [y][x][c], linear."""
         return self._image.pixels
 
     @property
     def metadata(self) -> dict[str, str]:
-        """What made the picture."""
+        """Provenance of the picture."""
         return dict(self._image.metadata)
 
     @property
     def camera(self) -> Optional[_core.Camera]:
-        """The camera that took it."""
+        """Camera that took the picture; None if unknown."""
         return self._image.camera
 
     def __array__(self, dtype: Any = None) -> "np.ndarray[Any, Any]":
         return self.pixels if dtype is None else self.pixels.astype(dtype, copy=False)
 
     def exposure(self, exposure: Exposure = "auto") -> float:
-        """The factor of linear values for an exposure, "auto" among them: the brightest parts become white.
+        """Returns the factor of linear values for an exposure; "auto": the brightest parts become white.
 
         >>> import hogel, numpy as np
         >>> hogel.Picture(np.full((2, 3, 1), 0.5)).exposure(2)
@@ -105,7 +105,7 @@ class Picture:
         _core.write_image(name, self._image, factor, metadata)
 
     def png(self, exposure: Exposure = "auto") -> bytes:
-        """The bytes of a PNG file.
+        """Returns the bytes of a PNG file.
 
         >>> import hogel, numpy as np
         >>> hogel.Picture(np.full((2, 3, 1), 0.5)).png()[:4]
@@ -117,7 +117,7 @@ class Picture:
         return self.png()
 
     def compare(self, other: "Picture", exposure: float = 1) -> dict[str, float]:
-        """psnr and ssim of display values, max_error and linear_psnr of another picture of this size.
+        """Returns psnr and ssim of display values, max_error and linear_psnr of another picture of the same size.
 
         >>> import hogel, numpy as np
         >>> grey = hogel.Picture(np.full((16, 16, 1), 0.5))

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Plots of light fields, fringes and photographs, by matplotlib, with axes in millimetres and degrees. Each function is one
-line to call and returns a figure, which notebooks show and figure.savefig() writes.
+"""Plots of light fields, fringes and photographs with matplotlib, with axes in millimetres and degrees. Each function
+returns a figure, which notebooks display and figure.savefig() writes.
 
 >>> import hogel
 >>> import hogel.plot as plot
@@ -35,7 +35,7 @@ _MM, _DEG = 1e3, 180 / math.pi
 
 
 def _figure(columns: int, rows: int, width: float, height: float, **options: Any) -> Any:
-    """A figure with panels of this size in inches, and its axes as an array."""
+    """Returns a figure with panels of this size in inches, and its axes as an array."""
     try:
         from matplotlib import pyplot  # type: ignore[import]
     except ImportError:
@@ -46,7 +46,7 @@ def _figure(columns: int, rows: int, width: float, height: float, **options: Any
 
 
 def _shown(pixels: Any, exposure: float) -> "np.ndarray[Any, Any]":
-    """Display values of linear ones, [y][x][3]."""
+    """Converts linear values to sRGB display values, [y][x][3]."""
     linear = np.clip(np.asarray(pixels, np.float64) * exposure, 0, 1)
     low = linear <= 0.0031308
     display = np.where(low, 12.92 * linear, 1.055 * np.where(low, 1, linear) ** (1 / 2.4) - 0.055)
@@ -60,13 +60,13 @@ def _exposure_of(pictures: Sequence[Any], exposure: Union[str, float]) -> float:
 
 
 def _extent(width: float, height: float, x: float = 0, y: float = 0) -> tuple[float, float, float, float]:
-    """Where imshow() puts a plane, millimetres."""
+    """Returns the extent of a plane for imshow(), millimetres."""
     left, right, low, high = x - width / 2, x + width / 2, y - height / 2, y + height / 2
     return left * _MM, right * _MM, low * _MM, high * _MM
 
 
 def _angle(grid: _core.LightFieldGrid, tangent: float) -> float:
-    """Degrees of a direction u or v."""
+    """Converts a direction u or v to degrees."""
     return math.asin(max(-1, min(1, tangent))) * _DEG if grid.has_frequencies else math.atan(tangent) * _DEG
 
 
@@ -77,7 +77,7 @@ def _middle(*lengths: int) -> list[int]:
 def light_field(
     lf: LightField, *, columns: int = 3, rows: int = 3, exposure: Union[str, float] = "auto"
 ) -> "Figure":
-    """A grid of views of a light field, from evenly spread directions: what is seen from the left is at the left.
+    """Plots a grid of views of a light field from evenly spaced directions. Views from the left are at the left.
 
     >>> import hogel, hogel.plot as plot
     >>> lf = hogel.Scene.load("pumpkin").render(hogels=12, directions=4, size="1mm").load()
@@ -87,7 +87,7 @@ def light_field(
     grid = lf.grid
     across = np.linspace(0, grid.directions_u - 1, min(columns, grid.directions_u)).round().astype(int)
     down = np.linspace(0, grid.directions_v - 1, min(rows, grid.directions_v)).round().astype(int)
-    # Rays run towards the eye from where they meet the scene: the eye at the left sees those with a positive u.
+    # Directions point from the scene towards the viewer's side: a viewpoint at the left sees rays with positive u.
     views = [[np.moveaxis(lf.part(v=int(v), u=int(u)), 0, -1) for u in across[::-1]] for v in down[::-1]]
     factor = _exposure_of([view for row in views for view in row], exposure)
     figure, axes = _figure(len(across), len(down), 2.2, 2.2 * grid.height / grid.width, sharex=True, sharey=True)
@@ -106,8 +106,8 @@ def light_field(
 def epipolar(
     lf: LightField, *, t: Optional[int] = None, s: Optional[int] = None, exposure: Union[str, float] = "auto"
 ) -> "Figure":
-    """The epipolar planes of a row and a column of hogels, the middle ones unless `t` and `s` say others: radiance over
-    position and direction, where points of the scene are lines whose slope is their depth.
+    """Plots the epipolar plane images of a row `t` and a column `s` of hogels; default: the middle ones. They show radiance
+    over position and direction. Scene points appear as lines; the slope depends on depth.
 
     >>> import hogel, hogel.plot as plot
     >>> lf = hogel.Scene.load("pumpkin").render(hogels=12, directions=4, size="1mm").load()
@@ -138,8 +138,8 @@ def epipolar(
 def fringe(
     field: Union[Field, Hologram], *, number: int = 0, side: int = 512, decades: float = 5, progress: Progress = None
 ) -> "Figure":
-    """The middle of a fringe, its modulus and its phase, beside its spectrum: how much light it sends in which direction.
-    `side`: of the square of samples that is looked at; `decades`: of the spectrum's intensity from black to white.
+    """Plots modulus, phase and angular spectrum of the middle of a fringe pattern. `side`: width of the square region,
+    samples; `decades`: range of the spectrum's intensity from black to white.
 
     >>> import hogel, hogel.plot as plot
     >>> lf = hogel.Scene.load("pumpkin").render(hogels=4, directions=16, size="0.2mm")
@@ -147,11 +147,11 @@ def fringe(
     >>> figure.axes[0].get_title()
     'modulus'
     """
-    one = field[number] if isinstance(field, Hologram) else field
-    grid = one.grid
+    selected = field[number] if isinstance(field, Hologram) else field
+    grid = selected.grid
     columns, rows = min(side, grid.width), min(side, grid.height)
     x0, y0 = (grid.width - columns) // 2, (grid.height - rows) // 2
-    samples = one.read((slice(y0, y0 + rows), slice(x0, x0 + columns)), progress)
+    samples = selected.read((slice(y0, y0 + rows), slice(x0, x0 + columns)), progress)
     window = np.hanning(rows + 2)[1:-1, None] * np.hanning(columns + 2)[None, 1:-1]
     power = np.abs(np.fft.fftshift(np.fft.fft2(samples * window))) ** 2
     level = np.log10(np.maximum(power / max(power.max(), 1e-300), 10.0**-decades))
@@ -165,11 +165,11 @@ def fringe(
     shown = axes[1].imshow(np.angle(samples), extent=extent, cmap="twilight", vmin=-math.pi, vmax=math.pi, interpolation="nearest")
     figure.colorbar(shown, ax=axes[1], shrink=0.8, ticks=(-math.pi, 0, math.pi)).ax.set_yticklabels(("-π", "0", "π"))
     axes[1].set(title="phase", xlabel="x, mm")
-    reach = [math.asin(min(1.0, one.wavelength / (2 * pitch))) * _DEG for pitch in (grid.pitch_x, grid.pitch_y)]
-    # Row 0 is at the top: frequencies grow downwards in the array, and directions upwards.
-    shown = axes[2].imshow(level, extent=(-reach[0], reach[0], -reach[1], reach[1]), cmap="magma", vmin=-decades, vmax=0)
+    max_angles = [math.asin(min(1.0, selected.wavelength / (2 * pitch))) * _DEG for pitch in (grid.pitch_x, grid.pitch_y)]
+    # Row 0 is at the top: frequencies increase downwards in the array, directions upwards.
+    shown = axes[2].imshow(level, extent=(-max_angles[0], max_angles[0], -max_angles[1], max_angles[1]), cmap="magma", vmin=-decades, vmax=0)
     figure.colorbar(shown, ax=axes[2], shrink=0.8, label="log₁₀ of intensity")
-    axes[2].set(title=f"spectrum, {units.say_length(one.wavelength)}", xlabel="across, degrees", ylabel="up, degrees")
+    axes[2].set(title=f"spectrum, {units.say_length(selected.wavelength)}", xlabel="across, degrees", ylabel="up, degrees")
     return figure
 
 
@@ -193,22 +193,22 @@ def focal_stack(
     exposure: Union[str, float] = "auto",
     **camera: Any,
 ) -> "Figure":
-    """Photographs in focus at several depths, of a light field by rays or of a hologram by waves. The options are those of
-    photograph().
+    """Plots photographs focused at several depths, of a light field by rays or of a hologram by waves. The options are those
+    of photograph().
 
     >>> import hogel, hogel.plot as plot
     >>> lf = hogel.Scene.load("pumpkin").render(hogels=12, directions=4, size="1mm").load()
     >>> len(plot.focal_stack(lf, ("-1mm", 0), resolution=16).axes)
     2
     """
-    places = [units.length(depth, "depths") for depth in depths]
-    if not places:
-        raise usage_error("depths", "at least one was expected")
-    pictures = [source.photograph(focus=depth, **camera) for depth in places]
+    depth_values = [units.length(depth, "depths") for depth in depths]
+    if not depth_values:
+        raise usage_error("depths", "expected at least one")
+    pictures = [source.photograph(focus=depth, **camera) for depth in depth_values]
     factor = _exposure_of(pictures, exposure)
     shape = pictures[0].height / pictures[0].width
     figure, (axes,) = _figure(len(pictures), 1, 2.8, 2.8 * shape + 0.3, sharey=True)
-    for axis, depth, picture in zip(axes, places, pictures):
+    for axis, depth, picture in zip(axes, depth_values, pictures):
         where = "on the hologram" if depth == 0 else f"{abs(depth) * _MM:.3g} mm {'behind' if depth > 0 else 'in front'}"
         _photograph_axes(axis, picture, factor, f"in focus {where}")
     axes[0].set_ylabel("y, mm", fontsize=8)
@@ -219,8 +219,8 @@ def focal_stack(
 def twins(
     hologram: Hologram, lf: LightField, *, exposure: Union[str, float] = "auto", **camera: Any
 ) -> "Figure":
-    """A photograph of a hologram by waves beside its twin, that of the light field by rays through the same camera, and
-    their difference.
+    """Plots a photograph of a hologram by waves, one of the light field by rays with the same camera, and their
+    difference.
 
     >>> import hogel, hogel.plot as plot
     >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=16, size="0.4mm")
@@ -254,9 +254,9 @@ def rate_distortion(
     methods: Optional[Mapping[str, Mapping[str, Any]]] = None,
     progress: Progress = None,
 ) -> "Figure":
-    """Signal to error over rays a bit of the compressed light field, which is coded at each rate. `methods`: a curve each,
-    a name and options of compress(), such as {"ezw, cdf97": dict(coder="ezw", transform="cdf97")}; all coders without.
-    Rates that a coder cannot reach are left out.
+    """Plots the signal-to-noise ratio over the rate (rays per bit) of the light field, compressed at each rate. `methods`:
+    one curve per entry, a name and options of compress(), such as {"ezw, cdf97": dict(coder="ezw", transform="cdf97")};
+    default: all coders. Rates that a coder cannot reach are omitted.
 
     >>> import hogel, hogel.plot as plot
     >>> lf = hogel.Scene.load("pumpkin").render(hogels=32, directions=8, size="1mm")
@@ -265,23 +265,23 @@ def rate_distortion(
     """
     curves = methods if methods is not None else {coder: {"coder": coder} for coder in ("hogel", "threepass", "ezw", "jpeg4d")}
     figure, ((axis,),) = _figure(1, 1, 5.2, 3.6)
-    # Colours that those see apart who see few, and a mark each.
+    # Colours that remain distinguishable with colour blindness; each curve also has its own marker.
     colours = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
-    inside = lf if lf.where == "in memory" else lf.load(progress=progress)
+    loaded = lf if lf.where == "in memory" else lf.load(progress=progress)
     with tempfile.TemporaryDirectory() as folder:
         for number, (name, options) in enumerate(curves.items()):
             path = os.path.join(folder, "coded.hgl")
             points: list[tuple[float, float]] = []
-            beyond = usage_error("ppb", "at least one rate was expected")
+            last_error = usage_error("ppb", "expected at least one rate")
             for rate in ppb:
                 try:
-                    made = inside.compress(path, ppb=rate, no_depth=True, progress=progress, **options)
-                except UsageError as error:  # no file of this coder is as small, or as large
-                    beyond = error
+                    made = loaded.compress(path, ppb=rate, no_depth=True, progress=progress, **options)
+                except UsageError as error:  # the coder cannot reach this rate
+                    last_error = error
                     continue
                 points.append((made["pixels_per_bit"], made["sqnr"]))
             if not points:
-                raise beyond
+                raise last_error
             rates, ratios = zip(*points)
             colour = colours[number % len(colours)]
             axis.plot(rates, ratios, marker="osD^vP"[number % 6], markersize=4, color=colour)

@@ -11,7 +11,7 @@ Colour = Union[str, Sequence[float]]
 
 
 def light(direction: Sequence[float], colour: Colour = "white", strength: float = 2.2) -> _core.Light:
-    """A directional light that comes from `direction` (x, y, z), with its irradiance.
+    """Returns a directional light from `direction` (x, y, z). `strength` is its irradiance.
 
     >>> import hogel
     >>> [round(part, 3) for part in hogel.light((0, 0, 2), "white", 1.5).intensity]

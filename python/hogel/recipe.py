@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The whole recipe: from a scene to its hologram and photographs."""
+"""All steps from a scene to its hologram and photographs."""
 from __future__ import annotations
 
 import os
@@ -18,7 +18,7 @@ from .scene import Scene
 
 @dataclass(frozen=True)
 class Photographs:
-    """The photographs of make() by one camera. Comparisons are those of Picture.compare() with the picture by rays.
+    """Photographs of make() with one camera. Comparisons are results of Picture.compare() with the picture by rays.
 
     >>> import hogel
     >>> made = hogel.make("sphere", hogels=8, directions=8, size="0.4mm", resolution=16, looks=1)
@@ -30,16 +30,16 @@ class Photographs:
     focus: str
     camera: _core.Camera
     rays: Picture
-    #: The mean of the looks; None with looks="expected".
+    #: Mean of the looks; None with looks="expected".
     waves: Optional[Picture]
     waves_comparison: Optional[dict[str, float]]
-    #: The mean of infinitely many looks; None where it would take long.
+    #: Speckle-free: mean of infinitely many looks; None if it would take long.
     speckle_free: Optional[Picture]
     speckle_free_comparison: Optional[dict[str, float]]
 
 
 class Made:
-    """What make() has made: the light field, the hologram, and the photographs by each camera with their exposure.
+    """Result of make(): the light field, the hologram, and the photographs of each camera with their exposure.
 
     >>> import hogel
     >>> made = hogel.make("sphere", hogels=8, directions=8, size="0.4mm", resolution=16, looks=1)
@@ -49,17 +49,17 @@ class Made:
 
     def __init__(self, made: _core.Made) -> None:
         self._made = made
-        #: The light field, in memory.
+        #: Light field, in memory.
         self.light_field = LightField(made.light_field, "in memory")
-        #: The hologram, computed when it is read.
+        #: Hologram, computed on demand.
         self.hologram = Hologram(list(made.holograms), "computed when read", known=(made.light_field, made.request.hologram))
-        #: The factor by which files show all pictures.
+        #: Exposure of all picture files.
         self.exposure: float = made.exposure
-        #: The photographs by each camera.
+        #: Photographs of each camera.
         self.photographs: Sequence[Photographs] = [_photographs(by) for by in made.photographs]
 
     def save(self, folder: Union[str, "os.PathLike[str]"], *, metadata: Any = None) -> None:
-        """Writes all photographs into a folder that exists, under the names of `hogel make`.
+        """Writes all photographs to an existing folder, with the file names of `hogel make`.
 
         >>> import hogel, os, tempfile
         >>> folder = tempfile.mkdtemp()
@@ -95,9 +95,9 @@ def _compared(made: Optional[_core.ComparedImage]) -> tuple[Optional[Picture], O
 
 @takes(_core.make_keywords())
 def make(scene: Union[str, "os.PathLike[str]", Scene], *, progress: Progress = None, **options: Any) -> Made:
-    """Renders a scene, makes its hologram, and photographs it by waves and by rays from three eyes with two focuses, all in
-    memory: the pictures of `hogel make`. `scene`: a name, a file, or a Scene; the options are those of `hogel make`, among
-    them those of Scene.render().
+    """Renders a scene, computes its hologram, and photographs it by waves and by rays from three viewpoints with two focus
+    depths, all in memory: the pictures of `hogel make`. `scene`: a name, a file, or a Scene. The options are those of `hogel
+    make`, which include those of Scene.render().
 
     >>> import hogel
     >>> made = hogel.make("pumpkin", hogels=8, directions=8, size="0.4mm", resolution=16, looks=2)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is asked for when a scene is rendered."""
+"""Requests for light fields of scenes."""
 from __future__ import annotations
 
 from typing import Any
@@ -10,7 +10,7 @@ from ._keywords import takes
 
 @takes(_core.light_field_keywords())
 def request(**options: Any) -> _core.LightFieldRequest:
-    """What `hogel render` asks for, by the names of its options: see Scene.render().
+    """Returns the request of `hogel render` with these options: see Scene.render().
 
     >>> import hogel
     >>> hogel.request(hogels=(64, 48), directions=16, size="6.4mm").grid.shape

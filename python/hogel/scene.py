@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Scenes, and the light fields that are rendered of them."""
+"""Scenes and rendering."""
 from __future__ import annotations
 
 import os
@@ -16,13 +16,13 @@ from .hologram import Hologram
 from .light_field import LightField
 from .requests import request
 
-#: Renderers of one's own, by name: see add_renderer().
+#: Custom renderers by name: see add_renderer().
 own_renderers: dict[str, Callable[..., Any]] = {}
 
 
 def add_renderer(name: str, renderer: Callable[..., Any]) -> None:
-    """A renderer of one's own for `algorithm`: renderer(scene, grid) gets the scene at the hologram, whose `meshes` have
-    positions [n][3] (metres) and triangles [m][3], and returns a function of rays, as LightField.from_function() takes it.
+    """Registers a custom renderer for `algorithm`. renderer(scene, grid) gets the placed scene; its `meshes` have positions
+    [n][3] (metres) and triangles [m][3]. It returns a function of rays for LightField.from_function().
 
     >>> import hogel
     >>> hogel.add_renderer("flat", lambda scene, grid: lambda s, t, u, v: 0.25 + 0 * s)
@@ -31,12 +31,12 @@ def add_renderer(name: str, renderer: Callable[..., Any]) -> None:
     0.25
     """
     if name in _core.renderers():
-        raise UsageError(f"add_renderer: {name} is the name of one of hogel's")
+        raise UsageError(f"add_renderer: {name} is the name of a renderer of hogel")
     own_renderers[name] = renderer
 
 
 class Scene:
-    """Surfaces and lights: a built-in scene, a mesh file, or meshes from arrays.
+    """Scene of surfaces and lights: a built-in scene, a mesh file, or meshes from arrays.
 
     >>> import hogel, numpy as np
     >>> hogel.Scene.load("pumpkin")
@@ -49,15 +49,15 @@ class Scene:
     def __init__(
         self, name: str, scene: Optional[_core.Scene], pose: _core.ScenePose, made: Optional[dict[str, Any]] = None
     ) -> None:
-        # `made`: the options of load().
+        # `made`: options of load(); None if the command line cannot express them.
         self.name, self._scene, self._pose, self._made = name, scene, pose, made
 
     @classmethod
     @takes(_core.scene_keywords())
     def load(cls, name: Union[str, os.PathLike[str]], *, progress: Progress = None, **options: Any) -> "Scene":
-        """A built-in scene of that name (hogel.scenes()), or a mesh file, which is read at once. The rest turns, places,
-        colours and lights it, as the options of these names do. A colour is a text or three linear numbers, `texture` a file
-        or a Picture, `light` a list of texts and of hogel.light().
+        """Loads a built-in scene (hogel.scenes()) or reads a mesh file. The options rotate, place, colour and light it, as
+        the options of the command line do. A colour is a text or three linear numbers, `texture` a file or a Picture,
+        `light` a list of texts and hogel.light().
 
         >>> import hogel
         >>> hogel.Scene.load("sphere", colour="#804020", background="grey")
@@ -68,7 +68,7 @@ class Scene:
         if isinstance(lights, (str, _core.Light)):
             lights = [lights]
         if not isinstance(lights, Iterable) or not all(isinstance(light, (str, _core.Light)) for light in lights):
-            raise usage_error("light", "a list of texts and of hogel.light() was expected")
+            raise usage_error("light", "expected a list of texts and hogel.light()")
         texts = [light if isinstance(light, str) else _core.light_text(light) for light in lights]
         picture = getattr(texture, "_image", None)
         if picture is None:
@@ -77,7 +77,7 @@ class Scene:
         pose.lights = [_core.parse_light(light) if isinstance(light, str) else light for light in lights]
         if picture is not None:
             pose.texture = picture
-        # What no text says is not known to the command line.
+        # The command line can express only texts.
         made = {**options, "light": texts} if picture is None and all(texts) else None
         text = os.fspath(name)
         if text in (known for known, _ in _core.scenes()):
@@ -102,10 +102,10 @@ class Scene:
         crease: units.Angle = 30 * units.deg,
         name: str = "mesh",
     ) -> "Scene":
-        """One mesh from arrays, as trimesh, meshio and Blender lend them: vertices [n][3] (metres with as_is, otherwise
-        any unit), triangles [m][3] of indices, and for each vertex optionally normals, linear colors, a given radiance
-        [n][3] and texture_coordinates [n][2]. Without normals smooth ones are made, sharp where faces meet at more than
-        `crease`.
+        """Creates a scene of one mesh from arrays, as provided by trimesh, meshio and Blender: vertices [n][3] (metres with
+        as_is, otherwise any unit), triangles [m][3] of indices, and optionally for each vertex normals, linear colors,
+        radiance [n][3] and texture_coordinates [n][2]. Without normals, computes smooth ones with sharp edges above the
+        angle `crease`.
 
         >>> import hogel, numpy as np
         >>> corners = np.array([(-1, -1, 0), (1, -1, 0), (0, 1, 0.5)])
@@ -114,7 +114,7 @@ class Scene:
         """
         index = np.asarray(triangles)
         if index.dtype.kind not in "iu" or (index.size and (index.min() < 0 or index.max() > 0xFFFFFFFF)):
-            raise usage_error("triangles", "whole numbers from 0 were expected")
+            raise usage_error("triangles", "expected integers from 0")
 
         def row_array(rows: Any, kind: Any) -> Any:
             return None if rows is None else np.ascontiguousarray(rows, dtype=kind)
@@ -139,16 +139,16 @@ class Scene:
 
     @property
     def notes(self) -> list[str]:
-        """What the file holds that is not shown, a line each."""
+        """Notes about contents of the file that are not rendered, one line each."""
         return [] if self._scene is None else list(self._scene.notes)
 
     @property
     def triangles(self) -> Optional[int]:
-        """The number of triangles; None for a built-in scene, which is made in the size of a hologram."""
+        """Number of triangles; None for a built-in scene, which is generated in the size of a hologram."""
         return None if self._scene is None else _core.triangle_count(self._scene)
 
     def placed(self, wanted: _core.LightFieldRequest, progress: Progress = None) -> _core.Scene:
-        """The scene at the hologram of a request().
+        """Returns the scene placed at the hologram of a request().
 
         >>> import hogel
         >>> placed = hogel.Scene.load("sphere").placed(hogel.request(size="10mm"))
@@ -165,9 +165,9 @@ class Scene:
     def advise(
         self, hologram: Optional[_core.HologramRequest] = None, *, progress: Progress = None, **options: Any
     ) -> list[_core.Advice]:
-        """What of the scene a light field with these options of render(), and holograms by hologram_request(), cannot show:
-        for each parameter that is in the way its name, a sentence, what would be enough (metres, or a number across), and
-        whether such holograms are refused.
+        """Returns the sampling limits that the scene exceeds with these options of render() and this hologram_request().
+        Each entry has the name of the parameter, a sentence, a sufficient value (metres, or a number across), and whether
+        such holograms are refused.
 
         >>> import hogel
         >>> coarse = hogel.hologram_request(pitch="8um")
@@ -179,11 +179,11 @@ class Scene:
 
     @passes_options_to(request)
     def render(self, *, progress: Progress = None, **options: Any) -> LightField:
-        """The light field of the scene, rendered when it is read: by save(), np.asarray(), slices or load().
+        """Returns the light field of the scene, rendered on demand by save(), np.asarray(), slices or load().
 
         hogels, directions  columns and rows: (256, 256), 256 or "256x256"
         size                width of the hologram
-        fov, toward         full angles of view, and where their middle looks: across and down
+        fov, toward         full angles of view, and the direction of their middle: across and down
         algorithm, shading  names of hogel.renderers() and hogel.shading_models()
         shadow_map, cache_spacing, samples, hemicube, focal_plane, frequencies, interpolate, cull_back_faces,
         front, as_is        as the options of `hogel render` of these names
@@ -193,12 +193,12 @@ class Scene:
         >>> hogel.Scene.load("pumpkin").render(hogels=(8, 6), directions=16, size=2*mm, fov=16*deg)
         LightField(8x6 hogels of 16x16 directions, 3 channels, 2 mm x 1.5 mm, 16°, 147 kB, rendered when read)
         """
-        own = options.get("algorithm")
-        if isinstance(own, str) and own in own_renderers:
+        algorithm = options.get("algorithm")
+        if isinstance(algorithm, str) and algorithm in own_renderers:
             options.pop("algorithm")
             wanted = request(**options)
             placed = self.placed(wanted, progress)
-            return LightField.of_grid(own_renderers[own](placed, wanted.grid), wanted.grid)
+            return LightField.of_grid(own_renderers[algorithm](placed, wanted.grid), wanted.grid)
         wanted = request(**options)
         placed = self.placed(wanted, progress)
         with reporting(progress, "lighting") as report:
@@ -214,24 +214,24 @@ class Scene:
 
     @takes(_core.scene_hologram_keywords())
     def hologram(self, *, method: str, progress: Progress = None, **options: Any) -> Hologram:
-        """The hologram of the scene without a light field, by a method of hogel.scene_hologram_methods(); the size is that
-        of the options of render(). It is computed at once, in memory.
+        """Computes the hologram of the scene without a light field, in memory, by a method of
+        hogel.scene_hologram_methods(). The options of render() set its size.
 
         >>> import hogel
         >>> hogel.Scene.load("pumpkin").hologram(method="points", wavelength="633nm", size="0.2mm", hogels=4, spacing="20um")
         Hologram(128x128 samples 1.5625 um apart, 0.2 mm x 0.2 mm, 633 nm, in memory)
         """
-        asked = {**options, "method": method}
-        place = _core.scene_hologram_place(asked)
+        keywords = {**options, "method": method}
+        place = _core.scene_hologram_place(keywords)
         placed = self.placed(place, progress)
         with reporting(progress, "lighting") as report:
             shaded = _core.light_scene(placed, place, report)
         with reporting(progress, "hologram") as report:
-            made = Hologram(_core.make_scene_holograms(asked, shaded, report))
+            made = Hologram(_core.make_scene_holograms(keywords, shaded, report))
         if self._made is not None:
-            record = _core.scene_hologram_record({**self._made, **asked}, placed, self._scene is not None)
+            record = _core.scene_hologram_record({**self._made, **keywords}, placed, self._scene is not None)
             made._made = {"input": self.name, **dict(record)}
-            # What no surface sends out is not seen.
+            # Only surfaces emit light.
             made._history = [entry for entry in shaded.metadata if entry[0] != "background"]
         return made
 
@@ -239,8 +239,8 @@ class Scene:
     def bake(
         self, path: Union[str, "os.PathLike[str]"], *, metadata: Any = None, progress: Progress = None, **options: Any
     ) -> int:
-        """Lights the scene for good, with what its surfaces reflect onto each other, and writes it as a mesh, .glb, as
-        `hogel bake` does. Returns the number of triangles.
+        """Bakes the lighting of the scene, indirect light included, into a mesh and writes it as .glb, as `hogel bake` does.
+        Returns the number of triangles.
 
         >>> import hogel, os, tempfile
         >>> path = os.path.join(tempfile.mkdtemp(), "lit.glb")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Lengths are metres and angles radians, as floats; every function takes texts with units too.
+"""Units: lengths are in metres and angles in radians, as floats. Every function also accepts texts with units.
 
 >>> import hogel
 >>> from hogel import mm, deg
@@ -46,7 +46,7 @@ def _parsed(parse: Callable[[str, str], float], text: str, what: str) -> float:
 
 
 def length(value: Length, what: str = "length") -> float:
-    """A length in metres, from a number of metres or a text such as "16mm".
+    """Returns a length in metres, from a number of metres or a text such as "16mm".
 
     >>> import hogel
     >>> hogel.length("1.5um"), hogel.length(0.25)
@@ -58,7 +58,7 @@ def length(value: Length, what: str = "length") -> float:
 
 
 def angle(value: Angle, what: str = "angle") -> float:
-    """An angle in radians, from a number of radians or a text such as "16deg".
+    """Returns an angle in radians, from a number of radians or a text such as "16deg".
 
     >>> import hogel
     >>> round(hogel.angle("180deg"), 6)
@@ -70,7 +70,7 @@ def angle(value: Angle, what: str = "angle") -> float:
 
 
 def lengths(value: Union[Length, Sequence[Length]], what: str) -> list[float]:
-    """Lengths: one, or several, as texts "633nm" or "633,532,460nm".
+    """Returns one or several lengths in metres, from numbers or texts such as "633nm" or "633,532,460nm".
 
     >>> from hogel.units import lengths
     >>> lengths("633,532nm", "wavelength")
@@ -84,7 +84,7 @@ def lengths(value: Union[Length, Sequence[Length]], what: str) -> list[float]:
 
 
 def point(value: Union[str, Sequence[Length]], what: str) -> tuple[float, float, float]:
-    """A point x, y, z: three lengths, or a text such as "-30,0,300mm".
+    """Returns a point x, y, z in metres, from three lengths or a text such as "-30,0,300mm".
 
     >>> from hogel.units import point
     >>> point("-30,0,300mm", "eye")
@@ -92,12 +92,12 @@ def point(value: Union[str, Sequence[Length]], what: str) -> tuple[float, float,
     """
     three = lengths(value, what)
     if len(three) != 3:
-        raise usage_error(what, f"three lengths were expected, x, y and z, not {value!r}")
+        raise usage_error(what, f"expected three lengths x, y and z, not {value!r}")
     return three[0], three[1], three[2]
 
 
 def counts(value: Counts, what: str) -> tuple[int, int]:
-    """Columns and rows: (64, 48), or one number for both; as a text "64x48".
+    """Returns columns and rows, from a pair (64, 48), one number for both, or a text "64x48".
 
     >>> from hogel.units import counts
     >>> counts("64x48", "hogels"), counts(16, "hogels")
@@ -118,7 +118,7 @@ def counts(value: Counts, what: str) -> tuple[int, int]:
 
 
 def say_length(metres: float) -> str:
-    """A length with the unit that reads best.
+    """Returns a length as text with a suitable unit.
 
     >>> from hogel.units import say_length
     >>> say_length(633e-9)
@@ -128,7 +128,7 @@ def say_length(metres: float) -> str:
 
 
 def say_angle(radians: float) -> str:
-    """An angle in degrees.
+    """Returns an angle as text in degrees.
 
     >>> from hogel.units import deg, say_angle
     >>> say_angle(16 * deg)
@@ -138,7 +138,7 @@ def say_angle(radians: float) -> str:
 
 
 def say_bytes(count: float) -> str:
-    """A number of bytes with the unit that reads best.
+    """Returns a number of bytes as text with a suitable unit.
 
     >>> from hogel.units import say_bytes
     >>> say_bytes(1500)

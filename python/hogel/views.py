@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sets of views, as other programs store light fields."""
+"""Sets of views: light fields of other programs."""
 from __future__ import annotations
 
 import os
@@ -14,7 +14,7 @@ from .light_field import LightField
 
 
 def view_layouts() -> dict[str, str]:
-    """The names of the ways to store a set of views, of `layout`, and a line about each.
+    """Returns the layouts of sets of views, for `layout`: names and descriptions.
 
     >>> import hogel
     >>> "rows-columns" in hogel.view_layouts()
@@ -24,7 +24,7 @@ def view_layouts() -> dict[str, str]:
 
 
 def is_view_set(source: Path) -> bool:
-    """Whether a folder or file is a set of views that a layout recognises.
+    """Returns whether a folder or file is a set of views in a known layout.
 
     >>> import hogel, tempfile
     >>> hogel.is_view_set(tempfile.mkdtemp())
@@ -35,8 +35,8 @@ def is_view_set(source: Path) -> bool:
 
 @takes(_core.import_keywords())
 def import_views(source: Path, *, spool: Optional[Path] = None, progress: Progress = None, **options: Any) -> LightField:
-    """The light field of a set of views, a folder or a file. The options are those of `hogel import`; `spool` is a folder
-    for a temporary file of sets that do not fit into memory. What was understood of the set is `views_of(light_field)`.
+    """Imports a set of views, a folder or a file, as a light field. The options are those of `hogel import`. `spool` is a
+    folder for a temporary file if the set does not fit into memory. `views_of(light_field)` returns facts about the set.
 
     >>> import hogel, os, tempfile
     >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=3, size="4mm", focal_plane="-300mm")
@@ -46,18 +46,18 @@ def import_views(source: Path, *, spool: Optional[Path] = None, progress: Progre
     (3, 8, 8, 3, 3)
     """
     name = os.fspath(source)
-    how = _core.import_options(options, os.fspath(spool or ""))
+    import_options = _core.import_options(options, os.fspath(spool or ""))
     with reporting(progress, "looking at the views") as report:
-        found = _core.import_views(name, how, report)
-    made = LightField(found.light_field, name, {"source": name, **dict(_core.import_record(options, found))})
-    made._views = found
-    return made
+        imported = _core.import_views(name, import_options, report)
+    light_field = LightField(imported.light_field, name, {"source": name, **dict(_core.import_record(options, imported))})
+    light_field._views = imported
+    return light_field
 
 
 @takes(_core.cameras_keywords())
 def write_cameras(path: Path, **options: Any) -> list[str]:
-    """Writes the cameras whose pictures make a light field of this sampling, transforms.json, as `hogel cameras` does.
-    Returns what a user of the cameras should know.
+    """Writes the cameras of a light field of this sampling as transforms.json, as `hogel cameras` does. Returns notes for
+    users of the cameras.
 
     >>> import hogel, os, tempfile
     >>> path = os.path.join(tempfile.mkdtemp(), "cameras.json")
@@ -67,6 +67,6 @@ def write_cameras(path: Path, **options: Any) -> list[str]:
     """
     name = os.fspath(path)
     if os.path.splitext(name)[1] != ".json":
-        raise UsageError(f"{name}: cameras are written as .json")
+        raise UsageError(f"{name}: expected a name that ends in .json")
     _core.require_writable(name)
     return list(_core.write_cameras(_core.cameras_grid(options), name))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the test programs share. Each runs by itself, in an empty folder: python3 test_x.py"""
+"""Common helpers of the tests. Each test program runs on its own, in an empty folder: python3 test_x.py"""
 import os
 import subprocess
 import sys
@@ -13,7 +13,7 @@ import numpy as np
 SOURCES = Path(os.environ.get("HOGEL_SOURCES", Path(__file__).resolve().parents[2]))
 
 
-#: Whether the address sanitizer watches, which holds released memory back and takes time.
+#: Whether the address sanitizer is active, which delays the release of memory and is slow.
 SANITIZED = "libasan" in Path("/proc/self/maps").read_text()
 unless_sanitized = unittest.skipIf(SANITIZED, "the address sanitizer takes memory and time of its own")
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the public headers declare in namespace hogel: functions, types and their public members. It reads the layout of our
-own headers, not all of C++; a test holds it to what it should find in some of them."""
+"""Parses the public headers: functions, types and their public members in namespace hogel. Supports the layout of the project's
+headers, not all of C++. test_coverage.py tests the parser on examples."""
 import re
 
 FUNCTIONS = (
@@ -12,14 +12,14 @@ TYPE = re.compile(r"(?:template\s*<[^{;]*?>\s*)?(enum class|struct|class)\s+(?:H
 
 
 def plain(text):
-    """Without comments, texts and lines of the preprocessor."""
+    """Removes comments, string literals and preprocessor lines."""
     text = re.sub(r"//.*", "", text)
     text = re.sub(r'"(?:[^"\\]|\\.)*"', '""', text)
     return re.sub(r"^\s*#.*$", "", text, flags=re.MULTILINE)
 
 
 def inside(text, begin):
-    """The position after the brace that closes the one at `begin`."""
+    """Returns the position after the brace that closes the one at `begin`."""
     depth = 0
     for position in range(begin, len(text)):
         depth += {"{": 1, "}": -1}.get(text[position], 0)
@@ -29,7 +29,7 @@ def inside(text, begin):
 
 
 def declarations(body):
-    """The declarations of a body: what stands before their end or their braces, and what is between these, or None."""
+    """Yields the declarations of a body: the text before the semicolon or brace, and the text within braces, or None."""
     start = position = brackets = 0
     while position < len(body):
         letter = body[position]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Arrays of NumPy share memory with the library, and slices read what they take."""
+"""NumPy arrays share memory with the library, and slices read only their elements."""
 import gc
 import importlib.util
 import pickle
@@ -336,7 +336,7 @@ class OwnCode(unittest.TestCase):
             self.assertEqual(pickle.loads(pickle.dumps(value)), value)
 
     def test_options_pickle(self):
-        """Every value of the extension module that says what is wanted: with other members than the default's."""
+        """Option values of the extension module survive pickling, with members that differ from the defaults."""
         core = hogel._core
         made = {
             "Modulator": core.Modulator(8, 6, 1e-6, 4, "own"),

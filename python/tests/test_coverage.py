@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Python has every function, type and public member of the public headers, or coverage.txt says where, or why not."""
+"""Every function, type and public member of the public headers exists in Python, or coverage.txt says where, or why not."""
 import unittest
 
 import hogel
@@ -29,7 +29,7 @@ def declared():
 
 
 def listed():
-    """The lines of coverage.txt: what they are about, where Python has it or None, and why it does not or None."""
+    """Returns the lines of coverage.txt: name, its place in Python or None, and the reason for its absence or None."""
     lines = {}
     for line in (SOURCES / "python" / "tests" / "coverage.txt").read_text().splitlines():
         if line and not line.startswith("#"):

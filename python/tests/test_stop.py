@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Long work stops on Ctrl-C, tells how far it is, and leaves other threads and processes alone."""
+"""Long work stops on Ctrl-C, reports progress, and does not disturb other threads and processes."""
 import os
 import signal
 import subprocess

@@ -49,7 +49,7 @@ class Requests:
         self.twin.twin_take(self.samples.ctypes.data, side, PITCH, self.radiance.ctypes.data, hogels, directions)
 
     def cpp(self, name, tell=False):
-        """In C++; the sum of the moduli of what came of it, if it is to be told."""
+        """Runs a request in C++. Returns the sum of the moduli of its result, on request."""
         path = {"hologram": "holo.h5", "field": "lf.h5", "compress": "lf.hgl"}.get(name.split()[-1], "")
         answer = self.twin.twin_do(name.encode(), path.encode(), int(tell))
         assert not np.isnan(answer), name
