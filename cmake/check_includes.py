@@ -5,10 +5,10 @@
 usage: check_includes.py TABLE PROJECT_DIR
     TABLE: a line "module:folder:used,used:public,public" each, from hogel_module() in CMakeLists.txt
 
-A module may include itself, what it uses, and what those use; of other modules only what its table row allows, whether the
-header is private (src/hogel/MODULE/...) or public (include/hogel/HEADER.h). A family's folder may not include those that
-FORBIDDEN_IN names. Public headers include only public headers. A third-party header may be included by the modules, or folders
-of modules, named in THIRD_PARTY, and by no public header. Front ends (apps) include only public headers.
+A module may include its own headers and those of modules that it uses, directly or indirectly. Its table row lists further
+allowed modules. The rule holds for private headers (src/hogel/MODULE/...) and public ones (include/hogel/HEADER.h).
+FORBIDDEN_IN excludes folders for some folders. Public headers and front ends (apps) include only public headers. A third-party
+header may be included only by the modules or folders in THIRD_PARTY, and by no public header.
 """
 import pathlib
 import re
@@ -57,7 +57,7 @@ class Table:
         return seen
 
     def module_of(self, header):
-        """The module that a header of the project belongs to."""
+        """Returns the module of a header of the project."""
         if header in self.owner:
             return self.owner[header]
         for name, folder in self.folder.items():
@@ -96,7 +96,7 @@ def check_module(table, module, root, wrong):
 
 
 def check_face(table, root, wrong):
-    """Public headers and front ends may include only public headers."""
+    """Checks that public headers and front ends include only public headers."""
     public = root / "include"
     own = {str(path.relative_to(public)) for path in public.rglob("*.h")} | {"hogel/version.h"}
     for header in sorted(own - set(table.owner) - {"hogel/hogel.h", "hogel/version.h", "hogel/export.h"}):

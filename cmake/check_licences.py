@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Fails when a program loads a shared library that is not on a reviewed list of licences, or that is under the GPL alone.
+"""Fails if a program loads a shared library that is not on the reviewed list of licences, or is only under the GPL.
 
 usage: check_licences.py PROGRAM LIST [--except NAME]
-The libraries are those that ldd names, but for the project's own (NAME, without .so). A library is under the GPL alone
-unless every part of it may be used under another licence: "A AND B" needs both, "A OR B" leaves the choice.
+The libraries are those listed by ldd, except the project's own (NAME, without .so). A library is only under the GPL unless
+every part of it may be used under another licence: "A AND B" requires both, "A OR B" is a choice.
 """
 import os
 import pathlib
@@ -14,7 +14,7 @@ import sys
 
 
 def libraries(program):
-    """The sonames that a program loads."""
+    """Returns the sonames that a program loads."""
     done = subprocess.run(["ldd", str(program)], capture_output=True, text=True, env={**os.environ, "LC_ALL": "C"})
     if done.returncode != 0:
         sys.exit(f"check_licences: ldd {program}: {done.stdout}{done.stderr}")
@@ -23,7 +23,7 @@ def libraries(program):
 
 
 def read_list(path):
-    """Soname -> SPDX expression."""
+    """Returns a dictionary: soname -> SPDX expression."""
     listed = {}
     for number, line in enumerate(pathlib.Path(path).read_text().splitlines(), 1):
         if not line.strip() or line.startswith("#"):
@@ -32,13 +32,13 @@ def read_list(path):
         if len(parts) != 3 or not all(parts):
             sys.exit(f"{path}:{number}: expected: soname | SPDX expression | where that is said")
         if parts[0] in listed:
-            sys.exit(f"{path}:{number}: {parts[0]} is there twice")
+            sys.exit(f"{path}:{number}: {parts[0]} occurs twice")
         listed[parts[0]] = parts[1]
     return listed
 
 
 def gpl_alone(expression):
-    """Whether an SPDX expression cannot be met without the GPL. Operators bind as SPDX says: WITH, AND, OR."""
+    """Returns whether an SPDX expression requires the GPL. Operator precedence as in SPDX: WITH, AND, OR."""
     tokens = re.findall(r"[()]|[^\s()]+", expression)
 
     def take(wanted=None):
@@ -55,7 +55,7 @@ def gpl_alone(expression):
         name = take()
         if tokens and tokens[0] == "WITH":
             take("WITH")
-            # The exception for the compiler's own libraries frees what is linked with them; others are unknown here.
+            # The exception for the compiler's libraries permits linking; other exceptions are unknown here.
             return name.startswith(("GPL-", "AGPL-")) and take() != "GCC-exception-3.1"
         return name.startswith(("GPL-", "AGPL-"))
 

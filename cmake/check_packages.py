@@ -3,8 +3,8 @@
 """Fails when a program needs a shared library that the packages in the first section of packages.txt do not install.
 
 usage: check_packages.py PROGRAM PACKAGE...
-The libraries are those that ldd names, except those built beside the program. The packages are PACKAGE... and
-those that apt would install with them, without recommended ones, on a machine that has none.
+The libraries are those listed by ldd, except those built with the program. The packages are PACKAGE... and their dependencies
+without recommended ones, as apt would install them on an empty machine.
 """
 import os
 import pathlib
@@ -31,13 +31,13 @@ def libraries(program):
 
 
 def spellings(path):
-    """The names of a file that dpkg may use: with or without /usr, and the target of a link."""
+    """Returns the names that dpkg may use for a file: with or without /usr, and the target of a link."""
     real = os.path.realpath(path)
     return {path, real, f"/usr{path}"} | {name.removeprefix("/usr") for name in (path, real)}
 
 
 def owners(paths):
-    """The packages that each file belongs to."""
+    """Returns the packages of each file."""
     names = sorted(set().union(*map(spellings, paths)))
     found = subprocess.run(["dpkg-query", "--search", *names], capture_output=True, text=True)
     packages = {}

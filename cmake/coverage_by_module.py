@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Prints how many lines of each module the tests reach.
+"""Prints the test coverage of each module in lines.
 
-usage: coverage_by_module.py BUILD     in the project's folder; BUILD: a build folder with gcov's counts, which gets the
-                                       same line by line, coverage.html
+usage: coverage_by_module.py BUILD     in the project's folder; BUILD: build folder with gcov's counts; coverage.html with the
+                                       coverage of each line is written to it
 A module is a folder of src/hogel or thesis; the public headers count as one.
 """
 import collections

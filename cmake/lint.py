@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs clang-tidy over compiled files, as many at once as there are processors.
+"""Runs clang-tidy on compiled files, one process per processor.
 
 usage: lint.py BUILD [--minutes N | --all]    BUILD: a build folder with compile_commands.json
-Files that differ from the first parent of HEAD come first, then one file for each changed header, then other files in an
-order that each commit shuffles, until N minutes (5) have passed. Files that were not reached are counted. Status 1 if
-anything is found in a changed file, with --all in any.
+Checks files that differ from the first parent of HEAD first, then one file for each changed header, then other files in an
+order shuffled per commit, for N minutes (default: 5). Prints the number of files not reached. Status 1 if clang-tidy reports
+something in a changed file, with --all in any file.
 """
 import concurrent.futures
 import json
@@ -23,26 +23,26 @@ def git(*words):
 
 
 def compiled_files(build):
-    """Files of the project in the compile commands, relative to it."""
+    """Returns the project's files in the compile commands, as relative paths."""
     here = pathlib.Path.cwd()
     paths = {pathlib.Path(entry["file"]) for entry in json.loads((build / "compile_commands.json").read_text())}
     return sorted(str(path.relative_to(here)) for path in paths if path.is_relative_to(here) and not path.is_relative_to(build.resolve()))
 
 
 def changed_files():
-    """Files that differ from the first parent of HEAD, or from HEAD where it has none here; new ones among them."""
+    """Returns the files that differ from the first parent of HEAD (from HEAD without a parent), including new files."""
     base = (git("rev-parse", "--verify", "--quiet", "HEAD^1") or ["HEAD"])[0]
     return set(git("diff", "--name-only", "--diff-filter=d", base) + git("ls-files", "--others", "--exclude-standard"))
 
 
 def includer(header, files):
-    """The first file that includes a header, or None."""
+    """Returns the first file that includes a header, or None."""
     name = header.removeprefix("include/").removeprefix("src/").removeprefix("apps/")
     return next((file for file in files if f'"{name}"' in pathlib.Path(file).read_text()), None)
 
 
 def ordered(files):
-    """All files in the order in which they are linted, and how many of them are changed."""
+    """Returns all files in the order of checking, and the number of changed ones among them."""
     changed = changed_files()
     first = sorted((file for file in files if file in changed), key=lambda file: (file.endswith("_test.cpp"), file))
     for header in sorted(file for file in changed if file.endswith(".h")):
@@ -55,7 +55,7 @@ def ordered(files):
 
 
 def lint(build, file, deadline):
-    """What clang-tidy prints of a file and whether it found nothing; None if time is up."""
+    """Returns the output of clang-tidy for a file and whether it is clean; None if time is up."""
     if time.monotonic() > deadline:
         return None
     done = subprocess.run(["clang-tidy-16", "--quiet", "-p", build, file], capture_output=True, text=True)

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Finds the tests that ctest skipped, for want of a program.
+"""Lists the tests that ctest skipped because a program is missing.
 
 usage: skipped_tests.py FILE               prints a regular expression of ctest for them; nothing if there are none
        skipped_tests.py FILE --allow-none  names them; status 1 if there are any
-FILE is what `ctest --output-junit` wrote.
+FILE is the output of `ctest --output-junit`.
 """
 import pathlib
 import re

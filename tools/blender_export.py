@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes what a camera of Blender sees as a GLB file in the frame of a hologram, for `hogel render FILE.glb --as-is`:
+"""Exports the view of a Blender camera as a GLB file in the frame of a hologram, for `hogel render FILE.glb --as-is`:
 
     blender SCENE.blend --background --python tools/blender_export.py -- scene.glb --width 100mm
 
-The hologram is the window through which the camera looks: the rectangle of its picture at a distance, around the origin
-of the file, x to the right, y upwards and z towards the camera, its numbers metres. That distance is --distance, or that of
-an object (--at), or where the camera is in focus if it has depth of field, or the middle of what there is to see. The
-script says the hologram's size and where the camera was, as the options of hogel. docs/scenes.md, "From Blender".
+The hologram is the rectangle of the camera's picture at a distance. It is centred at the origin of the file, x to the
+right, y upwards, z towards the camera, in metres. The distance is --distance, or that of an object (--at), or the focus
+distance of a camera with depth of field, or the middle of the visible depths. The script prints the size of the hologram
+and the position of the camera as options of hogel. See docs/scenes.md, "From Blender".
 """
 import argparse
 import math
@@ -20,7 +20,7 @@ UNITS = {"m": 1, "cm": 1e-2, "mm": 1e-3, "um": 1e-6}
 
 
 class Refusal(Exception):
-    """What is wrong, in a line, and the exit status, one of hogel's: 2 the request, 3 the scene, 4 the output."""
+    """Error with a one-line message and an exit status of hogel: 2 bad request, 3 bad scene, 4 output not writable."""
 
     def __init__(self, message, status=2):
         super().__init__(message)
@@ -28,7 +28,7 @@ class Refusal(Exception):
 
 
 def length(text):
-    """A length with its unit, in metres."""
+    """Parses a length with its unit. Returns metres."""
     number = text.rstrip("mcu")
     try:
         metres = float(number) * UNITS[text[len(number) :]]
@@ -41,19 +41,19 @@ def length(text):
 
 def options():
     words = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
-    parser = argparse.ArgumentParser(prog="blender_export.py", description="Writes what a camera sees as a GLB file in the frame of a hologram.")
+    parser = argparse.ArgumentParser(prog="blender_export.py", description="Exports the view of a camera as a GLB file in the frame of a hologram.")
     parser.add_argument("output", metavar="FILE.glb")
     parser.add_argument("--camera", metavar="NAME", help="the camera (default: the scene's)")
     parser.add_argument("--width", type=length, default=0.1, metavar="LENGTH", help="width of the hologram (default: 100mm)")
     where = parser.add_mutually_exclusive_group()
-    where.add_argument("--distance", type=float, metavar="UNITS", help="how far before the camera the hologram is, in Blender's units")
-    where.add_argument("--at", metavar="OBJECT", help="as far as this object's origin")
-    parser.add_argument("--frame", type=int, metavar="N", help="the frame of an animation (default: the file's)")
+    where.add_argument("--distance", type=float, metavar="UNITS", help="distance of the hologram from the camera, in Blender's units")
+    where.add_argument("--at", metavar="OBJECT", help="put the hologram at the depth of this object's origin")
+    parser.add_argument("--frame", type=int, metavar="N", help="frame of an animation (default: the file's)")
     return parser.parse_args(words)
 
 
 def find(kind, name):
-    """An object of the scene."""
+    """Returns an object of the scene by name."""
     found = bpy.context.scene.objects.get(name)
     if found is None:
         raise Refusal(f"{kind} '{name}': the scene has no object of this name")
@@ -63,27 +63,27 @@ def find(kind, name):
 def camera_of(name):
     camera = find("--camera", name) if name else bpy.context.scene.camera
     if camera is None:
-        raise Refusal("the scene has no camera; add one, or name one with --camera", 3)
+        raise Refusal("the scene has no active camera; set one, or name one with --camera", 3)
     if camera.type != "CAMERA":
-        raise Refusal(f"--camera '{name}': is no camera but {camera.type.lower()}")
+        raise Refusal(f"--camera '{name}': is of type {camera.type.lower()}, not a camera")
     if camera.data.type == "PANO":
-        raise Refusal(f"camera '{camera.name}': is panoramic; a hologram is a window")
+        raise Refusal(f"camera '{camera.name}': is panoramic; expected perspective or orthographic")
     return camera
 
 
 def drawn(depsgraph):
-    """Everything that is drawn: evaluated objects and where they are, instances of collections and modifiers too."""
+    """Yields all rendered objects, evaluated, with their matrices, including instances of collections and modifiers."""
     for instance in depsgraph.object_instances:
         if instance.show_self and not instance.object.original.hide_render:
             yield instance.object, instance.matrix_world.copy()
 
 
-# Curves and texts lend what they look like as a mesh of its own.
+# Curves and texts appear as mesh instances in the depsgraph.
 SURFACES = ("MESH",)
 
 
 def plane_distance(camera, wanted, depsgraph):
-    """How far before the camera the hologram is."""
+    """Returns the distance of the hologram from the camera."""
     to_camera = camera.matrix_world.normalized().inverted()
 
     def depth(point):
@@ -101,14 +101,14 @@ def plane_distance(camera, wanted, depsgraph):
     else:
         depths = [depth(at @ Vector(corner)) for thing, at in drawn(depsgraph) if thing.type in SURFACES for corner in thing.bound_box]
         near, far = max(min(depths, default=0), camera.data.clip_start), max(depths, default=0)
-        distance, of = (near + far) / 2 if far > near else 0, "middle of what there is to see"
+        distance, of = (near + far) / 2 if far > near else 0, "middle of the visible depths"
     if not distance > 0:
         raise Refusal(f"{of}: is not before the camera '{camera.name}'")
     return distance
 
 
 def window(camera, distance):
-    """The middle and the width and height of what the camera sees at a distance, in its own axes."""
+    """Returns centre, width and height of the camera's view at a distance, in camera axes."""
     corners = camera.data.view_frame(scene=bpy.context.scene)
     if camera.data.type == "PERSP":
         corners = [corner * (distance / -corner.z) for corner in corners]
@@ -117,12 +117,12 @@ def window(camera, distance):
     return middle, max(x) - min(x), max(y) - min(y)
 
 
-# Lumens that Blender's exporter makes of a watt of a light, but not of surfaces that emit light.
+# Blender's exporter converts 1 W of a lamp to this many lumens, but not the power of emissive surfaces.
 LUMENS = 683
 
 
 def light_copy(thing, scale):
-    """The lamp's data; lamps that are nearer by a scale need less power for the same light."""
+    """Returns a copy of a lamp's data. The power of lamps other than suns is scaled with the square of distances."""
     data = thing.original.data.copy()
     data.energy /= LUMENS
     if data.type != "SUN":
@@ -131,7 +131,7 @@ def light_copy(thing, scale):
 
 
 def into(collection, data, name, matrix):
-    """An object; what translation, rotation and scale do not make is done to the mesh itself."""
+    """Creates an object. If its matrix has shear, applies the matrix to the mesh."""
     made = bpy.data.objects.new(name, data)
     if isinstance(data, bpy.types.Mesh):
         plain = Matrix.LocRotScale(*matrix.decompose())
@@ -148,8 +148,8 @@ def into(collection, data, name, matrix):
 
 
 def copies(depsgraph, frame, scale):
-    """Copies of the data of all that can be seen or lights, their names and where they are at the hologram. An object that
-    the depsgraph lends is another one at the next step."""
+    """Yields copies of all visible meshes and lamps with their names and matrices in the frame of the hologram. Data must
+    be copied at once: an object of the depsgraph is invalid in the next iteration."""
     meshes, left = {}, set()
     for thing, at in drawn(depsgraph):
         matrix = frame @ at
@@ -160,23 +160,23 @@ def copies(depsgraph, frame, scale):
             if meshes[key].polygons:
                 yield meshes[key], thing.name, matrix
         elif thing.type == "LIGHT" and thing.data.type != "AREA":
-            # A light's axes have no scale.
+            # The scale of a lamp's axes has no meaning.
             yield light_copy(thing, scale), thing.name, Matrix.LocRotScale(matrix.translation, matrix.to_quaternion(), None)
         elif thing.type == "LIGHT" or thing.type in ("VOLUME", "CURVES", "POINTCLOUD"):
             left.add(f"{'area light' if thing.type == 'LIGHT' else thing.type.lower()} '{thing.name}'")
     for what in sorted(left):
-        print(f"note: {what}: glTF has nothing like it; left out")
+        print(f"note: {what}: not supported by glTF; left out")
 
 
 def export(camera, wanted):
-    """Writes the file. Returns the hologram's height and where the camera is before it, in metres."""
+    """Writes the file. Returns the height of the hologram and the position of the camera relative to it, in metres."""
     if wanted.frame is not None:
         bpy.context.scene.frame_set(wanted.frame)
     depsgraph = bpy.context.evaluated_depsgraph_get()
     distance = plane_distance(camera, wanted, depsgraph)
     middle, width, height = window(camera, distance)
     scale = wanted.width / width
-    axes = camera.matrix_world.normalized()  # where it is and looks, without a scale of its own
+    axes = camera.matrix_world.normalized()  # position and orientation without scale
     frame = Matrix.Scale(scale, 4) @ Matrix.Translation(-middle) @ axes.inverted()
     scene = bpy.data.scenes.new("hologram")
     made = [into(scene.collection, *copy) for copy in list(copies(depsgraph, frame, scale))]
@@ -186,7 +186,7 @@ def export(camera, wanted):
     lens.clip_start, lens.clip_end = lens.clip_start * scale, lens.clip_end * scale
     lens.ortho_scale *= scale
     into(scene.collection, lens, camera.name, frame @ axes @ Matrix.Scale(1 / scale, 4))
-    for side in "resolution_x", "resolution_y", "pixel_aspect_x", "pixel_aspect_y":  # of the picture of the camera
+    for side in "resolution_x", "resolution_y", "pixel_aspect_x", "pixel_aspect_y":  # determine the aspect ratio of the camera
         setattr(scene.render, side, getattr(bpy.context.scene.render, side))
     bpy.context.window.scene = scene
     folder, name = os.path.split(os.path.abspath(wanted.output))
@@ -213,7 +213,7 @@ def main():
     camera = camera_of(wanted.camera)
     height, eye = export(camera, wanted)
     rows = max(1, round(256 * height / wanted.width))
-    # Directions as wide as the farthest edge of the window is seen from where the camera was.
+    # Field of view that covers the farthest edge of the hologram seen from the camera.
     across, down = (2 * math.degrees(math.atan((side / 2 + abs(off)) / eye.z)) for side, off in ((wanted.width, eye.x), (height, eye.y)))
     width, place = f"{wanted.width * 1e3:.6g}mm", ",".join(f"{part * 1e3:.6g}" for part in eye) + "mm"
     print(f"{wanted.output}: the hologram is {width} x {height * 1e3:.6g}mm; the camera was at {place}")

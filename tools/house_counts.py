@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Counts lines, type definitions and a few other signs of complexity in the program's sources.
+"""Counts lines, type definitions and other measures of complexity in the program's sources.
 
 usage: house_counts.py [COMMIT ...] [--leave-out GLOB ...]
 
-Without a commit it counts the working tree's tracked files; each commit is one more column. Tests and the folder thesis/ are
-left out, wherever they lie, and of commits before that folder what lies in it now; so are files that match a GLOB (of the path
-from the repository's root). A line counts if it holds more than blanks and comments; docstrings of Python are comments. Functions
-are found by their braces (C++, without a compiler) or by the parser (Python), and a function's length is the number of lines from
-its head to its end. Nothing fails on these numbers.
+Counts the tracked files of the working tree; each commit is one more column. Leaves out tests, the folder thesis/ (in older
+commits the files that it contains now), and files whose path from the repository's root matches a GLOB. A line counts unless it
+is blank or a comment; Python docstrings are comments. Functions are found by their braces (C++) or by the parser (Python); their
+length is the number of lines from head to end. The exit status does not depend on the numbers.
 """
 import argparse
 import ast
@@ -26,19 +25,19 @@ BEFORE_THESIS = re.compile(r"src/hogel/(transform|render/simplex|codec/baselines
                            r"|src/hogel/coding/(ezw|forest|header_bytes|jpeg4d|quantise|three_?pass)")
 LONG_FUNCTION, MANY_PARAMETERS = 60, 8
 
-# Comments, and literals in which no brace or comment is one.
+# Comments and literals: braces and comment marks within them do not count.
 TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|R"(?P<mark>[^()\\\s]{0,16})\(.*?\)(?P=mark)"'
                    r'|"(?:\\.|[^"\\\n])*"|(?<![0-9A-Za-z_])\'(?:\\.|[^\'\\\n])+\'', re.S)
 TYPE = re.compile(r"^[ \t]*(?:template\s*<[^;{}]*>\s*)?(?:typedef\s+)?(?:class|struct|union|enum(?:\s+class|\s+struct)?)\s+"
                   r"(?:\[\[[^\]]*\]\]\s*|alignas\([^)]*\)\s*|[A-Z_]+\s+)?[A-Za-z_][\w:]*(?:<[^;{}]*>)?(?:\s+final)?(?:\s*:[^;{}]*)?\s*\{", re.M)
-# What stands between the parentheses and the body of a function.
+# Text between the parameter list and the body of a function.
 AFTER_PARAMETERS = re.compile(r"\)\s*(?:const|noexcept(?:\([^()]*\))?|override|final|mutable|&&?|->\s*[\w:<>,&*\s]+|requires[^{};]*"
                               r"|:\s*[^;{}]*(?:\{[^{};]*\}[^;{}]*)*|\s)*$")
 NO_FUNCTION = re.compile(r"\b(?:if|for|while|switch|catch|return|namespace|enum|class|struct|union)\b[^;{}]*$")
 
 
 def without_comments(text):
-    """C++ or JavaScript: comments are blank, literals empty; lines stay lines."""
+    """Replaces comments by blanks and literals by empty ones in C++ or JavaScript. Keeps line breaks."""
     def blank(found):
         lines = "\n" * found[0].count("\n")
         return lines if found[0].startswith("/") else '""' + lines
@@ -50,7 +49,7 @@ def filled_lines(text):
 
 
 def parameters_in(head):
-    """The number of parameters in the last parentheses at depth 0 of a function's head."""
+    """Returns the number of parameters in the last top-level parentheses of a function's head."""
     end = AFTER_PARAMETERS.search(head)
     if not end:
         return 0
@@ -69,7 +68,7 @@ def parameters_in(head):
 
 
 def functions_of_cpp(text):
-    """(lines, parameters) of each function's definition; lambdas belong to theirs."""
+    """Returns (lines, parameters) of each function definition. Lambdas count as part of the enclosing function."""
     found, open_blocks, start, inside = [], [], 0, None
     for match in re.finditer(r"[{};]|\n[ \t]*#[^\n]*", text):
         c = match[0]
@@ -122,7 +121,7 @@ def count_python(text, counts):
 
 
 def files_of(commit):
-    """Path and text of each tracked file of the folders."""
+    """Yields path and text of each tracked file of FOLDERS."""
     if commit is None:
         names = subprocess.run(["git", "ls-files", *FOLDERS], check=True, capture_output=True, text=True).stdout.split("\n")
         for name in names:

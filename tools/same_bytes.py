@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Compares what two builds of hogel write, byte by byte: every sample, coefficient, pixel, pattern and stream.
+"""Compares the outputs of two builds of hogel byte by byte: samples, coefficients, pixels, patterns and streams.
 
 usage: same_bytes.py OLD NEW [--all] [--only WORD] [--keep FOLDER]
 
-OLD and NEW are the folders of programs of two builds, such as build/release/bin of this tree and of a git worktree of the commit
-before a change. The old hogel runs each command once. The new one runs the commands of COMMANDS below with 1 to 7 threads, on every SIMD target
-of this processor and, where it has hogel-mpi, in 1 to 4 processes (a command in one of each by turns; with --all in each of all), and
-the scripts of tests/cli as they are. Whatever a command writes must have the same bytes, or the same
-contents where its file also says how it was made, and what it prints must be the same but for times. Exit status 1: something differs.
+OLD and NEW are the program folders of two builds, such as build/release/bin of this tree and of a git worktree of the commit
+before a change. The old hogel runs each command of COMMANDS once. The new one runs it with 1 to 7 threads, on every SIMD target of
+this processor and, if it has hogel-mpi, on 1 to 4 ranks: one variant of each kind in turn, with --all every variant. Both run the
+scripts of tests/cli. Output files must have the same bytes, or the same contents if they store their provenance. Printed texts
+must be equal except for times. Exit status 1: a difference was found.
 """
 import argparse
 import fnmatch
@@ -28,7 +28,7 @@ SIZE = "--hogels 24x20 --directions 24x24 --size 4mm"
 CAMERA = "--resolution 60 --eye 0,0,200mm --pupil 5mm"
 DEVICE = "--pixels 600x500 --pixel-pitch 8um"
 
-# Made once by the old program.
+# Inputs, computed once by the old program.
 INPUTS = f"""
 rays.h5       render pumpkin {SIZE} --depth
 regions.h5    render pumpkin {SIZE} --region 3x3 --float
@@ -42,7 +42,7 @@ coarse.h5     hologram narrow.h5 --wavelength 532nm --pitch 8um
 wide.h5       hologram narrow.h5 --wavelength rgb --pitch 8um
 """
 
-# Output and command. Those marked 1 are not shared among processes.
+# Output and command. Commands marked 1 are not distributed over ranks.
 COMMANDS = f"""
 epi.h5          render pumpkin {SIZE} --depth
 church.h5       render church --hogels 12x10 --directions 24x24 --size 4mm
@@ -113,7 +113,7 @@ views           1 export rays.h5
 baked.glb       1 bake tower
 """
 
-# A library before the others that says which SIMD target may be used: HWY_TARGET is its bit.
+# Preloaded library that restricts Highway to one SIMD target: HWY_TARGET is its bit.
 PRELOADED = """#include <cstdint>
 #include <cstdlib>
 namespace hwy { __attribute__((visibility("default"))) int64_t SupportedTargets() { return std::atoll(std::getenv("HWY_TARGET")); } }
@@ -122,13 +122,13 @@ LIST_TARGETS = """#include <hwy/targets.h>
 #include <cstdio>
 int main() { for (const int64_t target : hwy::SupportedAndGeneratedTargets()) std::printf("%lld %s\\n", (long long)target, hwy::TargetName(target)); }
 """
-# Scripts whose subject is time, the network, or files that are made with the time of day.
+# Scripts that test times, the network, or files that contain the time of day.
 NOT_COMPARED = {"view.txt", "json.txt", "manual.txt", "options.txt", "provenance.txt", "provenance_photo.txt"}
 TIMES = re.compile(r"\b[\d.]+ ?(s|ms|min|minutes?|seconds?|h)\b|\d[\d.,]* [kMG]?B/s|\"(seconds|threads)\": *[\d.e+-]+|\d+ threads?")
 
 
 def png_pixels(data):
-    """Header, palette and pixels; the text that says how it was made is not compared."""
+    """Returns header, palette and pixels of a PNG file, without texts."""
     at, kept, packed = 8, [], b""
     while at + 8 <= len(data):
         size, kind = int.from_bytes(data[at:at + 4], "big"), data[at + 4:at + 8]
@@ -157,7 +157,7 @@ def hdf5_contents(path):
 
 
 def same_contents(a, b):
-    """None if two files of different bytes hold the same numbers, otherwise how they differ."""
+    """Returns None if two files contain the same numbers, otherwise a description of the difference."""
     one, other = a.read_bytes(), b.read_bytes()
     if one == other:
         return None
@@ -175,7 +175,7 @@ def same_contents(a, b):
 
 
 def differences(old, new):
-    """Between two files or folders."""
+    """Returns the differences of two files or folders."""
     if old.exists() != new.exists():
         return [f"{(old if old.exists() else new).name}: only the {'old' if old.exists() else 'new'} program wrote it"]
     if old.is_dir():
@@ -229,7 +229,7 @@ class Comparison:
             print(f"{name}: {line}", flush=True)
 
     def variants(self, number, shared):
-        """What the new program is run with: title and arguments of Build.run()."""
+        """Yields the variants for the new program: title and arguments of Build.run()."""
         threads = [(f"{n} threads", {"threads": n}) for n in range(1, 8)]
         targets = [(name, {"environment": {"LD_PRELOAD": str(self.preloaded), "HWY_TARGET": bit}}) for bit, name in self.targets]
         ranks = [(f"{n} processes", {"threads": 1, "ranks": n}) for n in range(1, 5)] if shared else []
@@ -240,7 +240,7 @@ class Comparison:
                 yield kind[number % len(kind)]
 
     def inside(self, name, inputs):
-        """A folder with the inputs alone."""
+        """Creates a folder that contains only the inputs."""
         folder = self.folder / name
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
@@ -267,7 +267,7 @@ class Comparison:
             words += ["-o", output]
             expected = self.old.run(words, old)[0]
             for title, how in self.variants(number, shared):
-                # Bytes may depend on the SIMD target alone.
+                # Only the SIMD target may change bytes.
                 reference = self.inside("old_target", inputs) if "environment" in how else old
                 if reference != old:
                     expected = self.old.run(words, reference, **how)[0]
@@ -322,9 +322,9 @@ def main():
     arguments = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     arguments.add_argument("old", metavar="OLD")
     arguments.add_argument("new", metavar="NEW")
-    arguments.add_argument("--all", action="store_true", help="each command with every number of threads and processes and every target")
-    arguments.add_argument("--only", metavar="WORD", help="the commands and scripts that contain it")
-    arguments.add_argument("--keep", metavar="FOLDER", help="a new folder for what is written")
+    arguments.add_argument("--all", action="store_true", help="run each command with every number of threads and ranks and every target")
+    arguments.add_argument("--only", metavar="WORD", help="run only the commands and scripts that contain WORD")
+    arguments.add_argument("--keep", metavar="FOLDER", help="new folder for the outputs")
     asked = arguments.parse_args()
     folder = pathlib.Path(asked.keep or tempfile.mkdtemp(prefix="hogel-same-"))
     folder.mkdir(exist_ok=True)

@@ -3,9 +3,9 @@
 """Puts the shared libraries that an installed hogel needs into its lib folder, with their licences.
 
 usage: carry_libraries.py PREFIX
-Every library that ldd names for PREFIX/bin/hogel is copied, but for those of the C and C++ compilers, which every Linux brings
-(SYSTEM). It then looks for its own libraries beside itself ($ORIGIN). share/doc/hogel/licences gets a table of them, the
-copyright file of each Debian package that they are from, and the licences that those files name.
+Copies every library that ldd lists for PREFIX/bin/hogel, except those of the C and C++ runtimes, which every Linux has
+(SYSTEM). Sets their RUNPATH to $ORIGIN. Writes a table of the libraries, the copyright file of each Debian package, and the
+licences named in these files to share/doc/hogel/licences.
 """
 import pathlib
 import re
@@ -29,7 +29,7 @@ after the package and its version.
 
 
 def needed(program):
-    """Soname -> path of the libraries outside the prefix that are to be carried."""
+    """Returns a dictionary of the libraries to copy: soname -> path outside the prefix."""
     found = {}
     for line in output("ldd", str(program)).splitlines():
         if "not found" in line:
@@ -41,7 +41,7 @@ def needed(program):
 
 
 def copy_licences(packages, folder):
-    """The copyright files of packages, and the common licences that they name."""
+    """Returns the copyright files of packages, and the common licences named in them."""
     named = set()
     for package in packages:
         text = pathlib.Path(f"/usr/share/doc/{package}/copyright").read_text(encoding="utf-8", errors="replace")
@@ -65,7 +65,7 @@ def main():
     rows = []
     for soname, path in sorted(found.items()):
         if path not in owner or soname not in listed or gpl_alone(listed[soname]):
-            sys.exit(f"carry_libraries: {path} is of no Debian package, or its licence does not allow it (cmake/licences.txt)")
+            sys.exit(f"carry_libraries: {path} belongs to no Debian package, or its licence forbids copying it (cmake/licences.txt)")
         shutil.copyfile(path, lib / soname)
         (lib / soname).chmod(0o644)
         subprocess.run(["patchelf", "--set-rpath", "$ORIGIN", str(lib / soname)], check=True)

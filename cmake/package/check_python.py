@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tries the installed Python module: a small scene becomes a photograph, the same as the command line's, to the byte."""
+"""Checks the installed Python module: renders and photographs a small scene with the same bytes as the command line."""
 import pathlib
 import subprocess
 import sys

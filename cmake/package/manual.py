@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes manual pages from what hogel's help says: hogel(1), and hogel-make(1) and so on for its commands.
+"""Writes manual pages from the help of hogel: hogel(1), and one page per command, such as hogel-make(1).
 
-usage: manual.py HOGEL FOLDER      FOLDER gets NAME.1.gz for each page, the same bytes for the same help
+usage: manual.py HOGEL FOLDER      writes NAME.1.gz to FOLDER for each page; equal help gives equal bytes
 
-Help (apps/cli/help.cpp) is a summary, "Usage: ...", and sections under headings that end with a colon. The name of
-an option stands two columns from the left, its description from column 24 on. A description is a paragraph, which may be followed
-by a list of "name: text".
+The help (apps/cli/help.cpp) consists of a summary, "Usage: ...", and sections with headings that end with a colon. The name of
+an option begins in column 2, its description in column 24. A description is a paragraph, optionally followed by a list of
+"name: text".
 """
 import gzip
 import pathlib
@@ -28,7 +28,7 @@ def roff(text):
 
 
 def entries(lines):
-    """Options or commands, each with its description; other lines are a paragraph."""
+    """Formats options or commands with their descriptions; other lines become a paragraph."""
     out, in_paragraph = [], False
     for line in lines:
         name = line[:COLUMN].strip() if line[COLUMN - 1:COLUMN] in ("", " ") else line.strip()
@@ -48,7 +48,7 @@ def entries(lines):
 
 
 def sections(text):
-    """Pairs of heading and lines; what stands before the first heading has an empty one."""
+    """Returns pairs of heading and lines. Lines before the first heading have an empty heading."""
     found = [("", [])]
     for line in filter(None, text.splitlines()):
         usage = line.removeprefix("Usage: ")
